@@ -1,0 +1,83 @@
+//! Errors, sorted by who can mend them.
+
+use std::path::PathBuf;
+
+/// Everything that can go wrong. Each message names the number and the way out.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// The scene (or the caller's setup) asks for something that makes no sense. Mended by whoever wrote it.
+    #[error("{0}")]
+    Scene(String),
+    /// A file of particles cannot be read. Mended in that file.
+    #[error("{}: {message}", file.display())]
+    Input {
+        /// The file.
+        file: PathBuf,
+        /// What is wrong, with line or byte offset.
+        message: String,
+    },
+    /// A WGSL file does not compile, or does not have the functions that its visit calls. Mended in that file.
+    #[error("{message}")]
+    Shader {
+        /// The message with file, line and caret.
+        message: String,
+    },
+    /// No adapter fits. Mended by the choice of adapter or by installing a driver.
+    #[error("{0}")]
+    NoAdapter(String),
+    /// A device limit is too small. Mended by another adapter, or fewer particles.
+    #[error("{0}")]
+    Limit(String),
+    /// A number stopped being a number. Mended by a smaller step or more softening.
+    #[error(
+        "particle {particle} stopped being finite in step {step} (its position, velocity or acceleration is NaN or infinite): \
+         try a smaller dt, more softening, or look for particles that start at the same place"
+    )]
+    NotFinite {
+        /// The lowest id among the particles that failed first.
+        particle: u32,
+        /// The step, counted from 0, in which it happened.
+        step: u64,
+    },
+    /// The device is gone (driver reset, watchdog, unplugged). Mended by starting again, with less work per submission.
+    #[error("the device was lost: {0}; start again, on another adapter if it happens twice")]
+    Lost(String),
+    /// The device has no memory left.
+    #[error("the device is out of memory: {0}; choose another adapter with --adapter, or fewer particles")]
+    OutOfMemory(String),
+    /// The device did not answer in time.
+    #[error("the device did not finish within {seconds} s: {what}")]
+    Timeout {
+        /// What was waited for.
+        what: String,
+        /// How long.
+        seconds: u64,
+    },
+    /// The driver or wgpu refused a call: a bug in this crate or in the driver.
+    #[error("the device refused a call, which is a bug in motes or in its driver; please report it with `motes doctor`: {0}")]
+    Device(String),
+    /// A result cannot be written. Mended on the disk.
+    #[error("cannot write {}: {message}", file.display())]
+    Output {
+        /// The file.
+        file: PathBuf,
+        /// Why.
+        message: String,
+    },
+}
+
+impl Error {
+    /// The exit code of the command `motes` for this error; `motes --help` lists them.
+    #[must_use]
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            Self::Scene(_) | Self::Shader { .. } => 3,
+            Self::Input { .. } => 4,
+            Self::NoAdapter(_) | Self::Limit(_) => 5,
+            Self::NotFinite { .. } => 6,
+            Self::Lost(_) | Self::OutOfMemory(_) | Self::Timeout { .. } | Self::Device(_) => 7,
+            Self::Output { .. } => 8,
+        }
+    }
+}

@@ -1,0 +1,2 @@
+//! motes
+fn main() {}

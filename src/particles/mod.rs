@@ -1,0 +1,58 @@
+//! Particles on the host: what files and generators give, and what a simulation starts from.
+
+use glam::DVec3;
+
+use crate::error::Error;
+use crate::settings::{Key, Settings};
+
+/// Particles, one entry per id in every array. Units are the scene's own.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Particles {
+    /// Where they are [length].
+    pub position: Vec<DVec3>,
+    /// How they move [length / time].
+    pub velocity: Vec<DVec3>,
+    /// How heavy they are [mass]; zero is a test particle.
+    pub mass: Vec<f64>,
+    /// How large they are drawn [length]; zero lets the picture choose.
+    pub radius: Vec<f64>,
+}
+
+/// A named generator: what a scene's `shape = "…"` may say.
+pub struct Shape {
+    /// The scene's word for it.
+    pub name: &'static str,
+    /// One line with the source of the model.
+    pub about: &'static str,
+    /// What it may be told.
+    pub keys: &'static [Key],
+    /// Makes the particles. The same settings give the same bits on every platform.
+    pub build: fn(&Settings) -> Result<Particles, Error>,
+}
+
+impl Particles {
+    /// How many.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.position.len()
+    }
+    /// Whether there are none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.position.is_empty()
+    }
+    /// Adds one.
+    pub fn push(&mut self, position: DVec3, velocity: DVec3, mass: f64, radius: f64) {
+        self.position.push(position);
+        self.velocity.push(velocity);
+        self.mass.push(mass);
+        self.radius.push(radius);
+    }
+    /// Adds all of another set; their ids follow on.
+    pub fn append(&mut self, other: &Self) {
+        self.position.extend_from_slice(&other.position);
+        self.velocity.extend_from_slice(&other.velocity);
+        self.mass.extend_from_slice(&other.mass);
+        self.radius.extend_from_slice(&other.radius);
+    }
+}

@@ -1,0 +1,122 @@
+//! What a scene may say to a force or a shape: names, kinds, defaults and units, declared once, next to the thing itself.
+
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+
+use glam::DVec3;
+
+/// One value out of a scene.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Value {
+    /// A number.
+    Number(f64),
+    /// Three numbers.
+    Vector(DVec3),
+    /// A word.
+    Text(Cow<'static, str>),
+    /// Yes or no.
+    Flag(bool),
+}
+
+/// What values a key accepts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Kind {
+    /// Any finite number.
+    Number,
+    /// A finite number above zero.
+    Positive,
+    /// A finite number, zero or above.
+    NotNegative,
+    /// A whole number, one or above, that fits 32 bits.
+    Count,
+    /// A whole number, zero or above, that fits 53 bits (a seed).
+    Whole,
+    /// Three finite numbers.
+    Vector,
+    /// Three finite numbers, not all zero: a direction.
+    Direction,
+    /// One of these words.
+    Choice(&'static [&'static str]),
+    /// Yes or no.
+    Flag,
+}
+
+/// A key: its name in the scene, what it accepts, what it is when left out (`None`: it must be given), and what it means.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Key {
+    /// The name in the scene; for a force also the member of `Params` in its shader.
+    pub name: &'static str,
+    /// What it accepts.
+    pub kind: Kind,
+    /// Its value when the scene leaves it out.
+    pub default: Option<Value>,
+    /// One line: what it means, and its unit.
+    pub about: &'static str,
+}
+
+impl Key {
+    /// A key with a default.
+    #[must_use]
+    pub const fn new(name: &'static str, kind: Kind, default: Value, about: &'static str) -> Self {
+        Self { name, kind, default: Some(default), about }
+    }
+    /// A key that must be given.
+    #[must_use]
+    pub const fn required(name: &'static str, kind: Kind, about: &'static str) -> Self {
+        Self { name, kind, default: None, about }
+    }
+}
+
+/// Checked values by name, defaults filled in. Reading a name that was never declared is a bug of the reader and
+/// gives a zero (an empty word, `false`); a test reads every declared key of every entry.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Settings(pub BTreeMap<&'static str, Value>);
+
+impl Settings {
+    /// The defaults of some keys; keys that must be given are left out.
+    #[must_use]
+    pub fn defaults(keys: &[Key]) -> Self {
+        Self(keys.iter().filter_map(|k| Some((k.name, k.default.clone()?))).collect())
+    }
+    /// The same with one value set.
+    #[must_use]
+    pub fn with(mut self, name: &'static str, value: Value) -> Self {
+        self.0.insert(name, value);
+        self
+    }
+    /// A number.
+    #[must_use]
+    pub fn number(&self, name: &str) -> f64 {
+        match self.0.get(name) {
+            Some(Value::Number(x)) => *x,
+            _ => 0.0,
+        }
+    }
+    /// A number that its kind promises to be whole.
+    #[must_use]
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "Kind::Count and Kind::Whole are whole and not negative")]
+    pub fn whole(&self, name: &str) -> u64 {
+        self.number(name) as u64
+    }
+    /// Three numbers.
+    #[must_use]
+    pub fn vector(&self, name: &str) -> DVec3 {
+        match self.0.get(name) {
+            Some(Value::Vector(v)) => *v,
+            _ => DVec3::ZERO,
+        }
+    }
+    /// A word.
+    #[must_use]
+    pub fn text(&self, name: &str) -> &str {
+        match self.0.get(name) {
+            Some(Value::Text(t)) => t,
+            _ => "",
+        }
+    }
+    /// Yes or no.
+    #[must_use]
+    pub fn flag(&self, name: &str) -> bool {
+        matches!(self.0.get(name), Some(Value::Flag(true)))
+    }
+}
