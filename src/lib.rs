@@ -1,5 +1,21 @@
 //! Particles moved by forces, on any GPU, checked against a second opinion in f64.
 
+pub mod cpu;
 pub mod error;
+pub mod forces;
+pub mod gpu;
+pub mod integrators;
+pub mod kernel;
 pub mod particles;
 pub mod settings;
+pub mod simulation;
+pub mod visit;
+
+pub use cpu::Cpu;
+pub use error::Error;
+pub use gpu::Gpu;
+pub use kernel::{ACCELERATION, POSITION, VELOCITY};
+pub use particles::Particles;
+pub use simulation::{Setup, Simulation, Snapshot};
+/// The version of wgpu whose devices this crate takes.
+pub use wgpu;
