@@ -6,6 +6,7 @@ pub mod forces;
 pub mod gpu;
 pub mod integrators;
 pub mod kernel;
+pub mod measure;
 pub mod particles;
 pub mod settings;
 pub mod simulation;
@@ -15,6 +16,7 @@ pub use cpu::Cpu;
 pub use error::Error;
 pub use gpu::Gpu;
 pub use kernel::{ACCELERATION, POSITION, VELOCITY};
+pub use measure::Measure;
 pub use particles::Particles;
 pub use simulation::{Setup, Simulation, Snapshot};
 /// The version of wgpu whose devices this crate takes.

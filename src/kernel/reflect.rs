@@ -3,6 +3,7 @@
 
 use std::collections::BTreeMap;
 
+use naga::valid::{GlobalUse, ModuleInfo};
 use naga::{AddressSpace, Expression, Literal, Module, StorageAccess, TypeInner};
 
 use super::pack::{Member, Packed};
@@ -48,8 +49,8 @@ pub struct Reflection {
     pub workgroup_bytes: u64,
     /// What is bound.
     pub bindings: Vec<Binding>,
-    /// The names of its `override`s.
-    pub overrides: Vec<String>,
+    /// Its `override`s, with their defaults.
+    pub overrides: BTreeMap<String, f64>,
     /// Its whole-numbered `const`s.
     pub constants: BTreeMap<String, u32>,
     /// The functions it defines.
@@ -57,16 +58,18 @@ pub struct Reflection {
 }
 
 impl Reflection {
-    /// Looks at a module; the shader is expected to have one entry point.
+    /// Looks at a module; the shader is expected to have one entry point. What that does not use is not bound.
     #[must_use]
-    pub fn of(module: &Module) -> Self {
+    pub fn of(module: &Module, info: &ModuleInfo) -> Self {
         let entry = module.entry_points.first();
+        let used = |handle| entry.is_some() && info.get_entry_point(0)[handle] != GlobalUse::empty();
+        let variables = module.global_variables.iter().filter(|(handle, _)| used(*handle));
         Self {
             entry: entry.map(|e| e.name.clone()).unwrap_or_default(),
             workgroup: entry.map_or(1, |e| e.workgroup_size.iter().product()),
             workgroup_bytes: workgroup_bytes(module),
-            bindings: module.global_variables.iter().filter_map(|(_, v)| binding(module, v)).collect(),
-            overrides: module.overrides.iter().filter_map(|(_, o)| o.name.clone()).collect(),
+            bindings: variables.filter_map(|(_, v)| binding(module, v)).collect(),
+            overrides: module.overrides.iter().filter_map(|(_, o)| default(module, o)).collect(),
             constants: module.constants.iter().filter_map(|(_, c)| constant(module, c)).collect(),
             functions: module.functions.iter().filter_map(|(_, f)| f.name.clone()).collect(),
         }
@@ -81,6 +84,16 @@ impl Reflection {
     pub fn constant(&self, name: &str) -> u32 {
         self.constants.get(name).copied().unwrap_or(1)
     }
+}
+
+fn default(module: &Module, item: &naga::Override) -> Option<(String, f64)> {
+    let value = match module.global_expressions[item.init?] {
+        Expression::Literal(Literal::F32(x)) => f64::from(x),
+        Expression::Literal(Literal::U32(n)) => f64::from(n),
+        Expression::Literal(Literal::Bool(b)) => f64::from(u8::from(b)),
+        _ => return None,
+    };
+    Some((item.name.clone()?, value))
 }
 
 fn workgroup_bytes(module: &Module) -> u64 {

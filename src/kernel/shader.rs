@@ -75,10 +75,10 @@ impl Shader {
             text.push('\n');
         }
         let module = naga::front::wgsl::parse_str(&text).map_err(|e| message::parse(sources, &text, &e))?;
-        Validator::new(ValidationFlags::all(), Capabilities::all())
+        let info = Validator::new(ValidationFlags::all(), Capabilities::all())
             .validate(&module)
             .map_err(|e| message::validation(sources, &text, &e))?;
-        let reflection = Reflection::of(&module);
+        let reflection = Reflection::of(&module, &info);
         Ok(Arc::new(Self { sources: sources.to_vec(), text, reflection }))
     }
     /// The files.
