@@ -33,7 +33,7 @@ impl Backend for Cpu {
     fn machine(&self) -> Machine {
         Machine { software: true, subgroup: 0, invocations: 1 }
     }
-    fn compile(&mut self, plan: Plan) -> Result<Plan, Error> {
+    fn compile(&mut self, plan: &Plan) -> Result<Plan, Error> {
         for kernel in &plan.kernels {
             if kernel.twin.is_none() {
                 let text = format!(
@@ -59,7 +59,7 @@ impl Backend for Cpu {
                 }
             }
         }
-        Ok(plan)
+        Ok(plan.clone())
     }
     fn run(&mut self, program: &Plan, times: u32) -> Result<(), Error> {
         for _ in 0..times {

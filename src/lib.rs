@@ -6,6 +6,7 @@ pub mod forces;
 pub mod gpu;
 pub mod integrators;
 pub mod kernel;
+pub mod lockstep;
 pub mod measure;
 pub mod particles;
 pub mod settings;

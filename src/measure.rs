@@ -60,7 +60,6 @@ impl Measure {
             total.center += part.center;
             mass += m;
         }
-        #[expect(clippy::cast_precision_loss, reason = "a mean")]
         let mean = particles.position.iter().sum::<DVec3>() / count.max(1) as f64;
         total.center = if mass > 0.0 { total.center / mass } else { mean };
         total

@@ -89,9 +89,8 @@ impl Setup {
         let good = |v: &DVec3| v.is_finite();
         let bad = (0..count).find(|i| {
             let (mass, radius) = (self.particles.mass[*i], self.particles.radius[*i]);
-            !good(&self.particles.position[*i])
-                || !good(&self.particles.velocity[*i])
-                || !(mass >= 0.0 && mass.is_finite() && radius.is_finite())
+            let vectors = good(&self.particles.position[*i]) && good(&self.particles.velocity[*i]);
+            !(vectors && mass >= 0.0 && mass.is_finite() && radius.is_finite())
         });
         if let Some(bad) = bad {
             return Err(Error::Scene(format!(
@@ -114,9 +113,9 @@ impl<B: Backend> Simulation<B> {
         let count = setup.check()?;
         let plans = setup.plans(backend.machine())?;
         let plan = plans.step.to_string();
-        let start = if plans.start.order.is_empty() { None } else { Some(backend.compile(plans.start)?) };
-        let step = backend.compile(plans.step)?;
-        let measure = (backend.compile(plans.measure.0)?, backend.compile(plans.measure.1)?);
+        let start = if plans.start.order.is_empty() { None } else { Some(backend.compile(&plans.start)?) };
+        let step = backend.compile(&plans.step)?;
+        let measure = (backend.compile(&plans.measure.0)?, backend.compile(&plans.measure.1)?);
         backend.set_clock(Clock { time: 0.0, dt: setup.dt, step: 0, count })?;
         let particles = &setup.particles;
         let position = particles.position.iter().zip(&particles.mass).map(|(x, m)| x.extend(*m)).collect();
@@ -189,7 +188,6 @@ impl<B: Backend> Simulation<B> {
                 potential.push(x.w * a.w);
             }
         }
-        #[expect(clippy::cast_precision_loss, reason = "steps stay below 2^53")]
         let time = self.steps as f64 * self.dt;
         Ok(Snapshot { step: self.steps, time, particles, potential })
     }

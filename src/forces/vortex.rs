@@ -16,7 +16,7 @@ pub const KEYS: &[Key] = &[
     EACH,
 ];
 
-/// `vortex`: a = γ (u − v), with u the flow of a Kaufmann vortex, |u| = Γ r / 2π (r² + r_c²).
+/// `vortex`: a = γ (u − v), with u the flow of a Kaufmann vortex, `|u| = Γ r / 2π (r² + r_c²)`.
 pub struct Vortex(Settings);
 
 impl Vortex {

@@ -69,8 +69,8 @@ impl Gpu {
     pub fn submissions(&self) -> u64 {
         self.queue.submissions()
     }
-    /// Makes every field that comes into being from now on longer by so many elements, filled with a pattern; a test
-    /// looks there for what a kernel should not have written.
+    /// Makes every field that comes into being from now on longer by so many elements of 16 bytes; a test
+    /// fills them and looks there for what a kernel should not have written.
     pub fn pad(&mut self, elements: u64) {
         self.buffers.pad(elements);
     }
@@ -122,17 +122,17 @@ impl Gpu {
     pub fn size(&self, name: &str) -> u64 {
         self.buffers.get(name).map_or(0, wgpu::Buffer::size)
     }
-    /// Writes bytes into a field.
+    /// Writes bytes into a field, from an offset on.
     ///
     /// # Errors
     /// When there is no such field, or it is shorter.
-    pub fn write_bytes(&mut self, name: &str, bytes: &[u8]) -> Result<(), Error> {
+    pub fn write_bytes(&mut self, name: &str, from: u64, bytes: &[u8]) -> Result<(), Error> {
         let buffer = self.buffers.get(name).ok_or_else(|| buffers::missing(name))?;
-        if (bytes.len() as u64) > buffer.size() {
+        if from + bytes.len() as u64 > buffer.size() {
             let text = format!("the field `{name}` holds {} bytes, not {}", buffer.size(), bytes.len());
             return Err(Error::Device(text));
         }
-        self.queue.write(buffer, bytes)
+        self.queue.write(buffer, from, bytes)
     }
 }
 
@@ -142,7 +142,7 @@ impl Backend for Gpu {
     fn machine(&self) -> Machine {
         self.machine
     }
-    fn compile(&mut self, plan: Plan) -> Result<Program, Error> {
+    fn compile(&mut self, plan: &Plan) -> Result<Program, Error> {
         for (name, bytes) in plan.fields(self.count) {
             if name != "world" {
                 self.buffers.require(&name, bytes)?;
@@ -155,10 +155,10 @@ impl Backend for Gpu {
     }
     fn set_clock(&mut self, clock: Clock) -> Result<(), Error> {
         let bytes = self.clock.pack("World", &clock.members())?;
-        self.write_bytes("world", &bytes)
+        self.write_bytes("world", 0, &bytes)
     }
     fn write(&mut self, name: &str, array: &Array) -> Result<(), Error> {
-        self.write_bytes(name, &array.to_bytes())
+        self.write_bytes(name, 0, &array.to_bytes())
     }
     async fn read(&mut self, name: &str, like: &Array, len: usize) -> Result<Array, Error> {
         let bytes = like.zeros(1).to_bytes().len() as u64 * len as u64;

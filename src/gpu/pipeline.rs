@@ -13,9 +13,12 @@ pub struct Pipeline {
     pub groups: BTreeMap<u32, wgpu::BindGroupLayout>,
 }
 
+/// The text, and the constants by their bits.
+type Key = (String, Vec<(&'static str, u64)>);
+
 pub struct Pipelines {
     device: wgpu::Device,
-    made: HashMap<(String, Vec<(&'static str, u64)>), Pipeline>,
+    made: HashMap<Key, Pipeline>,
 }
 
 impl Pipelines {

@@ -35,7 +35,7 @@ impl Program {
         device: &wgpu::Device,
         pipelines: &mut Pipelines,
         buffers: &Buffers,
-        plan: Plan,
+        plan: &Plan,
     ) -> Result<Self, Error> {
         let mut kernels = Vec::new();
         for kernel in &plan.kernels {

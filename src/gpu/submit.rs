@@ -19,7 +19,7 @@ const FIRST: u64 = 50_000_000;
 /// A queue that knows how fast its device is.
 pub struct Queue {
     device: wgpu::Device,
-    queue: wgpu::Queue,
+    inner: wgpu::Queue,
     flying: VecDeque<(wgpu::SubmissionIndex, u64)>,
     last_done: Instant,
     budget: u64,
@@ -32,12 +32,12 @@ impl Queue {
     pub fn new(device: wgpu::Device, queue: wgpu::Queue) -> Self {
         Self {
             device,
-            queue,
+            inner: queue,
             flying: VecDeque::new(),
             last_done: Instant::now(),
             budget: FIRST,
             target: Duration::from_millis(80),
-            patience: Duration::from_secs(120),
+            patience: Duration::from_mins(2),
             submissions: 0,
         }
     }
@@ -80,7 +80,7 @@ impl Queue {
                     dispatch.encode(&mut pass);
                 }
             }
-            self.queue.submit([encoder.finish()])
+            self.inner.submit([encoder.finish()])
         })?;
         self.submissions += 1;
         self.flying.push_back((index, work));
@@ -134,13 +134,13 @@ impl Queue {
 
     /// Submits a caller's commands behind all that is in flight.
     pub fn submit_commands(&mut self, commands: wgpu::CommandBuffer) -> Result<wgpu::SubmissionIndex, Error> {
-        fault::scoped(&self.device, || self.queue.submit([commands]))
+        fault::scoped(&self.device, || self.inner.submit([commands]))
     }
     /// Writes into a buffer, behind all that was submitted.
-    pub fn write(&mut self, buffer: &wgpu::Buffer, bytes: &[u8]) -> Result<(), Error> {
+    pub fn write(&mut self, buffer: &wgpu::Buffer, from: u64, bytes: &[u8]) -> Result<(), Error> {
         fault::scoped(&self.device, || {
-            self.queue.write_buffer(buffer, 0, bytes);
-            self.queue.submit([]);
+            self.inner.write_buffer(buffer, from, bytes);
+            self.inner.submit([]);
         })
     }
 }

@@ -1,7 +1,7 @@
 //! Integrators: how forces become motion. Each is written in verbs and reads like its line in the textbook.
 
 mod step;
-pub mod verbs;
+mod verbs;
 
 pub use step::Step;
 

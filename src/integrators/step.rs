@@ -24,10 +24,11 @@ impl<'a> Step<'a> {
     /// a ← forces(x, v, t), with all laws in the order of the scene.
     pub fn evaluate(&mut self) {
         self.add(clear::kernel(self.count));
-        let name = |force: &Box<dyn Force>| force.laws().first().map(|law| law.name.clone());
+        let name = |force: &dyn Force| force.laws().first().map(|law| law.name.clone());
         for (place, force) in self.forces.iter().enumerate() {
             // Two forces of one kind are two kernels.
-            let earlier = self.forces[..place].iter().filter(|other| name(other) == name(force)).count();
+            let earlier =
+                self.forces[..place].iter().filter(|other| name(other.as_ref()) == name(force.as_ref())).count();
             if self.error.is_none() {
                 self.error = force.evaluate(&mut self.plan, earlier, self.count, &self.machine).err();
             }

@@ -25,7 +25,7 @@ pub trait Backend {
     /// # Errors
     /// [`Error::Limit`] when a field does not fit, [`Error::Shader`] when a shader does not compile,
     /// [`Error::Scene`] when the plan has a kernel that this backend cannot run.
-    fn compile(&mut self, plan: Plan) -> Result<Self::Program, Error>;
+    fn compile(&mut self, plan: &Plan) -> Result<Self::Program, Error>;
     /// Runs a program a number of times, in order. May return before the device is done.
     ///
     /// # Errors

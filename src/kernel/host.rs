@@ -2,6 +2,7 @@
 //! device refuses it.
 
 use std::collections::BTreeMap;
+use std::marker::PhantomData;
 use std::sync::{RwLock, RwLockReadGuard, RwLockWriteGuard};
 
 use super::{Array, Clock, Element, Field};
@@ -15,9 +16,9 @@ pub struct Host {
 }
 
 /// An array that is being read.
-pub struct Reading<'a, T>(RwLockReadGuard<'a, Array>, Field<T>);
+pub struct Reading<'a, T>(RwLockReadGuard<'a, Array>, PhantomData<T>);
 /// An array that is being written.
-pub struct Writing<'a, T>(RwLockWriteGuard<'a, Array>, Field<T>);
+pub struct Writing<'a, T>(RwLockWriteGuard<'a, Array>, PhantomData<T>);
 
 impl<T: Element> std::ops::Deref for Reading<'_, T> {
     type Target = [T::Twin];
@@ -62,7 +63,7 @@ impl Host {
         if T::view(&guard).is_none() {
             return Err(missing(field.name));
         }
-        Ok(Reading(guard, field))
+        Ok(Reading(guard, PhantomData))
     }
     /// Opens an array for writing.
     ///
@@ -74,7 +75,7 @@ impl Host {
         if T::view_mut(&mut guard).is_none() {
             return Err(missing(field.name));
         }
-        Ok(Writing(guard, field))
+        Ok(Writing(guard, PhantomData))
     }
     /// The clock.
     #[must_use]

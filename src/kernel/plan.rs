@@ -8,7 +8,7 @@ use super::{Access, Host, Shader};
 use crate::error::Error;
 
 /// The second opinion: the same operation in f64 on the host's arrays.
-pub type Twin = Box<dyn Fn(&Host) -> Result<(), Error> + Send + Sync>;
+pub type Twin = Arc<dyn Fn(&Host) -> Result<(), Error> + Send + Sync>;
 
 /// How many invocations a pass needs: `count` in the plane, times `layers`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -43,6 +43,7 @@ pub struct Pass {
 }
 
 /// One operation with a name: its dispatches, in order, and its twin.
+#[derive(Clone)]
 pub struct Kernel {
     /// What `motes explain` calls it, constants included.
     pub name: String,
@@ -101,7 +102,7 @@ impl std::fmt::Debug for Kernel {
 }
 
 /// Kernels in the order in which they run. A kernel that runs twice is stored once.
-#[derive(Debug, Default)]
+#[derive(Debug, Default, Clone)]
 pub struct Plan {
     /// The different kernels.
     pub kernels: Vec<Kernel>,
@@ -115,16 +116,13 @@ impl Plan {
     /// # Errors
     /// What `make` says.
     pub fn push(&mut self, name: &str, make: impl FnOnce() -> Result<Kernel, Error>) -> Result<(), Error> {
-        let index = match self.kernels.iter().position(|k| k.name == name) {
-            Some(index) => index,
-            None => {
-                let mut kernel = make()?;
-                name.clone_into(&mut kernel.name);
-                self.kernels.push(kernel);
-                self.kernels.len() - 1
-            }
-        };
-        self.order.push(index);
+        let known = self.kernels.iter().position(|k| k.name == name);
+        self.order.push(known.unwrap_or(self.kernels.len()));
+        if known.is_none() {
+            let mut kernel = make()?;
+            name.clone_into(&mut kernel.name);
+            self.kernels.push(kernel);
+        }
         Ok(())
     }
     /// Adds a kernel that names itself.

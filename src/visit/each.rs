@@ -1,5 +1,7 @@
 //! Each particle alone.
 
+use std::sync::Arc;
+
 use glam::DVec4;
 use rayon::prelude::*;
 
@@ -21,7 +23,7 @@ pub fn kernel(law: Law, count: u32) -> Result<Kernel, Error> {
 }
 
 pub fn twin(rule: impl Fn(&Body, f64) -> DVec4 + Send + Sync + 'static) -> Twin {
-    Box::new(move |host| {
+    Arc::new(move |host| {
         let bodies = bodies(host)?;
         let time = host.clock().time;
         let mut acceleration = host.write(ACCELERATION)?;

@@ -40,7 +40,7 @@ impl Cut {
     }
     /// Sources that one dispatch meets.
     #[must_use]
-    pub fn sources(&self) -> u64 {
+    pub fn sources(self) -> u64 {
         u64::from(self.layers) * u64::from(self.slice)
     }
 }
@@ -105,7 +105,7 @@ pub fn kernel(law: Law, count: u32, machine: &Machine) -> Result<Kernel, Error> 
 
 /// The twin meets everybody in the order of their ids.
 pub fn twin(rule: impl Fn(&Body, &Body, DVec3) -> DVec4 + Send + Sync + 'static) -> Twin {
-    Box::new(move |host| {
+    Arc::new(move |host| {
         let bodies = bodies(host)?;
         let mut acceleration = host.write(ACCELERATION)?;
         acceleration.par_iter_mut().zip(&bodies).for_each(|(a, me)| {

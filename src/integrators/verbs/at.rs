@@ -1,5 +1,7 @@
 //! The time at which forces are evaluated: (step + c) dt.
 
+use std::sync::Arc;
+
 use crate::error::Error;
 use crate::kernel::{Clock, Kernel, Shader};
 
@@ -11,5 +13,5 @@ pub fn kernel(factor: f64) -> Result<Kernel, Error> {
         host.set_clock(Clock { time: (f64::from(clock.step) + factor) * clock.dt, ..clock });
         Ok(())
     };
-    Ok(Kernel::new("at", shader, vec![("FACTOR", factor)], 1, Box::new(twin)))
+    Ok(Kernel::new("at", shader, vec![("FACTOR", factor)], 1, Arc::new(twin)))
 }

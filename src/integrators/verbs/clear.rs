@@ -1,5 +1,7 @@
 //! Before the first law: no acceleration, no potential.
 
+use std::sync::Arc;
+
 use glam::DVec4;
 
 use crate::error::Error;
@@ -12,5 +14,5 @@ pub fn kernel(count: u32) -> Result<Kernel, Error> {
         host.write(ACCELERATION)?.fill(DVec4::ZERO);
         Ok(())
     };
-    Ok(Kernel::new("clear", shader, Vec::new(), count, Box::new(twin)))
+    Ok(Kernel::new("clear", shader, Vec::new(), count, Arc::new(twin)))
 }

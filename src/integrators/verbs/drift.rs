@@ -1,5 +1,7 @@
 //! Drift: x ← x + c v dt.
 
+use std::sync::Arc;
+
 use crate::error::Error;
 use crate::kernel::{Kernel, POSITION, Shader, VELOCITY};
 
@@ -14,5 +16,5 @@ pub fn kernel(count: u32, factor: f64) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    Ok(Kernel::new("drift", shader, vec![("FACTOR", factor)], count, Box::new(twin)))
+    Ok(Kernel::new("drift", shader, vec![("FACTOR", factor)], count, Arc::new(twin)))
 }

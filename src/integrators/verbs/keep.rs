@@ -1,5 +1,7 @@
 //! What a measurement does around its own evaluation, so that it changes no bit of the run.
 
+use std::sync::Arc;
+
 use glam::Vec4;
 
 use crate::error::Error;
@@ -14,7 +16,7 @@ pub fn keep(count: u32) -> Result<Kernel, Error> {
         host.write(KEPT)?.copy_from_slice(&host.read(ACCELERATION)?);
         Ok(())
     };
-    Ok(Kernel::new("keep", shader, Vec::new(), count, Box::new(twin)))
+    Ok(Kernel::new("keep", shader, Vec::new(), count, Arc::new(twin)))
 }
 
 /// Puts them back.
@@ -24,5 +26,5 @@ pub fn restore(count: u32) -> Result<Kernel, Error> {
         host.write(ACCELERATION)?.copy_from_slice(&host.read(KEPT)?);
         Ok(())
     };
-    Ok(Kernel::new("restore", shader, Vec::new(), count, Box::new(twin)))
+    Ok(Kernel::new("restore", shader, Vec::new(), count, Arc::new(twin)))
 }

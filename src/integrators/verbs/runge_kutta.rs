@@ -1,5 +1,7 @@
 //! The three verbs of an explicit Runge–Kutta step.
 
+use std::sync::Arc;
+
 use glam::{DVec4, Vec4};
 
 use crate::error::Error;
@@ -10,7 +12,7 @@ const START_VELOCITY: Field<Vec4> = Field::new("start_velocity");
 const SLOPE_POSITION: Field<Vec4> = Field::new("slope_position");
 const SLOPE_VELOCITY: Field<Vec4> = Field::new("slope_velocity");
 
-fn shader(file: crate::kernel::Source) -> Result<std::sync::Arc<Shader>, Error> {
+fn shader(file: crate::kernel::Source) -> Result<Arc<Shader>, Error> {
     Shader::join(&[crate::shader!("world.wgsl"), file])
 }
 
@@ -27,7 +29,7 @@ pub fn save(count: u32) -> Result<Kernel, Error> {
         host.write(SLOPE_VELOCITY)?.fill(DVec4::ZERO);
         Ok(())
     };
-    Ok(Kernel::new("rk_save", shader(crate::shader!("integrators/rk_save.wgsl"))?, Vec::new(), count, Box::new(twin)))
+    Ok(Kernel::new("rk_save", shader(crate::shader!("integrators/rk_save.wgsl"))?, Vec::new(), count, Arc::new(twin)))
 }
 
 /// A stage: `weight` times its slopes go into the sum, and the next slopes are wanted `factor` of the step from the start.
@@ -47,7 +49,7 @@ pub fn stage(count: u32, weight: f64, factor: f64) -> Result<Kernel, Error> {
         Ok(())
     };
     let constants = vec![("WEIGHT", weight), ("FACTOR", factor)];
-    Ok(Kernel::new("rk_stage", shader(crate::shader!("integrators/rk_stage.wgsl"))?, constants, count, Box::new(twin)))
+    Ok(Kernel::new("rk_stage", shader(crate::shader!("integrators/rk_stage.wgsl"))?, constants, count, Arc::new(twin)))
 }
 
 /// The end of the step, with the weight of the last slopes.
@@ -69,6 +71,6 @@ pub fn finish(count: u32, weight: f64) -> Result<Kernel, Error> {
         shader(crate::shader!("integrators/rk_finish.wgsl"))?,
         constants,
         count,
-        Box::new(twin),
+        Arc::new(twin),
     ))
 }

@@ -1,5 +1,7 @@
 //! A step is done.
 
+use std::sync::Arc;
+
 use crate::error::Error;
 use crate::kernel::{Clock, Kernel, Shader};
 
@@ -12,5 +14,5 @@ pub fn kernel() -> Result<Kernel, Error> {
         host.set_clock(Clock { step, time: f64::from(step) * clock.dt, ..clock });
         Ok(())
     };
-    Ok(Kernel::new("tick", shader, Vec::new(), 1, Box::new(twin)))
+    Ok(Kernel::new("tick", shader, Vec::new(), 1, Arc::new(twin)))
 }

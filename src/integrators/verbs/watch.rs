@@ -1,5 +1,7 @@
 //! Raises the alarm when a number is no number any more.
 
+use std::sync::Arc;
+
 use crate::error::Error;
 use crate::kernel::{ALARM, Kernel, POSITION, Shader, VELOCITY};
 
@@ -19,6 +21,6 @@ pub fn kernel(count: u32) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    let kernel = Kernel::new("watch", shader, Vec::new(), count, Box::new(twin));
+    let kernel = Kernel::new("watch", shader, Vec::new(), count, Arc::new(twin));
     Ok(Kernel { sizes: vec![(ALARM.name, 2)], ..kernel })
 }
