@@ -125,5 +125,5 @@ pub(super) fn machine(device: &wgpu::Device) -> Machine {
     let subgroup =
         if device.features().contains(wgpu::Features::SUBGROUP) && fixed { info.subgroup_min_size } else { 0 };
     // A large GPU holds about a quarter of a million invocations at once; a processor wants a workgroup for each core.
-    Machine { software, subgroup, invocations: if software { 2048 } else { 1 << 18 } }
+    Machine { software, subgroup, invocations: if software { 256 } else { 1 << 18 } }
 }
