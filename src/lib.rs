@@ -9,6 +9,7 @@ pub mod kernel;
 pub mod lockstep;
 pub mod measure;
 pub mod particles;
+pub mod selftest;
 pub mod settings;
 pub mod simulation;
 pub mod visit;

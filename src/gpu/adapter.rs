@@ -26,6 +26,38 @@ pub struct Found {
     pub faults: Faults,
 }
 
+/// What to do where there is no driver.
+pub const NO_DRIVER: &str = "no GPU driver was found (on Debian or Ubuntu `apt-get install mesa-vulkan-drivers` brings one that \
+                             runs on the processor, some ten times faster than the f64 twins)";
+
+impl Found {
+    /// Name, kind, backend and driver.
+    #[must_use]
+    pub fn describe(&self) -> String {
+        describe(&self.adapter.get_info())
+    }
+    /// Whether it is a processor that plays a GPU.
+    #[must_use]
+    pub fn software(&self) -> bool {
+        self.adapter.get_info().device_type == wgpu::DeviceType::Cpu
+    }
+    /// What the device binds and dispatches, and which optional features kernels use, by name.
+    #[must_use]
+    pub fn facts(&self) -> Vec<(&'static str, String)> {
+        let (limits, info) = (self.device.limits(), self.adapter.get_info());
+        let largest = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
+        let offered = |feature| if self.device.features().contains(feature) { "yes" } else { "no" }.to_owned();
+        vec![
+            ("largest field", format!("{} MiB, {} particles", largest >> 20, largest / 16)),
+            ("workgroup memory", format!("{} KiB", limits.max_compute_workgroup_storage_size >> 10)),
+            ("storage buffers", format!("{} in one kernel", limits.max_storage_buffers_per_shader_stage)),
+            ("workgroups", format!("{} in one dimension", limits.max_compute_workgroups_per_dimension)),
+            ("subgroups", format!("{}, of {} to {} lanes", offered(wgpu::Features::SUBGROUP), info.subgroup_min_size, info.subgroup_max_size)),
+            ("timestamps", offered(wgpu::Features::TIMESTAMP_QUERY)),
+        ]
+    }
+}
+
 /// An instance, as the environment (`WGPU_BACKEND` …) has it.
 #[must_use]
 pub fn instance() -> wgpu::Instance {
@@ -57,9 +89,7 @@ fn rank(info: &wgpu::AdapterInfo) -> (u8, u8) {
 /// [`Error::NoAdapter`] that lists what there is.
 pub fn choose(mut adapters: Vec<wgpu::Adapter>, choice: &Choice) -> Result<wgpu::Adapter, Error> {
     if adapters.is_empty() {
-        return Err(Error::NoAdapter(
-            "no GPU driver was found; on Debian or Ubuntu `apt-get install mesa-vulkan-drivers` brings one that runs on the processor".to_owned(),
-        ));
+        return Err(Error::NoAdapter(NO_DRIVER.to_owned()));
     }
     let index = match choice {
         Choice::Best => Some(0),

@@ -8,10 +8,11 @@ mod pipeline;
 mod program;
 mod read;
 mod submit;
+mod timing;
 
 use std::time::Duration;
 
-pub use adapter::{Choice, Found, adapters, choose, instance, open};
+pub use adapter::{Choice, Found, NO_DRIVER, adapters, choose, instance, open};
 use buffers::Buffers;
 pub use fault::Faults;
 use pipeline::Pipelines;
@@ -100,6 +101,13 @@ impl Gpu {
     /// When it is lost or does not answer in time.
     pub fn wait(&mut self) -> Result<(), Error> {
         self.queue.wait()
+    }
+    /// Runs a program in one submission, and gives the seconds by the device's own clock, if it has one for us.
+    ///
+    /// # Errors
+    /// When the device is lost or does not answer in time.
+    pub async fn timed(&mut self, program: &Program, times: u32) -> Result<Option<f64>, Error> {
+        timing::timed(&self.device, &mut self.queue, program, times).await
     }
     /// Reads the clock.
     ///
