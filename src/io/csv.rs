@@ -1,8 +1,9 @@
 //! Comma-separated text. Columns `x,y,z`, and any of `vx,vy,vz` (0 when left out), `mass` (1), `radius` (0), `id` and `name`;
 //! lines that start with `#` are comments.
 
-use std::fmt::Write as _;
-use std::io::{self, Write};
+use std::fmt::{self, Write as _};
+use std::fs::File;
+use std::io::{self, BufRead, BufReader, Seek, SeekFrom, Write};
 use std::path::Path;
 
 use ::csv::{ByteRecord, ReaderBuilder, Trim};
@@ -53,17 +54,17 @@ pub fn read(path: &Path) -> Result<Particles, Error> {
     let columns = Columns::named(&record, &mut problems);
     let (mut particles, mut ids, mut lines) = (Particles::default(), Vec::new(), Vec::new());
     while rows.read_byte_record(&mut record).map_err(failed)? {
-        let line = record.position().map_or(0, ::csv::Position::line);
+        let line = Line::of(path, &record);
         if record.len() > columns.count {
             problems.note(|| {
                 format!(
-                    "line {line}: {} cells, but {} columns",
+                    "{line}: {} cells, but {} columns",
                     record.len(),
                     columns.count
                 )
             });
         }
-        let [x, y, z, vx, vy, vz, mass, radius] = columns.numbers(&record, line, &mut problems);
+        let [x, y, z, vx, vy, vz, mass, radius] = columns.numbers(&record, &line, &mut problems);
         particles.push(DVec3::new(x, y, z), DVec3::new(vx, vy, vz), mass, radius);
         if let Some(place) = columns.id {
             match cell(&record, place).map(str::parse::<u32>) {
@@ -73,12 +74,12 @@ pub fn read(path: &Path) -> Result<Particles, Error> {
                 }
                 Some(Err(_)) => problems.note(|| {
                     format!(
-                        "line {line}, column id: `{}` is not a whole number from 0 to {}",
+                        "{line}, column id: `{}` is not a whole number from 0 to {}",
                         shown(&record, place),
                         u32::MAX
                     )
                 }),
-                None => problems.note(|| format!("line {line}, column id: the cell is missing")),
+                None => problems.note(|| format!("{line}, column id: the cell is missing")),
             }
         }
     }
@@ -88,12 +89,48 @@ pub fn read(path: &Path) -> Result<Particles, Error> {
     }
     // Ids that could not be read have been noted; gaps would only repeat them.
     if ids.len() == particles.len() {
-        let order = order(&ids, |row| format!("line {}", lines[row]), &mut problems);
+        let order = order(&ids, |row| lines[row].to_string(), &mut problems);
         problems.check(path)?;
         return Ok(picked(&particles, &order));
     }
     problems.check(path)?;
     Ok(particles)
+}
+
+/// Where a row begins. Its number is only counted when it is shown: `csv` knows where it stopped before, but not how many
+/// blank lines and comments it has skipped since.
+struct Line<'a> {
+    path: &'a Path,
+    byte: u64,
+    before: u64,
+}
+
+impl<'a> Line<'a> {
+    fn of(path: &'a Path, record: &ByteRecord) -> Self {
+        let (byte, before) = record
+            .position()
+            .map_or((0, 1), |start| (start.byte(), start.line()));
+        Self { path, byte, before }
+    }
+
+    /// Its number, counted from 1.
+    fn number(&self) -> io::Result<u64> {
+        let mut file = BufReader::new(File::open(self.path)?);
+        file.seek(SeekFrom::Start(self.byte))?;
+        let mut number = self.before;
+        let mut line = Vec::new();
+        while file.read_until(b'\n', &mut line)? > 0 && matches!(line[0], b'#' | b'\r' | b'\n') {
+            number += 1;
+            line.clear();
+        }
+        Ok(number)
+    }
+}
+
+impl fmt::Display for Line<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "line {}", self.number().unwrap_or(self.before))
+    }
 }
 
 /// Where each column is.
@@ -136,11 +173,11 @@ impl Columns {
         columns
     }
 
-    fn numbers(&self, record: &ByteRecord, line: u64, problems: &mut Problems) -> [f64; 8] {
+    fn numbers(&self, record: &ByteRecord, line: &Line, problems: &mut Problems) -> [f64; 8] {
         let mut values = NUMBERS.map(|(_, default)| default);
         for ((value, (title, _)), place) in values.iter_mut().zip(NUMBERS).zip(self.numbers) {
             let Some(place) = place else { continue };
-            let at = || format!("line {line}, column {title}");
+            let at = || format!("{line}, column {title}");
             let text = record.get(place).unwrap_or_default();
             if text.is_empty() {
                 problems.note(|| format!("{}: the cell is missing", at()));
@@ -181,7 +218,9 @@ fn shown(record: &ByteRecord, place: usize) -> String {
 /// What to say about a name that no reader knows.
 pub(super) fn unknown(what: &str, title: &str) -> String {
     let known = || NUMBERS.iter().map(|(name, _)| *name).chain([ID, NAME]);
+    let first = title.to_lowercase().chars().next();
     let like = known()
+        .filter(|name| name.chars().next() == first)
         .map(|name| {
             (
                 strsim::damerau_levenshtein(&title.to_lowercase(), name),
@@ -189,7 +228,7 @@ pub(super) fn unknown(what: &str, title: &str) -> String {
             )
         })
         .min()
-        .filter(|(distance, name)| *distance <= name.len() / 2);
+        .filter(|(distance, name)| *distance <= 1 + name.len() / 3);
     match like {
         Some((_, name)) => format!("unknown {what} `{title}`; did you mean `{name}`?"),
         None => format!(
