@@ -5,10 +5,15 @@ pub mod error;
 pub mod forces;
 pub mod gpu;
 pub mod integrators;
+#[cfg(feature = "scene")]
+pub mod io;
 pub mod kernel;
 pub mod lockstep;
 pub mod measure;
 pub mod particles;
+pub mod render;
+#[cfg(feature = "scene")]
+pub mod scene;
 pub mod selftest;
 pub mod settings;
 pub mod simulation;
