@@ -56,3 +56,24 @@ impl Particles {
         self.radius.extend_from_slice(&other.radius);
     }
 }
+
+/// Stand-in for the generators.
+pub const SHAPES: &[Shape] = &[Shape {
+    name: "plummer",
+    about: "Plummer 1911",
+    keys: &[
+        Key::required("count", crate::settings::Kind::Count, "how many"),
+        Key::new("seed", crate::settings::Kind::Whole, crate::settings::Value::Number(1.0), "seed"),
+        Key::new("center", crate::settings::Kind::Vector, crate::settings::Value::Vector(DVec3::ZERO), "centre"),
+    ],
+    build: |s| {
+        let mut all = Particles::default();
+        if s.whole("count") == 13 {
+            return Err(Error::Scene("13 brings bad luck".into()));
+        }
+        for _ in 0..s.whole("count") {
+            all.push(s.vector("center"), DVec3::ZERO, 1.0, 0.0);
+        }
+        Ok(all)
+    },
+}];
