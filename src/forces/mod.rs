@@ -32,7 +32,6 @@ pub enum Over {
 }
 
 /// A user's own law.
-#[derive(Debug, Clone, PartialEq)]
 pub struct Custom {
     /// Its name.
     pub name: String,
@@ -63,33 +62,55 @@ const fn word(w: &'static str) -> Value {
     Value::Text(Cow::Borrowed(w))
 }
 
-/// All forces.
-pub const FORCES: &[Entry] = &[
-    Entry {
-        name: "gravity",
-        about: "Newton's law",
-        keys: &[
-            Key::new("g", Kind::Number, Value::Number(1.0), "the constant"),
-            Key::new("softening", Kind::NotNegative, Value::Number(0.0), "length"),
-            Key::new("kernel", Kind::Choice(&["plummer", "spline"]), word("plummer"), "how"),
-            Key::new("over", Kind::Choice(&["pairs"]), word("pairs"), "who meets whom"),
-        ],
-        build: |_| Box::new(Stub("gravity")),
-    },
-    Entry {
-        name: "uniform",
-        about: "constant acceleration",
-        keys: &[Key::required("acceleration", Kind::Vector, "acceleration")],
-        build: |_| Box::new(Stub("uniform")),
-    },
-    Entry {
-        name: "drag",
-        about: "drag",
-        keys: &[
-            Key::new("linear", Kind::NotNegative, Value::Number(0.0), "1/time"),
-            Key::new("quadratic", Kind::NotNegative, Value::Number(0.0), "1/length"),
-            Key::new("wind", Kind::Vector, Value::Vector(DVec3::ZERO), "velocity of the air"),
-        ],
-        build: |_| Box::new(Stub("drag")),
-    },
-];
+const EACH: Key = Key::new("over", Kind::Choice(&["each"]), word("each"), "who meets whom: each particle alone");
+const ZERO: Value = Value::Vector(DVec3::ZERO);
+const fn num(x: f64) -> Value {
+    Value::Number(x)
+}
+macro_rules! stubs {
+    ($($name:literal: $keys:expr;)*) => {
+        /// All forces.
+        pub const FORCES: &[Entry] =
+            &[$(Entry { name: $name, about: "", keys: $keys, build: |_| Box::new(Stub($name)) }),*];
+    };
+}
+
+stubs! {
+    "gravity": &[
+        Key::new("g", Kind::Number, num(1.0), "the gravitational constant [length³ / mass / time²]"),
+        Key::new("softening", Kind::NotNegative, num(0.0), "the Plummer softening length"),
+        Key::new("kernel", Kind::Choice(&["plummer", "spline"]), word("plummer"), "how close encounters are softened"),
+        Key::new("over", Kind::Choice(&["pairs"]), word("pairs"), "who meets whom: everybody"),
+    ];
+    "uniform": &[Key::new("acceleration", Kind::Vector, Value::Vector(DVec3::new(0.0, 0.0, -9.81)), "the acceleration"), EACH];
+    "drag": &[
+        Key::new("linear", Kind::NotNegative, num(0.0), "linear"),
+        Key::new("quadratic", Kind::NotNegative, num(0.0), "quadratic"),
+        Key::new("wind", Kind::Vector, ZERO, "wind"),
+        EACH,
+    ];
+    "wind": &[
+        Key::new("velocity", Kind::Vector, Value::Vector(DVec3::X), "velocity"),
+        Key::new("rate", Kind::NotNegative, num(1.0), "rate"),
+        Key::new("gust", Kind::NotNegative, num(0.0), "gust"),
+        Key::new("period", Kind::Positive, num(1.0), "period"),
+        Key::new("wavelength", Kind::Positive, num(1.0), "wavelength"),
+        EACH,
+    ];
+    "vortex": &[
+        Key::new("center", Kind::Vector, ZERO, "center"),
+        Key::new("axis", Kind::Direction, Value::Vector(DVec3::Z), "axis"),
+        Key::new("circulation", Kind::Number, num(1.0), "circulation"),
+        Key::new("core", Kind::Positive, num(0.1), "core"),
+        Key::new("rate", Kind::NotNegative, num(1.0), "rate"),
+        EACH,
+    ];
+    "attractor": &[
+        Key::new("position", Kind::Vector, ZERO, "position"),
+        Key::new("velocity", Kind::Vector, ZERO, "velocity"),
+        Key::new("profile", Kind::Choice(&["point", "harmonic", "logarithmic"]), word("point"), "profile"),
+        Key::new("strength", Kind::Number, num(1.0), "strength"),
+        Key::new("softening", Kind::NotNegative, num(0.0), "softening"),
+        EACH,
+    ];
+}

@@ -34,13 +34,10 @@ pub(super) fn read(table: &Table<'_>, files: &Files, report: &mut Report) -> Opt
 
 fn read_own(table: &Table<'_>, wgsl: &Entry, files: &Files, report: &mut Report) -> Option<Chosen> {
     table.settings(&[], &["wgsl", "over", "params"], report);
-    let over = match table.get("over") {
-        Some(entry) => walk::choice(entry, &["each", "pairs"], report),
-        None => {
-            report.push(table.lacks("over", "\"each\" or \"pairs\"", "who meets whom"));
-            None
-        }
-    };
+    let over = table.get("over").and_then(|entry| walk::choice(entry, &["each", "pairs"], report));
+    if table.get("over").is_none() {
+        report.push(table.lacks("over", "\"each\" or \"pairs\"", "who meets whom"));
+    }
     let params = table.get("params").map_or_else(Vec::new, |entry| params(entry, report));
     let name = value::text(&wgsl.node, "wgsl", "the name of a file", report)?;
     let text = files.locate("wgsl", name, &wgsl.node.place).and_then(|f| Ok((f.shader(&wgsl.node.place)?, f.name().to_owned())));

@@ -1,5 +1,7 @@
 //! `[[particles]]`: from a file, from a generator, or written out.
 
+use std::fmt::Write;
+
 use glam::DVec3;
 
 use crate::error::Error;
@@ -92,7 +94,7 @@ fn from_shape(table: &Table<'_>, entry: &Entry, room: u64, out: &mut Writer, rep
     if report.len() > faults {
         return None;
     }
-    for key in shape.keys.iter().filter(|k| k.kind == Kind::Count && settings.whole(k.name) > room) {
+    if let Some(key) = shape.keys.iter().find(|k| k.kind == Kind::Count && settings.whole(k.name) > room) {
         let place = table.get(key.name).map_or(&entry.node.place, |e| &e.node.place);
         report.push(Fault::at(place, format!("`{}` is too large", key.name)).label(format!("there is room for {room} particles")));
         return None;
@@ -130,7 +132,8 @@ fn from_bodies(table: &Table<'_>, entry: &Entry, out: &mut Writer, report: &mut 
         particles.push(position, velocity, mass, radius);
         let [position, velocity] = [position, velocity].map(resolved::vector);
         let [mass, radius] = [mass, radius].map(resolved::number);
-        text += &format!("  {{ position = {position}, velocity = {velocity}, mass = {mass}, radius = {radius} }},\n");
+        // Writing to a String cannot fail.
+        let _ = writeln!(text, "  {{ position = {position}, velocity = {velocity}, mass = {mass}, radius = {radius} }},");
     }
     out.line("bodies", &(text + "]"));
     out.settings(OFFSETS, &offsets);

@@ -111,7 +111,7 @@ fn read(path: &Path) -> Result<String, String> {
     }
     String::from_utf8(bytes).map_err(|e| {
         let good = e.utf8_error().valid_up_to();
-        let line = e.as_bytes()[..good].iter().filter(|&&b| b == b'\n').count() + 1;
+        let line = e.as_bytes()[..good].split(|&b| b == b'\n').count();
         format!("the scene is not UTF-8 text: byte {good}, in line {line}, is 0x{:02x}", e.as_bytes()[good])
     })
 }

@@ -50,9 +50,10 @@ pub(super) fn number(node: &Node, key: &str, kind: Kind, wanted: &str, report: &
         #[expect(clippy::cast_precision_loss, reason = "the loss is checked for whole numbers, and harmless for others")]
         Data::Integer(Some(i)) => i as f64,
         Data::Integer(None) => {
-            report.push(Fault::at(&node.place, format!("`{key}` is too large")).label(match whole {
-                true => "whole numbers end at 2^53".to_owned(),
-                false => format!("write it with an exponent, as in {:e}", report.quote(&node.place).parse().unwrap_or(1e20_f64)),
+            report.push(Fault::at(&node.place, format!("`{key}` is too large")).label(if whole {
+                "whole numbers end at 2^53".to_owned()
+            } else {
+                format!("write it with an exponent, as in {:e}", report.quote(&node.place).parse().unwrap_or(1e20_f64))
             }));
             return None;
         }
