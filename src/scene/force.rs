@@ -26,7 +26,7 @@ pub(super) fn read(table: &Table<'_>, files: &Files, report: &mut Report) -> Opt
         return read_own(&table.named(format!("{} wgsl", table.name)), entry, files, report);
     }
     let names: Vec<_> = FORCES.iter().map(|f| f.name).collect();
-    let name = walk::choice(entry, &names, report)?;
+    let name = walk::choice(entry, "force", &names, report)?;
     let force = FORCES.iter().find(|f| f.name == name)?;
     let settings = table.named(format!("{} {name}", table.name)).settings(force.keys, &["kind"], report);
     Some(Chosen::Known(force, settings))
@@ -34,9 +34,9 @@ pub(super) fn read(table: &Table<'_>, files: &Files, report: &mut Report) -> Opt
 
 fn read_own(table: &Table<'_>, wgsl: &Entry, files: &Files, report: &mut Report) -> Option<Chosen> {
     table.settings(&[], &["wgsl", "over", "params"], report);
-    let over = table.get("over").and_then(|entry| walk::choice(entry, &["each", "pairs"], report));
+    let over = table.get("over").and_then(|entry| walk::choice(entry, "over", &["each", "pairs"], report));
     if table.get("over").is_none() {
-        report.push(table.lacks("over", "\"each\" or \"pairs\"", "who meets whom"));
+        report.push(table.lacks("over", "either \"each\" or \"pairs\"", "who meets whom"));
     }
     let params = table.get("params").map_or_else(Vec::new, |entry| params(entry, report));
     let name = value::text(&wgsl.node, "wgsl", "the name of a file", report)?;
@@ -74,10 +74,10 @@ fn param(entry: &Entry, report: &mut Report) -> Option<Value> {
 }
 
 impl Chosen {
-    pub(super) fn build(&self) -> Box<dyn Force> {
+    pub(super) fn build(self) -> Box<dyn Force> {
         match self {
-            Self::Known(entry, settings) => (entry.build)(settings),
-            Self::Own { law, .. } => Box::new(law.clone()),
+            Self::Known(entry, settings) => (entry.build)(&settings),
+            Self::Own { law, .. } => Box::new(law),
         }
     }
     pub(super) fn write(&self, out: &mut Writer) {
@@ -89,7 +89,7 @@ impl Chosen {
             }
             Self::Own { law, path } => {
                 out.text("wgsl", path);
-                out.text("over", if law.over == Over::Each { "each" } else { "pairs" });
+                out.text("over", if matches!(law.over, Over::Each) { "each" } else { "pairs" });
                 let params: Vec<_> =
                     law.params.iter().map(|(k, v)| format!("{} = {}", resolved::bare(k), resolved::value(v))).collect();
                 out.line("params", &format!("{{ {} }}", params.join(", ")));

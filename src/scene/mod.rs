@@ -144,11 +144,11 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
     let mut groups = Vec::new();
     if all("particles").next().is_none() {
         let fault = Fault::missing(&Place::end(), "there are no particles");
-        report.push(fault.note("help: add\n\n         [[particles]]\n         shape = \"plummer\"\n         count = 1000\n"));
+        report.push(fault.note("help: add\n\n         [[particles]]\n         shape = \"plummer\"\n         count = 1000"));
     }
     for table in all("particles") {
         let start = ids(&particles);
-        let room = u64::from(options.most_particles.saturating_sub(start));
+        let room = options.most_particles.saturating_sub(start);
         if let Some(block) = particles::read(table, room, files, report) {
             particles.append(&block.particles);
             groups.push(Group { ids: start..ids(&particles), color: block.color });

@@ -121,11 +121,11 @@ fn descend(node: &mut Node, path: &[Part<'_>], done: &str, value: Node, report: 
                 Ok(Some(element)) => descend(element, rest, &join(done, first.word), value, report),
                 Ok(None) => Err(Fault::at(&first.place, format!("there is no {}", join(done, first.word)))
                     .label(format!("`{done}` has {many}, counted from 0"))),
-                Err(_) => Err(Fault::at(&first.place, format!("`{done}` is a list: say which of its {many}"))
+                Err(_) => Err(Fault::at(&first.place, format!("`{done}` is a list, so its entries are numbered"))
                     .label(format!("write {done}.0.{} for the first", first.word))),
             }
         }
-        _ => Err(Fault::at(&first.place, format!("`{done}` is not a section but {found}"))),
+        _ => Err(Fault::at(&first.place, format!("`{done}` is {found}, not a section"))),
     }
 }
 

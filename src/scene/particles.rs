@@ -39,7 +39,7 @@ pub(super) struct Block {
 }
 
 /// Reads an entry that may bring up to `room` particles.
-pub(super) fn read(table: &Table<'_>, room: u64, files: &Files, report: &mut Report) -> Option<Block> {
+pub(super) fn read(table: &Table<'_>, room: u32, files: &Files, report: &mut Report) -> Option<Block> {
     let color = table.get("color").and_then(|e| color::read(&e.node, report));
     let mut out = Writer::default();
     out.header("[[particles]]");
@@ -85,18 +85,19 @@ fn from_file(table: &Table<'_>, entry: &Entry, files: &Files, out: &mut Writer, 
     }
 }
 
-fn from_shape(table: &Table<'_>, entry: &Entry, room: u64, out: &mut Writer, report: &mut Report) -> Option<Particles> {
+fn from_shape(table: &Table<'_>, entry: &Entry, room: u32, out: &mut Writer, report: &mut Report) -> Option<Particles> {
     let names: Vec<_> = SHAPES.iter().map(|s| s.name).collect();
-    let name = walk::choice(entry, &names, report)?;
+    let name = walk::choice(entry, "shape", &names, report)?;
     let shape = SHAPES.iter().find(|s| s.name == name)?;
     let faults = report.len();
     let settings = table.named(format!("{} {name}", table.name)).settings(shape.keys, &["shape", "color"], report);
     if report.len() > faults {
         return None;
     }
-    if let Some(key) = shape.keys.iter().find(|k| k.kind == Kind::Count && settings.whole(k.name) > room) {
-        let place = table.get(key.name).map_or(&entry.node.place, |e| &e.node.place);
-        report.push(Fault::at(place, format!("`{}` is too large", key.name)).label(format!("there is room for {room} particles")));
+    let (key, wanted) = wanted_count(&settings);
+    if wanted > f64::from(room) {
+        let place = table.get(key).map_or(&entry.node.place, |e| &e.node.place);
+        report.push(Fault::at(place, format!("{wanted} particles are too many")).label(format!("there is room for {room}")));
         return None;
     }
     out.text("shape", name);
@@ -111,6 +112,14 @@ fn from_shape(table: &Table<'_>, entry: &Entry, room: u64, out: &mut Writer, rep
             report.push(Fault::at(&entry.node.place, message));
             None
         }
+    }
+}
+
+/// How many particles a shape will make, known before the memory is taken: its `count`, or else (a lattice) the product of its `size`.
+fn wanted_count(settings: &Settings) -> (&'static str, f64) {
+    match settings.0.get("count") {
+        Some(_) => ("count", settings.number("count")),
+        None => ("size", settings.vector("size").element_product()),
     }
 }
 
@@ -148,12 +157,12 @@ fn moved(mut particles: Particles, offsets: &Settings) -> Particles {
 }
 
 /// What files and generators promise, checked once for all of them.
-fn sound(particles: &Particles, room: u64, place: &Place) -> Result<(), Fault> {
+fn sound(particles: &Particles, room: u32, place: &Place) -> Result<(), Fault> {
     let count = particles.len();
     if count == 0 {
         return Err(Fault::at(place, "there are no particles in it"));
     }
-    if count as u64 > room {
+    if count > room as usize {
         return Err(Fault::at(place, format!("{count} particles are too many")).label(format!("there is room for {room}")));
     }
     let fits = |x: f64| x.abs() <= f64::from(f32::MAX);

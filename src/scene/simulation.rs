@@ -27,7 +27,7 @@ pub(super) fn read(table: Option<&Table<'_>>, report: &mut Report) -> Simulation
     let mut simulation = Simulation { dt: 1.0, steps: 1, integrator, remark: None };
     let Some(table) = table else {
         let fault = Fault::missing(&Place::end(), "the section [simulation] is missing");
-        report.push(fault.note("help: add\n\n         [simulation]\n         dt = 0.001\n         steps = 1000\n"));
+        report.push(fault.note("help: add\n\n         [simulation]\n         dt = 0.001\n         steps = 1000"));
         return simulation;
     };
     let faults = report.len();
@@ -54,14 +54,14 @@ pub(super) fn read(table: Option<&Table<'_>>, report: &mut Report) -> Simulation
                 }
                 None => report.push(
                     Fault::at(&entry.node.place, "`until` is too far")
-                        .label(format!("{:.3e} steps of dt = {}, at most {MOST_STEPS:e}", until / simulation.dt, simulation.dt)),
+                        .label(format!("{:.3e} steps of dt = {:?}, at most {MOST_STEPS:e}", until / simulation.dt, simulation.dt)),
                 ),
             }
         }
     }
     if let Some(entry) = table.get("integrator") {
         let names: Vec<_> = INTEGRATORS.iter().map(|i| i.name).collect();
-        if let Some(name) = walk::choice(entry, &names, report) {
+        if let Some(name) = walk::choice(entry, "integrator", &names, report) {
             simulation.integrator = INTEGRATORS.iter().find(|i| i.name == name).unwrap_or(integrator);
         }
     }
@@ -82,7 +82,7 @@ fn remark(until: f64, dt: f64, steps: u64) -> Option<String> {
     #[expect(clippy::cast_precision_loss, reason = "at most 1e12")]
     let end = steps as f64 * dt;
     ((end - until).abs() > 1e-6 * dt.max(until * 1e-6))
-        .then(|| format!("until = {until} is no whole number of steps of dt = {dt}: {steps} steps end at {end}"))
+        .then(|| format!("until = {until:?} is no whole number of steps of dt = {dt:?}: {steps} steps end at {end:?}"))
 }
 
 impl Simulation {

@@ -88,18 +88,29 @@ pub(super) fn parse_value(text: usize, at: usize, body: &str) -> Result<Node, St
 fn report_syntax(text: usize, body: &str, faults: Vec<toml::de::Error>, report: &mut Report) {
     for fault in faults {
         let span = fault.span().unwrap_or(body.len()..body.len());
+        let span_start = span.start;
         let words = body.get(span.clone()).unwrap_or("").trim_matches(['"', '\'']);
         let place = Place { text, span };
         let (message, label) = match fault.message() {
             "duplicate key" => (format!("`{}` is given twice", super::report::shorten(words)), "the second one"),
             m if m.starts_with("cannot recurse further") => ("this is nested too deeply".to_owned(), "80 levels at most"),
+            m if m.starts_with("string values must be quoted") && words.is_empty() => ("the value is missing".to_owned(), ""),
             m if m.starts_with("string values must be quoted") => {
                 (format!("text must stand in quotes: \"{}\"", super::report::shorten(words)), "")
             }
+            "invalid basic string, expected `\"`" | "invalid literal string, expected `'`" => {
+                ("this text has no closing quote".to_owned(), "")
+            }
+            _ if is_decimal_comma(body, span_start) => ("a number has a point, not a comma".to_owned(), "write a point"),
             m => (format!("this is not TOML: {m}"), ""),
         };
         report.push_syntax(Fault::at(&place, message).label(label));
     }
+}
+
+fn is_decimal_comma(body: &str, at: usize) -> bool {
+    let digit = |at: Option<usize>| at.and_then(|at| body.as_bytes().get(at)).is_some_and(u8::is_ascii_digit);
+    body.as_bytes().get(at) == Some(&b',') && digit(at.checked_sub(1)) && digit(at.checked_add(1))
 }
 
 /// The first dotted key with more than [`LONGEST_KEY`] parts.
@@ -119,8 +130,10 @@ fn too_long_a_key(body: &str) -> Option<Range<usize>> {
 }
 
 fn entries(table: DeTable<'_>, text: usize, at: usize) -> Vec<Entry> {
+    // Where a value is missing, the parser puts one without any extent in its place.
     let mut list: Vec<_> = table
         .into_iter()
+        .filter(|(_, value)| !value.span().is_empty())
         .map(|(key, value)| {
             let place = place(text, at, key.span());
             Entry { key: key.into_inner().into_owned(), place, node: node(value, text, at) }

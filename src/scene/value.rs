@@ -35,7 +35,7 @@ pub(super) fn read(node: &Node, key: &str, kind: Kind, report: &mut Report) -> O
             number(node, key, kind, &wanted(kind), report).map(Value::Number)
         }
         Kind::Vector | Kind::Direction => vector(node, key, kind, report).map(Value::Vector),
-        Kind::Choice(known) => choice(node, key, known, report).map(|word| Value::Text(Cow::Borrowed(word))),
+        Kind::Choice(known) => choice(node, key, key, known, report).map(|word| Value::Text(Cow::Borrowed(word))),
         Kind::Flag => match node.data {
             Data::Flag(flag) => Some(Value::Flag(flag)),
             _ => refuse(node, key, &wanted(kind), report),
@@ -110,14 +110,14 @@ fn vector(node: &Node, key: &str, kind: Kind, report: &mut Report) -> Option<DVe
     Some(v)
 }
 
-/// One of some words.
-pub(super) fn choice<'a>(node: &Node, key: &str, known: &[&'a str], report: &mut Report) -> Option<&'a str> {
+/// One of some words; `noun` is what they name.
+pub(super) fn choice<'a>(node: &Node, key: &str, noun: &str, known: &[&'a str], report: &mut Report) -> Option<&'a str> {
     let wanted = if let [only] = known { format!("\"{only}\"") } else { format!("one of {}", listed(known.iter().copied())) };
     let Data::Text(text) = &node.data else { return refuse(node, key, &wanted, report) };
     if let Some(word) = known.iter().find(|w| *w == text) {
         return Some(word);
     }
-    let mut fault = Fault::at(&node.place, format!("unknown {key} \"{}\"", super::report::shorten(text)));
+    let mut fault = Fault::at(&node.place, format!("unknown {noun} \"{}\"", super::report::shorten(text)));
     if let Some(near) = nearest(text, known.iter().copied()) {
         fault = fault.label(format!("did you mean \"{near}\"?"));
     }

@@ -46,7 +46,7 @@ impl<'a> Table<'a> {
     }
     /// The fault of a key that must be given and is not.
     pub(super) fn lacks(&self, key: &str, wanted: &str, about: &str) -> Fault {
-        Fault::missing(self.place, format!("{} lacks `{key}`", self.name)).label(format!("add {key} = {wanted}: {about}"))
+        Fault::missing(self.place, format!("{} lacks `{key}`", self.name)).label(format!("add `{key}`, {wanted}: {about}"))
     }
     fn unknown(&self, entry: &Entry, keys: &[Key], own: &[&str]) -> Fault {
         let known = || own.iter().copied().chain(keys.iter().map(|k| k.name));
@@ -147,9 +147,9 @@ fn unknown_section(entry: &Entry) -> Fault {
     fault.note(format!("the sections are {}", headers.join(", ")))
 }
 
-/// The words of a choice.
-pub(super) fn choice<'a>(entry: &Entry, known: &[&'a str], report: &mut Report) -> Option<&'a str> {
-    value::choice(&entry.node, &entry.key, known, report)
+/// One of the words of a register; `noun` is what they name.
+pub(super) fn choice<'a>(entry: &Entry, noun: &str, known: &[&'a str], report: &mut Report) -> Option<&'a str> {
+    value::choice(&entry.node, &entry.key, noun, known, report)
 }
 
 /// A whole number from one to 2⁵³.
