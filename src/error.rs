@@ -55,7 +55,9 @@ pub enum Error {
         seconds: u64,
     },
     /// The driver or wgpu refused a call: a bug in this crate or in the driver.
-    #[error("the device refused a call, which is a bug in motes or in its driver; please report it with `motes doctor`: {0}")]
+    #[error(
+        "the device refused a call, which is a bug in motes or in its driver; please report it with `motes doctor`: {0}"
+    )]
     Device(String),
     /// A result cannot be written. Mended on the disk.
     #[error("cannot write {}: {message}", file.display())]

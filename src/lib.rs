@@ -1,13 +1,30 @@
 //! Particles moved by forces, on any GPU, checked against a second opinion in f64.
 
+pub mod cpu;
 pub mod error;
 pub mod forces;
+pub mod gpu;
 pub mod integrators;
 #[cfg(feature = "scene")]
 pub mod io;
+pub mod kernel;
+pub mod lockstep;
+pub mod measure;
 pub mod particles;
 #[cfg(feature = "scene")]
 pub mod render;
 #[cfg(feature = "scene")]
 pub mod scene;
 pub mod settings;
+pub mod simulation;
+pub mod visit;
+
+pub use cpu::Cpu;
+pub use error::Error;
+pub use gpu::Gpu;
+pub use kernel::{ACCELERATION, POSITION, VELOCITY};
+pub use measure::Measure;
+pub use particles::Particles;
+pub use simulation::{Setup, Simulation, Snapshot};
+/// The version of wgpu whose devices this crate takes.
+pub use wgpu;

@@ -94,7 +94,11 @@ impl Settings {
     }
     /// A number that its kind promises to be whole.
     #[must_use]
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "Kind::Count and Kind::Whole are whole and not negative")]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "Kind::Count and Kind::Whole are whole and not negative"
+    )]
     pub fn whole(&self, name: &str) -> u64 {
         self.number(name) as u64
     }

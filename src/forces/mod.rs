@@ -1,116 +1,88 @@
-//! Forces (a stand-in until the real register lands).
+//! Forces. Each is one `.wgsl` and one `.rs` of the same name, and one line in the register below.
 
-use crate::settings::{Key, Kind, Settings, Value};
-use glam::DVec3;
-use std::borrow::Cow;
+mod custom;
 
-/// A force.
-pub trait Force {
-    /// Its name.
-    fn name(&self) -> &str;
+pub use custom::Custom;
+
+use crate::error::Error;
+use crate::kernel::{Machine, Plan, Scalar};
+use crate::settings::{Key, Settings, Value};
+pub use crate::visit::{Body, Law, Over};
+
+/// What pushes particles.
+pub trait Force: Send + Sync {
+    /// Its laws, in the order in which they are visited; a later one may read what an earlier one wrote.
+    fn laws(&self) -> Vec<Law>;
+
+    /// Adds its kernels to a plan; `earlier` counts the forces of its kind before it in the scene. A force that no visit
+    /// can express (a mesh, a Fourier transform) writes its own.
+    ///
+    /// # Errors
+    /// When a law does not compile or lacks a parameter.
+    fn evaluate(&self, plan: &mut Plan, earlier: usize, count: u32, machine: &Machine) -> Result<(), Error> {
+        for law in self.laws() {
+            let name = if earlier == 0 { law.name.clone() } else { format!("{} {}", law.name, earlier + 1) };
+            plan.push(&name, || law.kernel(count, machine))?;
+        }
+        Ok(())
+    }
 }
 
-/// A force of the register.
+/// A line of the register.
 pub struct Entry {
     /// The scene's word for it.
     pub name: &'static str,
-    /// One line.
+    /// One line for a list.
     pub about: &'static str,
-    /// What it may be told.
+    /// What a scene may say to it.
     pub keys: &'static [Key],
-    /// Makes it.
+    /// Makes one, from checked settings.
     pub build: fn(&Settings) -> Box<dyn Force>,
 }
 
-/// Who meets whom.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Over {
-    /// Each alone.
-    Each,
-    /// All pairs.
-    Pairs,
-}
-
-/// A user's own law.
-pub struct Custom {
-    /// Its name.
-    pub name: String,
-    /// Who meets whom.
-    pub over: Over,
-    /// The text.
-    pub wgsl: String,
-    /// The file, for messages.
-    pub file: String,
-    /// Its parameters.
-    pub params: Vec<(String, Value)>,
-}
-
-impl Force for Custom {
-    fn name(&self) -> &str {
-        &self.name
-    }
-}
-
-struct Stub(&'static str);
-impl Force for Stub {
-    fn name(&self) -> &str {
-        self.0
-    }
-}
-
-const fn word(w: &'static str) -> Value {
-    Value::Text(Cow::Borrowed(w))
-}
-
-const EACH: Key = Key::new("over", Kind::Choice(&["each"]), word("each"), "who meets whom: each particle alone");
-const ZERO: Value = Value::Vector(DVec3::ZERO);
-const fn num(x: f64) -> Value {
-    Value::Number(x)
-}
-macro_rules! stubs {
-    ($($name:literal: $keys:expr;)*) => {
-        /// All forces.
-        pub const FORCES: &[Entry] =
-            &[$(Entry { name: $name, about: "", keys: $keys, build: |_| Box::new(Stub($name)) }),*];
+macro_rules! register {
+    ($($module:ident: $type:ident, $about:literal;)*) => {
+        $(mod $module; pub use $module::$type;)*
+        /// All forces that a scene may name.
+        pub const FORCES: &[Entry] = &[$(Entry {
+            name: stringify!($module),
+            about: $about,
+            keys: $module::KEYS,
+            build: |settings| Box::new($type::new(settings)),
+        }),*];
     };
 }
 
-stubs! {
-    "gravity": &[
-        Key::new("g", Kind::Number, num(1.0), "the gravitational constant [length³ / mass / time²]"),
-        Key::new("softening", Kind::NotNegative, num(0.0), "the Plummer softening length"),
-        Key::new("kernel", Kind::Choice(&["plummer", "spline"]), word("plummer"), "how close encounters are softened"),
-        Key::new("over", Kind::Choice(&["pairs"]), word("pairs"), "who meets whom: everybody"),
-    ];
-    "uniform": &[Key::new("acceleration", Kind::Vector, Value::Vector(DVec3::new(0.0, 0.0, -9.81)), "the acceleration"), EACH];
-    "drag": &[
-        Key::new("linear", Kind::NotNegative, num(0.0), "linear"),
-        Key::new("quadratic", Kind::NotNegative, num(0.0), "quadratic"),
-        Key::new("wind", Kind::Vector, ZERO, "wind"),
-        EACH,
-    ];
-    "wind": &[
-        Key::new("velocity", Kind::Vector, Value::Vector(DVec3::X), "velocity"),
-        Key::new("rate", Kind::NotNegative, num(1.0), "rate"),
-        Key::new("gust", Kind::NotNegative, num(0.0), "gust"),
-        Key::new("period", Kind::Positive, num(1.0), "period"),
-        Key::new("wavelength", Kind::Positive, num(1.0), "wavelength"),
-        EACH,
-    ];
-    "vortex": &[
-        Key::new("center", Kind::Vector, ZERO, "center"),
-        Key::new("axis", Kind::Direction, Value::Vector(DVec3::Z), "axis"),
-        Key::new("circulation", Kind::Number, num(1.0), "circulation"),
-        Key::new("core", Kind::Positive, num(0.1), "core"),
-        Key::new("rate", Kind::NotNegative, num(1.0), "rate"),
-        EACH,
-    ];
-    "attractor": &[
-        Key::new("position", Kind::Vector, ZERO, "position"),
-        Key::new("velocity", Kind::Vector, ZERO, "velocity"),
-        Key::new("profile", Kind::Choice(&["point", "harmonic", "logarithmic"]), word("point"), "profile"),
-        Key::new("strength", Kind::Number, num(1.0), "strength"),
-        Key::new("softening", Kind::NotNegative, num(0.0), "softening"),
-        EACH,
-    ];
+register! {
+    gravity: Gravity, "everybody attracts everybody, softened (Newton 1687)";
+    uniform: Uniform, "the same acceleration everywhere: weight";
+    drag: Drag, "linear and quadratic resistance of a medium that may move (Stokes 1851, Newton 1687)";
+    wind: Wind, "a wind that blows in gusts and carries particles along";
+    vortex: Vortex, "a whirl about an axis that carries particles along (Kaufmann 1962)";
+    attractor: Attractor, "a fixed or moving centre: point mass, spring or logarithmic halo";
 }
+
+/// The force of a scene's word.
+#[must_use]
+pub fn entry(name: &str) -> Option<&'static Entry> {
+    FORCES.iter().find(|e| e.name == name)
+}
+
+/// The settings that a shader's `Params` has by the same names.
+fn params(settings: &Settings, names: &[&str]) -> Vec<(String, Scalar)> {
+    let scalar = |name: &&str| {
+        let value = match settings.0.get(*name) {
+            Some(Value::Vector(v)) => Scalar::Vector(*v),
+            _ => Scalar::Float(settings.number(name)),
+        };
+        ((*name).to_owned(), value)
+    };
+    names.iter().map(scalar).collect()
+}
+
+const EACH: Key = Key::new(
+    "over",
+    crate::settings::Kind::Choice(&["each"]),
+    Value::Text(std::borrow::Cow::Borrowed("each")),
+    "who meets whom: each particle alone",
+);

@@ -1,25 +1,56 @@
-//! Integrators (a stand-in until the real register lands).
+//! Integrators: how forces become motion. Each is written in verbs and reads like its line in the textbook.
 
-/// An integrator.
-pub trait Integrator {}
+mod step;
+mod verbs;
 
-/// An integrator of the register.
+pub use step::Step;
+
+/// How particles are advanced by one step.
+pub trait Integrator: Send + Sync {
+    /// The order of convergence, for forces that depend on position and time alone.
+    fn order(&self) -> u32;
+    /// The order when a force depends on velocity too. Kicks take the velocity at hand, so for the symplectic ones it is 1.
+    fn order_with_velocity(&self) -> u32 {
+        1
+    }
+    /// What must be done once, before the first step.
+    fn start(&self, _step: &mut Step) {}
+    /// One step.
+    fn step(&self, step: &mut Step);
+}
+
+/// A line of the register.
 pub struct Entry {
     /// The scene's word for it.
     pub name: &'static str,
-    /// One line.
+    /// One line for a list.
     pub about: &'static str,
-    /// Makes it.
+    /// Makes one.
     pub build: fn() -> Box<dyn Integrator>,
 }
 
-struct Stub;
-impl Integrator for Stub {}
-
-macro_rules! stubs {
-    ($($name:literal),*) => { &[$(Entry { name: $name, about: "", build: || Box::new(Stub) }),*] };
+macro_rules! register {
+    ($($module:ident: $type:ident, $about:literal;)*) => {
+        $(mod $module; pub use $module::$type;)*
+        /// All integrators, in the order of their cost.
+        pub const INTEGRATORS: &[Entry] =
+            &[$(Entry { name: stringify!($module), about: $about, build: || Box::new($type) }),*];
+    };
 }
 
-/// All integrators.
-pub const INTEGRATORS: &[Entry] =
-    stubs!["forward_euler", "symplectic_euler", "leapfrog", "midpoint", "heun", "rk4", "forest_ruth", "pefrl"];
+register! {
+    forward_euler: ForwardEuler, "order 1, gains energy: to show why not";
+    symplectic_euler: SymplecticEuler, "order 1, keeps energy in bounds";
+    leapfrog: Leapfrog, "order 2, symplectic, one evaluation per step: the default";
+    midpoint: Midpoint, "order 2 (Runge-Kutta), for forces that depend on velocity";
+    heun: Heun, "order 2 (Runge-Kutta, trapezoid rule), for forces that depend on velocity";
+    rk4: RungeKutta4, "order 4 (Runge-Kutta), four evaluations: accurate over short times";
+    forest_ruth: ForestRuth, "order 4, symplectic, three evaluations";
+    pefrl: Pefrl, "order 4, symplectic, four evaluations: the most accurate over long times";
+}
+
+/// The integrator of a scene's word.
+#[must_use]
+pub fn entry(name: &str) -> Option<&'static Entry> {
+    INTEGRATORS.iter().find(|e| e.name == name)
+}

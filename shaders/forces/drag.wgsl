@@ -1,0 +1,9 @@
+// The resistance of a medium, linear (Stokes 1851) and quadratic (Newton 1687):  a = −(γ + c |u|) u,  u = v − wind
+struct Params { linear: f32, quadratic: f32, wind: vec3f }
+
+@group(3) @binding(0) var<uniform> params: Params;
+
+fn force(me: Particle) -> vec4f {
+    let u = velocity[me.index].xyz - params.wind;
+    return vec4f(-(params.linear + params.quadratic * length(u)) * u, 0.0);
+}

@@ -1,0 +1,13 @@
+// Newton's law of gravity, softened (Plummer 1911):  a = G m r / (r² + ε²)^(3/2),  φ = −G m / (r² + ε²)^(1/2)
+struct Params { g: f32, softening: f32 }
+
+@group(3) @binding(0) var<uniform> params: Params;
+
+fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
+    let inverse = inverseSqrt(dot(r, r) + params.softening * params.softening);
+    let potential = you.mass * inverse;
+    (*sum).acceleration += (potential * inverse * inverse) * r;
+    (*sum).potential -= potential;
+}
+
+fn finish(me: Particle, sum: Sum) -> vec4f { return params.g * vec4f(sum.acceleration, sum.potential); }

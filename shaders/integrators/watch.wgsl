@@ -1,0 +1,21 @@
+// Raises the alarm when a number is no number any more: keeps the first step in which it happens, and the lowest id there.
+@group(0) @binding(0) var<uniform> world: World;
+@group(1) @binding(0) var<storage, read> position: array<vec4f>;
+@group(1) @binding(1) var<storage, read> velocity: array<vec4f>;
+@group(1) @binding(2) var<storage, read_write> alarm: array<atomic<u32>>; // step, id
+
+const WORKGROUP: u32 = 64u;
+
+// NaN and infinity have every bit of the exponent set. `x != x` will not do: compilers take it for false.
+fn broken(v: vec4f) -> bool { return any((bitcast<vec4u>(v) & vec4u(0x7f800000u)) == vec4u(0x7f800000u)); }
+
+@compute @workgroup_size(WORKGROUP)
+fn watch(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let i = folded(group, groups) * WORKGROUP + lane;
+    if i < world.count {
+        if broken(position[i]) || broken(velocity[i]) {
+            // Later steps find a lower step already there, and leave the id alone.
+            if atomicMin(&alarm[0], world.step) >= world.step { atomicMin(&alarm[1], i); }
+        }
+    }
+}

@@ -1,0 +1,61 @@
+// Everybody meets everybody, for adapters whose subgroups are all of eight lanes (lavapipe with 256-bit vectors):
+// each lane loads one source, and the eight are passed round by broadcast.
+const WORKGROUP: u32 = 64u;
+const TARGETS: u32 = 4u;
+const BLOCK: u32 = 128u;
+
+fn source(k: u32, p: vec4f) -> Particle { return Particle(k, p.xyz, p.w); }
+
+@compute @workgroup_size(WORKGROUP)
+fn pairs(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32,
+         @builtin(subgroup_invocation_id) place: u32) {
+    let mine = folded(group, groups) * (WORKGROUP * TARGETS);
+    let i = mine + lane;
+    let a = particle(i);
+    let b = particle(i + WORKGROUP);
+    let c = particle(i + 2u * WORKGROUP);
+    let d = particle(i + 3u * WORKGROUP);
+    var total_a = resume(group.z, i);
+    var total_b = resume(group.z, i + WORKGROUP);
+    var total_c = resume(group.z, i + 2u * WORKGROUP);
+    var total_d = resume(group.z, i + 3u * WORKGROUP);
+
+    let first = span.first + group.z * span.slice;
+    let end = min(first + span.slice, span.end);
+    for (var start = first; start < end; start += BLOCK) {
+        var sum_a = Sum();
+        var sum_b = Sum();
+        var sum_c = Sum();
+        var sum_d = Sum();
+        let apart = start + BLOCK <= mine || start >= mine + WORKGROUP * TARGETS;
+        if apart && start + BLOCK <= end {
+            for (var k = start; k < start + BLOCK; k += 8u) {
+                let p = position[k + place];
+                meet(source(k, subgroupBroadcast(p, 0u)), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
+                meet(source(k + 1u, subgroupBroadcast(p, 1u)), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
+                meet(source(k + 2u, subgroupBroadcast(p, 2u)), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
+                meet(source(k + 3u, subgroupBroadcast(p, 3u)), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
+                meet(source(k + 4u, subgroupBroadcast(p, 4u)), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
+                meet(source(k + 5u, subgroupBroadcast(p, 5u)), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
+                meet(source(k + 6u, subgroupBroadcast(p, 6u)), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
+                meet(source(k + 7u, subgroupBroadcast(p, 7u)), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
+            }
+        } else {
+            for (var k = start; k < min(start + BLOCK, end); k += 1u) {
+                let you = source(k, position[k]);
+                meet_other(a, you, &sum_a);
+                meet_other(b, you, &sum_b);
+                meet_other(c, you, &sum_c);
+                meet_other(d, you, &sum_d);
+            }
+        }
+        merge(&total_a, sum_a);
+        merge(&total_b, sum_b);
+        merge(&total_c, sum_c);
+        merge(&total_d, sum_d);
+    }
+    deliver(group.z, i, total_a);
+    deliver(group.z, i + WORKGROUP, total_b);
+    deliver(group.z, i + 2u * WORKGROUP, total_c);
+    deliver(group.z, i + 3u * WORKGROUP, total_d);
+}

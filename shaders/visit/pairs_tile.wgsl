@@ -1,0 +1,67 @@
+// Everybody meets everybody, for GPUs: sources pass through workgroup memory, four targets per invocation stay in registers.
+const WORKGROUP: u32 = 128u;
+const TARGETS: u32 = 4u;
+const BLOCK: u32 = 128u;
+
+var<workgroup> tile: array<vec4f, BLOCK>;
+
+fn source(start: u32, k: u32) -> Particle {
+    let p = tile[k];
+    return Particle(start + k, p.xyz, p.w);
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn pairs(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let mine = folded(group, groups) * (WORKGROUP * TARGETS);
+    let i = mine + lane;
+    let a = particle(i);
+    let b = particle(i + WORKGROUP);
+    let c = particle(i + 2u * WORKGROUP);
+    let d = particle(i + 3u * WORKGROUP);
+    var total_a = resume(group.z, i);
+    var total_b = resume(group.z, i + WORKGROUP);
+    var total_c = resume(group.z, i + 2u * WORKGROUP);
+    var total_d = resume(group.z, i + 3u * WORKGROUP);
+
+    let first = span.first + group.z * span.slice;
+    let end = min(first + span.slice, span.end);
+    for (var start = first; start < end; start += BLOCK) {
+        workgroupBarrier();
+        tile[lane] = position[min(start + lane, world.count - 1u)];
+        workgroupBarrier();
+        var sum_a = Sum();
+        var sum_b = Sum();
+        var sum_c = Sum();
+        var sum_d = Sum();
+        let apart = start + BLOCK <= mine || start >= mine + WORKGROUP * TARGETS;
+        if apart && start + BLOCK <= end {
+            for (var k = 0u; k < BLOCK; k += 8u) {
+                meet(source(start, k), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
+                meet(source(start, k + 1u), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
+                meet(source(start, k + 2u), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
+                meet(source(start, k + 3u), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
+                meet(source(start, k + 4u), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
+                meet(source(start, k + 5u), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
+                meet(source(start, k + 6u), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
+                meet(source(start, k + 7u), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
+            }
+        } else {
+            let some = min(BLOCK, end - start);
+            for (var k = 0u; k < some; k += 1u) {
+                let you = source(start, k);
+                meet_other(a, you, &sum_a);
+                meet_other(b, you, &sum_b);
+                meet_other(c, you, &sum_c);
+                meet_other(d, you, &sum_d);
+            }
+        }
+        merge(&total_a, sum_a);
+        merge(&total_b, sum_b);
+        merge(&total_c, sum_c);
+        merge(&total_d, sum_d);
+    }
+    deliver(group.z, i, total_a);
+    deliver(group.z, i + WORKGROUP, total_b);
+    deliver(group.z, i + 2u * WORKGROUP, total_c);
+    deliver(group.z, i + 3u * WORKGROUP, total_d);
+}

@@ -1,0 +1,47 @@
+// What the `pairs` visits share. A law says: fn gather(me, you, r: vec3f, sum: ptr<function, Sum>), with r from me to you,
+// and fn finish(me, sum: Sum) -> vec4f, acceleration and potential per unit mass.
+//
+// Sources are met in blocks, each with a sum of its own, so that rounding grows with √(number of blocks), not √(sources).
+// One dispatch sees the sources first ≤ j < end; its layer l those from first + l · slice on. Sums over what a dispatch
+// does not see are kept in `parts`, and a later dispatch takes them up again to the bit.
+struct Span { first: u32, end: u32, slice: u32 }
+
+@group(2) @binding(0) var<uniform> span: Span;
+@group(2) @binding(1) var<storage, read_write> parts: array<Sum>;
+@group(1) @binding(2) var<storage, read_write> acceleration: array<vec4f>;
+
+// This dispatch sees all sources in one layer: nothing is kept.
+override WHOLE: bool = true;
+
+fn resume(layer: u32, i: u32) -> Sum {
+    if WHOLE || span.first == 0u || i >= world.count { return Sum(); }
+    return parts[layer * world.count + i];
+}
+
+fn deliver(layer: u32, i: u32, sum: Sum) {
+    if i >= world.count { return; }
+    if WHOLE {
+        add(i, sum);
+    } else {
+        parts[layer * world.count + i] = sum;
+    }
+}
+
+// Each of a pair holds half of its potential energy.
+fn add(i: u32, sum: Sum) {
+    acceleration[i] += vec4f(1.0, 1.0, 1.0, 0.5) * finish(particle(i), sum);
+}
+
+// Nobody meets itself.
+fn meet_other(me: Particle, you: Particle, sum: ptr<function, Sum>) {
+    if you.index != me.index { gather(me, you, you.position - me.position, sum); }
+}
+
+// You and four targets that are known to be others.
+fn meet(you: Particle, a: Particle, b: Particle, c: Particle, d: Particle,
+        sum_a: ptr<function, Sum>, sum_b: ptr<function, Sum>, sum_c: ptr<function, Sum>, sum_d: ptr<function, Sum>) {
+    gather(a, you, you.position - a.position, sum_a);
+    gather(b, you, you.position - b.position, sum_b);
+    gather(c, you, you.position - c.position, sum_c);
+    gather(d, you, you.position - d.position, sum_d);
+}

@@ -1,0 +1,90 @@
+//! The backend that runs the twins: f64 on the host, over all cores, with no driver at all.
+
+use crate::error::Error;
+use crate::kernel::{Access, Array, Backend, Clock, Host, Machine, Plan};
+
+/// Runs plans by their twins.
+pub struct Cpu {
+    host: Host,
+    count: usize,
+}
+
+impl Cpu {
+    /// For `count` particles.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] when there are none.
+    pub fn new(count: u32) -> Result<Self, Error> {
+        if count == 0 {
+            return Err(Error::Scene("there are no particles: a simulation needs one or more".to_owned()));
+        }
+        Ok(Self { host: Host::default(), count: count as usize })
+    }
+    /// The arrays, as the twins see them.
+    #[must_use]
+    pub fn host(&self) -> &Host {
+        &self.host
+    }
+}
+
+impl Backend for Cpu {
+    type Program = Plan;
+
+    fn machine(&self) -> Machine {
+        Machine { software: true, subgroup: 0, invocations: 1 }
+    }
+    fn compile(&mut self, plan: &Plan) -> Result<Plan, Error> {
+        for kernel in &plan.kernels {
+            if kernel.twin.is_none() {
+                let text = format!(
+                    "`{}` is a WGSL file without an f64 twin: it needs a GPU or a software driver, not --backend cpu",
+                    kernel.name
+                );
+                return Err(Error::Scene(text));
+            }
+            for pass in &kernel.passes {
+                for binding in pass.shader.reflection().bindings.iter().filter(|b| b.access != Access::Uniform) {
+                    let known = self.host.contains(&binding.name) || kernel.scratch.contains(&binding.name.as_str());
+                    if known || binding.name == "world" {
+                        continue;
+                    }
+                    let own = kernel.sizes.iter().find(|(name, _)| *name == binding.name);
+                    let len = own.map_or(self.count, |(_, n)| usize::try_from(*n).unwrap_or(usize::MAX));
+                    let array = if binding.array && binding.stride == 16 {
+                        Array::Vec4(Vec::new()).zeros(len)
+                    } else {
+                        Array::Uint(vec![0; len])
+                    };
+                    self.host.insert(&binding.name, array);
+                }
+            }
+        }
+        Ok(plan.clone())
+    }
+    fn run(&mut self, program: &Plan, times: u32) -> Result<(), Error> {
+        for _ in 0..times {
+            for twin in program.steps().filter_map(|kernel| kernel.twin.as_ref()) {
+                twin(&self.host)?;
+            }
+        }
+        Ok(())
+    }
+    fn set_clock(&mut self, clock: Clock) -> Result<(), Error> {
+        self.host.set_clock(clock);
+        Ok(())
+    }
+    fn write(&mut self, name: &str, array: &Array) -> Result<(), Error> {
+        self.host.insert(name, array.clone());
+        Ok(())
+    }
+    async fn read(&mut self, name: &str, like: &Array, len: usize) -> Result<Array, Error> {
+        let missing = || Error::Device(format!("there is no field `{name}` on the host"));
+        let mut array = self.host.get(name).ok_or_else(missing)?;
+        match &mut array {
+            Array::Vec4(a) => a.truncate(len),
+            Array::Float(a) => a.truncate(len),
+            Array::Uint(a) => a.truncate(len),
+        }
+        if std::mem::discriminant(&array) == std::mem::discriminant(like) { Ok(array) } else { Err(missing()) }
+    }
+}

@@ -1,0 +1,129 @@
+//! Adapters: what there is, which one to take, and what a device opened on it may do.
+
+use super::Faults;
+use crate::error::Error;
+use crate::kernel::Machine;
+
+/// Which adapter to take.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub enum Choice {
+    /// The fastest kind there is: discrete, integrated, virtual, software.
+    #[default]
+    Best,
+    /// By its place in [`adapters`], or by a part of its name, upper or lower case.
+    Named(String),
+}
+
+/// A device of our own.
+pub struct Found {
+    /// The adapter.
+    pub adapter: wgpu::Adapter,
+    /// The device, with the features and limits that help.
+    pub device: wgpu::Device,
+    /// Its queue.
+    pub queue: wgpu::Queue,
+    /// What it complains of outside of any call.
+    pub faults: Faults,
+}
+
+/// An instance, as the environment (`WGPU_BACKEND` …) has it.
+#[must_use]
+pub fn instance() -> wgpu::Instance {
+    wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env())
+}
+
+/// All adapters, best first.
+pub async fn adapters(instance: &wgpu::Instance) -> Vec<wgpu::Adapter> {
+    let mut all = instance.enumerate_adapters(wgpu::Backends::all()).await;
+    all.retain(|a| a.get_downlevel_capabilities().flags.contains(wgpu::DownlevelFlags::COMPUTE_SHADERS));
+    all.sort_by_key(|a| rank(&a.get_info()));
+    all
+}
+
+fn rank(info: &wgpu::AdapterInfo) -> (u8, u8) {
+    let kind = match info.device_type {
+        wgpu::DeviceType::DiscreteGpu => 0,
+        wgpu::DeviceType::IntegratedGpu => 1,
+        wgpu::DeviceType::VirtualGpu => 2,
+        wgpu::DeviceType::Other => 3,
+        wgpu::DeviceType::Cpu => 4,
+    };
+    (kind, u8::from(info.backend == wgpu::Backend::Gl))
+}
+
+/// The chosen one of them.
+///
+/// # Errors
+/// [`Error::NoAdapter`] that lists what there is.
+pub fn choose(mut adapters: Vec<wgpu::Adapter>, choice: &Choice) -> Result<wgpu::Adapter, Error> {
+    if adapters.is_empty() {
+        return Err(Error::NoAdapter(
+            "no GPU driver was found; on Debian or Ubuntu `apt-get install mesa-vulkan-drivers` brings one that runs on the processor".to_owned(),
+        ));
+    }
+    let index = match choice {
+        Choice::Best => Some(0),
+        Choice::Named(name) => name.parse().ok().filter(|i| *i < adapters.len()).or_else(|| {
+            let wanted = name.to_lowercase();
+            adapters.iter().position(|a| describe(&a.get_info()).to_lowercase().contains(&wanted))
+        }),
+    };
+    match (index, choice) {
+        (Some(index), _) => Ok(adapters.swap_remove(index)),
+        (None, Choice::Named(name)) => {
+            let list: Vec<_> =
+                adapters.iter().enumerate().map(|(i, a)| format!("\n  {i}: {}", describe(&a.get_info()))).collect();
+            Err(Error::NoAdapter(format!("no adapter is called `{name}`; there is{}", list.concat())))
+        }
+        (None, Choice::Best) => Err(Error::NoAdapter("no adapter".to_owned())),
+    }
+}
+
+/// Opens a device with the features that kernels can use and the largest fields that it offers.
+///
+/// # Errors
+/// [`Error::NoAdapter`] when the adapter refuses.
+pub async fn open(adapter: wgpu::Adapter) -> Result<Found, Error> {
+    let wanted = wgpu::Features::SUBGROUP | wgpu::Features::TIMESTAMP_QUERY;
+    let offered = adapter.limits();
+    let limits = wgpu::Limits {
+        max_buffer_size: offered.max_buffer_size,
+        max_storage_buffer_binding_size: offered.max_storage_buffer_binding_size,
+        ..wgpu::Limits::default().or_worse_values_from(&offered)
+    };
+    let descriptor = wgpu::DeviceDescriptor {
+        label: Some("motes"),
+        required_features: adapter.features() & wanted,
+        required_limits: limits,
+        ..Default::default()
+    };
+    let opened = adapter.request_device(&descriptor).await;
+    let (device, queue) =
+        opened.map_err(|e| Error::NoAdapter(format!("{} gives no device: {e}", describe(&adapter.get_info()))))?;
+    let faults = Faults::listen(&device);
+    Ok(Found { adapter, device, queue, faults })
+}
+
+/// Name, kind, backend and driver.
+pub(super) fn describe(info: &wgpu::AdapterInfo) -> String {
+    let kind = match info.device_type {
+        wgpu::DeviceType::DiscreteGpu => "discrete GPU",
+        wgpu::DeviceType::IntegratedGpu => "integrated GPU",
+        wgpu::DeviceType::VirtualGpu => "virtual GPU",
+        wgpu::DeviceType::Cpu => "software, on the processor",
+        wgpu::DeviceType::Other => "unknown kind",
+    };
+    let driver = [info.driver.as_str(), info.driver_info.as_str()].join(" ");
+    format!("{} ({kind}, {:?}, {})", info.name, info.backend, driver.trim())
+}
+
+/// What kernels may want to know of a device.
+pub(super) fn machine(device: &wgpu::Device) -> Machine {
+    let info = device.adapter_info();
+    let software = info.device_type == wgpu::DeviceType::Cpu;
+    let fixed = info.subgroup_min_size == info.subgroup_max_size;
+    let subgroup =
+        if device.features().contains(wgpu::Features::SUBGROUP) && fixed { info.subgroup_min_size } else { 0 };
+    // A large GPU holds about a quarter of a million invocations at once; a processor wants a workgroup for each core.
+    Machine { software, subgroup, invocations: if software { 2048 } else { 1 << 18 } }
+}

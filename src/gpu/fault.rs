@@ -1,0 +1,75 @@
+//! What a device complains of, as typed errors.
+
+use std::pin::pin;
+use std::sync::{Arc, Mutex};
+use std::task::{Context, Poll, Waker};
+
+use crate::error::Error;
+
+/// The first complaint of a device that came outside of any call of ours: it was lost, or refused something.
+#[derive(Debug, Clone, Default)]
+pub struct Faults(Arc<Mutex<Option<String>>>);
+
+impl Faults {
+    /// Listens to a device that is ours; another's owner has callbacks of its own.
+    pub(super) fn listen(device: &wgpu::Device) -> Self {
+        let faults = Self::default();
+        let (lost, refused) = (faults.clone(), faults.clone());
+        device.set_device_lost_callback(move |reason, message| {
+            if reason != wgpu::DeviceLostReason::Destroyed {
+                lost.note(format!("lost: {message}"));
+            }
+        });
+        device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| refused.note(error.to_string())));
+        faults
+    }
+    fn note(&self, message: String) {
+        if let Ok(mut first) = self.0.lock() {
+            first.get_or_insert(message);
+        }
+    }
+    /// The first complaint, as an error.
+    ///
+    /// # Errors
+    /// When there was one.
+    pub fn check(&self) -> Result<(), Error> {
+        match self.0.lock().ok().and_then(|first| first.clone()) {
+            Some(message) => Err(sort(message)),
+            None => Ok(()),
+        }
+    }
+}
+
+/// Calls with both error scopes open. The futures of a native device are ready at once; on the web a complaint comes
+/// later, and goes to the page's console.
+pub fn scoped<T>(device: &wgpu::Device, call: impl FnOnce() -> T) -> Result<T, Error> {
+    let memory = device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
+    let internal = device.push_error_scope(wgpu::ErrorFilter::Internal);
+    let validation = device.push_error_scope(wgpu::ErrorFilter::Validation);
+    let result = call();
+    let complaints = [ready(validation.pop()), ready(internal.pop()), ready(memory.pop())];
+    match complaints.into_iter().flatten().flatten().next() {
+        None => Ok(result),
+        Some(wgpu::Error::OutOfMemory { source }) => Err(Error::OutOfMemory(source.to_string())),
+        Some(error) => Err(sort(error.to_string())),
+    }
+}
+
+/// A lost device says so only in words.
+fn sort(message: String) -> Error {
+    let words = message.to_lowercase();
+    if words.contains("lost") {
+        Error::Lost(message)
+    } else if words.contains("out of memory") {
+        Error::OutOfMemory(message)
+    } else {
+        Error::Device(message)
+    }
+}
+
+fn ready<T>(future: impl Future<Output = T>) -> Option<T> {
+    match pin!(future).poll(&mut Context::from_waker(Waker::noop())) {
+        Poll::Ready(value) => Some(value),
+        Poll::Pending => None,
+    }
+}

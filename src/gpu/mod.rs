@@ -1,0 +1,167 @@
+//! The backend that runs plans on a device through wgpu. Nothing outside this folder names wgpu, but the door in
+//! `simulation.rs`.
+
+mod adapter;
+mod buffers;
+mod fault;
+mod pipeline;
+mod program;
+mod read;
+mod submit;
+
+use std::time::Duration;
+
+pub use adapter::{Choice, Found, adapters, choose, instance, open};
+use buffers::Buffers;
+pub use fault::Faults;
+use pipeline::Pipelines;
+pub use program::Program;
+use submit::Queue;
+
+use crate::error::Error;
+use crate::kernel::{Array, Backend, Clock, Machine, Packed, Plan, Shader};
+
+/// A device that is borrowed from whoever owns it, with the fields and pipelines made on it.
+pub struct Gpu {
+    device: wgpu::Device,
+    queue: Queue,
+    buffers: Buffers,
+    pipelines: Pipelines,
+    machine: Machine,
+    count: u32,
+    clock: Packed,
+}
+
+impl Gpu {
+    /// Borrows a device for `count` particles. The handles are cheap clones; the owner goes on using its own.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] when there are no particles.
+    pub fn new(device: &wgpu::Device, queue: &wgpu::Queue, count: u32) -> Result<Self, Error> {
+        if count == 0 {
+            return Err(Error::Scene("there are no particles: a simulation needs one or more".to_owned()));
+        }
+        // The layout of `World` is read out of the WGSL, like every other.
+        let world = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("integrators/tick.wgsl")])?;
+        let clock = world.reflection().binding("world").map(|b| b.packed.clone()).unwrap_or_default();
+        let mut buffers = Buffers::new(device.clone(), count);
+        buffers.require("world", clock.size as u64)?;
+        Ok(Self {
+            queue: Queue::new(device.clone(), queue.clone()),
+            buffers,
+            pipelines: Pipelines::new(device.clone()),
+            machine: adapter::machine(device),
+            device: device.clone(),
+            count,
+            clock,
+        })
+    }
+    /// Pretends to be another machine, so that a test can run the variants that this one would not choose.
+    pub fn pretend(&mut self, machine: Machine) {
+        self.machine = machine;
+    }
+    /// Cuts submissions so that each takes about this long, and gives up waiting for one after `patience`.
+    pub fn pace(&mut self, submission: Duration, patience: Duration) {
+        self.queue.pace(submission, patience);
+    }
+    /// Submissions so far.
+    #[must_use]
+    pub fn submissions(&self) -> u64 {
+        self.queue.submissions()
+    }
+    /// Makes every field that comes into being from now on longer by so many elements of 16 bytes; a test
+    /// fills them and looks there for what a kernel should not have written.
+    pub fn pad(&mut self, elements: u64) {
+        self.buffers.pad(elements);
+    }
+    /// A field's buffer, if it exists. It may be used as a vertex buffer, and copied from.
+    #[must_use]
+    pub fn buffer(&self, name: &str) -> Option<&wgpu::Buffer> {
+        self.buffers.get(name)
+    }
+    /// Encodes a program into a caller's encoder, in one compute pass, and submits nothing.
+    pub fn encode(&self, program: &Program, times: u32, encoder: &mut wgpu::CommandEncoder) {
+        let mut pass =
+            encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("motes"), timestamp_writes: None });
+        for _ in 0..times {
+            for dispatch in &program.dispatches {
+                dispatch.encode(&mut pass);
+            }
+        }
+    }
+    /// The name of the adapter and its driver.
+    #[must_use]
+    pub fn describe(&self) -> String {
+        adapter::describe(&self.device.adapter_info())
+    }
+    /// Waits until the device has done all that was submitted.
+    ///
+    /// # Errors
+    /// When it is lost or does not answer in time.
+    pub fn wait(&mut self) -> Result<(), Error> {
+        self.queue.wait()
+    }
+    /// Reads the clock.
+    ///
+    /// # Errors
+    /// When the device is lost or does not answer in time.
+    pub async fn clock(&mut self) -> Result<Clock, Error> {
+        let bytes = self.bytes("world", 0, self.clock.size as u64).await?;
+        Ok(Clock::from_packed(&self.clock, &bytes))
+    }
+    /// Reads the bytes of a field.
+    ///
+    /// # Errors
+    /// When there is no such field, the device is lost, or it does not answer in time.
+    pub async fn bytes(&mut self, name: &str, from: u64, len: u64) -> Result<Vec<u8>, Error> {
+        let buffer = self.buffers.get(name).ok_or_else(|| buffers::missing(name))?;
+        read::bytes(&self.device, &mut self.queue, buffer, from, len).await
+    }
+    /// The length of a field, in bytes, with padding.
+    #[must_use]
+    pub fn size(&self, name: &str) -> u64 {
+        self.buffers.get(name).map_or(0, wgpu::Buffer::size)
+    }
+    /// Writes bytes into a field, from an offset on.
+    ///
+    /// # Errors
+    /// When there is no such field, or it is shorter.
+    pub fn write_bytes(&mut self, name: &str, from: u64, bytes: &[u8]) -> Result<(), Error> {
+        let buffer = self.buffers.get(name).ok_or_else(|| buffers::missing(name))?;
+        if from + bytes.len() as u64 > buffer.size() {
+            let text = format!("the field `{name}` holds {} bytes, not {}", buffer.size(), bytes.len());
+            return Err(Error::Device(text));
+        }
+        self.queue.write(buffer, from, bytes)
+    }
+}
+
+impl Backend for Gpu {
+    type Program = Program;
+
+    fn machine(&self) -> Machine {
+        self.machine
+    }
+    fn compile(&mut self, plan: &Plan) -> Result<Program, Error> {
+        for (name, bytes) in plan.fields(self.count) {
+            if name != "world" {
+                self.buffers.require(&name, bytes)?;
+            }
+        }
+        Program::new(&self.device, &mut self.pipelines, &self.buffers, plan)
+    }
+    fn run(&mut self, program: &Program, times: u32) -> Result<(), Error> {
+        self.queue.run(program, times)
+    }
+    fn set_clock(&mut self, clock: Clock) -> Result<(), Error> {
+        let bytes = self.clock.pack("World", &clock.members())?;
+        self.write_bytes("world", 0, &bytes)
+    }
+    fn write(&mut self, name: &str, array: &Array) -> Result<(), Error> {
+        self.write_bytes(name, 0, &array.to_bytes())
+    }
+    async fn read(&mut self, name: &str, like: &Array, len: usize) -> Result<Array, Error> {
+        let bytes = like.zeros(1).to_bytes().len() as u64 * len as u64;
+        Ok(like.like(&self.bytes(name, 0, bytes).await?))
+    }
+}

@@ -1,0 +1,126 @@
+//! Pipelines, made once for each shader and set of constants. Layouts come from reflection.
+
+use std::collections::{BTreeMap, HashMap};
+
+use super::fault;
+use crate::error::Error;
+use crate::kernel::{Access, Binding, Pass, Shader};
+
+/// A pipeline with the layouts of its groups.
+#[derive(Clone)]
+pub struct Pipeline {
+    pub pipeline: wgpu::ComputePipeline,
+    pub groups: BTreeMap<u32, wgpu::BindGroupLayout>,
+}
+
+/// The text, and the constants by their bits.
+type Key = (String, Vec<(&'static str, u64)>);
+
+pub struct Pipelines {
+    device: wgpu::Device,
+    made: HashMap<Key, Pipeline>,
+}
+
+impl Pipelines {
+    pub fn new(device: wgpu::Device) -> Self {
+        Self { device, made: HashMap::new() }
+    }
+
+    /// The pipeline of a pass.
+    pub fn get(&mut self, pass: &Pass) -> Result<Pipeline, Error> {
+        let constants = pass.constants.iter().map(|(name, value)| (*name, value.to_bits())).collect();
+        let key = (pass.shader.text().to_owned(), constants);
+        if let Some(known) = self.made.get(&key) {
+            return Ok(known.clone());
+        }
+        self.check(&pass.shader)?;
+        let pipeline = fault::scoped(&self.device, || make(&self.device, pass))?;
+        self.made.insert(key, pipeline.clone());
+        Ok(pipeline)
+    }
+
+    /// What a user's shader might ask for beyond the device's limits, said in words.
+    fn check(&self, shader: &Shader) -> Result<(), Error> {
+        let (limits, reflection) = (self.device.limits(), shader.reflection());
+        let storage = reflection.bindings.iter().filter(|b| b.access != Access::Uniform).count();
+        let file = shader.sources().last().map_or("a shader", |s| &s.file);
+        let over = |what: &str, need: u64, limit: u64| {
+            if need > limit {
+                return Err(Error::Limit(format!("{file} needs {need} {what}; this device has {limit}")));
+            }
+            Ok(())
+        };
+        over("storage buffers", storage as u64, limits.max_storage_buffers_per_shader_stage.into())?;
+        over(
+            "invocations in a workgroup",
+            reflection.workgroup.into(),
+            limits.max_compute_invocations_per_workgroup.into(),
+        )?;
+        over("bytes of workgroup memory", reflection.workgroup_bytes, limits.max_compute_workgroup_storage_size.into())
+    }
+}
+
+#[expect(unsafe_code, reason = "the only way to switch off checks that cost time in every turn of an inner loop")]
+fn module(device: &wgpu::Device, shader: &Shader) -> wgpu::ShaderModule {
+    let label = shader.sources().last().map(|s| s.file.as_ref());
+    let descriptor = wgpu::ShaderModuleDescriptor { label, source: wgpu::ShaderSource::Wgsl(shader.text().into()) };
+    if !shader.trusted() {
+        return device.create_shader_module(descriptor);
+    }
+    // SAFETY: every loop of this crate's shaders is bounded by a uniform or a constant, tests reach each of them, and
+    // bounds checks stay on. A user's shader never comes here.
+    unsafe {
+        let mut checks = wgpu::ShaderRuntimeChecks::checked();
+        checks.force_loop_bounding = false;
+        device.create_shader_module_trusted(descriptor, checks)
+    }
+}
+
+fn make(device: &wgpu::Device, pass: &Pass) -> Pipeline {
+    let (shader, reflection) = (&pass.shader, pass.shader.reflection());
+    let mut groups: BTreeMap<u32, Vec<&Binding>> = BTreeMap::new();
+    for binding in &reflection.bindings {
+        groups.entry(binding.group).or_default().push(binding);
+    }
+    let groups: BTreeMap<u32, _> =
+        groups.into_iter().map(|(group, bindings)| (group, layout(device, &bindings))).collect();
+    let last = groups.keys().last().copied().unwrap_or(0);
+    let layouts: Vec<_> = (0..=last).map(|group| groups.get(&group)).collect();
+    let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: None,
+        bind_group_layouts: &layouts,
+        immediate_size: 0,
+    });
+    let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+        label: Some(&reflection.entry),
+        layout: Some(&layout),
+        module: &module(device, shader),
+        entry_point: Some(&reflection.entry),
+        compilation_options: wgpu::PipelineCompilationOptions {
+            constants: &pass.constants,
+            // Every tile is written before it is read.
+            zero_initialize_workgroup_memory: !shader.trusted(),
+        },
+        cache: None,
+    });
+    Pipeline { pipeline, groups }
+}
+
+fn layout(device: &wgpu::Device, bindings: &[&Binding]) -> wgpu::BindGroupLayout {
+    let entry = |binding: &&Binding| wgpu::BindGroupLayoutEntry {
+        binding: binding.binding,
+        visibility: wgpu::ShaderStages::COMPUTE,
+        ty: wgpu::BindingType::Buffer {
+            ty: match binding.access {
+                Access::Uniform => wgpu::BufferBindingType::Uniform,
+                Access::Read => wgpu::BufferBindingType::Storage { read_only: true },
+                Access::Write => wgpu::BufferBindingType::Storage { read_only: false },
+            },
+            has_dynamic_offset: false,
+            min_binding_size: std::num::NonZeroU64::new(binding.stride),
+        },
+        count: None,
+    };
+    let entries: Vec<_> = bindings.iter().map(entry).collect();
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: None, entries: &entries })
+}

@@ -1,0 +1,146 @@
+//! Submissions, cut so that each is short. Where a run is cut changes no bit: all state is in buffers.
+
+use std::collections::VecDeque;
+use std::time::Duration;
+
+use web_time::Instant;
+
+use super::fault;
+use super::program::{Dispatch, Program};
+use crate::error::Error;
+
+/// Submissions in flight, at most: one that runs, one that waits.
+const IN_FLIGHT: usize = 2;
+/// What a dispatch costs beside its work, in meetings: about 10 µs of a small device.
+const LAUNCH: u64 = 20_000;
+/// The first submission of a device whose speed is not known, in meetings: 0.1 s of a slow one.
+const FIRST: u64 = 50_000_000;
+
+/// A queue that knows how fast its device is.
+pub struct Queue {
+    device: wgpu::Device,
+    inner: wgpu::Queue,
+    flying: VecDeque<(wgpu::SubmissionIndex, u64)>,
+    last_done: Instant,
+    budget: u64,
+    target: Duration,
+    patience: Duration,
+    submissions: u64,
+}
+
+impl Queue {
+    pub fn new(device: wgpu::Device, queue: wgpu::Queue) -> Self {
+        Self {
+            device,
+            inner: queue,
+            flying: VecDeque::new(),
+            last_done: Instant::now(),
+            budget: FIRST,
+            target: Duration::from_millis(80),
+            patience: Duration::from_mins(2),
+            submissions: 0,
+        }
+    }
+    pub fn pace(&mut self, target: Duration, patience: Duration) {
+        (self.target, self.patience) = (target, patience);
+        self.budget = FIRST;
+    }
+    pub fn submissions(&self) -> u64 {
+        self.submissions
+    }
+
+    /// Runs a program a number of times, in as many submissions as it takes.
+    pub fn run(&mut self, program: &Program, times: u32) -> Result<(), Error> {
+        let mut todo = (0..times).flat_map(|_| &program.dispatches).peekable();
+        while todo.peek().is_some() {
+            let mut work = 0;
+            let mut batch = Vec::new();
+            while let Some(next) = todo.next_if(|d| batch.is_empty() || work + d.work + LAUNCH <= self.budget) {
+                work += next.work + LAUNCH;
+                batch.push(next);
+            }
+            self.submit(&batch, work)?;
+        }
+        Ok(())
+    }
+
+    fn submit(&mut self, batch: &[&Dispatch], work: u64) -> Result<(), Error> {
+        while self.flying.len() >= IN_FLIGHT {
+            self.land()?;
+        }
+        if self.flying.is_empty() {
+            self.last_done = Instant::now();
+        }
+        let index = fault::scoped(&self.device, || {
+            let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+            {
+                let descriptor = wgpu::ComputePassDescriptor { label: Some("motes"), timestamp_writes: None };
+                let mut pass = encoder.begin_compute_pass(&descriptor);
+                for dispatch in batch {
+                    dispatch.encode(&mut pass);
+                }
+            }
+            self.inner.submit([encoder.finish()])
+        })?;
+        self.submissions += 1;
+        self.flying.push_back((index, work));
+        Ok(())
+    }
+
+    /// Waits for the oldest submission, and learns from the time it took.
+    fn land(&mut self) -> Result<(), Error> {
+        let Some((index, work)) = self.flying.pop_front() else {
+            return Ok(());
+        };
+        self.wait_for(index)?;
+        let took = self.last_done.elapsed();
+        self.last_done = Instant::now();
+        // Short submissions say nothing of speed, and one slow moment should not cut the next by much.
+        if work * 2 > self.budget || took > self.target {
+            let factor = (self.target.as_secs_f64() / took.as_secs_f64().max(1e-6)).clamp(0.25, 2.0);
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                clippy::cast_precision_loss,
+                reason = "a budget, not a count"
+            )]
+            let budget = (work as f64 * factor) as u64;
+            self.budget = budget.clamp(LAUNCH, 1 << 44);
+        }
+        Ok(())
+    }
+
+    pub fn wait(&mut self) -> Result<(), Error> {
+        while !self.flying.is_empty() {
+            self.land()?;
+        }
+        Ok(())
+    }
+
+    fn wait_for(&self, index: wgpu::SubmissionIndex) -> Result<(), Error> {
+        let wait = wgpu::PollType::Wait { submission_index: Some(index), timeout: Some(self.patience) };
+        match self.device.poll(wait) {
+            Ok(_) => Ok(()),
+            Err(wgpu::PollError::Timeout) => Err(self.timeout("a batch of steps")),
+            Err(error) => Err(Error::Device(error.to_string())),
+        }
+    }
+    pub fn timeout(&self, what: &str) -> Error {
+        Error::Timeout { what: what.to_owned(), seconds: self.patience.as_secs() }
+    }
+    pub fn patience(&self) -> Duration {
+        self.patience
+    }
+
+    /// Submits a caller's commands behind all that is in flight.
+    pub fn submit_commands(&mut self, commands: wgpu::CommandBuffer) -> Result<wgpu::SubmissionIndex, Error> {
+        fault::scoped(&self.device, || self.inner.submit([commands]))
+    }
+    /// Writes into a buffer, behind all that was submitted.
+    pub fn write(&mut self, buffer: &wgpu::Buffer, from: u64, bytes: &[u8]) -> Result<(), Error> {
+        fault::scoped(&self.device, || {
+            self.inner.write_buffer(buffer, from, bytes);
+            self.inner.submit([]);
+        })
+    }
+}

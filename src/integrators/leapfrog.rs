@@ -1,0 +1,23 @@
+//! Leapfrog, kick-drift-kick (velocity Verlet; Verlet 1967): one evaluation per step, because the last kick of a step
+//! and the first of the next share theirs.
+
+use super::{Integrator, Step};
+
+/// `leapfrog`
+pub struct Leapfrog;
+
+impl Integrator for Leapfrog {
+    fn order(&self) -> u32 {
+        2
+    }
+    fn start(&self, s: &mut Step) {
+        s.evaluate();
+    }
+    fn step(&self, s: &mut Step) {
+        s.kick(0.5);
+        s.drift(1.0);
+        s.at(1.0);
+        s.evaluate();
+        s.kick(0.5);
+    }
+}

@@ -1,0 +1,100 @@
+//! A step as it is being written: each verb adds kernels to a plan.
+
+use super::verbs::{at, clear, drift, keep, kick, runge_kutta, tick, watch};
+use crate::error::Error;
+use crate::forces::Force;
+use crate::kernel::{Kernel, Machine, Plan};
+
+/// Writes a plan in verbs. The first error is kept and given at the end, so that an integrator reads like its textbook.
+pub struct Step<'a> {
+    forces: &'a [Box<dyn Force>],
+    machine: Machine,
+    count: u32,
+    plan: Plan,
+    error: Option<Error>,
+}
+
+impl<'a> Step<'a> {
+    /// An empty step of `count` particles under some forces.
+    #[must_use]
+    pub fn new(forces: &'a [Box<dyn Force>], count: u32, machine: Machine) -> Self {
+        Self { forces, machine, count, plan: Plan::default(), error: None }
+    }
+
+    /// a ← forces(x, v, t), with all laws in the order of the scene.
+    pub fn evaluate(&mut self) {
+        self.add(clear::kernel(self.count));
+        let name = |force: &dyn Force| force.laws().first().map(|law| law.name.clone());
+        for (place, force) in self.forces.iter().enumerate() {
+            // Two forces of one kind are two kernels.
+            let earlier =
+                self.forces[..place].iter().filter(|other| name(other.as_ref()) == name(force.as_ref())).count();
+            if self.error.is_none() {
+                self.error = force.evaluate(&mut self.plan, earlier, self.count, &self.machine).err();
+            }
+        }
+    }
+    /// v ← v + c a dt
+    pub fn kick(&mut self, factor: f64) {
+        self.add(kick::kernel(self.count, factor));
+    }
+    /// x ← x + c v dt
+    pub fn drift(&mut self, factor: f64) {
+        self.add(drift::kernel(self.count, factor));
+    }
+    /// Forces are evaluated at t + c dt from here on, until the end of the step.
+    pub fn at(&mut self, factor: f64) {
+        self.add(at::kernel(factor));
+    }
+    /// Keeps where the step starts, x₀ and v₀.
+    pub fn save(&mut self) {
+        self.add(runge_kutta::save(self.count));
+    }
+    /// Adds `weight` times the slopes (v, a) to their sum, and goes on to x₀ + c v dt, v₀ + c a dt.
+    pub fn stage(&mut self, weight: f64, factor: f64) {
+        self.add(runge_kutta::stage(self.count, weight, factor));
+    }
+    /// Adds the last slopes with `weight`, and goes from x₀, v₀ the whole step with the weighted sum.
+    pub fn finish(&mut self, weight: f64) {
+        self.add(runge_kutta::finish(self.count, weight));
+    }
+
+    /// The plan of one step: what the integrator wrote, a look for broken numbers, and the clock's tick.
+    ///
+    /// # Errors
+    /// The first thing that went wrong while the step was written.
+    pub fn done(mut self) -> Result<Plan, Error> {
+        self.add(watch::kernel(self.count));
+        self.add(tick::kernel());
+        self.finished()
+    }
+    /// The plan without watch and tick.
+    ///
+    /// # Errors
+    /// The first thing that went wrong while the step was written.
+    pub fn finished(self) -> Result<Plan, Error> {
+        self.error.map_or(Ok(self.plan), Err)
+    }
+    /// The two plans around a measurement: the first keeps the forces that the next step is going to use and evaluates
+    /// them at the present state; the second puts the kept ones back.
+    ///
+    /// # Errors
+    /// The first thing that went wrong while they were written.
+    pub fn measurement(forces: &'a [Box<dyn Force>], count: u32, machine: Machine) -> Result<(Plan, Plan), Error> {
+        let mut before = Self::new(forces, count, machine);
+        before.add(keep::keep(count));
+        before.evaluate();
+        let mut after = Self::new(forces, count, machine);
+        after.add(keep::restore(count));
+        Ok((before.finished()?, after.finished()?))
+    }
+
+    fn add(&mut self, kernel: Result<Kernel, Error>) {
+        match kernel {
+            Ok(kernel) => self.plan.add(kernel),
+            Err(error) => {
+                self.error.get_or_insert(error);
+            }
+        }
+    }
+}

@@ -1,0 +1,17 @@
+//! The time at which forces are evaluated: (step + c) dt.
+
+use std::sync::Arc;
+
+use crate::error::Error;
+use crate::kernel::{Clock, Kernel, Shader};
+
+/// The kernel, for a part of the step.
+pub fn kernel(factor: f64) -> Result<Kernel, Error> {
+    let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("integrators/at.wgsl")])?;
+    let twin = move |host: &crate::kernel::Host| {
+        let clock = host.clock();
+        host.set_clock(Clock { time: (f64::from(clock.step) + factor) * clock.dt, ..clock });
+        Ok(())
+    };
+    Ok(Kernel::new("at", shader, vec![("FACTOR", factor)], 1, Arc::new(twin)))
+}

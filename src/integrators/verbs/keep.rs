@@ -1,0 +1,30 @@
+//! What a measurement does around its own evaluation, so that it changes no bit of the run.
+
+use std::sync::Arc;
+
+use glam::Vec4;
+
+use crate::error::Error;
+use crate::kernel::{ACCELERATION, Field, Host, Kernel, Shader};
+
+const KEPT: Field<Vec4> = Field::new("kept_acceleration");
+
+/// Keeps the forces that the next step is going to use.
+pub fn keep(count: u32) -> Result<Kernel, Error> {
+    let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("integrators/keep.wgsl")])?;
+    let twin = |host: &Host| {
+        host.write(KEPT)?.copy_from_slice(&host.read(ACCELERATION)?);
+        Ok(())
+    };
+    Ok(Kernel::new("keep", shader, Vec::new(), count, Arc::new(twin)))
+}
+
+/// Puts them back.
+pub fn restore(count: u32) -> Result<Kernel, Error> {
+    let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("integrators/restore.wgsl")])?;
+    let twin = |host: &Host| {
+        host.write(ACCELERATION)?.copy_from_slice(&host.read(KEPT)?);
+        Ok(())
+    };
+    Ok(Kernel::new("restore", shader, Vec::new(), count, Arc::new(twin)))
+}

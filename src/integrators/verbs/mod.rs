@@ -1,0 +1,10 @@
+//! The verbs in which integrators are written, one file for each shader; a Runge–Kutta step's three go together.
+
+pub mod at;
+pub mod clear;
+pub mod drift;
+pub mod keep;
+pub mod kick;
+pub mod runge_kutta;
+pub mod tick;
+pub mod watch;

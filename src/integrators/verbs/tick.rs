@@ -1,0 +1,18 @@
+//! A step is done.
+
+use std::sync::Arc;
+
+use crate::error::Error;
+use crate::kernel::{Clock, Kernel, Shader};
+
+/// The kernel.
+pub fn kernel() -> Result<Kernel, Error> {
+    let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("integrators/tick.wgsl")])?;
+    let twin = |host: &crate::kernel::Host| {
+        let clock = host.clock();
+        let step = clock.step + 1;
+        host.set_clock(Clock { step, time: f64::from(step) * clock.dt, ..clock });
+        Ok(())
+    };
+    Ok(Kernel::new("tick", shader, Vec::new(), 1, Arc::new(twin)))
+}

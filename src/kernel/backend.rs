@@ -1,0 +1,49 @@
+//! What a backend does: hold fields by name, and run plans.
+
+use super::{Array, Clock, Plan};
+use crate::error::Error;
+
+/// What a plan may want to know of the machine it will run on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Machine {
+    /// The device is a processor that plays a GPU (lavapipe, SwiftShader, WARP): barriers cost, lanes are few.
+    pub software: bool,
+    /// The size of every subgroup, when kernels may use subgroups and the size is fixed; else 0.
+    pub subgroup: u32,
+    /// Invocations that keep the device busy.
+    pub invocations: u32,
+}
+
+/// Runs plans. The two backends are the GPU and the twins.
+pub trait Backend {
+    /// A plan made ready.
+    type Program;
+    /// What the device is like.
+    fn machine(&self) -> Machine;
+    /// Makes a plan ready: checks limits, makes the fields that it names and that do not exist yet.
+    ///
+    /// # Errors
+    /// [`Error::Limit`] when a field does not fit, [`Error::Shader`] when a shader does not compile,
+    /// [`Error::Scene`] when the plan has a kernel that this backend cannot run.
+    fn compile(&mut self, plan: &Plan) -> Result<Self::Program, Error>;
+    /// Runs a program a number of times, in order. May return before the device is done.
+    ///
+    /// # Errors
+    /// When the device is lost, out of memory or does not answer in time.
+    fn run(&mut self, program: &Self::Program, times: u32) -> Result<(), Error>;
+    /// Sets the clock.
+    ///
+    /// # Errors
+    /// When the device is lost.
+    fn set_clock(&mut self, clock: Clock) -> Result<(), Error>;
+    /// Fills a field from its first element on.
+    ///
+    /// # Errors
+    /// When there is no such field, or it is shorter.
+    fn write(&mut self, name: &str, array: &Array) -> Result<(), Error>;
+    /// Reads a field: `len` elements of the kind of `like`.
+    ///
+    /// # Errors
+    /// When there is no such field, the device is lost, or it does not answer in time.
+    fn read(&mut self, name: &str, like: &Array, len: usize) -> impl Future<Output = Result<Array, Error>>;
+}

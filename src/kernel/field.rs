@@ -1,0 +1,144 @@
+//! Fields: named arrays, one element per particle unless said otherwise. The name here is the name in WGSL.
+
+use std::marker::PhantomData;
+
+use glam::{DVec4, Vec4};
+
+/// Where particles are, and how heavy: `xyz` position [length], `w` mass [mass].
+pub const POSITION: Field<Vec4> = Field::new("position");
+/// How particles move, and how large they are drawn: `xyz` velocity [length / time], `w` radius [length].
+pub const VELOCITY: Field<Vec4> = Field::new("velocity");
+/// What forces do: `xyz` acceleration [length / time²]; `w` the particle's share of the potential energy, per unit mass
+/// [length² / time²], so that the sum of mass × w over all particles is the potential energy (each of a pair holds half).
+pub const ACCELERATION: Field<Vec4> = Field::new("acceleration");
+/// The first step and the lowest id of a particle that is not finite; both `u32::MAX` while all is well.
+pub const ALARM: Field<u32> = Field::new("alarm");
+
+/// A named array of `T`.
+#[derive(Debug)]
+pub struct Field<T> {
+    /// Its name, in Rust and in WGSL.
+    pub name: &'static str,
+    element: PhantomData<fn() -> T>,
+}
+
+impl<T> Field<T> {
+    /// Names a field.
+    #[must_use]
+    pub const fn new(name: &'static str) -> Self {
+        Self { name, element: PhantomData }
+    }
+}
+
+impl<T> Clone for Field<T> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+impl<T> Copy for Field<T> {}
+
+/// An array as the host holds it: wide enough that every value of the device fits without rounding.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Array {
+    /// `array<vec4f>`
+    Vec4(Vec<DVec4>),
+    /// `array<f32>`
+    Float(Vec<f64>),
+    /// `array<u32>`, atomic or not
+    Uint(Vec<u32>),
+}
+
+impl Array {
+    /// Number of elements.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        match self {
+            Self::Vec4(a) => a.len(),
+            Self::Float(a) => a.len(),
+            Self::Uint(a) => a.len(),
+        }
+    }
+    /// Whether it has none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+    /// The bytes a device holds for it (f64 rounded to f32).
+    #[must_use]
+    pub fn to_bytes(&self) -> Vec<u8> {
+        match self {
+            Self::Vec4(a) => bytemuck::cast_slice(&a.iter().map(|v| v.as_vec4()).collect::<Vec<_>>()).to_vec(),
+            Self::Float(a) => bytemuck::cast_slice(&a.iter().map(|x| narrow(*x)).collect::<Vec<_>>()).to_vec(),
+            Self::Uint(a) => bytemuck::cast_slice(a).to_vec(),
+        }
+    }
+    /// The array whose bytes these are, of the same kind as `self`.
+    #[must_use]
+    pub fn like(&self, bytes: &[u8]) -> Self {
+        match self {
+            Self::Vec4(_) => Vec4::array(words::<Vec4>(bytes).into_iter().map(Vec4::widen).collect()),
+            Self::Float(_) => f32::array(words::<f32>(bytes).into_iter().map(f32::widen).collect()),
+            Self::Uint(_) => Self::Uint(words(bytes)),
+        }
+    }
+    /// An array of zeros of the same kind.
+    #[must_use]
+    pub fn zeros(&self, len: usize) -> Self {
+        match self {
+            Self::Vec4(_) => Self::Vec4(vec![DVec4::ZERO; len]),
+            Self::Float(_) => Self::Float(vec![0.0; len]),
+            Self::Uint(_) => Self::Uint(vec![0; len]),
+        }
+    }
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "rounding to f32 is what the device does")]
+fn narrow(x: f64) -> f32 {
+    x as f32
+}
+
+fn words<T: bytemuck::AnyBitPattern>(bytes: &[u8]) -> Vec<T> {
+    bytes.chunks_exact(size_of::<T>()).map(bytemuck::pod_read_unaligned).collect()
+}
+
+/// What a field may hold, and what the twin of that is.
+pub trait Element: bytemuck::Pod + Send + Sync {
+    /// The same in f64.
+    type Twin: Copy + Send + Sync;
+    /// Without loss.
+    fn widen(self) -> Self::Twin;
+    /// Rounded to what the device holds.
+    fn narrow(twin: Self::Twin) -> Self;
+    /// Wraps a vector of twins.
+    fn array(values: Vec<Self::Twin>) -> Array;
+    /// The vector inside, if the array is of this kind.
+    fn view(array: &Array) -> Option<&Vec<Self::Twin>>;
+    /// The same, to write.
+    fn view_mut(array: &mut Array) -> Option<&mut Vec<Self::Twin>>;
+}
+
+macro_rules! element {
+    ($device:ty, $twin:ty, $variant:ident, $widen:expr, $narrow:expr) => {
+        impl Element for $device {
+            type Twin = $twin;
+            fn widen(self) -> $twin {
+                $widen(self)
+            }
+            fn narrow(twin: $twin) -> Self {
+                $narrow(twin)
+            }
+            fn array(values: Vec<$twin>) -> Array {
+                Array::$variant(values)
+            }
+            fn view(array: &Array) -> Option<&Vec<$twin>> {
+                if let Array::$variant(values) = array { Some(values) } else { None }
+            }
+            fn view_mut(array: &mut Array) -> Option<&mut Vec<$twin>> {
+                if let Array::$variant(values) = array { Some(values) } else { None }
+            }
+        }
+    };
+}
+element!(Vec4, DVec4, Vec4, |v: Vec4| v.as_dvec4(), |v: DVec4| v.as_vec4());
+element!(f32, f64, Float, f64::from, narrow);
+element!(u32, u32, Uint, |x| x, |x| x);

@@ -1,0 +1,99 @@
+//! Arrays on the host, by name, as a twin sees them. A twin that reads and writes one array at once is refused, as a
+//! device refuses it.
+
+use std::collections::BTreeMap;
+use std::marker::PhantomData;
+use std::sync::{RwLock, RwLockReadGuard, RwLockWriteGuard};
+
+use super::{Array, Clock, Element, Field};
+use crate::error::Error;
+
+/// Named arrays and the clock.
+#[derive(Debug, Default)]
+pub struct Host {
+    arrays: BTreeMap<String, RwLock<Array>>,
+    clock: RwLock<Clock>,
+}
+
+/// An array that is being read.
+pub struct Reading<'a, T>(RwLockReadGuard<'a, Array>, PhantomData<T>);
+/// An array that is being written.
+pub struct Writing<'a, T>(RwLockWriteGuard<'a, Array>, PhantomData<T>);
+
+impl<T: Element> std::ops::Deref for Reading<'_, T> {
+    type Target = [T::Twin];
+    fn deref(&self) -> &[T::Twin] {
+        T::view(&self.0).map_or(&[], Vec::as_slice)
+    }
+}
+impl<T: Element> std::ops::Deref for Writing<'_, T> {
+    type Target = [T::Twin];
+    fn deref(&self) -> &[T::Twin] {
+        T::view(&self.0).map_or(&[], Vec::as_slice)
+    }
+}
+impl<T: Element> std::ops::DerefMut for Writing<'_, T> {
+    fn deref_mut(&mut self) -> &mut [T::Twin] {
+        T::view_mut(&mut self.0).map_or(&mut [], Vec::as_mut_slice)
+    }
+}
+
+impl Host {
+    /// Puts an array under a name, in place of what was there.
+    pub fn insert(&mut self, name: &str, array: Array) {
+        self.arrays.insert(name.to_owned(), RwLock::new(array));
+    }
+    /// A copy of an array.
+    #[must_use]
+    pub fn get(&self, name: &str) -> Option<Array> {
+        Some(self.arrays.get(name)?.read().ok()?.clone())
+    }
+    /// Whether there is an array of that name.
+    #[must_use]
+    pub fn contains(&self, name: &str) -> bool {
+        self.arrays.contains_key(name)
+    }
+    /// Opens an array for reading.
+    ///
+    /// # Errors
+    /// When there is none of that name and kind, or when it is being written.
+    pub fn read<T: Element>(&self, field: Field<T>) -> Result<Reading<'_, T>, Error> {
+        let lock = self.arrays.get(field.name).ok_or_else(|| missing(field.name))?;
+        let guard = lock.try_read().map_err(|_| aliased(field.name))?;
+        if T::view(&guard).is_none() {
+            return Err(missing(field.name));
+        }
+        Ok(Reading(guard, PhantomData))
+    }
+    /// Opens an array for writing.
+    ///
+    /// # Errors
+    /// When there is none of that name and kind, or when it is open already.
+    pub fn write<T: Element>(&self, field: Field<T>) -> Result<Writing<'_, T>, Error> {
+        let lock = self.arrays.get(field.name).ok_or_else(|| missing(field.name))?;
+        let mut guard = lock.try_write().map_err(|_| aliased(field.name))?;
+        if T::view_mut(&mut guard).is_none() {
+            return Err(missing(field.name));
+        }
+        Ok(Writing(guard, PhantomData))
+    }
+    /// The clock.
+    #[must_use]
+    pub fn clock(&self) -> Clock {
+        self.clock.read().map_or_else(|e| **e.get_ref(), |c| *c)
+    }
+    /// Sets the clock.
+    pub fn set_clock(&self, clock: Clock) {
+        match self.clock.write() {
+            Ok(mut c) => *c = clock,
+            Err(mut e) => **e.get_mut() = clock,
+        }
+    }
+}
+
+fn missing(name: &str) -> Error {
+    Error::Device(format!("a twin asks for the field `{name}`, which nobody made"))
+}
+fn aliased(name: &str) -> Error {
+    Error::Device(format!("a twin opens the field `{name}` twice, once to write"))
+}

@@ -1,0 +1,73 @@
+//! naga's messages, mapped back to the file and line that they come from.
+
+use std::error::Error as _;
+
+use naga::front::wgsl::ParseError;
+use naga::valid::ValidationError;
+use naga::{Span, WithSpan};
+
+use super::Source;
+use crate::error::Error;
+
+/// A parse error as `message` · `--> file:line:column` · the line · a caret.
+pub fn parse(sources: &[Source], text: &str, error: &ParseError) -> Error {
+    let mut message = error.message().to_owned();
+    let mut labels = error.labels();
+    if let Some((span, label)) = labels.next() {
+        message = with_place(&message, sources, text, span, label);
+    }
+    for note in error.notes() {
+        message.push_str("\n   = note: ");
+        message.push_str(note);
+    }
+    Error::Shader { message }
+}
+
+/// A validation error in the same form.
+pub fn validation(sources: &[Source], text: &str, error: &WithSpan<ValidationError>) -> Error {
+    let mut message = error.as_inner().to_string();
+    let mut cause = error.as_inner().source();
+    while let Some(inner) = cause {
+        message.push_str(": ");
+        message.push_str(&inner.to_string());
+        cause = inner.source();
+    }
+    // The last span is the narrowest; a span in the user's own file says more than one in ours.
+    let spans: Vec<_> = error.spans().collect();
+    let theirs = spans.iter().rev().find(|(span, _)| place(sources, *span).is_some_and(|(source, _)| !source.ours));
+    if let Some((span, label)) = theirs.or(spans.last()) {
+        message = with_place(&message, sources, text, *span, label);
+    }
+    Error::Shader { message }
+}
+
+fn place(sources: &[Source], span: Span) -> Option<(&Source, usize)> {
+    let mut start = span.to_range()?.start;
+    for source in sources {
+        if start <= source.text.len() {
+            return Some((source, start));
+        }
+        start -= source.text.len() + 1;
+    }
+    None
+}
+
+fn with_place(message: &str, sources: &[Source], text: &str, span: Span, label: &str) -> String {
+    let (Some((source, start)), Some(range)) = (place(sources, span), span.to_range()) else {
+        return message.to_owned();
+    };
+    let before = source.text.get(..start).unwrap_or_default();
+    let line_start = before.rfind('\n').map_or(0, |i| i + 1);
+    let line_number = before.matches('\n').count() + 1;
+    let column = source.text.get(line_start..start).map_or(0, |s| s.chars().count());
+    let line = source.text.get(line_start..).and_then(|s| s.lines().next()).unwrap_or_default();
+    let marked = text.get(range).and_then(|s| s.lines().next()).map_or(1, |s| s.chars().count().max(1));
+    let gutter = " ".repeat(line_number.to_string().len());
+    format!(
+        "{message}\n{gutter}--> {}:{line_number}:{}\n{gutter} |\n{line_number} | {line}\n{gutter} | {}{} {label}",
+        source.file,
+        column + 1,
+        " ".repeat(column),
+        "^".repeat(marked),
+    )
+}

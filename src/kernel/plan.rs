@@ -1,0 +1,182 @@
+//! Kernels and plans: a step as data.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::sync::Arc;
+
+use super::{Access, Host, Shader};
+use crate::error::Error;
+
+/// The second opinion: the same operation in f64 on the host's arrays.
+pub type Twin = Arc<dyn Fn(&Host) -> Result<(), Error> + Send + Sync>;
+
+/// How many invocations a pass needs: `count` in the plane, times `layers`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Threads {
+    /// Invocations in one layer; rounded up to whole workgroups, folded over two dimensions.
+    pub count: u32,
+    /// Layers: the third dimension of the dispatch.
+    pub layers: u32,
+}
+
+impl Threads {
+    /// One layer of invocations.
+    #[must_use]
+    pub fn new(count: u32) -> Self {
+        Self { count, layers: 1 }
+    }
+}
+
+/// One dispatch.
+#[derive(Debug, Clone)]
+pub struct Pass {
+    /// What runs.
+    pub shader: Arc<Shader>,
+    /// Values of its `override`s.
+    pub constants: Vec<(&'static str, f64)>,
+    /// Contents of its uniform blocks other than `world`, by name.
+    pub uniforms: Vec<(&'static str, Vec<u8>)>,
+    /// How wide.
+    pub threads: Threads,
+    /// About how much it does: meetings of two particles, or one per particle. Submissions are cut by it.
+    pub work: u64,
+}
+
+/// One operation with a name: its dispatches, in order, and its twin.
+#[derive(Clone)]
+pub struct Kernel {
+    /// What `motes explain` calls it, constants included.
+    pub name: String,
+    /// The dispatches.
+    pub passes: Vec<Pass>,
+    /// The same in f64. `None` only for a user's shader.
+    pub twin: Option<Twin>,
+    /// Elements of fields that do not have one element per particle.
+    pub sizes: Vec<(&'static str, u64)>,
+    /// Fields that hold nothing of worth after the last dispatch; the twin does without them.
+    pub scratch: &'static [&'static str],
+}
+
+impl Kernel {
+    /// A kernel of one dispatch, named after its constants.
+    #[must_use]
+    pub fn new(name: &str, shader: Arc<Shader>, constants: Vec<(&'static str, f64)>, count: u32, twin: Twin) -> Self {
+        let mut label = name.to_owned();
+        let default = |key: &str| shader.reflection().overrides.get(key).copied();
+        for (key, value) in constants.iter().filter(|(key, value)| default(key) != Some(*value)) {
+            let _ = write!(label, " {key}={}", short(*value));
+        }
+        let pass =
+            Pass { shader, constants, uniforms: Vec::new(), threads: Threads::new(count), work: u64::from(count) };
+        Self { name: label, passes: vec![pass], twin: Some(twin), sizes: Vec::new(), scratch: &[] }
+    }
+    /// The fields that it writes, by name, without its scratch.
+    #[must_use]
+    pub fn writes(&self) -> Vec<String> {
+        let mut names: Vec<String> = Vec::new();
+        for binding in self.passes.iter().flat_map(|p| &p.shader.reflection().bindings) {
+            let scratch = self.scratch.contains(&binding.name.as_str());
+            if binding.access == Access::Write && !scratch && !names.contains(&binding.name) {
+                names.push(binding.name.clone());
+            }
+        }
+        names
+    }
+    /// Whether any of its shaders names this field.
+    #[must_use]
+    pub fn names(&self, field: &str) -> bool {
+        self.passes.iter().any(|p| p.shader.reflection().bindings.iter().any(|b| b.name == field))
+    }
+}
+
+/// At most six digits: `0.675604`, `-0.5`, `1`.
+fn short(x: f64) -> String {
+    let text = format!("{x:.6}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+impl std::fmt::Debug for Kernel {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "Kernel({})", self.name)
+    }
+}
+
+/// Kernels in the order in which they run. A kernel that runs twice is stored once.
+#[derive(Debug, Default, Clone)]
+pub struct Plan {
+    /// The different kernels.
+    pub kernels: Vec<Kernel>,
+    /// Their order.
+    pub order: Vec<usize>,
+}
+
+impl Plan {
+    /// Adds a kernel at the end; one of the same name that is there already is used again.
+    ///
+    /// # Errors
+    /// What `make` says.
+    pub fn push(&mut self, name: &str, make: impl FnOnce() -> Result<Kernel, Error>) -> Result<(), Error> {
+        let known = self.kernels.iter().position(|k| k.name == name);
+        self.order.push(known.unwrap_or(self.kernels.len()));
+        if known.is_none() {
+            let mut kernel = make()?;
+            name.clone_into(&mut kernel.name);
+            self.kernels.push(kernel);
+        }
+        Ok(())
+    }
+    /// Adds a kernel that names itself.
+    pub fn add(&mut self, kernel: Kernel) {
+        let known = self.kernels.iter().position(|k| k.name == kernel.name);
+        let index = known.unwrap_or(self.kernels.len());
+        if known.is_none() {
+            self.kernels.push(kernel);
+        }
+        self.order.push(index);
+    }
+    /// The kernels in order.
+    pub fn steps(&self) -> impl Iterator<Item = &Kernel> {
+        self.order.iter().filter_map(|i| self.kernels.get(*i))
+    }
+    /// Dispatches in one run.
+    #[must_use]
+    pub fn dispatches(&self) -> usize {
+        self.steps().map(|k| k.passes.len()).sum()
+    }
+    /// Work in one run; see [`Pass::work`].
+    #[must_use]
+    pub fn work(&self) -> u64 {
+        self.steps().flat_map(|k| &k.passes).map(|p| p.work).sum()
+    }
+    /// Bytes of every storage field that the plan names, for so many particles.
+    #[must_use]
+    pub fn fields(&self, count: u32) -> BTreeMap<String, u64> {
+        let mut fields = BTreeMap::new();
+        for kernel in &self.kernels {
+            for binding in kernel.passes.iter().flat_map(|p| &p.shader.reflection().bindings) {
+                if binding.access == Access::Uniform {
+                    continue;
+                }
+                let own = kernel.sizes.iter().find(|(name, _)| *name == binding.name);
+                let elements = own.map_or(u64::from(count), |(_, n)| *n);
+                let bytes = if binding.array { binding.stride * elements } else { binding.stride };
+                let entry = fields.entry(binding.name.clone()).or_insert(0);
+                *entry = bytes.max(*entry);
+            }
+        }
+        fields
+    }
+}
+
+impl std::fmt::Display for Plan {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        for (i, kernel) in self.steps().enumerate() {
+            let bar = if i == 0 { "" } else { " | " };
+            write!(f, "{bar}{}", kernel.name)?;
+            if kernel.passes.len() > 1 {
+                write!(f, " ×{}", kernel.passes.len())?;
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,147 @@
+//! What naga says of a shader: which names are bound where, how wide their elements are, how large a workgroup is.
+//! This is the only place that knows binding numbers, and it reads them out of the WGSL.
+
+use std::collections::BTreeMap;
+
+use naga::valid::{GlobalUse, ModuleInfo};
+use naga::{AddressSpace, Expression, Literal, Module, StorageAccess, TypeInner};
+
+use super::pack::{Member, Packed};
+
+/// How a shader uses a name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Access {
+    /// `var<uniform>`
+    Uniform,
+    /// `var<storage>`
+    Read,
+    /// `var<storage, read_write>`
+    Write,
+}
+
+/// A name and where it is bound.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Binding {
+    /// The field's name.
+    pub name: String,
+    /// `@group`
+    pub group: u32,
+    /// `@binding`
+    pub binding: u32,
+    /// How it is used.
+    pub access: Access,
+    /// Bytes of one element of an array, or of the whole when it is no array.
+    pub stride: u64,
+    /// Whether it is an array that grows with the particles.
+    pub array: bool,
+    /// The members, when it is a struct.
+    pub packed: Packed,
+}
+
+/// A shader's outside.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Reflection {
+    /// The entry point.
+    pub entry: String,
+    /// Invocations in a workgroup, all dimensions multiplied.
+    pub workgroup: u32,
+    /// Bytes of workgroup memory.
+    pub workgroup_bytes: u64,
+    /// What is bound.
+    pub bindings: Vec<Binding>,
+    /// Its `override`s, with their defaults.
+    pub overrides: BTreeMap<String, f64>,
+    /// Its whole-numbered `const`s.
+    pub constants: BTreeMap<String, u32>,
+    /// The functions it defines.
+    pub functions: Vec<String>,
+}
+
+impl Reflection {
+    /// Looks at a module; the shader is expected to have one entry point. What that does not use is not bound.
+    #[must_use]
+    pub fn of(module: &Module, info: &ModuleInfo) -> Self {
+        let entry = module.entry_points.first();
+        let used = |handle| entry.is_some() && info.get_entry_point(0)[handle] != GlobalUse::empty();
+        let variables = module.global_variables.iter().filter(|(handle, _)| used(*handle));
+        Self {
+            entry: entry.map(|e| e.name.clone()).unwrap_or_default(),
+            workgroup: entry.map_or(1, |e| e.workgroup_size.iter().product()),
+            workgroup_bytes: workgroup_bytes(module),
+            bindings: variables.filter_map(|(_, v)| binding(module, v)).collect(),
+            overrides: module.overrides.iter().filter_map(|(_, o)| default(module, o)).collect(),
+            constants: module.constants.iter().filter_map(|(_, c)| constant(module, c)).collect(),
+            functions: module.functions.iter().filter_map(|(_, f)| f.name.clone()).collect(),
+        }
+    }
+    /// The binding of a name.
+    #[must_use]
+    pub fn binding(&self, name: &str) -> Option<&Binding> {
+        self.bindings.iter().find(|b| b.name == name)
+    }
+    /// A whole-numbered `const`, or 1.
+    #[must_use]
+    pub fn constant(&self, name: &str) -> u32 {
+        self.constants.get(name).copied().unwrap_or(1)
+    }
+}
+
+fn default(module: &Module, item: &naga::Override) -> Option<(String, f64)> {
+    let value = match module.global_expressions[item.init?] {
+        Expression::Literal(Literal::F32(x)) => f64::from(x),
+        Expression::Literal(Literal::U32(n)) => f64::from(n),
+        Expression::Literal(Literal::Bool(b)) => f64::from(u8::from(b)),
+        _ => return None,
+    };
+    Some((item.name.clone()?, value))
+}
+
+fn workgroup_bytes(module: &Module) -> u64 {
+    let shared = module.global_variables.iter().filter(|(_, v)| v.space == AddressSpace::WorkGroup);
+    shared.map(|(_, v)| u64::from(module.types[v.ty].inner.size(module.to_ctx()))).sum()
+}
+
+fn constant(module: &Module, constant: &naga::Constant) -> Option<(String, u32)> {
+    let name = constant.name.clone()?;
+    match module.global_expressions[constant.init] {
+        Expression::Literal(Literal::U32(value)) => Some((name, value)),
+        _ => None,
+    }
+}
+
+fn binding(module: &Module, variable: &naga::GlobalVariable) -> Option<Binding> {
+    let place = variable.binding?;
+    let access = match variable.space {
+        AddressSpace::Uniform => Access::Uniform,
+        AddressSpace::Storage { access } if access.contains(StorageAccess::STORE) => Access::Write,
+        AddressSpace::Storage { .. } => Access::Read,
+        _ => return None,
+    };
+    let inner = &module.types[variable.ty].inner;
+    let (stride, array) = match inner {
+        TypeInner::Array { stride, size: naga::ArraySize::Dynamic, .. } => (u64::from(*stride), true),
+        other => (u64::from(other.size(module.to_ctx())), false),
+    };
+    let packed = match inner {
+        TypeInner::Struct { members, span } => {
+            Packed { size: *span as usize, members: members.iter().filter_map(|m| member(module, m)).collect() }
+        }
+        _ => Packed::default(),
+    };
+    let name = variable.name.clone()?;
+    Some(Binding { name, group: place.group, binding: place.binding, access, stride, array, packed })
+}
+
+fn member(module: &Module, member: &naga::StructMember) -> Option<Member> {
+    let (components, kind) = match module.types[member.ty].inner {
+        TypeInner::Scalar(s) => (1, s.kind),
+        TypeInner::Vector { size, scalar } => (size as usize, scalar.kind),
+        _ => (0, naga::ScalarKind::Bool),
+    };
+    Some(Member {
+        name: member.name.clone()?,
+        offset: member.offset as usize,
+        components,
+        float: kind == naga::ScalarKind::Float,
+    })
+}

@@ -1,0 +1,171 @@
+//! The second opinion: every kernel of a plan against its f64 twin, each given the device's own inputs, so that errors
+//! do not accumulate and one tolerance serves all.
+
+use glam::DVec4;
+
+use crate::error::Error;
+use crate::gpu::Gpu;
+use crate::kernel::{Access, Array, Backend, Clock, Host, Kernel, Plan};
+
+/// What a kernel may be wrong by, in parts of what it changed: a sum of n terms of one magnitude rounds by about √n ulp,
+/// and blocks keep √n below 100; with 6e-8 for an ulp that is 6e-6. The worst seen on lavapipe is 2e-6.
+pub const TOLERANCE: f64 = 1e-5;
+/// And beside that, in units of the last place of the result, for the last addition and for a product before it.
+const LAST_PLACES: f64 = 2.0;
+/// What stands behind the last element of every field.
+const SENTINEL: [u8; 4] = [0xA5, 0x5A, 0xC3, 0x3C];
+
+/// One field that one kernel wrote.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Verdict {
+    /// The kernel.
+    pub kernel: String,
+    /// The field.
+    pub field: String,
+    /// The largest error, as a part of what is allowed: above 1 is wrong.
+    pub worst: f64,
+    /// The element where that is.
+    pub element: usize,
+    /// The median, 99th percentile and maximum of |device − twin| / |change|, over elements that changed.
+    pub relative: [f64; 3],
+    /// Whether anything changed at all. A kernel that changes nothing proves nothing.
+    pub changed: bool,
+    /// Whether something was written behind the last element.
+    pub spilled: bool,
+}
+
+impl Verdict {
+    /// Whether the device agrees with the twin.
+    #[must_use]
+    pub fn good(&self) -> bool {
+        self.worst <= 1.0 && !self.spilled
+    }
+}
+
+/// Runs a plan once, kernel by kernel, and compares each with its twin. Kernels without a twin run, and are left out.
+///
+/// # Errors
+/// What the device says.
+pub async fn compare(gpu: &mut Gpu, plan: &Plan, count: u32) -> Result<Vec<Verdict>, Error> {
+    gpu.compile(plan)?;
+    let mut verdicts = Vec::new();
+    for kernel in plan.steps() {
+        let single = Plan { kernels: vec![kernel.clone()], order: vec![0] };
+        let program = gpu.compile(&single)?;
+        let Some(twin) = &kernel.twin else {
+            gpu.run(&program, 1)?;
+            continue;
+        };
+        let fields = fields(kernel, count);
+        for (name, bytes, _) in &fields {
+            let tail = gpu.size(name).saturating_sub(*bytes);
+            let words = usize::try_from(tail / 4).unwrap_or(0);
+            gpu.write_bytes(name, *bytes, &SENTINEL.repeat(words))?;
+        }
+        let mut host = Host::default();
+        for (name, bytes, kind) in &fields {
+            host.insert(name, kind.like(&gpu.bytes(name, 0, *bytes).await?));
+        }
+        let clock = gpu.clock().await?;
+        host.set_clock(clock);
+        gpu.run(&program, 1)?;
+        let before: Vec<_> = fields.iter().map(|(name, _, _)| host.get(name)).collect();
+        twin(&host)?;
+        if kernel.writes().iter().any(|name| name == "world") {
+            verdicts.push(clocks(&kernel.name, clock, gpu.clock().await?, host.clock()));
+        }
+        for ((name, bytes, kind), before) in fields.iter().zip(before) {
+            if !kernel.writes().contains(name) {
+                continue;
+            }
+            let all = gpu.bytes(name, 0, gpu.size(name)).await?;
+            let (data, tail) = all.split_at(usize::try_from(*bytes).unwrap_or(0).min(all.len()));
+            let spilled = tail.chunks_exact(4).any(|word| word != SENTINEL);
+            let (Some(before), Some(want)) = (before, host.get(name)) else { continue };
+            let mut verdict = judge(&before, &want, &kind.like(data));
+            (verdict.kernel, verdict.field, verdict.spilled) = (kernel.name.clone(), name.clone(), spilled);
+            verdicts.push(verdict);
+        }
+    }
+    Ok(verdicts)
+}
+
+/// The fields that a kernel names, their bytes, and an empty array of their kind.
+fn fields(kernel: &Kernel, count: u32) -> Vec<(String, u64, Array)> {
+    let mut list: Vec<(String, u64, Array)> = Vec::new();
+    for binding in kernel.passes.iter().flat_map(|p| &p.shader.reflection().bindings) {
+        let known = list.iter().any(|(name, _, _)| *name == binding.name);
+        let scratch = kernel.scratch.contains(&binding.name.as_str());
+        if binding.access == Access::Uniform || !binding.array || known || scratch {
+            continue;
+        }
+        let own = kernel.sizes.iter().find(|(name, _)| *name == binding.name);
+        let elements = own.map_or(u64::from(count), |(_, n)| *n);
+        let kind = if binding.stride == 16 { Array::Vec4(Vec::new()) } else { Array::Uint(Vec::new()) };
+        list.push((binding.name.clone(), binding.stride * elements, kind));
+    }
+    list
+}
+
+fn judge(before: &Array, want: &Array, got: &Array) -> Verdict {
+    let (Array::Vec4(before), Array::Vec4(want), Array::Vec4(got)) = (before, want, got) else {
+        let wrong = match (want, got) {
+            (Array::Uint(want), Array::Uint(got)) => want.iter().zip(got).position(|(w, g)| w != g),
+            _ => Some(0),
+        };
+        let worst = if wrong.is_some() { f64::INFINITY } else { 0.0 };
+        return Verdict { worst, element: wrong.unwrap_or(0), changed: before != want, ..Verdict::none() };
+    };
+    // The vector and its fourth component are two things; sums cancel, so that errors go with the usual change, not the own.
+    let changes: Vec<[f64; 2]> = before.iter().zip(want).map(|(b, w)| parts(*w - *b)).collect();
+    let usual = [0, 1].map(|p| (changes.iter().map(|c| c[p] * c[p]).sum::<f64>() / changes.len().max(1) as f64).sqrt());
+    let mut verdict = Verdict { changed: changes.iter().any(|c| c[0] > 0.0 || c[1] > 0.0), ..Verdict::none() };
+    let mut relative = Vec::new();
+    for (i, ((want, got), change)) in want.iter().zip(got).zip(&changes).enumerate() {
+        let error = parts(*got - *want);
+        let size = parts(*want);
+        for p in 0..2 {
+            let allowed = TOLERANCE * change[p].max(usual[p])
+                + LAST_PLACES * f64::from(f32::EPSILON) * size[p]
+                + f64::from(f32::MIN_POSITIVE);
+            let ratio = if error[p].is_finite() { error[p] / allowed } else { f64::INFINITY };
+            if ratio > verdict.worst {
+                (verdict.worst, verdict.element) = (ratio, i);
+            }
+        }
+        if change[0] > 0.0 {
+            relative.push(error[0] / change[0]);
+        }
+    }
+    relative.sort_by(f64::total_cmp);
+    let at = |q: usize| {
+        relative.get((relative.len() * q / 100).min(relative.len().saturating_sub(1))).copied().unwrap_or(0.0)
+    };
+    verdict.relative = [at(50), at(99), at(100)];
+    verdict
+}
+
+fn parts(v: DVec4) -> [f64; 2] {
+    [v.truncate().length(), v.w.abs()]
+}
+
+fn clocks(kernel: &str, before: Clock, got: Clock, want: Clock) -> Verdict {
+    let allowed = 4.0 * f64::from(f32::EPSILON) * want.time.abs().max(want.dt);
+    let same = got.step == want.step && got.count == want.count;
+    let worst = if same { (got.time - want.time).abs() / allowed } else { f64::INFINITY };
+    Verdict { kernel: kernel.to_owned(), field: "world".to_owned(), worst, changed: before != want, ..Verdict::none() }
+}
+
+impl Verdict {
+    fn none() -> Self {
+        Self {
+            kernel: String::new(),
+            field: String::new(),
+            worst: 0.0,
+            element: 0,
+            relative: [0.0; 3],
+            changed: false,
+            spilled: false,
+        }
+    }
+}

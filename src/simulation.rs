@@ -1,0 +1,239 @@
+//! A simulation: particles, forces and an integrator on a backend.
+
+use glam::DVec3;
+
+use crate::error::Error;
+use crate::forces::Force;
+use crate::gpu::Gpu;
+use crate::integrators::{Integrator, Step};
+use crate::kernel::{ACCELERATION, ALARM, Array, Backend, Clock, Element, Field, POSITION, Plan, VELOCITY};
+use crate::particles::Particles;
+
+/// What a simulation is made of.
+pub struct Setup {
+    /// What moves.
+    pub particles: Particles,
+    /// What moves it, in this order.
+    pub forces: Vec<Box<dyn Force>>,
+    /// How.
+    pub integrator: Box<dyn Integrator>,
+    /// The step size [time].
+    pub dt: f64,
+}
+
+/// The state at the end of a step.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Snapshot {
+    /// Steps done.
+    pub step: u64,
+    /// The time, step × dt.
+    pub time: f64,
+    /// Positions, velocities, masses and radii, by id.
+    pub particles: Particles,
+    /// Each particle's share of the potential energy [mass length² / time²].
+    pub potential: Vec<f64>,
+}
+
+/// Particles that move.
+pub struct Simulation<B: Backend> {
+    backend: B,
+    start: Option<B::Program>,
+    step: B::Program,
+    measure: (B::Program, B::Program),
+    plan: String,
+    count: u32,
+    dt: f64,
+    steps: u64,
+}
+
+/// The plans of a simulation: what runs once, what runs in every step, and what surrounds a measurement.
+pub struct Plans {
+    /// Before the first step.
+    pub start: Plan,
+    /// A step.
+    pub step: Plan,
+    /// Before and after the state is read.
+    pub measure: (Plan, Plan),
+}
+
+impl Setup {
+    /// Writes the plans for a machine.
+    ///
+    /// # Errors
+    /// When the setup makes no sense, or a shader does not compile.
+    pub fn plans(&self, machine: crate::kernel::Machine) -> Result<Plans, Error> {
+        let count = self.check()?;
+        let mut start = Step::new(&self.forces, count, machine);
+        self.integrator.start(&mut start);
+        let mut step = Step::new(&self.forces, count, machine);
+        self.integrator.step(&mut step);
+        let measure = Step::measurement(&self.forces, count, machine)?;
+        Ok(Plans { start: start.finished()?, step: step.done()?, measure })
+    }
+    /// The number of particles, if all is well.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] when there are none or too many, when dt is not a positive number, or when a particle has a
+    /// number that is none, or a negative mass.
+    pub fn check(&self) -> Result<u32, Error> {
+        let count = self.particles.len();
+        let lengths = [self.particles.velocity.len(), self.particles.mass.len(), self.particles.radius.len()];
+        if lengths.iter().any(|l| *l != count) {
+            return Err(Error::Scene(format!(
+                "{count} positions come with {lengths:?} velocities, masses and radii: give each particle one of each"
+            )));
+        }
+        if !(self.dt.is_finite() && self.dt > 0.0) {
+            return Err(Error::Scene(format!("dt is {}: it must be a number above 0", self.dt)));
+        }
+        let good = |v: &DVec3| v.is_finite();
+        let bad = (0..count).find(|i| {
+            let (mass, radius) = (self.particles.mass[*i], self.particles.radius[*i]);
+            let vectors = good(&self.particles.position[*i]) && good(&self.particles.velocity[*i]);
+            !(vectors && mass >= 0.0 && mass.is_finite() && radius.is_finite())
+        });
+        if let Some(bad) = bad {
+            return Err(Error::Scene(format!(
+                "particle {bad} has a number that is NaN or infinite, or a negative mass"
+            )));
+        }
+        u32::try_from(count)
+            .ok()
+            .filter(|n| *n > 0)
+            .ok_or_else(|| Error::Scene(format!("there are {count} particles: a simulation takes 1 to {}", u32::MAX)))
+    }
+}
+
+impl<B: Backend> Simulation<B> {
+    /// Puts a setup on a backend.
+    ///
+    /// # Errors
+    /// When the setup makes no sense, a shader does not compile, or the fields do not fit the device.
+    pub fn on(mut backend: B, setup: &Setup) -> Result<Self, Error> {
+        let count = setup.check()?;
+        let plans = setup.plans(backend.machine())?;
+        let plan = plans.step.to_string();
+        let start = if plans.start.order.is_empty() { None } else { Some(backend.compile(&plans.start)?) };
+        let step = backend.compile(&plans.step)?;
+        let measure = (backend.compile(&plans.measure.0)?, backend.compile(&plans.measure.1)?);
+        backend.set_clock(Clock { time: 0.0, dt: setup.dt, step: 0, count })?;
+        let particles = &setup.particles;
+        let position = particles.position.iter().zip(&particles.mass).map(|(x, m)| x.extend(*m)).collect();
+        let velocity = particles.velocity.iter().zip(&particles.radius).map(|(v, r)| v.extend(*r)).collect();
+        backend.write(POSITION.name, &Array::Vec4(position))?;
+        backend.write(VELOCITY.name, &Array::Vec4(velocity))?;
+        backend.write(ACCELERATION.name, &Array::Vec4(Vec::new()).zeros(count as usize))?;
+        backend.write(ALARM.name, &Array::Uint(vec![u32::MAX; 2]))?;
+        Ok(Self { backend, start, step, measure, plan, count, dt: setup.dt, steps: 0 })
+    }
+    /// Advances. May return before the device is done; reading waits.
+    ///
+    /// # Errors
+    /// When the device is lost, out of memory, or does not answer in time.
+    pub fn step(&mut self, steps: u32) -> Result<(), Error> {
+        if let Some(start) = self.start.take() {
+            self.backend.run(&start, 1)?;
+        }
+        self.backend.run(&self.step, steps)?;
+        self.steps += u64::from(steps);
+        Ok(())
+    }
+    /// Reads a field, one element per particle.
+    ///
+    /// # Errors
+    /// When there is no such field, the device is lost, or it does not answer in time.
+    pub async fn read<T: Element>(&mut self, field: Field<T>) -> Result<Vec<T>, Error> {
+        let array = self.backend.read(field.name, &T::array(Vec::new()), self.count as usize).await?;
+        Ok(T::view(&array).map_or_else(Vec::new, |values| values.iter().map(|v| T::narrow(*v)).collect()))
+    }
+    /// Writes a field from its first element on: a renderer's pull, a kinematic target.
+    ///
+    /// # Errors
+    /// When there is no such field, it is shorter, or the device is lost.
+    pub fn write<T: Element>(&mut self, field: Field<T>, values: &[T]) -> Result<(), Error> {
+        self.backend.write(field.name, &T::array(values.iter().map(|v| v.widen()).collect()))
+    }
+    /// Looks whether any number has stopped being one.
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`] with the first particle and step, or what reading says.
+    pub async fn check(&mut self) -> Result<(), Error> {
+        let alarm = self.backend.read(ALARM.name, &Array::Uint(Vec::new()), 2).await?;
+        match u32::view(&alarm).map(Vec::as_slice) {
+            Some([step, particle]) if *step != u32::MAX => {
+                Err(Error::NotFinite { particle: *particle, step: u64::from(*step) })
+            }
+            _ => Ok(()),
+        }
+    }
+    /// The state and the potential energies at the end of the last step. It evaluates the forces once more, and leaves
+    /// no trace of that in the run.
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`], or what reading says.
+    pub async fn snapshot(&mut self) -> Result<Snapshot, Error> {
+        self.check().await?;
+        self.backend.run(&self.measure.0, 1)?;
+        let count = self.count as usize;
+        let like = Array::Vec4(Vec::new());
+        let position = self.backend.read(POSITION.name, &like, count).await?;
+        let velocity = self.backend.read(VELOCITY.name, &like, count).await?;
+        let acceleration = self.backend.read(ACCELERATION.name, &like, count).await?;
+        self.backend.run(&self.measure.1, 1)?;
+        let mut particles = Particles::default();
+        let mut potential = Vec::with_capacity(count);
+        if let (Array::Vec4(x), Array::Vec4(v), Array::Vec4(a)) = (position, velocity, acceleration) {
+            for ((x, v), a) in x.iter().zip(&v).zip(&a) {
+                particles.push(x.truncate(), v.truncate(), x.w, v.w);
+                potential.push(x.w * a.w);
+            }
+        }
+        let time = self.steps as f64 * self.dt;
+        Ok(Snapshot { step: self.steps, time, particles, potential })
+    }
+    /// One step, as `motes explain` prints it.
+    #[must_use]
+    pub fn plan(&self) -> &str {
+        &self.plan
+    }
+    /// Steps done.
+    #[must_use]
+    pub fn steps(&self) -> u64 {
+        self.steps
+    }
+    /// Particles.
+    #[must_use]
+    pub fn count(&self) -> u32 {
+        self.count
+    }
+    /// The backend.
+    pub fn backend(&mut self) -> &mut B {
+        &mut self.backend
+    }
+}
+
+/// The rendering app's door: its device, its queue, its encoder.
+impl Simulation<Gpu> {
+    /// On a device that the caller owns and goes on using. It needs nothing beyond WebGPU's default limits.
+    ///
+    /// # Errors
+    /// When the setup makes no sense, a shader does not compile, or the fields do not fit the device.
+    pub fn new(device: &wgpu::Device, queue: &wgpu::Queue, setup: &Setup) -> Result<Self, Error> {
+        let gpu = Gpu::new(device, queue, setup.check()?)?;
+        Self::on(gpu, setup)
+    }
+    /// Encodes steps into the caller's encoder and submits nothing. The clock is on the device, so every call goes on
+    /// where the one before it ended, if the caller submits them in that order.
+    pub fn encode(&mut self, steps: u32, encoder: &mut wgpu::CommandEncoder) {
+        if let Some(start) = self.start.take() {
+            self.backend.encode(&start, 1, encoder);
+        }
+        self.backend.encode(&self.step, steps, encoder);
+        self.steps += u64::from(steps);
+    }
+    /// A field's buffer, usable as a vertex buffer: draw without a copy. It stays the same for the simulation's life.
+    #[must_use]
+    pub fn buffer<T>(&self, field: Field<T>) -> Option<&wgpu::Buffer> {
+        self.backend.buffer(field.name)
+    }
+}

@@ -1,0 +1,142 @@
+//! Everybody meets everybody else: which of the three files, and how the meetings are cut into dispatches.
+
+use std::sync::Arc;
+
+use glam::{DVec3, DVec4};
+use rayon::prelude::*;
+
+use super::{Body, Law, bodies};
+use crate::error::Error;
+use crate::kernel::{ACCELERATION, Kernel, Machine, Pass, Scalar, Shader, Source, Threads, Twin};
+
+/// Meetings in one dispatch, at most. At 20 billion a second (a small GPU) that is 0.1 s; a large one needs a millisecond.
+const MEETINGS: u64 = 1 << 31;
+/// Sources that one invocation meets in one dispatch, at most: half of the 65 535 loop trips that lavapipe allows.
+const SOURCES: u32 = 1 << 15;
+/// Layers, at most: more cost more to add than they gain.
+const LAYERS: u32 = 64;
+
+/// How the meetings of `count` particles are cut.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Cut {
+    /// Slices of the sources that are met side by side, each by invocations of its own.
+    pub layers: u32,
+    /// Sources in one slice of one dispatch; a multiple of the block.
+    pub slice: u32,
+}
+
+impl Cut {
+    /// Enough layers to keep the machine busy, then dispatches short enough.
+    #[must_use]
+    pub fn new(count: u32, targets: u32, block: u32, machine: &Machine) -> Self {
+        let blocks = count.div_ceil(block).max(1);
+        let invocations = count.div_ceil(targets).max(1);
+        let layers = (machine.invocations / invocations).clamp(1, LAYERS).min(blocks);
+        let by_layers = blocks.div_ceil(layers);
+        let by_work = u32::try_from(MEETINGS / u64::from(count.max(1)) / u64::from(block) / u64::from(layers))
+            .unwrap_or(u32::MAX);
+        let slice = by_layers.min(by_work.max(1)).min(SOURCES / block) * block;
+        Self { layers, slice }
+    }
+    /// Sources that one dispatch meets.
+    #[must_use]
+    pub fn sources(self) -> u64 {
+        u64::from(self.layers) * u64::from(self.slice)
+    }
+}
+
+fn variant(machine: &Machine) -> Source {
+    match (machine.software, machine.subgroup) {
+        (true, 8) => crate::shader!("visit/pairs_subgroup.wgsl"),
+        (true, _) => crate::shader!("visit/pairs_loop.wgsl"),
+        (false, _) => crate::shader!("visit/pairs_tile.wgsl"),
+    }
+}
+
+fn join(visit: Source, law: &Law) -> Result<Arc<Shader>, Error> {
+    let mut files =
+        vec![crate::shader!("world.wgsl"), crate::shader!("particle.wgsl"), crate::shader!("visit/span.wgsl"), visit];
+    if !law.wgsl.says(&["struct", "Sum", "{"]) {
+        files.push(crate::shader!("visit/sum.wgsl"));
+    }
+    files.push(law.wgsl.clone());
+    Shader::join(&files)
+}
+
+pub fn kernel(law: Law, count: u32, machine: &Machine) -> Result<Kernel, Error> {
+    law.requires(&[
+        ("gather", "fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>)"),
+        ("finish", "fn finish(me: Particle, sum: Sum) -> vec4f"),
+    ])?;
+    let shader = join(variant(machine), &law)?;
+    let reflection = shader.reflection();
+    let (targets, block) = (reflection.constant("TARGETS"), reflection.constant("BLOCK"));
+    let cut = Cut::new(count, targets, block, machine);
+    let params = law.uniforms(&shader)?;
+    let whole = cut.sources() >= u64::from(count) && cut.layers == 1;
+
+    let mut passes = Vec::new();
+    let mut first = 0;
+    while first < count {
+        let end = u32::try_from((u64::from(first) + cut.sources()).min(u64::from(count))).unwrap_or(count);
+        let values = [("first", first), ("end", end), ("slice", cut.slice)].map(|(name, n)| (name, Scalar::Uint(n)));
+        let span = reflection.binding("span").map_or(Ok(Vec::new()), |b| b.packed.pack("span", &values))?;
+        let mut uniforms = params.clone();
+        uniforms.push(("span", span));
+        passes.push(Pass {
+            shader: shader.clone(),
+            constants: vec![("WHOLE", f64::from(u8::from(whole)))],
+            uniforms,
+            threads: Threads { count: count.div_ceil(targets), layers: cut.layers },
+            work: u64::from(count) * u64::from(end - first),
+        });
+        first = end;
+    }
+    if !whole {
+        let shader = join(crate::shader!("visit/pairs_finish.wgsl"), &law)?;
+        let constants = vec![("LAYERS", f64::from(cut.layers))];
+        let uniforms = law.uniforms(&shader)?;
+        let work = u64::from(count) * u64::from(cut.layers);
+        passes.push(Pass { shader, constants, uniforms, threads: Threads::new(count), work });
+    }
+    let parts = if whole { 1 } else { u64::from(cut.layers) * u64::from(count) };
+    Ok(Kernel { name: law.name, passes, twin: law.twin, sizes: vec![("parts", parts)], scratch: &["parts"] })
+}
+
+/// The twin meets everybody in the order of their ids.
+pub fn twin(rule: impl Fn(&Body, &Body, DVec3) -> DVec4 + Send + Sync + 'static) -> Twin {
+    Arc::new(move |host| {
+        let bodies = bodies(host)?;
+        let mut acceleration = host.write(ACCELERATION)?;
+        acceleration.par_iter_mut().zip(&bodies).for_each(|(a, me)| {
+            let mut sum = DVec4::ZERO;
+            for you in bodies.iter().filter(|you| you.index != me.index) {
+                sum += rule(me, you, you.position - me.position);
+            }
+            *a += sum * DVec4::new(1.0, 1.0, 1.0, 0.5);
+        });
+        Ok(())
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_source_is_met_once_and_no_invocation_loops_too_long() {
+        let gpu = Machine { software: false, subgroup: 0, invocations: 1 << 18 };
+        let cpu = Machine { software: true, subgroup: 8, invocations: 1 };
+        for machine in [gpu, cpu] {
+            for count in [1, 2, 127, 128, 129, 1000, 4096, 65_537, 1 << 20, 8_388_608, 134_217_728] {
+                let cut = Cut::new(count, 4, 128, &machine);
+                assert_eq!(cut.slice % 128, 0, "{cut:?}");
+                assert!((1..=LAYERS).contains(&cut.layers) && cut.slice > 0 && cut.slice <= SOURCES, "{cut:?}");
+                let met = cut.sources().min(u64::from(count)) * u64::from(count);
+                // One block for each layer is the least that a dispatch can meet.
+                let least = u64::from(cut.layers) * 128 * u64::from(count);
+                assert!(met <= MEETINGS.max(least), "{count}: {cut:?} meets {met} at once");
+            }
+        }
+    }
+}

@@ -1,0 +1,57 @@
+//! What several tests need: a device, and particles with no round numbers.
+#![allow(dead_code, reason = "each test uses a part of it")]
+
+use std::sync::{Mutex, MutexGuard, OnceLock};
+
+use glam::DVec3;
+use motes::gpu;
+use motes::particles::Particles;
+
+/// One device for a whole test binary, used by one test at a time: a software device has only these cores.
+pub struct Shared {
+    pub found: gpu::Found,
+}
+
+/// The device. No adapter is a failure, never a skip.
+pub fn device() -> MutexGuard<'static, Shared> {
+    static DEVICE: OnceLock<Mutex<Shared>> = OnceLock::new();
+    let shared = DEVICE.get_or_init(|| {
+        let found = pollster::block_on(async {
+            let instance = gpu::instance();
+            let adapter = gpu::choose(gpu::adapters(&instance).await, &gpu::Choice::Best)?;
+            gpu::open(adapter).await
+        });
+        Mutex::new(Shared { found: found.expect("tests need an adapter; tests/run installs one") })
+    });
+    shared.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
+}
+
+/// Numbers that repeat, and are neither 0 nor 1.
+pub struct Random(u64);
+
+impl Random {
+    pub fn new(seed: u64) -> Self {
+        Self(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1)
+    }
+    /// In (-1, 1).
+    pub fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        ((self.0 >> 11) as f64 / (1u64 << 53) as f64).mul_add(2.0, -1.0)
+    }
+    pub fn vector(&mut self) -> DVec3 {
+        DVec3::new(self.next(), self.next(), self.next())
+    }
+}
+
+/// Particles in a cube of side 2 with masses about 1 / n, as f32 holds them.
+pub fn cloud(count: usize, seed: u64) -> Particles {
+    let mut random = Random::new(seed);
+    let mut particles = Particles::default();
+    for _ in 0..count {
+        let round = |v: DVec3| v.as_vec3().as_dvec3();
+        let (x, v) = (round(random.vector()), round(random.vector() * 0.7));
+        let mass = f64::from(((1.3 + 0.4 * random.next()) / count as f64) as f32);
+        particles.push(x, v, mass, 0.01);
+    }
+    particles
+}
