@@ -1,5 +1,15 @@
 //! Particles on the host: what files and generators give, and what a simulation starts from.
 
+mod build;
+pub mod disk;
+mod hernquist;
+pub mod lattice;
+pub mod plummer;
+pub mod random;
+pub mod random_box;
+mod rotation;
+pub mod sphere;
+
 use glam::DVec3;
 
 use crate::error::Error;
@@ -28,6 +38,21 @@ pub struct Shape {
     pub keys: &'static [Key],
     /// Makes the particles. The same settings give the same bits on every platform.
     pub build: fn(&Settings) -> Result<Particles, Error>,
+}
+
+/// Every generator.
+pub const SHAPES: &[Shape] = &[
+    plummer::PLUMMER,
+    sphere::SPHERE,
+    disk::DISK,
+    lattice::LATTICE,
+    random_box::RANDOM_BOX,
+];
+
+/// The generator of a name.
+#[must_use]
+pub fn shape(name: &str) -> Option<&'static Shape> {
+    SHAPES.iter().find(|shape| shape.name == name)
 }
 
 impl Particles {

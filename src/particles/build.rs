@@ -1,0 +1,177 @@
+//! What all generators share: the keys that mean the same everywhere, and the checks before and after.
+
+use glam::DVec3;
+
+use super::Particles;
+use crate::error::Error;
+use crate::settings::{Key, Kind, Settings, Value};
+
+pub(super) const COUNT: Key = Key::required("count", Kind::Count, "number of particles");
+pub(super) const SEED: Key = Key::new(
+    "seed",
+    Kind::Whole,
+    Value::Number(1.0),
+    "seed of the random numbers",
+);
+pub(super) const G: Key = Key::new(
+    "g",
+    Kind::Positive,
+    Value::Number(1.0),
+    "constant of gravity [length³ / mass / time²]; as in the force",
+);
+pub(super) const CENTER: Key = Key::new(
+    "center",
+    Kind::Vector,
+    Value::Vector(DVec3::ZERO),
+    "where the centre is put [length]",
+);
+pub(super) const VELOCITY: Key = Key::new(
+    "velocity",
+    Kind::Vector,
+    Value::Vector(DVec3::ZERO),
+    "how it moves as a whole [length / time]",
+);
+pub(super) const PARTICLE_RADIUS: Key = Key::new(
+    "particle_radius",
+    Kind::NotNegative,
+    Value::Number(0.0),
+    "how large each particle is drawn [length]; 0 lets the picture choose",
+);
+
+/// The settings of one shape, read with checks, so that a caller who skips the scene's own checks gets an error, not NaN.
+pub(super) struct Reader<'a> {
+    pub shape: &'static str,
+    pub settings: &'a Settings,
+}
+
+impl Reader<'_> {
+    pub fn error(&self, message: &str) -> Error {
+        Error::Scene(format!("shape `{}`: {message}", self.shape))
+    }
+
+    /// A finite number above zero.
+    pub fn positive(&self, key: &str) -> Result<f64, Error> {
+        self.number(key, "above 0", |x| x > 0.0)
+    }
+
+    /// A finite number, zero or above.
+    pub fn not_negative(&self, key: &str) -> Result<f64, Error> {
+        self.number(key, "0 or above", |x| x >= 0.0)
+    }
+
+    /// A number of a range that `rule` spells out.
+    pub fn number(&self, key: &str, rule: &str, holds: fn(f64) -> bool) -> Result<f64, Error> {
+        let x = self.settings.number(key);
+        if x.is_finite() && holds(x) {
+            Ok(x)
+        } else {
+            Err(self.error(&format!("{key} is {x}; it must be {rule}")))
+        }
+    }
+
+    /// Three finite numbers.
+    pub fn vector(&self, key: &str) -> Result<DVec3, Error> {
+        let v = self.settings.vector(key);
+        if v.is_finite() {
+            Ok(v)
+        } else {
+            Err(self.error(&format!("{key} is {v}; it must be three finite numbers")))
+        }
+    }
+
+    /// The unit vector of a direction of any length.
+    pub fn direction(&self, key: &str) -> Result<DVec3, Error> {
+        let v = self.vector(key)?;
+        // Scaled first, so that neither huge nor tiny numbers leave the range when squared.
+        let scaled = v / v.abs().max_element();
+        scaled
+            .try_normalize()
+            .ok_or_else(|| self.error(&format!("{key} is {v}; a direction must not be zero")))
+    }
+
+    /// Room for the shape's `count` particles.
+    pub fn room(&self) -> Result<(usize, Particles), Error> {
+        let count = self.settings.whole("count");
+        if count == 0 {
+            return Err(self.error("count is 0; it must be 1 or above"));
+        }
+        self.room_for(count)
+    }
+
+    /// Room for `count` particles: ids are 32 bits, and memory that is not there is an error here, not an abort later.
+    pub fn room_for(&self, count: u64) -> Result<(usize, Particles), Error> {
+        let limit = |message: String| {
+            Error::Limit(format!(
+                "shape `{}`: {count} particles {message}; ask for fewer",
+                self.shape
+            ))
+        };
+        let count = u32::try_from(count)
+            .ok()
+            .and_then(|count| usize::try_from(count).ok())
+            .ok_or_else(|| limit(format!("need ids beyond the {} that fit 32 bits", u32::MAX)))?;
+        let mut particles = Particles::default();
+        let reserved = particles
+            .position
+            .try_reserve_exact(count)
+            .and_then(|()| particles.velocity.try_reserve_exact(count))
+            .and_then(|()| particles.mass.try_reserve_exact(count))
+            .and_then(|()| particles.radius.try_reserve_exact(count));
+        match reserved {
+            Ok(()) => Ok((count, particles)),
+            Err(_) => Err(limit(format!(
+                "need {} GiB of memory, which is not there",
+                (count >> 30) * 64
+            ))),
+        }
+    }
+
+    /// The same particles, if every number stayed finite.
+    pub fn finished(&self, particles: Particles) -> Result<Particles, Error> {
+        let finite = particles
+            .position
+            .iter()
+            .chain(&particles.velocity)
+            .all(|v| v.is_finite())
+            && particles.mass.iter().all(|m| m.is_finite());
+        if finite {
+            Ok(particles)
+        } else {
+            Err(self.error(
+                "these numbers are too far apart: a position or velocity leaves the range of f64",
+            ))
+        }
+    }
+}
+
+impl Particles {
+    /// Mean position and velocity, weighted by mass; by number where all masses are zero.
+    pub(super) fn center(&self) -> (DVec3, DVec3) {
+        let total: f64 = self.mass.iter().sum();
+        let massless = total <= 0.0;
+        let (mut position, mut velocity, mut weight) = (DVec3::ZERO, DVec3::ZERO, 0.0);
+        for ((x, v), m) in self.position.iter().zip(&self.velocity).zip(&self.mass) {
+            let w = if massless { 1.0 } else { *m };
+            position += *x * w;
+            velocity += *v * w;
+            weight += w;
+        }
+        if weight > 0.0 {
+            (position / weight, velocity / weight)
+        } else {
+            (DVec3::ZERO, DVec3::ZERO)
+        }
+    }
+
+    /// Moves all, so that the centre of mass lies at `center` and moves with `velocity`.
+    pub(super) fn centered(mut self, center: DVec3, velocity: DVec3) -> Self {
+        let (x, v) = self.center();
+        for position in &mut self.position {
+            *position = *position - x + center;
+        }
+        for speed in &mut self.velocity {
+            *speed = *speed - v + velocity;
+        }
+        self
+    }
+}

@@ -1,0 +1,191 @@
+//! A disk galaxy: an exponential disk, sech² across, in a Hernquist halo, near equilibrium (Hernquist 1993).
+
+use std::f64::consts::TAU;
+
+use glam::{DMat3, DVec3};
+
+use super::build::{CENTER, COUNT, G, PARTICLE_RADIUS, Reader, SEED, VELOCITY};
+use super::hernquist::Halo;
+use super::random::Random;
+use super::rotation::{Galaxy, Rotation};
+use super::{Particles, Shape};
+use crate::error::Error;
+use crate::settings::{Key, Kind, Settings, Value};
+
+/// The shape `disk`.
+pub const DISK: Shape = Shape {
+    name: "disk",
+    about: "a disk galaxy in a halo, near equilibrium: the disk's particles first, then the halo's (Hernquist 1993)",
+    keys: KEYS,
+    build,
+};
+
+const KEYS: &[Key] = &[
+    COUNT,
+    SEED,
+    Key::new(
+        "disk_mass",
+        Kind::Positive,
+        Value::Number(1.0),
+        "mass of the disk [mass]",
+    ),
+    Key::new(
+        "disk_scale",
+        Kind::Positive,
+        Value::Number(1.0),
+        "R_d of its surface density exp(-R / R_d) [length]",
+    ),
+    Key::new(
+        "disk_height",
+        Kind::Positive,
+        Value::Number(0.2),
+        "z₀ of its profile sech²(z / z₀) [length]",
+    ),
+    Key::new(
+        "halo_mass",
+        Kind::NotNegative,
+        Value::Number(6.0),
+        "mass of the halo [mass]; 0 leaves it out",
+    ),
+    Key::new(
+        "halo_scale",
+        Kind::Positive,
+        Value::Number(3.0),
+        "a of the halo's density 1 / (r (r + a)³), which is cut at 10 a [length]",
+    ),
+    Key::new(
+        "halo_fraction",
+        Kind::NotNegative,
+        Value::Number(0.5),
+        "share of the particles that are halo (below 1); their ids follow the disk's",
+    ),
+    Key::new(
+        "toomre_q",
+        Kind::NotNegative,
+        Value::Number(1.2),
+        "Toomre's Q at every radius: how warm the disk is; below 1 it breaks into clumps, above 2 it hardly makes arms",
+    ),
+    Key::new(
+        "softening",
+        Kind::NotNegative,
+        Value::Number(0.0),
+        "softening of the force that the galaxy will run with [length], so that its centre is balanced too",
+    ),
+    Key::new(
+        "normal",
+        Kind::Direction,
+        Value::Vector(DVec3::Z),
+        "the axis about which it turns, counter-clockwise",
+    ),
+    G,
+    CENTER,
+    VELOCITY,
+    PARTICLE_RADIUS,
+];
+
+/// `count` particles: first those of the disk, then those of the halo, equal masses within each. Both have their own centre
+/// of mass at rest at `center`, up to `velocity`, so that the disk starts in the middle of its halo.
+fn build(settings: &Settings) -> Result<Particles, Error> {
+    let reader = Reader {
+        shape: "disk",
+        settings,
+    };
+    let (count, _) = reader.room()?;
+    let mut random = Random::new(settings.whole("seed"));
+    let galaxy = Galaxy {
+        g: reader.positive("g")?,
+        disk_mass: reader.positive("disk_mass")?,
+        disk_scale: reader.positive("disk_scale")?,
+        disk_height: reader.positive("disk_height")?,
+        halo_mass: reader.not_negative("halo_mass")?,
+        halo_scale: reader.positive("halo_scale")?,
+        softening: reader.not_negative("softening")?,
+        toomre_q: reader.not_negative("toomre_q")?,
+    };
+    let normal = reader.direction("normal")?;
+    let center = reader.vector("center")?;
+    let velocity = reader.vector("velocity")?;
+    let radius = reader.not_negative("particle_radius")?;
+    let (disk_count, halo_count) = split(&reader, count, galaxy.halo_mass)?;
+
+    let mut disk = Particles::default();
+    let rotation = Rotation::new(&galaxy);
+    let (across, along) = normal.any_orthonormal_pair();
+    let tilt = DMat3::from_cols(across, along, normal);
+    for _ in 0..disk_count {
+        let (position, velocity) = star(&galaxy, &rotation, &mut random);
+        disk.push(
+            tilt * position,
+            tilt * velocity,
+            galaxy.disk_mass / f64::from(disk_count),
+            radius,
+        );
+    }
+    let mut particles = disk.centered(center, velocity);
+    if halo_count > 0 {
+        let mut dark = Particles::default();
+        let halo = Halo::new(&galaxy);
+        for _ in 0..halo_count {
+            let (position, velocity) = halo.draw(&mut random);
+            dark.push(
+                position,
+                velocity,
+                galaxy.halo_mass / f64::from(halo_count),
+                radius,
+            );
+        }
+        particles.append(&dark.centered(center, velocity));
+    }
+    reader.finished(particles)
+}
+
+/// How many particles are disk and how many halo.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a share below 1 of a number that fits 32 bits"
+)]
+fn split(reader: &Reader, count: usize, halo_mass: f64) -> Result<(u32, u32), Error> {
+    let fraction = reader.number("halo_fraction", "0 or above and below 1", |x| {
+        (0.0..1.0).contains(&x)
+    })?;
+    let count = u32::try_from(count).unwrap_or(u32::MAX);
+    let halo = if halo_mass > 0.0 {
+        (f64::from(count) * fraction).round() as u32
+    } else {
+        0
+    };
+    let disk = count - halo;
+    if halo_mass > 0.0 && halo == 0 {
+        Err(reader.error(
+            "no particle is left for the halo: raise count or halo_fraction, or set halo_mass to 0",
+        ))
+    } else if disk == 0 {
+        Err(reader.error("no particle is left for the disk: raise count or lower halo_fraction"))
+    } else {
+        Ok((disk, halo))
+    }
+}
+
+/// One star of the disk, turning about z.
+fn star(galaxy: &Galaxy, rotation: &Rotation, random: &mut Random) -> (DVec3, DVec3) {
+    // R exp(-R) is the distribution of the sum of two exponential numbers.
+    let radius = -galaxy.disk_scale * libm::log(random.uniform() * random.uniform());
+    let angle = TAU * random.uniform();
+    let (sin, cos) = (libm::sin(angle), libm::cos(angle));
+    let height = random.uniform();
+    // z₀ artanh(2u - 1)
+    let z = 0.5 * galaxy.disk_height * libm::log(height / (1.0 - height));
+    let ring = rotation.at(radius);
+    let outward = ring.radial.sqrt() * random.normal();
+    let around = ring.mean.sqrt() + ring.azimuthal.sqrt() * random.normal();
+    let up = ring.vertical.sqrt() * random.normal();
+    (
+        DVec3::new(radius * cos, radius * sin, z),
+        DVec3::new(
+            outward * cos - around * sin,
+            outward * sin + around * cos,
+            up,
+        ),
+    )
+}

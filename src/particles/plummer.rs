@@ -1,0 +1,83 @@
+//! Plummer's sphere in equilibrium:  ρ(r) = 3M / (4π a³) (1 + r²/a²)^(-5/2)  (Plummer 1911; sampled after Aarseth,
+//! Hénon & Wielen 1974).
+
+use std::f64::consts::PI;
+
+use super::build::{CENTER, COUNT, G, PARTICLE_RADIUS, Reader, SEED, VELOCITY};
+use super::random::Random;
+use super::{Particles, Shape};
+use crate::error::Error;
+use crate::settings::{Key, Kind, Settings, Value};
+
+/// The shape `plummer`.
+pub const PLUMMER: Shape = Shape {
+    name: "plummer",
+    about: "Plummer's sphere, a star cluster in equilibrium (Plummer 1911; Aarseth, Hénon & Wielen 1974)",
+    keys: KEYS,
+    build,
+};
+
+const KEYS: &[Key] = &[
+    COUNT,
+    SEED,
+    Key::new(
+        "mass",
+        Kind::Positive,
+        Value::Number(1.0),
+        "mass of all particles together [mass]",
+    ),
+    Key::new(
+        "scale",
+        Kind::Positive,
+        Value::Number(3.0 * PI / 16.0),
+        "Plummer radius a [length]; half of the mass lies within 1.305 a; 3π/16 gives the energy -1/4 for g = mass = 1",
+    ),
+    G,
+    Key::new(
+        "cutoff",
+        Kind::Positive,
+        Value::Number(0.999),
+        "share of the endless model's mass that is drawn from, from the centre outwards (at most 1)",
+    ),
+    CENTER,
+    VELOCITY,
+    PARTICLE_RADIUS,
+];
+
+/// `count` particles of equal mass; their centre of mass is at rest at `center`, up to `velocity`.
+fn build(settings: &Settings) -> Result<Particles, Error> {
+    let reader = Reader {
+        shape: "plummer",
+        settings,
+    };
+    let (count, mut particles) = reader.room()?;
+    let mut random = Random::new(settings.whole("seed"));
+    let total = reader.positive("mass")?;
+    let scale = reader.positive("scale")?;
+    let g = reader.positive("g")?;
+    let cutoff = reader.number("cutoff", "above 0 and at most 1", |x| x > 0.0 && x <= 1.0)?;
+    let radius = reader.not_negative("particle_radius")?;
+    let mass = total / f64::from(u32::try_from(count).unwrap_or(u32::MAX));
+    for _ in 0..count {
+        // M(r)/M = (1 + a²/r²)^(-3/2), turned round.
+        let root = libm::cbrt(cutoff * random.uniform());
+        let r = scale * root / (1.0 - root * root).sqrt();
+        let position = random.direction() * r;
+        let escape = (2.0 * g * total / (scale * (1.0 + r * r / (scale * scale)).sqrt())).sqrt();
+        let velocity = random.direction() * (escape * speed(&mut random));
+        particles.push(position, velocity, mass, radius);
+    }
+    reader.finished(particles.centered(reader.vector("center")?, reader.vector("velocity")?))
+}
+
+/// A speed in units of the escape speed, from  q² (1 - q²)^(7/2)  by rejection below its bound 0.1.
+fn speed(random: &mut Random) -> f64 {
+    loop {
+        let q = random.uniform();
+        let height = 0.1 * random.uniform();
+        let rest = 1.0 - q * q;
+        if height < q * q * rest * rest * rest * rest.sqrt() {
+            return q;
+        }
+    }
+}
