@@ -9,6 +9,7 @@ pub mod random;
 pub mod random_box;
 mod rotation;
 pub mod sphere;
+pub mod spray;
 
 use glam::DVec3;
 
@@ -47,6 +48,7 @@ pub const SHAPES: &[Shape] = &[
     disk::DISK,
     lattice::LATTICE,
     random_box::RANDOM_BOX,
+    spray::SPRAY,
 ];
 
 /// The generator of a name.
@@ -81,24 +83,3 @@ impl Particles {
         self.radius.extend_from_slice(&other.radius);
     }
 }
-
-/// Stand-in for the generators.
-pub const SHAPES: &[Shape] = &[Shape {
-    name: "plummer",
-    about: "Plummer 1911",
-    keys: &[
-        Key::required("count", crate::settings::Kind::Count, "how many"),
-        Key::new("seed", crate::settings::Kind::Whole, crate::settings::Value::Number(1.0), "seed"),
-        Key::new("center", crate::settings::Kind::Vector, crate::settings::Value::Vector(DVec3::ZERO), "centre"),
-    ],
-    build: |s| {
-        let mut all = Particles::default();
-        if s.whole("count") == 13 {
-            return Err(Error::Scene("13 brings bad luck".into()));
-        }
-        for _ in 0..s.whole("count") {
-            all.push(s.vector("center"), DVec3::ZERO, 1.0, 0.0);
-        }
-        Ok(all)
-    },
-}];
