@@ -10,6 +10,7 @@ pub mod random;
 pub mod random_box;
 mod rotation;
 pub mod sphere;
+pub mod spray;
 
 use glam::DVec3;
 
@@ -48,6 +49,7 @@ pub const SHAPES: &[Shape] = &[
     disk::DISK,
     lattice::LATTICE,
     random_box::RANDOM_BOX,
+    spray::SPRAY,
 ];
 
 /// The generator of a name.

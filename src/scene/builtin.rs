@@ -1,0 +1,29 @@
+//! The scenes that come with the program: `motes run galaxy`.
+
+/// A scene in the program.
+#[derive(Debug)]
+pub struct Builtin {
+    /// What `motes run` calls it.
+    pub name: &'static str,
+    /// The scene.
+    pub text: &'static str,
+    /// The files that it names, by name, with their text.
+    pub files: &'static [(&'static str, &'static str)],
+}
+
+impl Builtin {
+    /// Its first comment: what one should see.
+    #[must_use]
+    pub fn about(&self) -> String {
+        super::source::about(self.text)
+    }
+}
+
+macro_rules! scenes {
+    ($($name:literal),* $(,)?) => {
+        &[$(Builtin { name: $name, text: include_str!(concat!("../../scenes/", $name, ".toml")), files: &[] }),*]
+    };
+}
+
+/// All of them, in the order in which a newcomer would try them.
+pub const SCENES: &[Builtin] = scenes!["throw", "kepler", "figure_eight", "solar_system", "galaxy", "merger", "fountain"];

@@ -1,0 +1,119 @@
+//! The files that a scene names: where they are, and that they are the scene's to name.
+
+use std::fs;
+use std::path::{Component, Path, PathBuf};
+
+use super::report::{Fault, Place, nearest, shorten};
+use super::source::{Opened, shorten_path};
+
+/// The longest shader [bytes].
+const LONGEST_SHADER: u64 = 1 << 20;
+
+/// Where files are sought.
+pub(super) struct Files {
+    folder: Option<PathBuf>,
+    embedded: &'static [(&'static str, &'static str)],
+    allow_outside: bool,
+}
+
+/// A file that was found.
+pub(super) enum Located {
+    /// On the disk; with the name that the resolved scene gives it.
+    Disk { path: PathBuf, name: String },
+    /// In the program.
+    Embedded { name: &'static str, text: &'static str },
+}
+
+impl Files {
+    pub(super) fn new(opened: &Opened, allow_outside: bool) -> Self {
+        Self { folder: opened.folder.clone(), embedded: opened.embedded, allow_outside }
+    }
+
+    /// Finds the file that stands at `place` as the value of `key`.
+    pub(super) fn locate(&self, key: &str, name: &str, place: &Place) -> Result<Located, Fault> {
+        let shown = shorten(name);
+        if let Some(&(name, text)) = self.embedded.iter().find(|(n, _)| *n == name) {
+            return Ok(Located::Embedded { name, text });
+        }
+        // A built-in scene with an override is the user's own: it may name files from where the program was started.
+        let folder = self.folder.as_deref().unwrap_or(Path::new("."));
+        let path = folder.join(name);
+        if !self.allow_outside && !is_inside(&path, folder) {
+            return Err(Fault::at(place, format!("`{key}` leads outside of the scene's folder"))
+                .note("help: move the file beside the scene, or say --allow-outside if you trust the scene"));
+        }
+        let meta = fs::metadata(&path).map_err(|why| {
+            let absent = why.kind() == std::io::ErrorKind::NotFound;
+            let message = if absent { format!("there is no file {shown}") } else { format!("cannot read {shown}: {why}") };
+            let fault = Fault::at(place, message).in_input();
+            match similar(&path) {
+                Some(near) if absent => fault.label(format!("did you mean \"{}\"?", shorten(&near))),
+                _ => fault.note(format!("it is sought at {}", shorten_path(&path))),
+            }
+        })?;
+        if !meta.is_file() {
+            let what = if meta.is_dir() { "a folder" } else { "not a regular file" };
+            return Err(Fault::at(place, format!("{shown} is {what}")).in_input());
+        }
+        // The resolved scene is written elsewhere, so it names files from the root.
+        let absolute = fs::canonicalize(&path).ok().and_then(|p| p.to_str().map(str::to_owned));
+        Ok(Located::Disk { path, name: absolute.unwrap_or_else(|| name.to_owned()) })
+    }
+}
+
+impl Located {
+    /// What the resolved scene calls it.
+    pub(super) fn name(&self) -> &str {
+        match self {
+            Self::Disk { name, .. } => name,
+            Self::Embedded { name, .. } => name,
+        }
+    }
+    /// Its text, for a shader.
+    pub(super) fn shader(&self, place: &Place) -> Result<String, Fault> {
+        match self {
+            Self::Embedded { text, .. } => Ok((*text).to_owned()),
+            Self::Disk { path, .. } => {
+                let bad = |why: String| Fault::at(place, format!("cannot read {}: {why}", shorten_path(path))).in_input();
+                let length = fs::metadata(path).map_err(|e| bad(e.to_string()))?.len();
+                if length > LONGEST_SHADER {
+                    return Err(bad(format!("{length} bytes are more than the {LONGEST_SHADER} that a shader may have")));
+                }
+                fs::read_to_string(path).map_err(|e| bad(e.to_string()))
+            }
+        }
+    }
+}
+
+/// Whether a path stays in a folder: by its words, and, where it exists, by where its links lead.
+fn is_inside(path: &Path, folder: &Path) -> bool {
+    let (Ok(by_words), Ok(home)) = (std::path::absolute(path), std::path::absolute(folder)) else { return false };
+    match (fs::canonicalize(path), fs::canonicalize(folder)) {
+        (Ok(path), Ok(folder)) => path.starts_with(folder),
+        (_, Ok(folder)) => plain(&by_words).starts_with(plain(&home)) || plain(&by_words).starts_with(folder),
+        _ => plain(&by_words).starts_with(plain(&home)),
+    }
+}
+
+/// A path with its `..` carried out.
+fn plain(path: &Path) -> PathBuf {
+    let mut out = PathBuf::new();
+    for part in path.components() {
+        match part {
+            Component::ParentDir => {
+                out.pop();
+            }
+            Component::CurDir => {}
+            other => out.push(other),
+        }
+    }
+    out
+}
+
+/// A file of similar name in the same folder.
+fn similar(path: &Path) -> Option<String> {
+    let wanted = path.file_name()?.to_str()?.to_owned();
+    let names: Vec<String> =
+        fs::read_dir(path.parent()?).ok()?.take(1000).filter_map(|e| e.ok()?.file_name().into_string().ok()).collect();
+    nearest(&wanted, names.iter().map(String::as_str)).map(str::to_owned)
+}

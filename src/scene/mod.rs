@@ -1,0 +1,197 @@
+//! Scenes: a text in TOML becomes everything that a run needs, or all of its faults at once.
+//!
+//! ```
+//! use motes::scene::{Options, Scene, Source};
+//!
+//! let text = "[simulation]\ndt = 0.1\nstep = 10\n".to_owned();
+//! let source = Source::Text { name: "a.toml".to_owned(), text, folder: ".".into() };
+//! let faults = Scene::load(&source, &[], &Options::default()).err().unwrap();
+//! assert!(faults.to_string().contains("did you mean `steps`?"));
+//! assert_eq!((faults.total, faults.exit_code()), (3, 3)); // also: no steps, and no particles
+//! ```
+//!
+//! The sections and their keys are data (`sections.rs`), checked by one walker (`walk.rs`); nothing in a scene is ever run.
+
+mod builtin;
+mod color;
+mod diagnostic;
+mod files;
+mod force;
+mod output;
+mod overrides;
+mod particles;
+mod report;
+mod resolved;
+mod sections;
+mod simulation;
+mod source;
+mod tree;
+mod value;
+mod walk;
+
+use std::ops::Range;
+
+use crate::forces::Force;
+use crate::integrators;
+use crate::particles::Particles;
+use crate::render;
+use crate::settings::Settings;
+
+pub use builtin::{Builtin, SCENES};
+pub use diagnostic::{Diagnostic, Diagnostics, Excerpt, Mended};
+pub use output::{Format, Output};
+pub use source::Source;
+
+use files::Files;
+use report::{Fault, Place, Report};
+use resolved::Writer;
+use walk::Table;
+
+/// A scene, read and checked.
+pub struct Scene {
+    /// The file's name without its extension, or the name of the built-in scene.
+    pub name: String,
+    /// The first comment of the file: what one should see.
+    pub about: String,
+    /// The length of a step [time]; positive.
+    pub dt: f64,
+    /// How many steps; at least one.
+    pub steps: u64,
+    /// What makes a step.
+    pub integrator: &'static integrators::Entry,
+    /// All particles, in the order of the scene; at least one.
+    pub particles: Particles,
+    /// One for each `[[particles]]`, in their order; together they cover every id.
+    pub groups: Vec<Group>,
+    /// The forces, in the order of the scene; there may be none.
+    pub forces: Vec<Box<dyn Force>>,
+    /// What is written.
+    pub output: Output,
+    /// How pictures are made: the values of [`render::KEYS`].
+    pub picture: Settings,
+    /// The scene as TOML with every default filled in and every override applied. Loading it gives the same scene again.
+    /// It names files by absolute paths, so from elsewhere it is loaded with [`Options::allow_outside`].
+    /// More comments go to its end: the first ones are the scene's own.
+    pub resolved: String,
+    /// What is not wrong, but worth to be told: that `until` is no whole number of steps, for instance.
+    pub remarks: Vec<String>,
+}
+
+/// Particles that came from one entry of the scene.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Group {
+    /// Their ids.
+    pub ids: Range<u32>,
+    /// Red, green and blue in sRGB, when the scene says so.
+    pub color: Option<[u8; 3]>,
+}
+
+/// How far a scene is trusted.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Options {
+    /// Whether it may name files outside of its own folder.
+    pub allow_outside: bool,
+    /// How many particles it may have: a guard against a slip that fills the memory.
+    pub most_particles: u32,
+}
+
+impl Default for Options {
+    /// No files outside, and up to a hundred million particles (6.4 GB on the host).
+    fn default() -> Self {
+        Self { allow_outside: false, most_particles: 100_000_000 }
+    }
+}
+
+impl Scene {
+    /// Reads a scene. Each override is `key=value`: `simulation.dt=0.01`, `particles.0.count=100`, `force.0.g=2`; the value
+    /// is TOML, or a text without its quotes. Files that an override names are sought where the scene's are.
+    ///
+    /// # Errors
+    /// All faults of the scene, of the overrides, and of the files that the scene names.
+    pub fn load(source: &Source, overrides: &[String], options: &Options) -> Result<Self, Diagnostics> {
+        let opened = source.open()?;
+        let mut report = Report::default();
+        let text = report.add(Some(opened.file.clone()), &opened.text);
+        let mut root = tree::parse(text, &opened.text, &mut report);
+        overrides::apply(&mut root, overrides, &mut report);
+        let sections = walk::sections(&root, &mut report);
+        let files = Files::new(&opened, options.allow_outside);
+        let mut scene = read(&sections, &files, options, &mut report);
+        if let Some(faults) = report.finish() {
+            return Err(faults);
+        }
+        scene.name = opened.name;
+        scene.about = source::about(&opened.text);
+        let mut resolved = Writer::default();
+        resolved.comment(&scene.about);
+        scene.resolved.insert_str(0, &resolved.0);
+        Ok(scene)
+    }
+}
+
+/// Reads all sections. With faults in the report the result is not to be used.
+fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options, report: &mut Report) -> Scene {
+    let one = |name: &str| sections.iter().find(|(n, _)| *n == name).map(|(_, table)| table);
+    let all = |name: &'static str| sections.iter().filter(move |(n, _)| *n == name).map(|(_, table)| table);
+
+    let mut out = Writer::default();
+    out.0.push('\n');
+    out.comment("Every value of the run, defaults included.");
+    let simulation = simulation::read(one("simulation"), report);
+    simulation.write(&mut out);
+
+    let mut particles = Particles::default();
+    let mut groups = Vec::new();
+    if all("particles").next().is_none() {
+        let fault = Fault::missing(&Place::end(), "there are no particles");
+        report.push(fault.note("help: add\n\n         [[particles]]\n         shape = \"plummer\"\n         count = 1000"));
+    }
+    for table in all("particles") {
+        let start = ids(&particles);
+        let room = options.most_particles.saturating_sub(start);
+        if let Some(block) = particles::read(table, room, files, report) {
+            particles.append(&block.particles);
+            groups.push(Group { ids: start..ids(&particles), color: block.color });
+            out.0 += &block.resolved;
+        }
+    }
+
+    let mut forces: Vec<Box<dyn Force>> = Vec::new();
+    for table in all("force") {
+        let faults = report.len();
+        let chosen = force::read(table, files, report);
+        if let Some(chosen) = chosen.filter(|_| report.len() == faults) {
+            chosen.write(&mut out);
+            forces.push(chosen.build());
+        }
+    }
+
+    let output = output::read(one("output"), simulation.steps, report);
+    output.write(&mut out);
+    let picture = match one("picture") {
+        Some(table) => table.settings(render::KEYS, &[], report),
+        None => Settings::defaults(render::KEYS),
+    };
+    out.header("[picture]");
+    out.settings(render::KEYS, &picture);
+
+    Scene {
+        name: String::new(),
+        about: String::new(),
+        dt: simulation.dt,
+        steps: simulation.steps,
+        integrator: simulation.integrator,
+        particles,
+        groups,
+        forces,
+        output,
+        picture,
+        resolved: out.0,
+        remarks: simulation.remark.into_iter().collect(),
+    }
+}
+
+/// How many particles, as an id. `most_particles` keeps it within 32 bits.
+fn ids(particles: &Particles) -> u32 {
+    u32::try_from(particles.len()).unwrap_or(u32::MAX)
+}

@@ -1,0 +1,75 @@
+//! `[output]`: how often the run is written down, and in which formats.
+
+use crate::settings::Key;
+
+use super::report::Report;
+use super::resolved::Writer;
+use super::tree::Data;
+use super::value;
+use super::walk::{self, Table};
+
+pub(super) const KEYS: &[Key] = &[];
+pub(super) const OWN: &[&str] = &["every", "formats"];
+
+/// What a run writes.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Output {
+    /// A snapshot is written each time that this many steps are done; at least one.
+    pub every: u64,
+    /// In which formats, each once; none at all leaves only the table of energies.
+    pub formats: Vec<Format>,
+}
+
+/// A format of snapshots.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Format {
+    /// Text, one row for each particle.
+    Csv,
+    /// Arrays for `NumPy`.
+    Npz,
+    /// A picture.
+    Png,
+}
+
+impl Format {
+    /// All formats.
+    pub const ALL: &[Self] = &[Self::Csv, Self::Npz, Self::Png];
+
+    /// The scene's word for it, which is also the extension of its files.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Csv => "csv",
+            Self::Npz => "npz",
+            Self::Png => "png",
+        }
+    }
+}
+
+pub(super) fn read(table: Option<&Table<'_>>, steps: u64, report: &mut Report) -> Output {
+    let mut output = Output { every: (steps / 10).max(1), formats: vec![Format::Csv, Format::Png] };
+    let Some(table) = table else { return output };
+    table.settings(KEYS, OWN, report);
+    if let Some(every) = table.get("every").and_then(|e| walk::whole_from_one(e, report)) {
+        output.every = every;
+    }
+    if let Some(entry) = table.get("formats") {
+        let names: Vec<_> = Format::ALL.iter().map(|f| f.name()).collect();
+        if let Data::List(list) = &entry.node.data {
+            let words: Vec<_> = list.iter().filter_map(|node| value::choice(node, "formats", "format", &names, report)).collect();
+            output.formats = Format::ALL.iter().copied().filter(|f| words.contains(&f.name())).collect();
+        } else {
+            value::refuse::<()>(&entry.node, "formats", "a list, as in [\"csv\", \"png\"]", report);
+        }
+    }
+    output
+}
+
+impl Output {
+    pub(super) fn write(&self, out: &mut Writer) {
+        out.header("[output]");
+        out.line("every", &self.every.to_string());
+        let names: Vec<_> = self.formats.iter().map(|f| format!("\"{}\"", f.name())).collect();
+        out.line("formats", &format!("[{}]", names.join(", ")));
+    }
+}

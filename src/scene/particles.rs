@@ -1,0 +1,184 @@
+//! `[[particles]]`: from a file, from a generator, or written out.
+
+use std::fmt::Write;
+
+use glam::DVec3;
+
+use crate::error::Error;
+use crate::io;
+use crate::particles::{Particles, SHAPES};
+use crate::settings::{Key, Kind, Settings, Value};
+
+use super::color;
+use super::files::{Files, Located};
+use super::report::{Fault, Place, Report};
+use super::resolved::{self, Writer};
+use super::tree::{Data, Entry};
+use super::value;
+use super::walk::{self, Table};
+
+pub(super) const OWN: &[&str] = &["file", "shape", "bodies", "color"];
+/// Where the particles of a file, or those written out, are put.
+pub(super) const OFFSETS: &[Key] = &[
+    Key::new("center", Kind::Vector, Value::Vector(DVec3::ZERO), "is added to every position [length]"),
+    Key::new("velocity", Kind::Vector, Value::Vector(DVec3::ZERO), "is added to every velocity [length / time]"),
+];
+const BODY: &[Key] = &[
+    Key::required("position", Kind::Vector, "where it is [length]"),
+    Key::new("velocity", Kind::Vector, Value::Vector(DVec3::ZERO), "how it moves [length / time]"),
+    Key::new("mass", Kind::NotNegative, Value::Number(1.0), "how heavy it is [mass]"),
+    Key::new("radius", Kind::NotNegative, Value::Number(0.0), "how large it is drawn [length]"),
+];
+
+/// One entry, read.
+pub(super) struct Block {
+    pub(super) particles: Particles,
+    pub(super) color: Option<[u8; 3]>,
+    /// The entry as the resolved scene has it.
+    pub(super) resolved: String,
+}
+
+/// Reads an entry that may bring up to `room` particles.
+pub(super) fn read(table: &Table<'_>, room: u32, files: &Files, report: &mut Report) -> Option<Block> {
+    let color = table.get("color").and_then(|e| color::read(&e.node, report));
+    let mut out = Writer::default();
+    out.header("[[particles]]");
+    let entry = table.one_of(&["file", "shape", "bodies"], report)?;
+    let faults = report.len();
+    let particles = match entry.key.as_str() {
+        "file" => from_file(table, entry, files, &mut out, report),
+        "shape" => from_shape(table, entry, room, &mut out, report),
+        _ => from_bodies(table, entry, &mut out, report),
+    };
+    let particles = particles.filter(|_| report.len() == faults)?;
+    if let Err(fault) = sound(&particles, room, &entry.node.place) {
+        report.push(if entry.key == "file" { fault.in_input() } else { fault });
+        return None;
+    }
+    if let Some([r, g, b]) = color {
+        out.text("color", &format!("#{r:02x}{g:02x}{b:02x}"));
+    }
+    Some(Block { particles, color, resolved: out.0 })
+}
+
+fn from_file(table: &Table<'_>, entry: &Entry, files: &Files, out: &mut Writer, report: &mut Report) -> Option<Particles> {
+    let offsets = table.named(format!("{} file", table.name)).settings(OFFSETS, &["file", "color"], report);
+    let name = value::text(&entry.node, "file", "the name of a file", report)?;
+    let place = &entry.node.place;
+    let located = files.locate("file", name, place).and_then(|located| match &located {
+        Located::Disk { path, name } => match io::read(path) {
+            Ok(particles) => Ok((particles, name.clone())),
+            Err(why) => Err(Fault::at(place, why.to_string()).in_input()),
+        },
+        Located::Embedded { name, .. } => Err(Fault::at(place, format!("{name} holds no particles"))),
+    });
+    match located {
+        Ok((particles, path)) => {
+            out.text("file", &path);
+            out.settings(OFFSETS, &offsets);
+            Some(moved(particles, &offsets))
+        }
+        Err(fault) => {
+            report.push(fault);
+            None
+        }
+    }
+}
+
+fn from_shape(table: &Table<'_>, entry: &Entry, room: u32, out: &mut Writer, report: &mut Report) -> Option<Particles> {
+    let names: Vec<_> = SHAPES.iter().map(|s| s.name).collect();
+    let name = walk::choice(entry, "shape", &names, report)?;
+    let shape = SHAPES.iter().find(|s| s.name == name)?;
+    let faults = report.len();
+    let settings = table.named(format!("{} {name}", table.name)).settings(shape.keys, &["shape", "color"], report);
+    if report.len() > faults {
+        return None;
+    }
+    let (key, wanted) = wanted_count(&settings);
+    if wanted > f64::from(room) {
+        let place = table.get(key).map_or(&entry.node.place, |e| &e.node.place);
+        report.push(Fault::at(place, format!("{wanted} particles are too many")).label(format!("there is room for {room}")));
+        return None;
+    }
+    out.text("shape", name);
+    out.settings(shape.keys, &settings);
+    match (shape.build)(&settings) {
+        Ok(particles) => Some(particles),
+        Err(why) => {
+            let message = match why {
+                Error::Scene(message) => message,
+                other => other.to_string(),
+            };
+            report.push(Fault::at(&entry.node.place, message));
+            None
+        }
+    }
+}
+
+/// How many particles a shape will make, known before the memory is taken: its `count`, or else (a lattice) the product of its `size`.
+fn wanted_count(settings: &Settings) -> (&'static str, f64) {
+    match settings.0.get("count") {
+        Some(_) => ("count", settings.number("count")),
+        None => ("size", settings.vector("size").element_product()),
+    }
+}
+
+fn from_bodies(table: &Table<'_>, entry: &Entry, out: &mut Writer, report: &mut Report) -> Option<Particles> {
+    let offsets = table.named(format!("{} bodies", table.name)).settings(OFFSETS, &["bodies", "color"], report);
+    let Data::List(list) = &entry.node.data else {
+        return value::refuse(&entry.node, "bodies", "a list of tables, as in [{ position = [1, 0, 0] }]", report);
+    };
+    let mut particles = Particles::default();
+    let mut text = String::from("[\n");
+    for node in list {
+        let Data::Table(entries) = &node.data else {
+            value::refuse::<()>(node, "bodies", "a list of tables, as in [{ position = [1, 0, 0] }]", report);
+            continue;
+        };
+        let body = Table { entries, place: &node.place, name: "a body".to_owned() }.settings(BODY, &[], report);
+        let [position, velocity] = ["position", "velocity"].map(|k| body.vector(k));
+        let [mass, radius] = ["mass", "radius"].map(|k| body.number(k));
+        particles.push(position, velocity, mass, radius);
+        let [position, velocity] = [position, velocity].map(resolved::vector);
+        let [mass, radius] = [mass, radius].map(resolved::number);
+        // Writing to a String cannot fail.
+        let _ = writeln!(text, "  {{ position = {position}, velocity = {velocity}, mass = {mass}, radius = {radius} }},");
+    }
+    out.line("bodies", &(text + "]"));
+    out.settings(OFFSETS, &offsets);
+    Some(moved(particles, &offsets))
+}
+
+fn moved(mut particles: Particles, offsets: &Settings) -> Particles {
+    let [center, velocity] = ["center", "velocity"].map(|k| offsets.vector(k));
+    particles.position.iter_mut().for_each(|x| *x += center);
+    particles.velocity.iter_mut().for_each(|v| *v += velocity);
+    particles
+}
+
+/// What files and generators promise, checked once for all of them.
+fn sound(particles: &Particles, room: u32, place: &Place) -> Result<(), Fault> {
+    let count = particles.len();
+    if count == 0 {
+        return Err(Fault::at(place, "there are no particles in it"));
+    }
+    if count > room as usize {
+        return Err(Fault::at(place, format!("{count} particles are too many")).label(format!("there is room for {room}")));
+    }
+    let fits = |x: f64| x.abs() <= f64::from(f32::MAX);
+    let vectors = [("position", &particles.position), ("velocity", &particles.velocity)];
+    let wrong = vectors.iter().find_map(|(what, list)| {
+        let id = list.iter().position(|v| !v.to_array().into_iter().all(fits))?;
+        Some((id, *what, format!("{}", list[id]), "finite numbers that fit single precision"))
+    });
+    let wrong = wrong.or_else(|| {
+        [("mass", &particles.mass), ("radius", &particles.radius)].iter().find_map(|(what, list)| {
+            let id = list.iter().position(|&x| !(x >= 0.0 && fits(x)))?;
+            Some((id, *what, format!("{}", list[id]), "a finite number, zero or above"))
+        })
+    });
+    match wrong {
+        Some((id, what, found, wanted)) => Err(Fault::at(place, format!("particle {id} has the {what} {found}, not {wanted}"))),
+        None => Ok(()),
+    }
+}

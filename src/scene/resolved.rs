@@ -1,0 +1,95 @@
+//! The scene written back as TOML, with every default filled in.
+
+use std::fmt::Write;
+
+use glam::DVec3;
+
+use crate::settings::{Key, Kind, Settings, Value};
+
+/// TOML on its way to be written. Numbers have the digits that read back to the same bits.
+#[derive(Default)]
+pub(super) struct Writer(pub(super) String);
+
+impl Writer {
+    /// Comment lines.
+    pub(super) fn comment(&mut self, text: &str) {
+        for line in text.lines() {
+            let line: String = line.chars().filter(|c| !c.is_control()).collect();
+            self.0.push_str(if line.is_empty() { "#" } else { "# " });
+            self.0.push_str(&line);
+            self.0.push('\n');
+        }
+    }
+    /// A header, with an empty line before it.
+    pub(super) fn header(&mut self, header: &str) {
+        self.0.push('\n');
+        self.0.push_str(header);
+        self.0.push('\n');
+    }
+    /// A key with a value that is TOML already.
+    pub(super) fn line(&mut self, key: &str, value: &str) {
+        // Writing to a String cannot fail.
+        let _ = writeln!(self.0, "{} = {value}", bare(key));
+    }
+    /// A number.
+    pub(super) fn number(&mut self, key: &str, value: f64) {
+        self.line(key, &number(value));
+    }
+    /// A text.
+    pub(super) fn text(&mut self, key: &str, value: &str) {
+        self.line(key, &quoted(value));
+    }
+    /// Settings, in the order of their keys.
+    pub(super) fn settings(&mut self, keys: &[Key], settings: &Settings) {
+        for key in keys {
+            if let Some(v) = settings.0.get(key.name) {
+                let whole = matches!(key.kind, Kind::Count | Kind::Whole);
+                self.line(key.name, &if whole { settings.whole(key.name).to_string() } else { value(v) });
+            }
+        }
+    }
+}
+
+/// A value as TOML.
+pub(super) fn value(value: &Value) -> String {
+    match value {
+        Value::Number(x) => number(*x),
+        Value::Vector(v) => vector(*v),
+        Value::Text(t) => quoted(t),
+        Value::Flag(f) => f.to_string(),
+    }
+}
+
+/// A float with the digits that read back to the same bits.
+pub(super) fn number(x: f64) -> String {
+    format!("{x:?}")
+}
+
+/// Three floats.
+pub(super) fn vector(v: DVec3) -> String {
+    format!("[{:?}, {:?}, {:?}]", v.x, v.y, v.z)
+}
+
+/// A key, in quotes where it needs them.
+pub(super) fn bare(key: &str) -> String {
+    let plain = !key.is_empty() && key.chars().all(|c| c.is_ascii_alphanumeric() || c == '_' || c == '-');
+    if plain { key.to_owned() } else { quoted(key) }
+}
+
+/// A text in quotes.
+pub(super) fn quoted(text: &str) -> String {
+    let mut out = String::with_capacity(text.len() + 2);
+    out.push('"');
+    for c in text.chars() {
+        match c {
+            '"' | '\\' => out.extend(['\\', c]),
+            c if c.is_control() => {
+                // Writing to a String cannot fail.
+                let _ = write!(out, "\\U{:08x}", u32::from(c));
+            }
+            c => out.push(c),
+        }
+    }
+    out.push('"');
+    out
+}

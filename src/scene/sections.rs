@@ -1,0 +1,55 @@
+//! The sections of a scene and their keys, as data. A later section adds its line here, its file beside this one and
+//! its field in [`Scene`](super::Scene).
+
+use crate::forces::FORCES;
+use crate::particles::SHAPES;
+use crate::render;
+use crate::settings::Key;
+
+use super::{force, output, particles, simulation};
+
+/// A section.
+pub(super) struct Section {
+    /// Its name.
+    pub(super) name: &'static str,
+    /// Whether it is written `[[name]]` and may come several times.
+    pub(super) many: bool,
+    /// Keys that the walker reads by itself.
+    pub(super) keys: &'static [Key],
+    /// Keys that the section's own file reads.
+    pub(super) own: &'static [&'static str],
+    /// More keys, of the kinds that an entry may be of.
+    pub(super) kinds: fn() -> Vec<&'static [Key]>,
+}
+
+/// All sections, in the order in which the resolved scene writes them.
+pub(super) const SECTIONS: &[Section] = &[
+    Section { name: "simulation", many: false, keys: simulation::KEYS, own: simulation::OWN, kinds: Vec::new },
+    Section {
+        name: "particles",
+        many: true,
+        keys: &[],
+        own: particles::OWN,
+        kinds: || SHAPES.iter().map(|s| s.keys).chain([particles::OFFSETS]).collect(),
+    },
+    Section { name: "force", many: true, keys: &[], own: force::OWN, kinds: || FORCES.iter().map(|f| f.keys).collect() },
+    Section { name: "output", many: false, keys: output::KEYS, own: output::OWN, kinds: Vec::new },
+    Section { name: "picture", many: false, keys: render::KEYS, own: &[], kinds: Vec::new },
+];
+
+impl Section {
+    /// Whether some form of the section has this key.
+    pub(super) fn knows(&self, key: &str) -> bool {
+        self.own.contains(&key)
+            || self.keys.iter().any(|k| k.name == key)
+            || (self.kinds)().iter().any(|keys| keys.iter().any(|k| k.name == key))
+    }
+    /// How its header is written.
+    pub(super) fn header(&self) -> String {
+        if self.many { format!("[[{}]]", self.name) } else { format!("[{}]", self.name) }
+    }
+    /// How an override names a key of it.
+    pub(super) fn path(&self, key: &str) -> String {
+        if self.many { format!("{}.0.{key}", self.name) } else { format!("{}.{key}", self.name) }
+    }
+}

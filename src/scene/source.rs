@@ -1,0 +1,129 @@
+//! Where a scene comes from, and its text.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+use super::builtin::{Builtin, SCENES};
+use super::diagnostic::Diagnostics;
+use super::report::{listed, nearest, shorten};
+
+/// The longest scene that is read [bytes]. Many particles belong in a file of their own.
+pub(super) const LONGEST: u64 = 16 << 20;
+
+/// Where a scene comes from.
+#[derive(Debug, Clone)]
+pub enum Source {
+    /// A file. The files it names are sought in its folder.
+    File(PathBuf),
+    /// A scene that comes with the program.
+    Builtin(&'static Builtin),
+    /// A text at hand.
+    Text {
+        /// What messages call it.
+        name: String,
+        /// The scene.
+        text: String,
+        /// Where the files it names are sought.
+        folder: PathBuf,
+    },
+}
+
+/// A source that has been read.
+pub(super) struct Opened {
+    /// The scene's name.
+    pub(super) name: String,
+    /// What messages call its file.
+    pub(super) file: String,
+    pub(super) text: String,
+    /// Where the files it names are sought; `None`: among those of the built-in.
+    pub(super) folder: Option<PathBuf>,
+    pub(super) embedded: &'static [(&'static str, &'static str)],
+}
+
+impl Source {
+    /// What the command line means: the name of a built-in scene, or else a file. (A file that is called like a built-in
+    /// scene is reached by `./name`.)
+    ///
+    /// # Errors
+    /// There is neither; the message says which built-in scene has a similar name.
+    pub fn find(word: &str) -> Result<Self, Diagnostics> {
+        if let Some(builtin) = SCENES.iter().find(|s| s.name == word) {
+            return Ok(Self::Builtin(builtin));
+        }
+        let path = Path::new(word);
+        if path.is_dir() {
+            let note = "help: name the .toml file in it".to_owned();
+            return Err(Diagnostics::alone(&shorten(word), "this is a folder, not a scene".to_owned(), vec![note]));
+        }
+        if path.exists() {
+            return Ok(Self::File(path.to_owned()));
+        }
+        let names = || SCENES.iter().map(|s| s.name);
+        let mut notes = Vec::new();
+        if let Some(near) = nearest(word, names()) {
+            notes.push(format!("help: did you mean the built-in scene `{near}`?"));
+        }
+        notes.push(format!("built-in scenes: {}", listed(names())));
+        Err(Diagnostics::alone(&shorten(word), "there is no such file, and no built-in scene of this name".to_owned(), notes))
+    }
+
+    pub(super) fn open(&self) -> Result<Opened, Diagnostics> {
+        match self {
+            Self::File(path) => {
+                let file = shorten_path(path);
+                let name = path.file_stem().map_or_else(|| file.clone(), |s| shorten(&s.to_string_lossy()));
+                let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new(".")).to_owned();
+                let text = read(path).map_err(|why| Diagnostics::alone(&file, why, Vec::new()))?;
+                Ok(Opened { name, file, text, folder: Some(folder), embedded: &[] })
+            }
+            Self::Builtin(b) => {
+                let file = format!("{}.toml", b.name);
+                Ok(Opened { name: b.name.to_owned(), file, text: b.text.to_owned(), folder: None, embedded: b.files })
+            }
+            Self::Text { name, text, folder } => {
+                if text.len() as u64 > LONGEST {
+                    return Err(Diagnostics::alone(&shorten(name), too_long(), Vec::new()));
+                }
+                let stem = Path::new(name).file_stem().map_or_else(|| name.clone(), |s| s.to_string_lossy().into_owned());
+                let folder = Some(folder.clone());
+                Ok(Opened { name: shorten(&stem), file: shorten(name), text: text.clone(), folder, embedded: &[] })
+            }
+        }
+    }
+}
+
+/// A path as messages show it.
+pub(super) fn shorten_path(path: &Path) -> String {
+    path.display().to_string().chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect()
+}
+
+fn read(path: &Path) -> Result<String, String> {
+    let mut bytes = Vec::new();
+    let file = File::open(path).map_err(|e| format!("cannot read the scene: {e}"))?;
+    // One byte more than is allowed tells that there is more; the file's own size says nothing for a pipe.
+    file.take(LONGEST + 1).read_to_end(&mut bytes).map_err(|e| format!("cannot read the scene: {e}"))?;
+    if bytes.len() as u64 > LONGEST {
+        return Err(too_long());
+    }
+    if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
+        return Err("the scene is UTF-16 text: save it as UTF-8".to_owned());
+    }
+    String::from_utf8(bytes).map_err(|e| {
+        let good = e.utf8_error().valid_up_to();
+        let line = e.as_bytes()[..good].split(|&b| b == b'\n').count();
+        format!("the scene is not UTF-8 text: byte {good}, in line {line}, is 0x{:02x}", e.as_bytes()[good])
+    })
+}
+
+fn too_long() -> String {
+    format!("the scene is longer than {} MiB: put particles into a file of their own (CSV, Tipsy) and name it with `file`", LONGEST >> 20)
+}
+
+/// The first block of comments: what one should see.
+pub(super) fn about(text: &str) -> String {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let lines = text.lines().map(str::trim).skip_while(|l| l.is_empty());
+    let comments = lines.map_while(|l| l.strip_prefix('#')).map(|l| l.strip_prefix(' ').unwrap_or(l));
+    comments.collect::<Vec<_>>().join("\n").trim_end().to_owned()
+}
