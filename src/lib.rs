@@ -8,6 +8,7 @@ pub mod integrators;
 pub mod kernel;
 pub mod measure;
 pub mod particles;
+pub mod render;
 pub mod settings;
 pub mod simulation;
 pub mod visit;
