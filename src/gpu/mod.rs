@@ -168,6 +168,9 @@ impl Backend for Gpu {
     fn write(&mut self, name: &str, array: &Array) -> Result<(), Error> {
         self.write_bytes(name, 0, &array.to_bytes())
     }
+    fn forget(&mut self, name: &str) {
+        self.buffers.forget(name);
+    }
     async fn read(&mut self, name: &str, like: &Array, len: usize) -> Result<Array, Error> {
         let bytes = like.zeros(1).to_bytes().len() as u64 * len as u64;
         Ok(like.like(&self.bytes(name, 0, bytes).await?))
