@@ -73,9 +73,15 @@ async fn loops(gpu: &mut Gpu) -> Result<Finding, Error> {
         let step = |x: u32, _| x.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
         if answer.first() != Some(&(0..turns).fold(7, step)) {
             return Ok(if turns <= 65_535 {
-                Finding { name, outcome: Outcome::Fail, text: format!("a loop of {turns} turns is cut short: sums over particles are wrong") }
+                Finding {
+                    name,
+                    outcome: Outcome::Fail,
+                    text: format!("a loop of {turns} turns is cut short: sums over particles are wrong"),
+                }
             } else {
-                let text = format!("a loop of {turns} turns is cut short without a word (Mesa before 25 does so after 65 535); motes keeps its loops shorter");
+                let text = format!(
+                    "a loop of {turns} turns is cut short without a word (Mesa before 25 does so after 65 535); motes keeps its loops shorter"
+                );
                 Finding { name, outcome: Outcome::Warn, text }
             });
         }
@@ -93,8 +99,14 @@ async fn arithmetic(gpu: &mut Gpu) -> Result<Vec<Finding>, Error> {
     let want = (a - (s - (s - a))) + (b - (s - a));
     let finding = |name, outcome, text: &str| Finding { name, outcome, text: text.to_owned() };
     let sums = match (float(0).to_bits() == want.to_bits(), float(1).to_bits() == want.to_bits()) {
-        (true, true) => finding("compensated sums", Outcome::Pass, "a rounding error is found, plainly and with a guard"),
-        (false, true) => finding("compensated sums", Outcome::Warn, "the compiler folds (a + b) − a; with a guard the rounding error is found"),
+        (true, true) => {
+            finding("compensated sums", Outcome::Pass, "a rounding error is found, plainly and with a guard")
+        }
+        (false, true) => finding(
+            "compensated sums",
+            Outcome::Warn,
+            "the compiler folds (a + b) − a; with a guard the rounding error is found",
+        ),
         (_, false) => finding("compensated sums", Outcome::Fail, "not even a guarded sum finds its rounding error"),
     };
     let nan = match (word(3), word(4)) {
@@ -103,11 +115,14 @@ async fn arithmetic(gpu: &mut Gpu) -> Result<Vec<Finding>, Error> {
         _ => finding("NaN", Outcome::Fail, "not found by its bits: broken particles would go unseen"),
     };
     let fused = c.mul_add(c, -(c * c));
-    let fma = if float(2).to_bits() == fused.to_bits() { "rounds once" } else { "rounds twice; motes does not rely on it" };
+    let fma =
+        if float(2).to_bits() == fused.to_bits() { "rounds once" } else { "rounds twice; motes does not rely on it" };
     let ulp = |got: f32, want: f32| got.to_bits().abs_diff(want.to_bits());
     let (division, root) = (ulp(float(5), a / b), ulp(float(6), a.sqrt()));
     let outcome = if division > 3 || root > 4 { Outcome::Fail } else { Outcome::Pass };
-    let text = format!("a division is {division} units in the last place from the nearest, a square root {root} (WGSL allows 2.5 and about 4)");
+    let text = format!(
+        "a division is {division} units in the last place from the nearest, a square root {root} (WGSL allows 2.5 and about 4)"
+    );
     Ok(vec![sums, nan, finding("fma", Outcome::Pass, fma), Finding { name: "division, root", outcome, text }])
 }
 
@@ -123,7 +138,11 @@ async fn timestamps(gpu: &mut Gpu) -> Result<Finding, Error> {
         return Ok(Finding { name, outcome: Outcome::Warn, text });
     };
     let wall = start.elapsed().as_secs_f64();
-    let text = format!("{:.2} ms on the device's clock, {:.2} ms on the processor's, with read-back", device * 1e3, wall * 1e3);
+    let text = format!(
+        "{:.2} ms on the device's clock, {:.2} ms on the processor's, with read-back",
+        device * 1e3,
+        wall * 1e3
+    );
     let outcome = if device > 0.0 && device <= wall { Outcome::Pass } else { Outcome::Warn };
     Ok(Finding { name, outcome, text })
 }

@@ -27,7 +27,8 @@ pub fn advice(scene: &Scene, setup: &Setup) -> Result<Vec<String>, Error> {
         }
     }
     if scene.integrator.name == "forward_euler" {
-        remarks.push("forward_euler gains energy in every step, whatever the step: it is here to show why not".to_owned());
+        remarks
+            .push("forward_euler gains energy in every step, whatever the step: it is here to show why not".to_owned());
     }
     Ok(remarks)
 }

@@ -24,7 +24,10 @@ impl Bodies {
     }
     /// Softened gravity with G = 1, everybody on everybody: acceleration and potential of all bodies.
     pub fn evaluate(&self, softening: f32) -> Vec<[Lanes; 4]> {
-        (0..self.x.len() / LANES).into_par_iter().map(|block| self.block(block * LANES, softening * softening)).collect()
+        (0..self.x.len() / LANES)
+            .into_par_iter()
+            .map(|block| self.block(block * LANES, softening * softening))
+            .collect()
     }
     #[inline]
     fn block(&self, i: usize, softening2: f32) -> [Lanes; 4] {

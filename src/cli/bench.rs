@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use motes::kernel::Backend;
 use motes::settings::{Settings, Value};
-use motes::{Error, Gpu, Particles, Setup, Simulation, forces, gpu, integrators, lockstep, particles};
+use motes::{Error, Particles, Setup, Simulation, forces, gpu, integrators, lockstep, particles};
 use serde_json::json;
 
 use super::args::BenchArgs;
@@ -31,7 +31,13 @@ struct Row {
 pub async fn bench(args: &BenchArgs) -> Result<(), Failure> {
     let found = engine::open(gpu::adapters(&gpu::instance()).await, args.adapter.as_deref()).await?;
     if !args.json {
-        println!("{}\ncommit {}, {} cores, {} repeats, medians\n", found.describe(), commit(), rayon::current_num_threads(), args.repeat);
+        println!(
+            "{}\ncommit {}, {} cores, {} repeats, medians\n",
+            found.describe(),
+            commit(),
+            rayon::current_num_threads(),
+            args.repeat
+        );
         println!("all pairs, gravity with potential, leapfrog, whole steps");
         println!("{:>9}  {:>12}  {:>16}  {:>16}  {:>7}", "bodies", "step", "device", "plain Rust", "ratio");
     }
@@ -74,7 +80,13 @@ fn sizes(args: &BenchArgs, found: &gpu::Found) -> Result<Vec<Row>, Failure> {
 fn measure(args: &BenchArgs, found: &gpu::Found, count: u32, last: Option<&Row>) -> Result<Row, Failure> {
     let setup = setup(count, "leapfrog")?;
     let mut simulation = Simulation::new(&found.device, &found.queue, &setup)?;
-    let bodies: Vec<[f32; 4]> = setup.particles.position.iter().zip(&setup.particles.mass).map(|(x, m)| x.extend(*m).as_vec4().to_array()).collect();
+    let bodies: Vec<[f32; 4]> = setup
+        .particles
+        .position
+        .iter()
+        .zip(&setup.particles.mass)
+        .map(|(x, m)| x.extend(*m).as_vec4().to_array())
+        .collect();
     let bodies = Bodies::new(&bodies);
     // Both are warm before they count, and take turns, so that what else the machine does falls on both.
     let mut turns = [1, 1];
@@ -134,13 +146,18 @@ fn integrators(args: &BenchArgs, found: &gpu::Found) -> Result<Vec<(&'static str
             }
         }
     }
-    let rows: Vec<_> = simulations.iter().map(|(name, evaluations, _, times)| (*name, *evaluations, median(times))).collect();
+    let rows: Vec<_> =
+        simulations.iter().map(|(name, evaluations, _, times)| (*name, *evaluations, median(times))).collect();
     if !args.json {
         let one = rows.iter().find(|r| r.0 == "leapfrog").map_or(1.0, |r| r.2);
         println!("\nintegrators, {INTEGRATED} bodies");
         println!("{:>18}  {:>11}  {:>12}  {:>22}", "", "evaluations", "step", "per evaluation, to\u{a0}leapfrog");
         for (name, evaluations, time) in &rows {
-            println!("{name:>18}  {evaluations:>11}  {:>9.2} ms  {:>22.2}", time * 1e3, time / one / (*evaluations).max(1) as f64);
+            println!(
+                "{name:>18}  {evaluations:>11}  {:>9.2} ms  {:>22.2}",
+                time * 1e3,
+                time / one / (*evaluations).max(1) as f64
+            );
         }
     }
     Ok(rows)
@@ -160,7 +177,8 @@ fn setup(count: u32, integrator: &str) -> Result<Setup, Error> {
     let gravity = forces::entry("gravity").ok_or_else(|| absent("gravity"))?;
     let settings = Settings::defaults(gravity.keys).with("softening", Value::Number(SOFTENING));
     let plummer = particles::shape("plummer").ok_or_else(|| absent("plummer"))?;
-    let particles: Particles = (plummer.build)(&Settings::defaults(plummer.keys).with("count", Value::Number(f64::from(count))))?;
+    let particles: Particles =
+        (plummer.build)(&Settings::defaults(plummer.keys).with("count", Value::Number(f64::from(count))))?;
     let integrator = integrators::entry(integrator).ok_or_else(|| absent(integrator))?;
     Ok(Setup { particles, forces: vec![(gravity.build)(&settings)], integrator: (integrator.build)(), dt: 1e-3 })
 }

@@ -82,4 +82,3 @@ pub fn size(bytes: u64) -> String {
         _ => format!("{:.2} GiB", bytes as f64 / 1_073_741_824.0),
     }
 }
-

@@ -42,7 +42,10 @@ pub async fn compare(args: &CompareArgs) -> Result<(), Failure> {
         println!("{}: {} particles, {} against f64 twins\n", scene.name, setup.particles.len(), found.describe());
         print_kernels(&verdicts);
         println!("\n{} steps of the device against {} of the twins", args.steps, args.steps);
-        println!("  positions differ by {:.1e} (rms) of a system of size {:.1e}, at most by {:.1e}", over.position[0], over.scale, over.position[1]);
+        println!(
+            "  positions differ by {:.1e} (rms) of a system of size {:.1e}, at most by {:.1e}",
+            over.position[0], over.scale, over.position[1]
+        );
         println!("  total energies differ by {:.1e}, relatively", over.energy);
         println!("\n{}", if good { "they agree" } else { "THEY DISAGREE" });
     }

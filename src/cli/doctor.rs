@@ -70,6 +70,7 @@ fn word(outcome: Outcome) -> &'static str {
 
 fn report(found: &Found, findings: &[Finding]) -> serde_json::Value {
     let facts: serde_json::Map<_, _> = found.facts().into_iter().map(|(k, v)| (k.to_owned(), json!(v))).collect();
-    let tests: Vec<_> = findings.iter().map(|f| json!({ "name": f.name, "outcome": word(f.outcome), "text": f.text })).collect();
+    let tests: Vec<_> =
+        findings.iter().map(|f| json!({ "name": f.name, "outcome": word(f.outcome), "text": f.text })).collect();
     json!({ "adapter": found.describe(), "facts": facts, "tests": tests })
 }

@@ -37,7 +37,9 @@ impl Engine {
     /// What a user should know of it.
     pub fn remark(&self) -> Option<String> {
         match self {
-            Self::Cpu(Some(reason)) => Some(format!("{reason}; running the f64 twins instead, which are exact and slow")),
+            Self::Cpu(Some(reason)) => {
+                Some(format!("{reason}; running the f64 twins instead, which are exact and slow"))
+            }
             Self::Gpu(found) if found.software() => {
                 Some("this adapter is software on the processor: a GPU would be some hundred times faster".to_owned())
             }

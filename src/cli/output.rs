@@ -33,7 +33,8 @@ pub struct Output {
 impl Output {
     /// Makes the folder, the scene as it was resolved, and an empty table of energies.
     pub fn new(folder: &Path, scene: &Scene, count: usize, precision: Precision, device: &str) -> Result<Self, Error> {
-        let failed = |file: &Path, error: &std::io::Error| Error::Output { file: file.to_owned(), message: error.to_string() };
+        let failed =
+            |file: &Path, error: &std::io::Error| Error::Output { file: file.to_owned(), message: error.to_string() };
         std::fs::create_dir_all(folder).map_err(|e| failed(folder, &e))?;
         let resolved = format!("{}\n# Run by motes {} on {device}.\n", scene.resolved, env!("CARGO_PKG_VERSION"));
         atomically(&folder.join("scene.toml"), |out| out.write_all(resolved.as_bytes()))?;

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use motes::io::Precision;
 use motes::kernel::Backend;
 use motes::scene::Scene;
-use motes::{Cpu, Error, Gpu, Measure, POSITION, Setup, Simulation};
+use motes::{Cpu, Error, Measure, POSITION, Setup, Simulation};
 use serde_json::json;
 
 use super::advice::advice;
@@ -68,7 +68,10 @@ impl Run {
             json!({ "version": env!("CARGO_PKG_VERSION"), "scene": scene.name, "particles": count, "steps": scene.steps,
                 "dt": scene.dt, "integrator": scene.integrator.name, "device": device, "output": folder }),
         );
-        progress.say(&format!("{}: {count} particles, {} steps of {} by {}", scene.name, scene.steps, scene.dt, scene.integrator.name));
+        progress.say(&format!(
+            "{}: {count} particles, {} steps of {} by {}",
+            scene.name, scene.steps, scene.dt, scene.integrator.name
+        ));
         progress.say(&format!("on {device}"));
         for remark in engine.remark().into_iter().chain(advice(&scene, setup)?) {
             progress.say(&format!("note: {remark}"));
@@ -92,12 +95,17 @@ impl Run {
             // Looking waits for the batch, and finds what broke in it.
             simulation.check().await?;
             let factor = (BATCH.as_secs_f64() / start.elapsed().as_secs_f64().max(1e-6)).clamp(0.5, 4.0);
-            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a size of batches, at least one")]
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "a size of batches, at least one"
+            )]
             if u64::from(some) == batch || factor < 1.0 {
                 batch = ((batch as f64 * factor) as u64).clamp(1, 1 << 20);
             }
             if output.trail.wanted() {
-                let positions: Vec<_> = simulation.read(POSITION).await?.iter().map(|x| x.as_dvec4().truncate()).collect();
+                let positions: Vec<_> =
+                    simulation.read(POSITION).await?.iter().map(|x| x.as_dvec4().truncate()).collect();
                 output.trail.push(&positions);
             }
             self.progress.at(simulation.steps());
@@ -147,12 +155,29 @@ impl Run {
         if stopped {
             say(format!("stopped at step {steps} of {}; everything up to there is written", self.scene.steps));
         }
-        say(format!("{steps} steps in {}: {}steps/s, {}particle-steps/s", duration(took), large(rate), large(rate * self.count as f64)));
-        say(format!("energy {:.6e} → {:.6e}, error {:+.1e}, worst {worst:.1e}", first.total(), last.total(), last.drift_from(&first)));
+        say(format!(
+            "{steps} steps in {}: {}steps/s, {}particle-steps/s",
+            duration(took),
+            large(rate),
+            large(rate * self.count as f64)
+        ));
+        say(format!(
+            "energy {:.6e} → {:.6e}, error {:+.1e}, worst {worst:.1e}",
+            first.total(),
+            last.total(),
+            last.drift_from(&first)
+        ));
         let momentum = (last.momentum - first.momentum).length();
-        say(format!("momentum changed by {momentum:.1e}, angular momentum by {:.1e}", (last.angular_momentum - first.angular_momentum).length()));
+        say(format!(
+            "momentum changed by {momentum:.1e}, angular momentum by {:.1e}",
+            (last.angular_momentum - first.angular_momentum).length()
+        ));
         let picture = if output.pictures() { format!("{}.png, ", self.scene.name) } else { String::new() };
-        say(format!("results in {}: {picture}energy.csv, energy.svg, scene.toml, {} states", output.folder().display(), output.rows().len()));
+        say(format!(
+            "results in {}: {picture}energy.csv, energy.svg, scene.toml, {} states",
+            output.folder().display(),
+            output.rows().len()
+        ));
         if stopped { Err(Failure::Stopped) } else { Ok(()) }
     }
 }

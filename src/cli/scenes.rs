@@ -18,7 +18,9 @@ pub fn scenes(args: &ScenesArgs) -> Result<(), Failure> {
     match Source::find(name)? {
         Source::Builtin(scene) => print!("{}", scene.text),
         Source::File(path) => {
-            return Err(motes::Error::Scene(format!("{} is a file of yours, not a scene of motes", path.display())).into());
+            return Err(
+                motes::Error::Scene(format!("{} is a file of yours, not a scene of motes", path.display())).into()
+            );
         }
         Source::Text { .. } => {}
     }

@@ -52,7 +52,15 @@ impl Found {
             ("workgroup memory", format!("{} KiB", limits.max_compute_workgroup_storage_size >> 10)),
             ("storage buffers", format!("{} in one kernel", limits.max_storage_buffers_per_shader_stage)),
             ("workgroups", format!("{} in one dimension", limits.max_compute_workgroups_per_dimension)),
-            ("subgroups", format!("{}, of {} to {} lanes", offered(wgpu::Features::SUBGROUP), info.subgroup_min_size, info.subgroup_max_size)),
+            (
+                "subgroups",
+                format!(
+                    "{}, of {} to {} lanes",
+                    offered(wgpu::Features::SUBGROUP),
+                    info.subgroup_min_size,
+                    info.subgroup_max_size
+                ),
+            ),
             ("timestamps", offered(wgpu::Features::TIMESTAMP_QUERY)),
         ]
     }

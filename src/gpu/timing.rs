@@ -7,14 +7,24 @@ use crate::error::Error;
 
 /// Runs a program a number of times in one submission, and gives the seconds that took by the device's clock; `None`
 /// when the device was opened without timestamps.
-pub async fn timed(device: &wgpu::Device, queue: &mut Queue, program: &Program, times: u32) -> Result<Option<f64>, Error> {
+pub async fn timed(
+    device: &wgpu::Device,
+    queue: &mut Queue,
+    program: &Program,
+    times: u32,
+) -> Result<Option<f64>, Error> {
     if !device.features().contains(wgpu::Features::TIMESTAMP_QUERY) {
         return Ok(None);
     }
     let (resolved, commands) = fault::scoped(device, || {
-        let set = device.create_query_set(&wgpu::QuerySetDescriptor { label: None, ty: wgpu::QueryType::Timestamp, count: 2 });
+        let set = device.create_query_set(&wgpu::QuerySetDescriptor {
+            label: None,
+            ty: wgpu::QueryType::Timestamp,
+            count: 2,
+        });
         let usage = wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC;
-        let resolved = device.create_buffer(&wgpu::BufferDescriptor { label: None, size: 16, usage, mapped_at_creation: false });
+        let resolved =
+            device.create_buffer(&wgpu::BufferDescriptor { label: None, size: 16, usage, mapped_at_creation: false });
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         {
             let writes = wgpu::ComputePassTimestampWrites {

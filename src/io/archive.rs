@@ -21,10 +21,7 @@ pub(super) struct Arrays<R: Read + Seek> {
 impl<R: Read + Seek> Arrays<R> {
     /// Opens an archive, and notes arrays that nobody would read.
     pub(super) fn opened(from: R) -> io::Result<Self> {
-        let mut arrays = Self {
-            archive: NpzArchive::new(from)?,
-            problems: Problems::default(),
-        };
+        let mut arrays = Self { archive: NpzArchive::new(from)?, problems: Problems::default() };
         arrays.known();
         Ok(arrays)
     }
@@ -34,11 +31,8 @@ impl<R: Read + Seek> Arrays<R> {
         let mut names: Vec<&str> = self.archive.array_names().collect();
         names.sort_unstable(); // an archive lists them in the order of a hash
         for name in names {
-            if !NUMBERS.iter().any(|(known, _)| *known == name)
-                && !["id", "time", "step"].contains(&name)
-            {
-                self.problems
-                    .note(|| unknown("array", &name.chars().take(40).collect::<String>()));
+            if !NUMBERS.iter().any(|(known, _)| *known == name) && !["id", "time", "step"].contains(&name) {
+                self.problems.note(|| unknown("array", &name.chars().take(40).collect::<String>()));
             }
         }
     }
@@ -48,14 +42,12 @@ impl<R: Read + Seek> Arrays<R> {
         if self.archive.array_names().any(|known| known == name) {
             let read = array(&mut self.archive, name);
             if let Err(message) = &read {
-                self.problems
-                    .note(|| format!("the array `{name}` {message}"));
+                self.problems.note(|| format!("the array `{name}` {message}"));
             }
             return read.ok();
         }
         if matches!(name, "x" | "y" | "z") {
-            self.problems
-                .note(|| format!("the array `{name}` is missing; x, y and z must be there"));
+            self.problems.note(|| format!("the array `{name}` is missing; x, y and z must be there"));
         }
         None
     }
@@ -68,12 +60,7 @@ impl<R: Read + Seek> Arrays<R> {
             }
             Some([value]) => self.problems.note(|| format!("`{name}` is {value}")),
             Some(values) => {
-                self.problems.note(|| {
-                    format!(
-                        "the array `{name}` holds {} numbers; it must hold one",
-                        values.len()
-                    )
-                });
+                self.problems.note(|| format!("the array `{name}` holds {} numbers; it must hold one", values.len()));
             }
             None => {}
         }
@@ -83,18 +70,9 @@ impl<R: Read + Seek> Arrays<R> {
 
 /// The numbers of one array, widened.
 fn array<R: Read + Seek>(archive: &mut NpzArchive<R>, name: &str) -> Result<Vec<f64>, String> {
-    let mut file = archive
-        .zip_archive()
-        .by_name(&format!("{name}.npy"))
-        .map_err(|error| error.to_string())?;
-    if !matches!(
-        file.compression(),
-        CompressionMethod::Stored | CompressionMethod::Deflated
-    ) {
-        return Err(format!(
-            "is packed with {}; stored and deflated arrays are read",
-            file.compression()
-        ));
+    let mut file = archive.zip_archive().by_name(&format!("{name}.npy")).map_err(|error| error.to_string())?;
+    if !matches!(file.compression(), CompressionMethod::Stored | CompressionMethod::Deflated) {
+        return Err(format!("is packed with {}; stored and deflated arrays are read", file.compression()));
     }
     let (size, packed) = (file.size(), file.compressed_size());
     let header = Header::read(&mut file)?;
@@ -102,16 +80,11 @@ fn array<R: Read + Seek>(archive: &mut NpzArchive<R>, name: &str) -> Result<Vec<
         [] => 1,
         [count] => count,
         _ => {
-            return Err(format!(
-                "has the shape {:?}; it must have one axis",
-                header.shape
-            ));
+            return Err(format!("has the shape {:?}; it must have one axis", header.shape));
         }
     };
     let width = header.kind.width();
-    let needed = count
-        .checked_mul(width as u64)
-        .and_then(|bytes| bytes.checked_add(header.bytes));
+    let needed = count.checked_mul(width as u64).and_then(|bytes| bytes.checked_add(header.bytes));
     if needed != Some(size) || size / DEFLATED > packed {
         return Err(format!(
             "announces {count} numbers of {width} bytes behind a header of {}, but the archive holds {size} bytes for it, packed \

@@ -12,20 +12,11 @@ use crate::error::Error;
 ///
 /// # Errors
 /// [`Error::Output`] with the path, if the folder, the disk or `write` fails; a file that was there before is then untouched.
-pub fn atomically(
-    path: &Path,
-    write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
-) -> Result<(), Error> {
-    replaced(path, write).map_err(|error| Error::Output {
-        file: path.to_owned(),
-        message: error.to_string(),
-    })
+pub fn atomically(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> Result<(), Error> {
+    replaced(path, write).map_err(|error| Error::Output { file: path.to_owned(), message: error.to_string() })
 }
 
-fn replaced(
-    path: &Path,
-    write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
-) -> io::Result<()> {
+fn replaced(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> io::Result<()> {
     match fs::metadata(path) {
         Ok(there) if there.is_dir() => return Err(io::Error::other("it is a folder")),
         Ok(there) if !there.is_file() => {
@@ -51,10 +42,7 @@ fn replaced(
     temporary.persist(&target).map_err(|error| error.error)
 }
 
-fn filled(
-    file: File,
-    write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
-) -> io::Result<File> {
+fn filled(file: File, write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> io::Result<File> {
     let mut writer = BufWriter::with_capacity(1 << 16, file);
     write(&mut writer)?;
     writer.flush()?;

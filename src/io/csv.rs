@@ -16,16 +16,8 @@ use crate::error::Error;
 use crate::particles::Particles;
 
 /// The columns with numbers, and what they are when left out.
-pub(super) const NUMBERS: [(&str, f64); 8] = [
-    ("x", 0.0),
-    ("y", 0.0),
-    ("z", 0.0),
-    ("vx", 0.0),
-    ("vy", 0.0),
-    ("vz", 0.0),
-    ("mass", 1.0),
-    ("radius", 0.0),
-];
+pub(super) const NUMBERS: [(&str, f64); 8] =
+    [("x", 0.0), ("y", 0.0), ("z", 0.0), ("vx", 0.0), ("vy", 0.0), ("vz", 0.0), ("mass", 1.0), ("radius", 0.0)];
 const ID: &str = "id";
 const NAME: &str = "name";
 
@@ -36,33 +28,20 @@ const NAME: &str = "name";
 /// that makes no sense; every column that is unknown, missing or given twice; every id that is missing or given twice.
 pub fn read(path: &Path) -> Result<Particles, Error> {
     let (file, _) = open(path)?;
-    let mut rows = ReaderBuilder::new()
-        .comment(Some(b'#'))
-        .flexible(true)
-        .trim(Trim::All)
-        .has_headers(false)
-        .from_reader(file);
+    let mut rows =
+        ReaderBuilder::new().comment(Some(b'#')).flexible(true).trim(Trim::All).has_headers(false).from_reader(file);
     let mut problems = Problems::default();
     let mut record = ByteRecord::new();
     let failed = |error: ::csv::Error| input(path, error.to_string());
     if !rows.read_byte_record(&mut record).map_err(failed)? {
-        return Err(input(
-            path,
-            "is empty; its first line must name the columns, such as x,y,z,vx,vy,vz,mass",
-        ));
+        return Err(input(path, "is empty; its first line must name the columns, such as x,y,z,vx,vy,vz,mass"));
     }
     let columns = Columns::named(&record, &mut problems);
     let (mut particles, mut ids, mut lines) = (Particles::default(), Vec::new(), Vec::new());
     while rows.read_byte_record(&mut record).map_err(failed)? {
         let line = Line::of(path, &record);
         if record.len() > columns.count {
-            problems.note(|| {
-                format!(
-                    "{line}: {} cells, but {} columns",
-                    record.len(),
-                    columns.count
-                )
-            });
+            problems.note(|| format!("{line}: {} cells, but {} columns", record.len(), columns.count));
         }
         let [x, y, z, vx, vy, vz, mass, radius] = columns.numbers(&record, &line, &mut problems);
         particles.push(DVec3::new(x, y, z), DVec3::new(vx, vy, vz), mass, radius);
@@ -107,9 +86,7 @@ struct Line<'a> {
 
 impl<'a> Line<'a> {
     fn of(path: &'a Path, record: &ByteRecord) -> Self {
-        let (byte, before) = record
-            .position()
-            .map_or((0, 1), |start| (start.byte(), start.line()));
+        let (byte, before) = record.position().map_or((0, 1), |start| (start.byte(), start.line()));
         Self { path, byte, before }
     }
 
@@ -142,11 +119,7 @@ struct Columns {
 
 impl Columns {
     fn named(header: &ByteRecord, problems: &mut Problems) -> Self {
-        let mut columns = Self {
-            count: header.len(),
-            numbers: [None; 8],
-            id: None,
-        };
+        let mut columns = Self { count: header.len(), numbers: [None; 8], id: None };
         let mut name = None;
         for place in 0..header.len() {
             let title = shown(header, place);
@@ -165,9 +138,7 @@ impl Columns {
         }
         for ((title, _), place) in NUMBERS.iter().zip(columns.numbers).take(3) {
             if place.is_none() {
-                problems.note(|| {
-                    format!("the column `{title}` is missing; the first line must name x, y and z")
-                });
+                problems.note(|| format!("the column `{title}` is missing; the first line must name x, y and z"));
             }
         }
         columns
@@ -194,8 +165,7 @@ impl Columns {
                     problems.note(|| format!("{}: `{}` is not finite", at(), shown(record, place)));
                 }
                 None => {
-                    problems
-                        .note(|| format!("{}: `{}` is not a number", at(), shown(record, place)));
+                    problems.note(|| format!("{}: `{}` is not a number", at(), shown(record, place)));
                 }
             }
         }
@@ -204,9 +174,7 @@ impl Columns {
 }
 
 fn cell(record: &ByteRecord, place: usize) -> Option<&str> {
-    record
-        .get(place)
-        .and_then(|bytes| std::str::from_utf8(bytes).ok())
+    record.get(place).and_then(|bytes| std::str::from_utf8(bytes).ok())
 }
 
 /// A cell for a message: no longer than a message may be.
@@ -221,20 +189,12 @@ pub(super) fn unknown(what: &str, title: &str) -> String {
     let first = title.to_lowercase().chars().next();
     let like = known()
         .filter(|name| name.chars().next() == first)
-        .map(|name| {
-            (
-                strsim::damerau_levenshtein(&title.to_lowercase(), name),
-                name,
-            )
-        })
+        .map(|name| (strsim::damerau_levenshtein(&title.to_lowercase(), name), name))
         .min()
         .filter(|(distance, name)| *distance <= 1 + name.len() / 3);
     match like {
         Some((_, name)) => format!("unknown {what} `{title}`; did you mean `{name}`?"),
-        None => format!(
-            "unknown {what} `{title}`; known are {}",
-            known().collect::<Vec<_>>().join(", ")
-        ),
+        None => format!("unknown {what} `{title}`; known are {}", known().collect::<Vec<_>>().join(", ")),
     }
 }
 
@@ -243,11 +203,7 @@ pub(super) fn unknown(what: &str, title: &str) -> String {
 ///
 /// # Errors
 /// Those of `out`.
-pub fn write_csv(
-    mut out: impl Write,
-    particles: &Particles,
-    precision: Precision,
-) -> io::Result<()> {
+pub fn write_csv(mut out: impl Write, particles: &Particles, precision: Precision) -> io::Result<()> {
     /// Rows per piece of work, and pieces that are in memory at once: about 16 MB of text.
     const ROWS: usize = 4096;
     const PIECES: usize = 32;
@@ -273,10 +229,7 @@ fn row(text: &mut String, id: usize, particles: &Particles, precision: Precision
     // Writing into a String cannot fail. `{:?}` is the shortest decimal that reads back, with an exponent where that is shorter.
     let _ = write!(text, "{id}");
     for number in [x.x, x.y, x.z, v.x, v.y, v.z, particles.mass[id]] {
-        #[expect(
-            clippy::cast_possible_truncation,
-            reason = "single precision was asked for"
-        )]
+        #[expect(clippy::cast_possible_truncation, reason = "single precision was asked for")]
         let _ = match precision {
             Precision::Single => write!(text, ",{:?}", number as f32),
             Precision::Double => write!(text, ",{number:?}"),

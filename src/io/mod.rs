@@ -46,11 +46,7 @@ pub struct Snapshot {
 /// # Errors
 /// [`Error::Input`], with the file and the line or byte offset of everything that is wrong with it.
 pub fn read(path: &Path) -> Result<Particles, Error> {
-    let ending = path
-        .extension()
-        .and_then(|e| e.to_str())
-        .unwrap_or_default()
-        .to_ascii_lowercase();
+    let ending = path.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase();
     match ending.as_str() {
         "csv" => csv::read(path),
         "npz" => Ok(npz::read(path)?.particles),
@@ -58,9 +54,7 @@ pub fn read(path: &Path) -> Result<Particles, Error> {
         _ => {
             let mut start = Vec::new();
             let (file, _) = open(path)?;
-            file.take(512)
-                .read_to_end(&mut start)
-                .map_err(|error| input(path, error.to_string()))?;
+            file.take(512).read_to_end(&mut start).map_err(|error| input(path, error.to_string()))?;
             if start.starts_with(b"PK\x03\x04") {
                 Ok(npz::read(path)?.particles)
             } else if start.contains(&0) {
@@ -75,18 +69,13 @@ pub fn read(path: &Path) -> Result<Particles, Error> {
 
 /// An [`Error::Input`] about a whole file.
 fn input(path: &Path, message: impl Into<String>) -> Error {
-    Error::Input {
-        file: path.to_owned(),
-        message: message.into(),
-    }
+    Error::Input { file: path.to_owned(), message: message.into() }
 }
 
 /// A file, and its length in bytes.
 fn open(path: &Path) -> Result<(BufReader<File>, u64), Error> {
     let file = File::open(path).map_err(|error| input(path, error.to_string()))?;
-    let data = file
-        .metadata()
-        .map_err(|error| input(path, error.to_string()))?;
+    let data = file.metadata().map_err(|error| input(path, error.to_string()))?;
     if data.is_dir() {
         return Err(input(path, "is a folder, not a file of particles"));
     }

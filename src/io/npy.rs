@@ -66,21 +66,14 @@ impl Header {
             _ => return Err(format!("has NPY version {version}; 1 to 3 are known")),
         };
         if length > LONGEST {
-            return Err(format!(
-                "announces a header of {length} bytes; more than {LONGEST} are not read"
-            ));
+            return Err(format!("announces a header of {length} bytes; more than {LONGEST} are not read"));
         }
         let mut text = vec![0; length as usize];
         fill(&mut from, &mut text)?;
         let text = String::from_utf8_lossy(&text);
         let descr = value(&text, "descr")?;
         let (kind, big) = number(descr)?;
-        Ok(Self {
-            kind,
-            big,
-            shape: lengths(value(&text, "shape")?)?,
-            bytes: before + u64::from(length),
-        })
+        Ok(Self { kind, big, shape: lengths(value(&text, "shape")?)?, bytes: before + u64::from(length) })
     }
 
     /// The array's numbers, widened.
@@ -91,21 +84,13 @@ impl Header {
         let mut left = count.saturating_mul(width as u64);
         while left > 0 {
             let part = &mut piece[..usize::try_from(left).unwrap_or(PIECE).min(PIECE)];
-            let broken = |error| {
-                format!(
-                    "breaks off after {} of {count} numbers ({error})",
-                    values.len()
-                )
-            };
+            let broken = |error| format!("breaks off after {} of {count} numbers ({error})", values.len());
             from.read_exact(part).map_err(broken)?;
             left -= part.len() as u64;
             if self.big {
                 part.chunks_exact_mut(width).for_each(<[u8]>::reverse);
             }
-            values.extend(
-                part.chunks_exact(width)
-                    .map(|bytes| widened(self.kind, bytes)),
-            );
+            values.extend(part.chunks_exact(width).map(|bytes| widened(self.kind, bytes)));
         }
         Ok(values)
     }
@@ -132,22 +117,14 @@ fn widened(kind: Kind, bytes: &[u8]) -> f64 {
 }
 
 fn fill(from: &mut impl Read, bytes: &mut [u8]) -> Result<(), String> {
-    from.read_exact(bytes)
-        .map_err(|error| format!("ends within its header ({error})"))
+    from.read_exact(bytes).map_err(|error| format!("ends within its header ({error})"))
 }
 
 /// The text behind a key of the header's dictionary, up to the end of the header.
 fn value<'a>(text: &'a str, key: &str) -> Result<&'a str, String> {
     let missing = || format!("has a header without `{key}`");
-    let (_, rest) = ["'", "\""]
-        .iter()
-        .find_map(|q| text.split_once(&format!("{q}{key}{q}")))
-        .ok_or_else(missing)?;
-    Ok(rest
-        .trim_start()
-        .strip_prefix(':')
-        .ok_or_else(missing)?
-        .trim_start())
+    let (_, rest) = ["'", "\""].iter().find_map(|q| text.split_once(&format!("{q}{key}{q}"))).ok_or_else(missing)?;
+    Ok(rest.trim_start().strip_prefix(':').ok_or_else(missing)?.trim_start())
 }
 
 /// The type in a string such as `'<f4'`.
@@ -173,32 +150,16 @@ fn number(text: &str) -> Result<(Kind, bool), String> {
         }
         _ => {
             let descr: String = descr.chars().take(20).collect();
-            return Err(format!(
-                "holds `{descr}`; f4, f8, i4, i8, u4 and u8 are read"
-            ));
+            return Err(format!("holds `{descr}`; f4, f8, i4, i8, u4 and u8 are read"));
         }
     };
-    Ok((
-        kind,
-        order == '>' || (order == '=' && cfg!(target_endian = "big")),
-    ))
+    Ok((kind, order == '>' || (order == '=' && cfg!(target_endian = "big"))))
 }
 
 /// The lengths in a tuple such as `(1000,)`.
 fn lengths(text: &str) -> Result<Vec<u64>, String> {
-    let inside = text
-        .strip_prefix('(')
-        .and_then(|rest| rest.split_once(')'))
-        .map(|(inside, _)| inside);
+    let inside = text.strip_prefix('(').and_then(|rest| rest.split_once(')')).map(|(inside, _)| inside);
     let inside = inside.ok_or("has a header without a tuple as `shape`")?;
-    let parts = inside
-        .split(',')
-        .map(str::trim)
-        .filter(|part| !part.is_empty());
-    parts
-        .map(|part| {
-            part.parse()
-                .map_err(|_| format!("has the length `{part}`, which is no whole number"))
-        })
-        .collect()
+    let parts = inside.split(',').map(str::trim).filter(|part| !part.is_empty());
+    parts.map(|part| part.parse().map_err(|_| format!("has the length `{part}`, which is no whole number"))).collect()
 }

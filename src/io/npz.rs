@@ -35,19 +35,13 @@ pub fn read(path: &Path) -> Result<Snapshot, Error> {
     let ids = arrays.column("id");
     let mut problems = arrays.problems;
     let count = columns[0].as_ref().map_or(0, Vec::len);
-    for (values, name) in columns
-        .iter()
-        .zip(NUMBERS.map(|(name, _)| name))
-        .chain([(&ids, "id")])
-    {
+    for (values, name) in columns.iter().zip(NUMBERS.map(|(name, _)| name)).chain([(&ids, "id")]) {
         check(name, values.as_deref(), count, &mut problems);
     }
     if !problems.none() {
         return problems.check(path).map(|()| Snapshot::default());
     }
-    let filled = |(values, (_, default)): (Option<Vec<f64>>, (_, f64))| {
-        values.unwrap_or_else(|| vec![default; count])
-    };
+    let filled = |(values, (_, default)): (Option<Vec<f64>>, (_, f64))| values.unwrap_or_else(|| vec![default; count]);
     let mut columns = columns.into_iter().zip(NUMBERS).map(filled);
     let mut next = || columns.next().unwrap_or_default();
     let mut particles = Particles {
@@ -62,48 +56,28 @@ pub fn read(path: &Path) -> Result<Snapshot, Error> {
         problems.check(path)?;
         particles = picked(&particles, &order);
     }
-    Ok(Snapshot {
-        particles,
-        time,
-        step: whole(step),
-    })
+    Ok(Snapshot { particles, time, step: whole(step) })
 }
 
 /// Notes a column of the wrong length, and values that it must not hold.
 fn check(name: &str, values: Option<&[f64]>, count: usize, problems: &mut Problems) {
     let Some(values) = values else { return };
     if values.len() != count {
-        problems.note(|| {
-            format!(
-                "the array `{name}` holds {} numbers, but `x` holds {count}",
-                values.len()
-            )
-        });
+        problems.note(|| format!("the array `{name}` holds {} numbers, but `x` holds {count}", values.len()));
     }
     for (place, value) in values.iter().enumerate() {
         if !value.is_finite() {
             problems.note(|| format!("{name}[{place}] is {value}, which is not finite"));
         } else if *value < 0.0 && matches!(name, "mass" | "radius") {
             problems.note(|| format!("{name}[{place}] is {value}, which is below 0"));
-        } else if name == "id"
-            && !(value.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(value))
-        {
-            problems.note(|| {
-                format!(
-                    "id[{place}] is {value}, not a whole number from 0 to {}",
-                    u32::MAX
-                )
-            });
+        } else if name == "id" && !(value.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(value)) {
+            problems.note(|| format!("id[{place}] is {value}, not a whole number from 0 to {}", u32::MAX));
         }
     }
 }
 
 fn vectors(x: &[f64], y: &[f64], z: &[f64]) -> Vec<DVec3> {
-    x.iter()
-        .zip(y)
-        .zip(z)
-        .map(|((x, y), z)| DVec3::new(*x, *y, *z))
-        .collect()
+    x.iter().zip(y).zip(z).map(|((x, y), z)| DVec3::new(*x, *y, *z)).collect()
 }
 
 #[expect(
@@ -131,15 +105,8 @@ pub fn write_npz(
     let mut archive = NpzWriter::new(out);
     put(&mut archive, "time", &[], [time.to_le_bytes()], 0.0_f64)?;
     put(&mut archive, "step", &[], [step.to_le_bytes()], 0_u64)?;
-    let ids = u32::try_from(count)
-        .map_err(|_| io::Error::other(format!("{count} particles; ids have 32 bits")))?;
-    put(
-        &mut archive,
-        "id",
-        &[count],
-        (0..ids).map(u32::to_le_bytes),
-        0_u32,
-    )?;
+    let ids = u32::try_from(count).map_err(|_| io::Error::other(format!("{count} particles; ids have 32 bits")))?;
+    put(&mut archive, "id", &[count], (0..ids).map(u32::to_le_bytes), 0_u32)?;
     for (column, (name, _)) in NUMBERS.iter().enumerate() {
         let values = (0..particles.len()).map(|id| match column {
             0..3 => particles.position[id][column],
@@ -147,32 +114,13 @@ pub fn write_npz(
             6 => particles.mass[id],
             _ => particles.radius[id],
         });
-        #[expect(
-            clippy::cast_possible_truncation,
-            reason = "single precision was asked for"
-        )]
+        #[expect(clippy::cast_possible_truncation, reason = "single precision was asked for")]
         match precision {
-            Precision::Single => put(
-                &mut archive,
-                name,
-                &[count],
-                values.map(|x| (x as f32).to_le_bytes()),
-                0.0_f32,
-            )?,
-            Precision::Double => put(
-                &mut archive,
-                name,
-                &[count],
-                values.map(f64::to_le_bytes),
-                0.0_f64,
-            )?,
+            Precision::Single => put(&mut archive, name, &[count], values.map(|x| (x as f32).to_le_bytes()), 0.0_f32)?,
+            Precision::Double => put(&mut archive, name, &[count], values.map(f64::to_le_bytes), 0.0_f64)?,
         }
     }
-    archive
-        .zip_writer()
-        .finish()
-        .map(drop)
-        .map_err(io::Error::other)
+    archive.zip_writer().finish().map(drop).map_err(io::Error::other)
 }
 
 /// Writes one array of little-endian numbers of the type of `_like`.
@@ -189,11 +137,7 @@ fn put<W: Write + Seek, T: Serialize + AutoSerialize, const N: usize>(
         .last_modified_time(DateTime::default())
         .large_file(large);
     let dtype = T::default_dtype();
-    let entry = archive
-        .array::<T>(name, options)?
-        .dtype(dtype)
-        .shape(shape)
-        .write_header_only()?;
+    let entry = archive.array::<T>(name, options)?.dtype(dtype).shape(shape).write_header_only()?;
     let mut entry = BufWriter::with_capacity(PIECE, entry);
     for value in values {
         entry.write_all(&value)?;

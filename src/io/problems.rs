@@ -43,11 +43,7 @@ impl Problems {
 }
 
 /// The places of rows in the order of their ids, which must be 0, 1, 2, … without gaps or repeats. `place` names a row.
-pub(super) fn order(
-    ids: &[u64],
-    place: impl Fn(usize) -> String,
-    problems: &mut Problems,
-) -> Vec<usize> {
+pub(super) fn order(ids: &[u64], place: impl Fn(usize) -> String, problems: &mut Problems) -> Vec<usize> {
     let mut order: Vec<usize> = (0..ids.len()).collect();
     order.sort_by_key(|row| ids[*row]);
     let mut expected = 0;
@@ -56,13 +52,7 @@ pub(super) fn order(
         let id = ids[*row];
         match before {
             Some(other) if ids[other] == id => {
-                problems.note(|| {
-                    format!(
-                        "{}: id {id} again; it is already at {}",
-                        place(*row),
-                        place(other)
-                    )
-                });
+                problems.note(|| format!("{}: id {id} again; it is already at {}", place(*row), place(other)));
             }
             _ => {
                 if id != expected {
@@ -71,12 +61,7 @@ pub(super) fn order(
                     } else {
                         format!("ids {expected} to {} are", id - 1)
                     };
-                    problems.note(|| {
-                        format!(
-                            "{}: id {id}, but {missing} missing; ids count from 0",
-                            place(*row)
-                        )
-                    });
+                    problems.note(|| format!("{}: id {id}, but {missing} missing; ids count from 0", place(*row)));
                 }
                 expected = id.saturating_add(1);
             }

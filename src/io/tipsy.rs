@@ -58,10 +58,7 @@ impl Bytes {
 
 /// Some bytes of a record; zeros beyond its end.
 fn array<const N: usize>(bytes: &[u8], at: usize) -> [u8; N] {
-    bytes
-        .get(at..at + N)
-        .and_then(|part| part.try_into().ok())
-        .unwrap_or([0; N])
+    bytes.get(at..at + N).and_then(|part| part.try_into().ok()).unwrap_or([0; N])
 }
 
 /// Reads particles and the time: gas first, then dark, then stars. Radii are 0.
@@ -74,19 +71,11 @@ pub fn read(path: &Path) -> Result<Snapshot, Error> {
     let failed = |error: io::Error| input(path, error.to_string());
     let mut header = [0; HEADER];
     if length < HEADER as u64 {
-        return Err(input(
-            path,
-            format!("{length} bytes; a Tipsy header alone has {HEADER}"),
-        ));
+        return Err(input(path, format!("{length} bytes; a Tipsy header alone has {HEADER}")));
     }
     file.read_exact(&mut header).map_err(failed)?;
     let (order, counts) = counted(&header).map_err(|message| input(path, message))?;
-    let size = HEADER as u64
-        + counts
-            .iter()
-            .zip(KINDS)
-            .map(|(count, (_, bytes))| count * bytes)
-            .sum::<u64>();
+    let size = HEADER as u64 + counts.iter().zip(KINDS).map(|(count, (_, bytes))| count * bytes).sum::<u64>();
     if length == size + PADDING as u64 {
         file.read_exact(&mut [0; PADDING]).map_err(failed)?;
     } else if length != size {
@@ -117,29 +106,19 @@ pub fn read(path: &Path) -> Result<Snapshot, Error> {
                 *value = order.f32(record, 4 * place);
                 if !value.is_finite() {
                     let at = offset + 4 * place as u64;
-                    problems.note(|| {
-                        format!(
-                            "byte {at}: {kind} particle {index} holds {value}, which is not finite"
-                        )
-                    });
+                    problems.note(|| format!("byte {at}: {kind} particle {index} holds {value}, which is not finite"));
                 }
             }
             let [mass, x, y, z, vx, vy, vz] = values;
             if mass < 0.0 {
-                problems.note(|| {
-                    format!("byte {offset}: {kind} particle {index} has the mass {mass}, below 0")
-                });
+                problems.note(|| format!("byte {offset}: {kind} particle {index} has the mass {mass}, below 0"));
             }
             particles.push(DVec3::new(x, y, z), DVec3::new(vx, vy, vz), mass, 0.0);
             offset += bytes;
         }
     }
     problems.check(path)?;
-    Ok(Snapshot {
-        particles,
-        time,
-        step: 0,
-    })
+    Ok(Snapshot { particles, time, step: 0 })
 }
 
 /// Byte order and counts of gas, dark and star particles.
@@ -158,17 +137,11 @@ fn counted(header: &[u8; HEADER]) -> Result<(Bytes, [u64; 3]), String> {
     let total = order.i32(header, 8);
     let counts = [16, 20, 24].map(|at| order.i32(header, at));
     if let Some((place, count)) = counts.iter().enumerate().find(|(_, count)| **count < 0) {
-        return Err(format!(
-            "byte {}: the header announces {count} {} particles",
-            16 + 4 * place,
-            KINDS[place].0
-        ));
+        return Err(format!("byte {}: the header announces {count} {} particles", 16 + 4 * place, KINDS[place].0));
     }
     let sum: i64 = counts.iter().map(|count| i64::from(*count)).sum();
     if sum != i64::from(total) {
-        return Err(format!(
-            "byte 8: the header announces {total} particles, but gas, dark and star sum to {sum}"
-        ));
+        return Err(format!("byte 8: the header announces {total} particles, but gas, dark and star sum to {sum}"));
     }
     Ok((order, counts.map(|count| u64::try_from(count).unwrap_or(0))))
 }
@@ -178,42 +151,21 @@ fn counted(header: &[u8; HEADER]) -> Result<(Bytes, [u64; 3]), String> {
 ///
 /// # Errors
 /// Those of `out`; and what Tipsy cannot hold: more than 2³¹ - 1 particles, numbers beyond the range of f32.
-pub fn write_tipsy(
-    mut out: impl Write,
-    particles: &Particles,
-    time: f64,
-    softening: f64,
-) -> io::Result<()> {
-    let count = i32::try_from(particles.len()).map_err(|_| {
-        io::Error::other(format!(
-            "{} particles; a Tipsy file counts to {}",
-            particles.len(),
-            i32::MAX
-        ))
-    })?;
+pub fn write_tipsy(mut out: impl Write, particles: &Particles, time: f64, softening: f64) -> io::Result<()> {
+    let count = i32::try_from(particles.len())
+        .map_err(|_| io::Error::other(format!("{} particles; a Tipsy file counts to {}", particles.len(), i32::MAX)))?;
     out.write_all(&time.to_be_bytes())?;
     for word in [count, 3, 0, count, 0, 0] {
         out.write_all(&word.to_be_bytes())?;
     }
     let mut record = [0; 36];
-    for (id, ((x, v), mass)) in particles
-        .position
-        .iter()
-        .zip(&particles.velocity)
-        .zip(&particles.mass)
-        .enumerate()
-    {
+    for (id, ((x, v), mass)) in particles.position.iter().zip(&particles.velocity).zip(&particles.mass).enumerate() {
         let values = [*mass, x.x, x.y, x.z, v.x, v.y, v.z, softening, 0.0];
         for (value, bytes) in values.iter().zip(record.chunks_exact_mut(4)) {
-            #[expect(
-                clippy::cast_possible_truncation,
-                reason = "the format is single precision"
-            )]
+            #[expect(clippy::cast_possible_truncation, reason = "the format is single precision")]
             let narrow = *value as f32;
             if !narrow.is_finite() {
-                return Err(io::Error::other(format!(
-                    "particle {id} holds {value}, which a Tipsy file (f32) cannot"
-                )));
+                return Err(io::Error::other(format!("particle {id} holds {value}, which a Tipsy file (f32) cannot")));
             }
             bytes.copy_from_slice(&narrow.to_be_bytes());
         }

@@ -61,12 +61,7 @@ impl Spectrum {
             })
             .unzip();
         let slope: f64 = apart.iter().map(|(_, weight, lever)| weight * lever).sum();
-        Self {
-            thickness: PI * PI / 12.0 * height * height,
-            start: K_STEP * K_STEP / 12.0 * slope,
-            inward,
-            across,
-        }
+        Self { thickness: PI * PI / 12.0 * height * height, start: K_STEP * K_STEP / 12.0 * slope, inward, across }
     }
 
     /// v² = R ∂Φ/∂R of the disk alone.
@@ -74,12 +69,7 @@ impl Spectrum {
         if x > FAR {
             return (1.0 + 4.5 / (x * x)) / x;
         }
-        x * self
-            .inward
-            .iter()
-            .zip(1_u32..)
-            .map(|(s, i)| s * libm::j1(K_STEP * f64::from(i) * x))
-            .sum::<f64>()
+        x * self.inward.iter().zip(1_u32..).map(|(s, i)| s * libm::j1(K_STEP * f64::from(i) * x)).sum::<f64>()
     }
 
     /// ⟨z ∂Φ/∂z⟩ of the disk alone.
@@ -87,13 +77,7 @@ impl Spectrum {
         if x > FAR {
             return self.thickness * (1.0 + 13.5 / (x * x)) / (x * x * x);
         }
-        self.start
-            + self
-                .across
-                .iter()
-                .zip(1_u32..)
-                .map(|(s, i)| s * libm::j0(K_STEP * f64::from(i) * x))
-                .sum::<f64>()
+        self.start + self.across.iter().zip(1_u32..).map(|(s, i)| s * libm::j0(K_STEP * f64::from(i) * x)).sum::<f64>()
     }
 }
 
@@ -102,13 +86,8 @@ mod tests {
     use super::{Spectrum, differences};
 
     /// Freeman (1970), v² = 2 y² [I₀K₀ - I₁K₁](y), y = x/2, in G M / `R_d`: values by an independent Bessel library.
-    const FREEMAN: [(f64, f64); 5] = [
-        (0.25, 0.053_940_642),
-        (0.5, 0.136_705_006),
-        (1.0, 0.277_958_789),
-        (2.2, 0.386_911_990),
-        (6.0, 0.194_455_379),
-    ];
+    const FREEMAN: [(f64, f64); 5] =
+        [(0.25, 0.053_940_642), (0.5, 0.136_705_006), (1.0, 0.277_958_789), (2.2, 0.386_911_990), (6.0, 0.194_455_379)];
 
     #[test]
     fn a_thin_disk_turns_as_freeman_says() {
@@ -139,10 +118,7 @@ mod tests {
         for x in [1.0, 2.0, 4.0] {
             let sheet = 0.5 * libm::exp(-x) * 0.01;
             let got = Spectrum::new(0.01, 0.0).across(x);
-            assert!(
-                (got / sheet - 1.0).abs() < 0.02,
-                "x {x}: {got} is not {sheet}"
-            );
+            assert!((got / sheet - 1.0).abs() < 0.02, "x {x}: {got} is not {sheet}");
         }
         let far = |x| Spectrum::new(0.2, 0.0).across(x);
         assert!((far(20.001) / far(19.999) - 1.0).abs() < 0.01);

@@ -49,16 +49,14 @@ const RINGS: u32 = 320;
 impl Galaxy {
     /// Surface density of the disk [mass / length²].
     fn surface(&self, radius: f64) -> f64 {
-        self.disk_mass / (2.0 * PI * self.disk_scale * self.disk_scale)
-            * libm::exp(-radius / self.disk_scale)
+        self.disk_mass / (2.0 * PI * self.disk_scale * self.disk_scale) * libm::exp(-radius / self.disk_scale)
     }
 
     /// Softened pull of the whole galaxy as if it were spherical [length / time²].
     pub(super) fn spherical(&self, r: f64) -> f64 {
         let x = r / self.disk_scale;
         let disk = self.disk_mass * (1.0 - (1.0 + x) * libm::exp(-x));
-        self.g * (disk + self.halo_mass * hernquist::enclosed(r / self.halo_scale)) * r
-            / self.softened(r * r)
+        self.g * (disk + self.halo_mass * hernquist::enclosed(r / self.halo_scale)) * r / self.softened(r * r)
     }
 
     /// The halo's pull on the disk at a radius, averaged over the heights there: R ∂Φ/∂R and z ∂Φ/∂z.
@@ -98,11 +96,7 @@ impl Rotation {
                 let circular = unit * spectrum.inward(x) + inward;
                 // ⟨σ_z²⟩ = ⟨z ∂Φ/∂z⟩: the virial theorem across the plane.
                 let vertical = unit * spectrum.across(x) + across;
-                Ring {
-                    circular,
-                    vertical,
-                    ..Ring::default()
-                }
+                Ring { circular, vertical, ..Ring::default() }
             })
             .collect();
 
@@ -123,19 +117,13 @@ impl Rotation {
             let surface = galaxy.surface(radius(u32::try_from(row).unwrap_or(RINGS)) * scale);
             held += step * surface * rings[row].circular;
             let wanted = 3.36 * galaxy.g * surface * galaxy.toomre_q;
-            rings[row].radial = if surface > 0.0 {
-                (wanted * wanted / rings[row].epicyclic).min(held / surface)
-            } else {
-                0.0
-            };
+            rings[row].radial =
+                if surface > 0.0 { (wanted * wanted / rings[row].epicyclic).min(held / surface) } else { 0.0 };
             rings[row].azimuthal = rings[row].radial * rings[row].epicyclic / (4.0 * here);
         }
         // Asymmetric drift, from the radial Jeans equation.
-        let pressure: Vec<f64> = rings
-            .iter()
-            .zip(0..)
-            .map(|(ring, row)| ring.radial * galaxy.surface(radius(row) * scale))
-            .collect();
+        let pressure: Vec<f64> =
+            rings.iter().zip(0..).map(|(ring, row)| ring.radial * galaxy.surface(radius(row) * scale)).collect();
         for row in 0..rings.len() {
             let (low, high) = (row.saturating_sub(1), (row + 1).min(rings.len() - 1));
             #[expect(clippy::cast_precision_loss, reason = "1 or 2")]
@@ -151,11 +139,7 @@ impl Rotation {
     }
 
     /// The ring at a radius [length].
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "held within the table"
-    )]
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "held within the table")]
     pub(super) fn at(&self, radius: f64) -> Ring {
         let place = libm::log(radius / (self.scale * INNER)) / log_step();
         let place = place.clamp(0.0, f64::from(RINGS - 2));

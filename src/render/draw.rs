@@ -33,7 +33,7 @@ pub async fn draw<B: Backend>(backend: &mut B, picture: &Picture) -> Result<Imag
 
 async fn attempt<B: Backend>(backend: &mut B, picture: &Picture) -> Result<Image, Error> {
     let frame = &picture.frame;
-    let expose = backend.compile(picture.plan()?)?;
+    let expose = backend.compile(&picture.plan()?)?;
     if let Color::Given(colors) = &picture.color {
         backend.write(COLOR.name, &Array::Uint(colors.clone()))?;
     }
@@ -43,7 +43,7 @@ async fn attempt<B: Backend>(backend: &mut B, picture: &Picture) -> Result<Image
     backend.run(&expose, 1)?;
     let histogram = words(backend, HISTOGRAM.name, super::frame::BINS).await?;
     let exposure = Exposure::of(&histogram, frame, picture.exposure);
-    let develop = backend.compile(picture.development(exposure)?)?;
+    let develop = backend.compile(&picture.development(exposure)?)?;
     backend.run(&develop, 1)?;
     let missed = words(backend, MISSED.name, 2).await?;
     let pixels = words(backend, PIXELS.name, frame.area() as usize).await?;

@@ -46,7 +46,7 @@ pub fn kernel(frame: &Frame, exposure: Exposure) -> Result<Kernel, Error> {
         });
         Ok(())
     };
-    Ok(frame.kernel("tone", vec![pass], Box::new(twin)))
+    Ok(frame.kernel("tone", vec![pass], std::sync::Arc::new(twin)))
 }
 
 fn background(frame: &Frame, place: DVec2) -> DVec3 {
