@@ -41,7 +41,7 @@ impl Engine {
                 Some(format!("{reason}; running the f64 twins instead, which are exact and slow"))
             }
             Self::Gpu(found) if found.software() => {
-                Some("this adapter is software on the processor: a GPU would be some hundred times faster".to_owned())
+                Some("this adapter is software: it runs on the processor".to_owned())
             }
             _ => None,
         }

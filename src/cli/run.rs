@@ -9,7 +9,7 @@ use motes::scene::Scene;
 use motes::{Cpu, Error, Measure, POSITION, Setup, Simulation};
 use serde_json::json;
 
-use super::advice::advice;
+use super::advice::{advice, conserved};
 use super::args::RunArgs;
 use super::engine::{self, Engine};
 use super::failure::Failure;
@@ -53,6 +53,8 @@ struct Run {
     device: String,
     folder: PathBuf,
     count: usize,
+    /// Whether the energy and the momentum should stay what they are.
+    conserved: (bool, bool),
     progress: Progress,
     stop: Stop,
 }
@@ -77,7 +79,7 @@ impl Run {
             progress.say(&format!("note: {remark}"));
             progress.event("remark", json!({ "text": remark }));
         }
-        Ok(Self { scene, device, folder, count, progress, stop: Stop::listen() })
+        Ok(Self { conserved: conserved(setup)?, scene, device, folder, count, progress, stop: Stop::listen() })
     }
 
     async fn drive<B: Backend>(&mut self, mut simulation: Simulation<B>, precision: Precision) -> Result<(), Failure> {
@@ -161,17 +163,13 @@ impl Run {
             large(rate),
             large(rate * self.count as f64)
         ));
-        say(format!(
-            "energy {:.6e} → {:.6e}, error {:+.1e}, worst {worst:.1e}",
-            first.total(),
-            last.total(),
-            last.drift_from(&first)
-        ));
-        let momentum = (last.momentum - first.momentum).length();
-        say(format!(
-            "momentum changed by {momentum:.1e}, angular momentum by {:.1e}",
-            (last.angular_momentum - first.angular_momentum).length()
-        ));
+        let (energy, change) =
+            (last.drift_from(&first), if self.conserved.0 { "error" } else { "not conserved, change" });
+        say(format!("energy {:.6e} → {:.6e}, {change} {energy:+.1e}", first.total(), last.total()));
+        if self.conserved.1 {
+            let (p, l) = (last.momentum - first.momentum, last.angular_momentum - first.angular_momentum);
+            say(format!("momentum changed by {:.1e}, angular momentum by {:.1e}", p.length(), l.length()));
+        }
         let picture = if output.pictures() { format!("{}.png, ", self.scene.name) } else { String::new() };
         say(format!(
             "results in {}: {picture}energy.csv, energy.svg, scene.toml, {} states",

@@ -27,8 +27,8 @@ pub struct Found {
 }
 
 /// What to do where there is no driver.
-pub const NO_DRIVER: &str = "no GPU driver was found (on Debian or Ubuntu `apt-get install mesa-vulkan-drivers` brings one that \
-                             runs on the processor, some ten times faster than the f64 twins)";
+pub const NO_DRIVER: &str = "no GPU driver was found (on Debian or Ubuntu `apt-get install mesa-vulkan-drivers` brings a fast one that \
+                             runs on the processor)";
 
 impl Found {
     /// Name, kind, backend and driver.
@@ -66,15 +66,24 @@ impl Found {
     }
 }
 
-/// An instance, as the environment (`WGPU_BACKEND` …) has it.
+/// An instance, as the environment (`WGPU_BACKEND` …) has it; if it says nothing, without OpenGL, whose drivers talk to
+/// standard error where there is no desktop.
 #[must_use]
 pub fn instance() -> wgpu::Instance {
-    wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env())
+    instance_of(wgpu::Backends::PRIMARY)
 }
 
-/// All adapters, best first.
+fn instance_of(backends: wgpu::Backends) -> wgpu::Instance {
+    let default = wgpu::InstanceDescriptor::new_without_display_handle();
+    wgpu::Instance::new(wgpu::InstanceDescriptor { backends, ..default }.with_env())
+}
+
+/// All adapters, best first. Those of OpenGL are looked for only where there are no others.
 pub async fn adapters(instance: &wgpu::Instance) -> Vec<wgpu::Adapter> {
     let mut all = instance.enumerate_adapters(wgpu::Backends::all()).await;
+    if all.is_empty() {
+        all = instance_of(wgpu::Backends::SECONDARY).enumerate_adapters(wgpu::Backends::all()).await;
+    }
     all.retain(|a| a.get_downlevel_capabilities().flags.contains(wgpu::DownlevelFlags::COMPUTE_SHADERS));
     all.sort_by_key(|a| rank(&a.get_info()));
     all
