@@ -7,7 +7,10 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
+/// Width and height, as a viewer shows it.
 const SIZE: (u32, u32) = (960, 720);
+/// The backend rounds to whole numbers: so many of them for each pixel make smooth lines.
+const FINE: u32 = 8;
 const INK: RGBColor = RGBColor(38, 42, 51);
 const FAINT: RGBColor = RGBColor(226, 229, 235);
 const KINETIC: RGBColor = RGBColor(214, 112, 32);
@@ -37,44 +40,62 @@ pub fn energy(path: &Path, rows: &[Measure], title: &str) -> Result<(), Error> {
 }
 
 fn draw(svg: &mut String, rows: &[Measure], title: &str) -> Result<(), String> {
-    let root = SVGBackend::with_string(svg, SIZE).into_drawing_area();
+    let (width, height) = (SIZE.0 * FINE, SIZE.1 * FINE);
+    let root = SVGBackend::with_string(svg, (width, height)).into_drawing_area();
     let done = panels(&root, rows, title).and_then(|()| root.present().map_err(|e| e.to_string()));
     drop(root);
+    let shown = format!("width=\"{}\" height=\"{}\"", SIZE.0, SIZE.1);
+    *svg = svg.replacen(&format!("width=\"{width}\" height=\"{height}\""), &shown, 1);
     done
 }
 
 fn panels(root: &Area, rows: &[Measure], title: &str) -> Result<(), String> {
     root.fill(&WHITE).map_err(|e| e.to_string())?;
-    let style = TextStyle::from(("sans-serif", 22).into_font()).color(&INK).pos(Pos::new(HPos::Left, VPos::Center));
-    root.draw_text(title, &style, (20, 26)).map_err(|e| e.to_string())?;
-    let (_, below) = root.split_vertically(48);
-    let (upper, lower) = below.split_vertically(360);
+    let style = text(22).pos(Pos::new(HPos::Left, VPos::Center));
+    root.draw_text(title, &style, (fine(20), fine(28))).map_err(|e| e.to_string())?;
+    let (_, below) = root.split_vertically(fine(52));
+    let (upper, lower) = below.split_vertically(fine(370));
+    legend(root)?;
     energies(&upper, rows)?;
     errors(&lower, rows)
 }
 
+fn fine(pixels: i32) -> i32 {
+    pixels * FINE.cast_signed()
+}
+
+fn text(size: i32) -> TextStyle<'static> {
+    ("sans-serif", fine(size)).into_font().color(&INK)
+}
+
+/// A line as wide as so many pixels.
+fn line(color: RGBColor, width: u32) -> ShapeStyle {
+    color.stroke_width(width * FINE)
+}
+
 fn energies(area: &Area, rows: &[Measure]) -> Result<(), String> {
     let lines = [
-        ("kinetic", KINETIC, points(rows, |row| row.kinetic)),
-        ("potential", POTENTIAL, points(rows, |row| row.potential)),
-        ("total", INK, points(rows, Measure::total)),
+        (KINETIC, points(rows, |row| row.kinetic)),
+        (POTENTIAL, points(rows, |row| row.potential)),
+        (INK, points(rows, Measure::total)),
     ];
-    let all = || lines.iter().flat_map(|(_, _, line)| line);
-    let (times, values) = (range(rows.iter().map(|row| row.time)), range(all().map(|(_, value)| *value)));
+    let all = || lines.iter().flat_map(|(_, values)| values);
+    let (times, values) = (times(rows), range(all().map(|(_, value)| *value)));
     let mut chart = ChartBuilder::on(area)
-        .margin(14)
-        .margin_right(30)
-        .x_label_area_size(28)
-        .y_label_area_size(86)
+        .margin(fine(14))
+        .margin_right(fine(30))
+        .x_label_area_size(fine(28))
+        .y_label_area_size(fine(86))
         .build_cartesian_2d(times.0..times.1, values.0..values.1)
         .map_err(|e| e.to_string())?;
     chart
         .configure_mesh()
-        .axis_style(INK)
-        .bold_line_style(FAINT)
+        .axis_style(line(INK, 1))
+        .bold_line_style(line(FAINT, 1))
         .light_line_style(TRANSPARENT)
-        .label_style(("sans-serif", 14).into_font().color(&INK))
-        .axis_desc_style(("sans-serif", 15).into_font().color(&INK))
+        .label_style(text(14))
+        .axis_desc_style(text(15))
+        .set_all_tick_mark_size(fine(5))
         .x_labels(8)
         .y_labels(6)
         .x_label_formatter(&|x| short(*x))
@@ -82,45 +103,47 @@ fn energies(area: &Area, rows: &[Measure]) -> Result<(), String> {
         .y_desc("energy")
         .draw()
         .map_err(|e| e.to_string())?;
-    for (name, color, line) in &lines {
-        let drawn = chart.draw_series(LineSeries::new(line.iter().copied(), color.stroke_width(2)));
-        drawn
-            .map_err(|e| e.to_string())?
-            .label(*name)
-            .legend(move |(x, y)| PathElement::new([(x, y), (x + 22, y)], color.stroke_width(2)));
-        dots(line, |dots| chart.draw_series(dots.map(|at| Circle::new(at, 3, color.filled()))).map(drop))?;
+    for (color, values) in &lines {
+        chart.draw_series(LineSeries::new(values.iter().copied(), line(*color, 2))).map_err(|e| e.to_string())?;
+        dots(values, |dots| chart.draw_series(dots.map(|at| Circle::new(at, fine(3), color.filled()))).map(drop))?;
     }
-    chart
-        .configure_series_labels()
-        .position(SeriesLabelPosition::UpperRight)
-        .background_style(WHITE.mix(0.85))
-        .border_style(FAINT)
-        .label_font(("sans-serif", 14).into_font().color(&INK))
-        .draw()
-        .map_err(|e| e.to_string())
+    Ok(())
+}
+
+/// Above the upper panel, to the right, where no line is.
+fn legend(area: &Area) -> Result<(), String> {
+    let style = text(14).pos(Pos::new(HPos::Left, VPos::Center));
+    for (place, (name, color)) in [("kinetic", KINETIC), ("potential", POTENTIAL), ("total", INK)].iter().enumerate() {
+        let (x, y) = (fine(SIZE.0.cast_signed() - 320 + 105 * i32::try_from(place).unwrap_or(0)), fine(28));
+        let dash = PathElement::new([(x, y), (x + fine(20), y)], line(*color, 3));
+        area.draw(&dash).map_err(|e| e.to_string())?;
+        area.draw_text(name, &style, (x + fine(27), y)).map_err(|e| e.to_string())?;
+    }
+    Ok(())
 }
 
 fn errors(area: &Area, rows: &[Measure]) -> Result<(), String> {
-    let (what, line) = drift(rows);
-    let largest = line.iter().map(|(_, error)| *error).fold(FLOOR, f64::max);
-    let smallest = line.iter().map(|(_, error)| *error).filter(|error| *error > FLOOR).fold(largest, f64::min);
+    let (what, values) = drift(rows);
+    let largest = values.iter().map(|(_, error)| *error).fold(FLOOR, f64::max);
+    let smallest = values.iter().map(|(_, error)| *error).filter(|error| *error > FLOOR).fold(largest, f64::min);
     let low = 10f64.powf(smallest.log10().floor().max(FLOOR.log10()));
     let high = 10f64.powf((largest * 1.001).log10().ceil()).max(low * 100.0);
-    let times = range(rows.iter().map(|row| row.time));
+    let times = times(rows);
     let mut chart = ChartBuilder::on(area)
-        .margin(14)
-        .margin_right(30)
-        .x_label_area_size(46)
-        .y_label_area_size(86)
+        .margin(fine(14))
+        .margin_right(fine(30))
+        .x_label_area_size(fine(46))
+        .y_label_area_size(fine(86))
         .build_cartesian_2d(times.0..times.1, (low..high).log_scale())
         .map_err(|e| e.to_string())?;
     chart
         .configure_mesh()
-        .axis_style(INK)
-        .bold_line_style(FAINT)
+        .axis_style(line(INK, 1))
+        .bold_line_style(line(FAINT, 1))
         .light_line_style(TRANSPARENT)
-        .label_style(("sans-serif", 14).into_font().color(&INK))
-        .axis_desc_style(("sans-serif", 15).into_font().color(&INK))
+        .label_style(text(14))
+        .axis_desc_style(text(15))
+        .set_all_tick_mark_size(fine(5))
         .x_labels(8)
         .y_labels(6)
         .x_label_formatter(&|x| short(*x))
@@ -130,20 +153,20 @@ fn errors(area: &Area, rows: &[Measure]) -> Result<(), String> {
         .draw()
         .map_err(|e| e.to_string())?;
     // A logarithm has no place for "no error": it is drawn on the lower edge.
-    let line: Points = line.into_iter().map(|(time, error)| (time, error.max(low))).collect();
-    chart.draw_series(LineSeries::new(line.iter().copied(), DRIFT.stroke_width(2))).map_err(|e| e.to_string())?;
-    dots(&line, |dots| chart.draw_series(dots.map(|at| Circle::new(at, 3, DRIFT.filled()))).map(drop))
+    let values: Points = values.into_iter().map(|(time, error)| (time, error.max(low))).collect();
+    chart.draw_series(LineSeries::new(values.iter().copied(), line(DRIFT, 2))).map_err(|e| e.to_string())?;
+    dots(&values, |dots| chart.draw_series(dots.map(|at| Circle::new(at, fine(3), DRIFT.filled()))).map(drop))
 }
 
 /// A line of one or two points is hard to see without dots.
 fn dots<E: std::fmt::Display>(
-    line: &[(f64, f64)],
+    values: &[(f64, f64)],
     draw: impl FnOnce(std::iter::Copied<std::slice::Iter<'_, (f64, f64)>>) -> Result<(), E>,
 ) -> Result<(), String> {
-    if line.len() > 2 {
+    if values.len() > 2 {
         return Ok(());
     }
-    draw(line.iter().copied()).map_err(|e| e.to_string())
+    draw(values.iter().copied()).map_err(|e| e.to_string())
 }
 
 /// The label of the lower panel, and the line in it.
@@ -165,6 +188,13 @@ fn points(rows: &[Measure], value: impl Fn(&Measure) -> f64) -> Points {
         .map(|row| (row.time, value(row)))
         .filter(|(time, value)| time.is_finite() && value.is_finite())
         .collect()
+}
+
+/// From the first to the last; never empty.
+fn times(rows: &[Measure]) -> (f64, f64) {
+    let finite = || rows.iter().map(|row| row.time).filter(|time| time.is_finite());
+    let (first, last) = (finite().fold(f64::INFINITY, f64::min), finite().fold(f64::NEG_INFINITY, f64::max));
+    if first < last { (first, last) } else { range(finite()) }
 }
 
 /// From the lowest to the highest with a little room; never empty.

@@ -1,12 +1,13 @@
 //! What every kernel of a picture knows: `Frame` in `shaders/render/frame.wgsl`, and its geometry in f64.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use glam::{DVec2, DVec3, Vec4};
 
 use super::Camera;
 use crate::error::Error;
-use crate::kernel::{Field, Kernel, Pass, Scalar, Shader, Source, Threads, Twin};
+use crate::kernel::{Field, Host, Kernel, Pass, Scalar, Shader, Source, Threads};
 
 pub const PROJECTED: Field<Vec4> = Field::new("projected");
 pub const COLOR: Field<u32> = Field::new("color");
@@ -180,8 +181,13 @@ impl Frame {
         Ok(Pass { shader, constants: Vec::new(), uniforms, threads, work })
     }
     /// Passes and their twin.
-    pub(super) fn kernel(&self, name: &str, passes: Vec<Pass>, twin: Twin) -> Kernel {
-        Kernel { name: name.to_owned(), passes, twin: Some(twin), sizes: self.sizes(), scratch: &[] }
+    pub(super) fn kernel(
+        &self,
+        name: &str,
+        passes: Vec<Pass>,
+        twin: impl Fn(&Host) -> Result<(), Error> + Send + Sync + 'static,
+    ) -> Kernel {
+        Kernel { name: name.to_owned(), passes, twin: Some(Arc::new(twin)), sizes: self.sizes(), scratch: &[] }
     }
 }
 

@@ -29,7 +29,7 @@ pub fn kernel(frame: &Frame, exposure: Exposure) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    let kernel = frame.kernel("halo", vec![shrink, across, down], Box::new(twin));
+    let kernel = frame.kernel("halo", vec![shrink, across, down], twin);
     Ok(Kernel { scratch: &[SPREAD.name], ..kernel })
 }
 

@@ -15,7 +15,7 @@ pub fn kernel(frame: &Frame) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    Ok(frame.kernel("meter", vec![pass], std::sync::Arc::new(twin)))
+    Ok(frame.kernel("meter", vec![pass], twin))
 }
 
 /// Eight bins for each doubling.

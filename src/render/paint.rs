@@ -20,7 +20,7 @@ pub fn kernel(frame: &Frame) -> Result<Kernel, Error> {
         });
         Ok(())
     };
-    Ok(frame.kernel("paint", vec![pass], std::sync::Arc::new(twin)))
+    Ok(frame.kernel("paint", vec![pass], twin))
 }
 
 fn rounded(rgb: DVec3) -> u32 {

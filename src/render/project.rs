@@ -30,7 +30,7 @@ pub fn kernel(frame: &Frame) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    Ok(frame.kernel("project", vec![pass], std::sync::Arc::new(twin)))
+    Ok(frame.kernel("project", vec![pass], twin))
 }
 
 fn project(frame: &Frame, x: DVec4, v: DVec4) -> DVec4 {

@@ -33,7 +33,7 @@ pub fn kernel(frame: &Frame) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    Ok(frame.kernel("streak", vec![pass], std::sync::Arc::new(twin)))
+    Ok(frame.kernel("streak", vec![pass], twin))
 }
 
 /// Every pixel that a line may touch. The device walks along the line instead, and finds the same pixels.

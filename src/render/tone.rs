@@ -31,7 +31,7 @@ pub fn kernel(frame: &Frame, exposure: Exposure) -> Result<Kernel, Error> {
             });
         })
     };
-    Ok(frame.kernel("tone", vec![pass], std::sync::Arc::new(twin)))
+    Ok(frame.kernel("tone", vec![pass], twin))
 }
 
 fn background(frame: &Frame, x: u32, y: u32) -> DVec3 {
