@@ -18,6 +18,9 @@ struct Frame {
     fast: f32,
     points: u32,   // of all trails together
     sky: f32,      // brightness of the background
+    line: f32,     // half the width of a trail [pixels]
+    bloom: f32,    // brightness of the halo
+    reach: u32,    // of the halo [pixels of it]
 }
 @group(3) @binding(0) var<uniform> frame: Frame;
 

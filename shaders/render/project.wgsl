@@ -8,7 +8,7 @@
 const WORKGROUP: u32 = 64u;
 const HIDDEN: f32 = -1.0;
 // The lightest is drawn so large, beside the heaviest.
-const LIGHTEST: f32 = 0.4;
+const LIGHTEST: f32 = 0.5;
 
 fn marker(mass: f32) -> f32 {
     var part = 1.0;

@@ -17,5 +17,5 @@ pub fn kernel(frame: &Frame) -> Result<Kernel, Error> {
         host.write(OWNER)?.fill(NOBODY);
         Ok(())
     };
-    Ok(frame.kernel("blank", vec![pass], std::sync::Arc::new(twin)))
+    Ok(frame.kernel("blank", vec![pass], twin))
 }

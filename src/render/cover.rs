@@ -37,5 +37,5 @@ pub fn kernel(frame: &Frame) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    Ok(frame.kernel("cover", passes, std::sync::Arc::new(twin)))
+    Ok(frame.kernel("cover", passes, twin))
 }

@@ -1,12 +1,13 @@
 //! What every kernel of a picture knows: `Frame` in `shaders/render/frame.wgsl`, and its geometry in f64.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use glam::{DVec2, DVec3, Vec4};
 
 use super::Camera;
 use crate::error::Error;
-use crate::kernel::{Field, Kernel, Pass, Scalar, Shader, Source, Threads, Twin};
+use crate::kernel::{Field, Host, Kernel, Pass, Scalar, Shader, Source, Threads};
 
 pub const PROJECTED: Field<Vec4> = Field::new("projected");
 pub const COLOR: Field<u32> = Field::new("color");
@@ -17,10 +18,12 @@ pub const FRONT: Field<u32> = Field::new("front");
 pub const OWNER: Field<u32> = Field::new("owner");
 pub const STREAK: Field<u32> = Field::new("streak");
 pub const HISTOGRAM: Field<u32> = Field::new("histogram");
+pub const HALO: Field<Vec4> = Field::new("halo");
+pub const SPREAD: Field<Vec4> = Field::new("spread");
 pub const PIXELS: Field<u32> = Field::new("pixels");
 
 /// Fields that live as long as one picture is drawn.
-pub const OWN: [&str; 10] = [
+pub const OWN: [&str; 12] = [
     PROJECTED.name,
     COLOR.name,
     TRAIL.name,
@@ -30,11 +33,15 @@ pub const OWN: [&str; 10] = [
     OWNER.name,
     STREAK.name,
     HISTOGRAM.name,
+    HALO.name,
+    SPREAD.name,
     PIXELS.name,
 ];
 
 pub const NOBODY: u32 = u32::MAX;
 pub const BINS: usize = 256;
+/// So many pixels of the picture are one of the halo, each way.
+pub const SHRINK: u32 = 4;
 const NEAR: f64 = 0.05;
 const FAR_OUT: f64 = 1e6;
 
@@ -67,6 +74,12 @@ pub struct Frame {
     pub points: u32,
     /// Brightness of the background.
     pub sky: f64,
+    /// Half the width of a trail [pixels].
+    pub line: f64,
+    /// Brightness of the halo.
+    pub bloom: f64,
+    /// How far the halo reaches [pixels of it].
+    pub reach: u32,
 }
 
 /// Where a place is seen.
@@ -89,6 +102,10 @@ impl Frame {
     pub(super) fn area(&self) -> u32 {
         self.width * self.height
     }
+    /// Columns and rows of the halo.
+    pub(super) fn shrunk(&self) -> (u32, u32) {
+        (self.width.div_ceil(SHRINK), self.height.div_ceil(SHRINK))
+    }
     pub(super) fn see(&self, x: DVec3) -> Seen {
         let camera = &self.camera;
         let r = x - camera.center;
@@ -109,7 +126,7 @@ impl Frame {
     pub(super) fn pixel(&self, x: u32, y: u32) -> usize {
         y as usize * self.width as usize + x as usize
     }
-    fn values(&self) -> [(&'static str, Scalar); 18] {
+    fn values(&self) -> [(&'static str, Scalar); 21] {
         let camera = &self.camera;
         let float = Scalar::Float;
         [
@@ -131,11 +148,15 @@ impl Frame {
             ("fast", float(self.speeds.1)),
             ("points", Scalar::Uint(self.points)),
             ("sky", float(self.sky)),
+            ("line", float(self.line)),
+            ("bloom", float(self.bloom)),
+            ("reach", Scalar::Uint(self.reach)),
         ]
     }
     /// Elements of the fields that do not have one for each particle.
     fn sizes(&self) -> Vec<(&'static str, u64)> {
         let area = u64::from(self.area());
+        let (columns, rows) = self.shrunk();
         vec![
             (TRAIL.name, u64::from(self.points.max(1))),
             (MISSED.name, 2),
@@ -144,6 +165,8 @@ impl Frame {
             (OWNER.name, area),
             (STREAK.name, area),
             (HISTOGRAM.name, BINS as u64),
+            (HALO.name, u64::from(columns) * u64::from(rows)),
+            (SPREAD.name, u64::from(columns) * u64::from(rows)),
             (PIXELS.name, area),
         ]
     }
@@ -158,8 +181,13 @@ impl Frame {
         Ok(Pass { shader, constants: Vec::new(), uniforms, threads, work })
     }
     /// Passes and their twin.
-    pub(super) fn kernel(&self, name: &str, passes: Vec<Pass>, twin: Twin) -> Kernel {
-        Kernel { name: name.to_owned(), passes, twin: Some(twin), sizes: self.sizes(), scratch: &[] }
+    pub(super) fn kernel(
+        &self,
+        name: &str,
+        passes: Vec<Pass>,
+        twin: impl Fn(&Host) -> Result<(), Error> + Send + Sync + 'static,
+    ) -> Kernel {
+        Kernel { name: name.to_owned(), passes, twin: Some(Arc::new(twin)), sizes: self.sizes(), scratch: &[] }
     }
 }
 

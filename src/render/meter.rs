@@ -15,7 +15,7 @@ pub fn kernel(frame: &Frame) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    Ok(frame.kernel("meter", vec![pass], std::sync::Arc::new(twin)))
+    Ok(frame.kernel("meter", vec![pass], twin))
 }
 
 /// Eight bins for each doubling.
@@ -54,8 +54,8 @@ impl Exposure {
             });
             brightness(found.unwrap_or(0))
         };
-        // A single light is never lost, and never white.
-        let white = if lit == 0 { frame.unit } else { quantile(0.998) }.max(1.5 * frame.unit);
+        // A single light is never lost, and never white: the halo has yet to be added.
+        let white = if lit == 0 { frame.unit } else { quantile(0.998) }.max(frame.unit) * 1.4;
         let knee = if lit == 0 { frame.unit } else { quantile(0.5) }.min(0.5 * frame.unit);
         Self { knee: knee.max(1e-3 * white) / exposure, white: white / exposure }
     }

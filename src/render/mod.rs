@@ -8,6 +8,8 @@ mod camera;
 mod cover;
 mod draw;
 mod frame;
+mod halo;
+mod look;
 mod meter;
 mod paint;
 mod palette;

@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::camera::FEW;
 use super::meter::Exposure;
 use super::{Camera, Color, Frame, Trail};
-use super::{blank, cover, meter, paint, project, splat, streak, tone};
+use super::{blank, cover, halo, meter, paint, project, splat, streak, tone};
 use crate::error::Error;
 use crate::kernel::Plan;
 use crate::particles::Particles;
@@ -82,8 +82,8 @@ const SIDE: f64 = 8192.0;
 const AREA: f64 = 11_184_810.0;
 /// A ball of many is this large at most [pixels].
 const LARGEST_OF_MANY: f64 = 80.0;
-/// From this radius on a particle of a known size looks better as a ball than as a light [pixels].
-const SOLID: f64 = 1.5;
+/// No ball is that large [pixels].
+const NEVER: f64 = 1e9;
 
 impl Picture {
     /// The picture that a scene's `[picture]` asks for, framed for these particles. `groups` has a number for each of
@@ -102,30 +102,34 @@ impl Picture {
         let count = count.ok_or_else(|| Error::Scene("a picture needs one or more particles".to_owned()))?;
         let (few, style) = (particles.len() <= FEW, settings.text("style"));
         let color = Color::choose(settings, particles, groups);
-        let points = trail.points().count();
+        let camera = Camera::fit(particles, &trail, settings);
+        let short = width.min(height);
         let frame = Frame {
-            camera: Camera::fit(particles, &trail, settings),
+            camera,
             count,
             width: super::frame::whole(width),
             height: super::frame::whole(height),
             heaviest: particles.mass.iter().copied().fold(0.0, f64::max),
             marker: match style {
-                "glow" => 0.0,
-                _ if few => height * 0.015 / (1.0 + f64::from(count) / 48.0),
+                "auto" if few => 0.025 * short / (1.0 + f64::from(count) / 16.0),
+                "balls" if few => 0.025 * short / (1.0 + f64::from(count) / 16.0),
                 "balls" => 1.0,
                 _ => 0.0,
             },
-            largest: if few { height / 4.0 } else { LARGEST_OF_MANY.min(height / 4.0) }.max(2.0),
+            largest: if few { short / 4.0 } else { LARGEST_OF_MANY.min(short / 4.0) }.max(2.0),
             solid: match style {
-                "glow" => 2.0 * SIDE * SIDE,
+                "glow" => NEVER,
                 "balls" => 0.0,
-                _ => SOLID,
+                _ => solid(particles, 0.5 * height / camera.extent, few),
             },
-            glow: (0.45 * (width * height / f64::from(count)).sqrt()).clamp(1.5, (height / 60.0).max(1.5)),
+            glow: (0.4 * (width * height / f64::from(count)).sqrt()).clamp(1.5, (short / 120.0).max(1.5)),
             unit: unit(count),
             speeds: if let Color::Speed { slow, fast } = color { (slow, fast) } else { (0.0, 1.0) },
-            points: u32::try_from(points).unwrap_or(0),
+            points: u32::try_from(trail.points().count()).unwrap_or(0),
             sky: if settings.text("background") == "black" { 0.0 } else { 1.0 },
+            line: (short / 800.0).max(0.5),
+            bloom: 2.4,
+            reach: super::frame::whole(short / 48.0).max(1),
         };
         Ok(Self { frame, color, trail, exposure: settings.number("exposure") })
     }
@@ -140,7 +144,7 @@ impl Picture {
         if let Color::Speed { .. } = self.color {
             plan.add(paint::kernel(&self.frame)?);
         }
-        if self.frame.solid < SIDE * SIDE {
+        if self.frame.solid < NEVER {
             plan.add(cover::kernel(&self.frame)?);
         }
         plan.add(splat::kernel(&self.frame)?);
@@ -156,6 +160,7 @@ impl Picture {
     /// When a shader does not compile.
     pub fn development(&self, exposure: Exposure) -> Result<Plan, Error> {
         let mut plan = Plan::default();
+        plan.add(halo::kernel(&self.frame, exposure)?);
         plan.add(tone::kernel(&self.frame, exposure)?);
         Ok(plan)
     }
@@ -165,4 +170,19 @@ impl Picture {
 /// do not overflow: each adds `unit` at most.
 fn unit(count: u32) -> f64 {
     f64::from(1_u32 << (u32::MAX / count).ilog2().min(16))
+}
+
+/// The radius from which on a particle is a ball. A picture in which like particles are balls here and lights there, as
+/// they are near or far, is no good: where the usual size is enough for balls, all that have one are.
+fn solid(particles: &Particles, scale: f64, few: bool) -> f64 {
+    let mut sizes: Vec<f64> = particles.radius.iter().copied().filter(|radius| *radius > 0.0).collect();
+    if few {
+        return 0.5;
+    }
+    let middle = sizes.len() / 2;
+    if sizes.is_empty() {
+        return NEVER;
+    }
+    let usual = *sizes.select_nth_unstable_by(middle, f64::total_cmp).1 * scale;
+    if usual > 2.0 { 0.5 } else { 5.0 }
 }

@@ -9,7 +9,7 @@ use crate::kernel::{Host, Kernel, POSITION, Threads, VELOCITY};
 
 /// A particle that is not drawn.
 const HIDDEN: DVec4 = DVec4::new(0.0, 0.0, 0.0, -1.0);
-const LIGHTEST: f64 = 0.4;
+const LIGHTEST: f64 = 0.5;
 
 /// The kernel.
 pub fn kernel(frame: &Frame) -> Result<Kernel, Error> {
@@ -30,7 +30,7 @@ pub fn kernel(frame: &Frame) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    Ok(frame.kernel("project", vec![pass], std::sync::Arc::new(twin)))
+    Ok(frame.kernel("project", vec![pass], twin))
 }
 
 fn project(frame: &Frame, x: DVec4, v: DVec4) -> DVec4 {

@@ -28,5 +28,5 @@ pub fn kernel(frame: &Frame) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    Ok(frame.kernel("splat", vec![pass], std::sync::Arc::new(twin)))
+    Ok(frame.kernel("splat", vec![pass], twin))
 }

@@ -4,13 +4,13 @@ use super::frame::{FRONT, Frame, STREAK, Seen, TRAIL, key, middle, whole};
 use crate::error::Error;
 use crate::kernel::{Host, Kernel, POSITION, Threads};
 
-const HALF_WIDTH: f64 = 0.55;
-const OLDEST: f64 = 0.12;
-const NEWEST: f64 = 0.8;
+const OLDEST: f64 = 0.25;
+const NEWEST: f64 = 0.95;
 
 /// The kernel.
 pub fn kernel(frame: &Frame) -> Result<Kernel, Error> {
-    let pass = frame.pass(&[crate::shader!("render/streak.wgsl")], Threads::new(frame.points), 256)?;
+    let mut pass = frame.pass(&[crate::shader!("render/streak.wgsl")], Threads::new(frame.points), 256)?;
+    pass.threads.layers = frame.width.max(frame.height).div_ceil(pass.shader.reflection().constant("WALK"));
     let frame = *frame;
     let twin = move |host: &Host| {
         let (position, trail, front) = (host.read(POSITION)?, host.read(TRAIL)?, host.read(FRONT)?);
@@ -33,14 +33,14 @@ pub fn kernel(frame: &Frame) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    Ok(frame.kernel("streak", vec![pass], std::sync::Arc::new(twin)))
+    Ok(frame.kernel("streak", vec![pass], twin))
 }
 
 /// Every pixel that a line may touch. The device walks along the line instead, and finds the same pixels.
 fn line(frame: &Frame, front: &[u32], streak: &mut [u32], a: &Seen, b: &Seen, mark: impl Fn(f64) -> u32) {
     let way = b.place - a.place;
     let (low, high) = (a.place.min(b.place), a.place.max(b.place));
-    let reach = HALF_WIDTH + 0.5;
+    let reach = frame.line + 0.5;
     let (columns, rows) = frame.touched(low - reach, high + reach);
     for (x, y) in rows.flat_map(|y| columns.clone().map(move |x| (x, y))) {
         let from = middle(x, y) - a.place;
