@@ -12,6 +12,9 @@ use super::problems::Problems;
 /// The best that deflate can do: 258 bytes out of 2 bits.
 const DEFLATED: u64 = 1032;
 
+/// The arrays beside [`NUMBERS`].
+const OTHERS: [&str; 3] = ["id", "time", "step"];
+
 /// An archive, and what was wrong with it so far.
 pub(super) struct Arrays<R: Read + Seek> {
     archive: NpzArchive<R>,
@@ -31,8 +34,8 @@ impl<R: Read + Seek> Arrays<R> {
         let mut names: Vec<&str> = self.archive.array_names().collect();
         names.sort_unstable(); // an archive lists them in the order of a hash
         for name in names {
-            if !NUMBERS.iter().any(|(known, _)| *known == name) && !["id", "time", "step"].contains(&name) {
-                self.problems.note(|| unknown("array", &name.chars().take(40).collect::<String>()));
+            if !NUMBERS.iter().any(|(known, _)| *known == name) && !OTHERS.contains(&name) {
+                self.problems.note(|| unknown("array", &name.chars().take(40).collect::<String>(), &OTHERS));
             }
         }
     }

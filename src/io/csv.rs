@@ -128,7 +128,7 @@ impl Columns {
                 None if title == ID => &mut columns.id,
                 None if title == NAME => &mut name,
                 None => {
-                    problems.note(|| unknown("column", &title));
+                    problems.note(|| unknown("column", &title, &[ID, NAME]));
                     continue;
                 }
             };
@@ -183,9 +183,9 @@ fn shown(record: &ByteRecord, place: usize) -> String {
     text.chars().take(40).collect()
 }
 
-/// What to say about a name that no reader knows.
-pub(super) fn unknown(what: &str, title: &str) -> String {
-    let known = || NUMBERS.iter().map(|(name, _)| *name).chain([ID, NAME]);
+/// What to say about a name that is neither one of [`NUMBERS`] nor of `others`.
+pub(super) fn unknown(what: &str, title: &str, others: &[&'static str]) -> String {
+    let known = || NUMBERS.iter().map(|(name, _)| *name).chain(others.iter().copied());
     let first = title.to_lowercase().chars().next();
     let like = known()
         .filter(|name| name.chars().next() == first)

@@ -34,14 +34,16 @@ pub fn read(path: &Path) -> Result<Snapshot, Error> {
     let columns = NUMBERS.map(|(name, _)| arrays.column(name));
     let ids = arrays.column("id");
     let mut problems = arrays.problems;
-    let count = columns[0].as_ref().map_or(0, Vec::len);
+    let rows = columns[0].as_ref().map(Vec::len);
     for (values, name) in columns.iter().zip(NUMBERS.map(|(name, _)| name)).chain([(&ids, "id")]) {
-        check(name, values.as_deref(), count, &mut problems);
+        check(name, values.as_deref(), rows, &mut problems);
     }
     if !problems.none() {
         return problems.check(path).map(|()| Snapshot::default());
     }
-    let filled = |(values, (_, default)): (Option<Vec<f64>>, (_, f64))| values.unwrap_or_else(|| vec![default; count]);
+    let filled = |(values, (_, default)): (Option<Vec<f64>>, (_, f64))| {
+        values.unwrap_or_else(|| vec![default; rows.unwrap_or(0)])
+    };
     let mut columns = columns.into_iter().zip(NUMBERS).map(filled);
     let mut next = || columns.next().unwrap_or_default();
     let mut particles = Particles {
@@ -60,9 +62,9 @@ pub fn read(path: &Path) -> Result<Snapshot, Error> {
 }
 
 /// Notes a column of the wrong length, and values that it must not hold.
-fn check(name: &str, values: Option<&[f64]>, count: usize, problems: &mut Problems) {
+fn check(name: &str, values: Option<&[f64]>, rows: Option<usize>, problems: &mut Problems) {
     let Some(values) = values else { return };
-    if values.len() != count {
+    if let Some(count) = rows.filter(|count| values.len() != *count) {
         problems.note(|| format!("the array `{name}` holds {} numbers, but `x` holds {count}", values.len()));
     }
     for (place, value) in values.iter().enumerate() {
