@@ -7,30 +7,13 @@ use crate::error::Error;
 use crate::settings::{Key, Kind, Settings, Value};
 
 pub(super) const COUNT: Key = Key::required("count", Kind::Count, "number of particles");
-pub(super) const SEED: Key = Key::new(
-    "seed",
-    Kind::Whole,
-    Value::Number(1.0),
-    "seed of the random numbers",
-);
-pub(super) const G: Key = Key::new(
-    "g",
-    Kind::Positive,
-    Value::Number(1.0),
-    "constant of gravity [length³ / mass / time²]; as in the force",
-);
-pub(super) const CENTER: Key = Key::new(
-    "center",
-    Kind::Vector,
-    Value::Vector(DVec3::ZERO),
-    "where the centre is put [length]",
-);
-pub(super) const VELOCITY: Key = Key::new(
-    "velocity",
-    Kind::Vector,
-    Value::Vector(DVec3::ZERO),
-    "how it moves as a whole [length / time]",
-);
+pub(super) const SEED: Key = Key::new("seed", Kind::Whole, Value::Number(1.0), "seed of the random numbers");
+pub(super) const G: Key =
+    Key::new("g", Kind::Positive, Value::Number(1.0), "constant of gravity [length³ / mass / time²]; as in the force");
+pub(super) const CENTER: Key =
+    Key::new("center", Kind::Vector, Value::Vector(DVec3::ZERO), "where the centre is put [length]");
+pub(super) const VELOCITY: Key =
+    Key::new("velocity", Kind::Vector, Value::Vector(DVec3::ZERO), "how it moves as a whole [length / time]");
 pub(super) const PARTICLE_RADIUS: Key = Key::new(
     "particle_radius",
     Kind::NotNegative,
@@ -62,21 +45,13 @@ impl Reader<'_> {
     /// A number of a range that `rule` spells out.
     pub fn number(&self, key: &str, rule: &str, holds: fn(f64) -> bool) -> Result<f64, Error> {
         let x = self.settings.number(key);
-        if x.is_finite() && holds(x) {
-            Ok(x)
-        } else {
-            Err(self.error(&format!("{key} is {x}; it must be {rule}")))
-        }
+        if x.is_finite() && holds(x) { Ok(x) } else { Err(self.error(&format!("{key} is {x}; it must be {rule}"))) }
     }
 
     /// Three finite numbers.
     pub fn vector(&self, key: &str) -> Result<DVec3, Error> {
         let v = self.settings.vector(key);
-        if v.is_finite() {
-            Ok(v)
-        } else {
-            Err(self.error(&format!("{key} is {v}; it must be three finite numbers")))
-        }
+        if v.is_finite() { Ok(v) } else { Err(self.error(&format!("{key} is {v}; it must be three finite numbers"))) }
     }
 
     /// The unit vector of a direction of any length.
@@ -84,9 +59,7 @@ impl Reader<'_> {
         let v = self.vector(key)?;
         // Scaled first, so that neither huge nor tiny numbers leave the range when squared.
         let scaled = v / v.abs().max_element();
-        scaled
-            .try_normalize()
-            .ok_or_else(|| self.error(&format!("{key} is {v}; a direction must not be zero")))
+        scaled.try_normalize().ok_or_else(|| self.error(&format!("{key} is {v}; a direction must not be zero")))
     }
 
     /// Room for the shape's `count` particles.
@@ -101,10 +74,7 @@ impl Reader<'_> {
     /// Room for `count` particles: ids are 32 bits, and memory that is not there is an error here, not an abort later.
     pub fn room_for(&self, count: u64) -> Result<(usize, Particles), Error> {
         let limit = |message: String| {
-            Error::Limit(format!(
-                "shape `{}`: {count} particles {message}; ask for fewer",
-                self.shape
-            ))
+            Error::Limit(format!("shape `{}`: {count} particles {message}; ask for fewer", self.shape))
         };
         let count = u32::try_from(count)
             .ok()
@@ -119,27 +89,18 @@ impl Reader<'_> {
             .and_then(|()| particles.radius.try_reserve_exact(count));
         match reserved {
             Ok(()) => Ok((count, particles)),
-            Err(_) => Err(limit(format!(
-                "need {} GiB of memory, which is not there",
-                (count >> 30) * 64
-            ))),
+            Err(_) => Err(limit(format!("need {} GiB of memory, which is not there", (count >> 30) * 64))),
         }
     }
 
     /// The same particles, if every number stayed finite.
     pub fn finished(&self, particles: Particles) -> Result<Particles, Error> {
-        let finite = particles
-            .position
-            .iter()
-            .chain(&particles.velocity)
-            .all(|v| v.is_finite())
+        let finite = particles.position.iter().chain(&particles.velocity).all(|v| v.is_finite())
             && particles.mass.iter().all(|m| m.is_finite());
         if finite {
             Ok(particles)
         } else {
-            Err(self.error(
-                "these numbers are too far apart: a position or velocity leaves the range of f64",
-            ))
+            Err(self.error("these numbers are too far apart: a position or velocity leaves the range of f64"))
         }
     }
 }
@@ -156,11 +117,7 @@ impl Particles {
             velocity += *v * w;
             weight += w;
         }
-        if weight > 0.0 {
-            (position / weight, velocity / weight)
-        } else {
-            (DVec3::ZERO, DVec3::ZERO)
-        }
+        if weight > 0.0 { (position / weight, velocity / weight) } else { (DVec3::ZERO, DVec3::ZERO) }
     }
 
     /// Moves all, so that the centre of mass lies at `center` and moves with `velocity`.

@@ -23,30 +23,10 @@ pub const DISK: Shape = Shape {
 const KEYS: &[Key] = &[
     COUNT,
     SEED,
-    Key::new(
-        "disk_mass",
-        Kind::Positive,
-        Value::Number(1.0),
-        "mass of the disk [mass]",
-    ),
-    Key::new(
-        "disk_scale",
-        Kind::Positive,
-        Value::Number(1.0),
-        "R_d of its surface density exp(-R / R_d) [length]",
-    ),
-    Key::new(
-        "disk_height",
-        Kind::Positive,
-        Value::Number(0.2),
-        "z₀ of its profile sech²(z / z₀) [length]",
-    ),
-    Key::new(
-        "halo_mass",
-        Kind::NotNegative,
-        Value::Number(6.0),
-        "mass of the halo [mass]; 0 leaves it out",
-    ),
+    Key::new("disk_mass", Kind::Positive, Value::Number(1.0), "mass of the disk [mass]"),
+    Key::new("disk_scale", Kind::Positive, Value::Number(1.0), "R_d of its surface density exp(-R / R_d) [length]"),
+    Key::new("disk_height", Kind::Positive, Value::Number(0.2), "z₀ of its profile sech²(z / z₀) [length]"),
+    Key::new("halo_mass", Kind::NotNegative, Value::Number(6.0), "mass of the halo [mass]; 0 leaves it out"),
     Key::new(
         "halo_scale",
         Kind::Positive,
@@ -71,12 +51,7 @@ const KEYS: &[Key] = &[
         Value::Number(0.0),
         "softening of the force that the galaxy will run with [length], so that its centre is balanced too",
     ),
-    Key::new(
-        "normal",
-        Kind::Direction,
-        Value::Vector(DVec3::Z),
-        "the axis about which it turns, counter-clockwise",
-    ),
+    Key::new("normal", Kind::Direction, Value::Vector(DVec3::Z), "the axis about which it turns, counter-clockwise"),
     G,
     CENTER,
     VELOCITY,
@@ -86,10 +61,7 @@ const KEYS: &[Key] = &[
 /// `count` particles: first those of the disk, then those of the halo, equal masses within each. Both have their own centre
 /// of mass at rest at `center`, up to `velocity`, so that the disk starts in the middle of its halo.
 fn build(settings: &Settings) -> Result<Particles, Error> {
-    let reader = Reader {
-        shape: "disk",
-        settings,
-    };
+    let reader = Reader { shape: "disk", settings };
     let (count, _) = reader.room()?;
     let mut random = Random::new(settings.whole("seed"));
     let galaxy = Galaxy {
@@ -114,12 +86,7 @@ fn build(settings: &Settings) -> Result<Particles, Error> {
     let tilt = DMat3::from_cols(across, along, normal);
     for _ in 0..disk_count {
         let (position, velocity) = star(&galaxy, &rotation, &mut random);
-        disk.push(
-            tilt * position,
-            tilt * velocity,
-            galaxy.disk_mass / f64::from(disk_count),
-            radius,
-        );
+        disk.push(tilt * position, tilt * velocity, galaxy.disk_mass / f64::from(disk_count), radius);
     }
     let mut particles = disk.centered(center, velocity);
     if halo_count > 0 {
@@ -127,12 +94,7 @@ fn build(settings: &Settings) -> Result<Particles, Error> {
         let halo = Halo::new(&galaxy);
         for _ in 0..halo_count {
             let (position, velocity) = halo.draw(&mut random);
-            dark.push(
-                position,
-                velocity,
-                galaxy.halo_mass / f64::from(halo_count),
-                radius,
-            );
+            dark.push(position, velocity, galaxy.halo_mass / f64::from(halo_count), radius);
         }
         particles.append(&dark.centered(center, velocity));
     }
@@ -146,20 +108,12 @@ fn build(settings: &Settings) -> Result<Particles, Error> {
     reason = "a share below 1 of a number that fits 32 bits"
 )]
 fn split(reader: &Reader, count: usize, halo_mass: f64) -> Result<(u32, u32), Error> {
-    let fraction = reader.number("halo_fraction", "0 or above and below 1", |x| {
-        (0.0..1.0).contains(&x)
-    })?;
+    let fraction = reader.number("halo_fraction", "0 or above and below 1", |x| (0.0..1.0).contains(&x))?;
     let count = u32::try_from(count).unwrap_or(u32::MAX);
-    let halo = if halo_mass > 0.0 {
-        (f64::from(count) * fraction).round() as u32
-    } else {
-        0
-    };
+    let halo = if halo_mass > 0.0 { (f64::from(count) * fraction).round() as u32 } else { 0 };
     let disk = count - halo;
     if halo_mass > 0.0 && halo == 0 {
-        Err(reader.error(
-            "no particle is left for the halo: raise count or halo_fraction, or set halo_mass to 0",
-        ))
+        Err(reader.error("no particle is left for the halo: raise count or halo_fraction, or set halo_mass to 0"))
     } else if disk == 0 {
         Err(reader.error("no particle is left for the disk: raise count or lower halo_fraction"))
     } else {
@@ -182,10 +136,6 @@ fn star(galaxy: &Galaxy, rotation: &Rotation, random: &mut Random) -> (DVec3, DV
     let up = ring.vertical.sqrt() * random.normal();
     (
         DVec3::new(radius * cos, radius * sin, z),
-        DVec3::new(
-            outward * cos - around * sin,
-            outward * sin + around * cos,
-            up,
-        ),
+        DVec3::new(outward * cos - around * sin, outward * sin + around * cos, up),
     )
 }

@@ -56,12 +56,7 @@ impl Halo {
             (r, gravity) = (inner, pull);
         }
         rows.reverse();
-        Self {
-            scale,
-            first,
-            step,
-            rows,
-        }
+        Self { scale, first, step, rows }
     }
 
     /// Position and velocity of one particle.
@@ -82,19 +77,12 @@ impl Halo {
     }
 
     /// The squares of dispersion and escape speed at a radius.
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "held within the table"
-    )]
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "held within the table")]
     fn at(&self, r: f64) -> (f64, f64) {
         let place = ((libm::log(r) - self.first) / self.step).clamp(0.0, f64::from(ROWS - 2));
         let row = place as usize;
         let part = (place - place.floor()).clamp(0.0, 1.0);
         let (low, high) = (self.rows[row], self.rows[row + 1]);
-        (
-            low.0 + (high.0 - low.0) * part,
-            low.1 + (high.1 - low.1) * part,
-        )
+        (low.0 + (high.0 - low.0) * part, low.1 + (high.1 - low.1) * part)
     }
 }

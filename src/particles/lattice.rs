@@ -9,31 +9,13 @@ use crate::error::Error;
 use crate::settings::{Key, Kind, Settings, Value};
 
 /// The shape `lattice`.
-pub const LATTICE: Shape = Shape {
-    name: "lattice",
-    about: "a simple cubic lattice, straight or jittered",
-    keys: KEYS,
-    build,
-};
+pub const LATTICE: Shape =
+    Shape { name: "lattice", about: "a simple cubic lattice, straight or jittered", keys: KEYS, build };
 
 const KEYS: &[Key] = &[
-    Key::required(
-        "size",
-        Kind::Vector,
-        "particles along x, y and z: three whole numbers, 1 or above",
-    ),
-    Key::new(
-        "spacing",
-        Kind::Positive,
-        Value::Number(1.0),
-        "distance between neighbours along an axis [length]",
-    ),
-    Key::new(
-        "mass",
-        Kind::NotNegative,
-        Value::Number(1.0),
-        "mass of each particle [mass]",
-    ),
+    Key::required("size", Kind::Vector, "particles along x, y and z: three whole numbers, 1 or above"),
+    Key::new("spacing", Kind::Positive, Value::Number(1.0), "distance between neighbours along an axis [length]"),
+    Key::new("mass", Kind::NotNegative, Value::Number(1.0), "mass of each particle [mass]"),
     Key::new(
         "jitter",
         Kind::NotNegative,
@@ -49,15 +31,10 @@ const KEYS: &[Key] = &[
 /// `size.x * size.y * size.z` particles, the middle of the lattice at `center`; x runs fastest, so particle (i, j, k) has
 /// the id  i + size.x (j + size.y k).
 fn build(settings: &Settings) -> Result<Particles, Error> {
-    let reader = Reader {
-        shape: "lattice",
-        settings,
-    };
+    let reader = Reader { shape: "lattice", settings };
     let size = reader.vector("size")?;
     if size.to_array().iter().any(|n| n.fract() != 0.0 || *n < 1.0) {
-        return Err(reader.error(&format!(
-            "size is {size}; it must be three whole numbers, 1 or above"
-        )));
+        return Err(reader.error(&format!("size is {size}; it must be three whole numbers, 1 or above")));
     }
     #[expect(
         clippy::cast_possible_truncation,
@@ -91,11 +68,7 @@ fn build(settings: &Settings) -> Result<Particles, Error> {
 }
 
 /// 0, 1, … below a whole number that `room_for` has found to fit 32 bits.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "a factor of a product that fits 32 bits"
-)]
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a factor of a product that fits 32 bits")]
 fn steps(size: f64) -> impl Iterator<Item = f64> {
     (0..size as u32).map(f64::from)
 }

@@ -42,14 +42,8 @@ pub struct Shape {
 }
 
 /// Every generator.
-pub const SHAPES: &[Shape] = &[
-    plummer::PLUMMER,
-    sphere::SPHERE,
-    disk::DISK,
-    lattice::LATTICE,
-    random_box::RANDOM_BOX,
-    spray::SPRAY,
-];
+pub const SHAPES: &[Shape] =
+    &[plummer::PLUMMER, sphere::SPHERE, disk::DISK, lattice::LATTICE, random_box::RANDOM_BOX, spray::SPRAY];
 
 /// The generator of a name.
 #[must_use]

@@ -20,12 +20,7 @@ pub const PLUMMER: Shape = Shape {
 const KEYS: &[Key] = &[
     COUNT,
     SEED,
-    Key::new(
-        "mass",
-        Kind::Positive,
-        Value::Number(1.0),
-        "mass of all particles together [mass]",
-    ),
+    Key::new("mass", Kind::Positive, Value::Number(1.0), "mass of all particles together [mass]"),
     Key::new(
         "scale",
         Kind::Positive,
@@ -46,10 +41,7 @@ const KEYS: &[Key] = &[
 
 /// `count` particles of equal mass; their centre of mass is at rest at `center`, up to `velocity`.
 fn build(settings: &Settings) -> Result<Particles, Error> {
-    let reader = Reader {
-        shape: "plummer",
-        settings,
-    };
+    let reader = Reader { shape: "plummer", settings };
     let (count, mut particles) = reader.room()?;
     let mut random = Random::new(settings.whole("seed"));
     let total = reader.positive("mass")?;

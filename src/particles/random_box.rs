@@ -9,12 +9,8 @@ use crate::error::Error;
 use crate::settings::{Key, Kind, Settings, Value};
 
 /// The shape `box`.
-pub const RANDOM_BOX: Shape = Shape {
-    name: "box",
-    about: "a box filled uniformly at random, at rest or warm",
-    keys: KEYS,
-    build,
-};
+pub const RANDOM_BOX: Shape =
+    Shape { name: "box", about: "a box filled uniformly at random, at rest or warm", keys: KEYS, build };
 
 const KEYS: &[Key] = &[
     COUNT,
@@ -25,12 +21,7 @@ const KEYS: &[Key] = &[
         Value::Vector(DVec3::ONE),
         "lengths of the sides [length], 0 or above: a zero makes it flat",
     ),
-    Key::new(
-        "mass",
-        Kind::NotNegative,
-        Value::Number(1.0),
-        "mass of each particle [mass]",
-    ),
+    Key::new("mass", Kind::NotNegative, Value::Number(1.0), "mass of each particle [mass]"),
     Key::new(
         "speed",
         Kind::NotNegative,
@@ -44,10 +35,7 @@ const KEYS: &[Key] = &[
 
 /// `count` particles. Their mean velocity is `velocity` exactly, so that a warm box does not drift.
 fn build(settings: &Settings) -> Result<Particles, Error> {
-    let reader = Reader {
-        shape: "box",
-        settings,
-    };
+    let reader = Reader { shape: "box", settings };
     let (count, mut particles) = reader.room()?;
     let mut random = Random::new(settings.whole("seed"));
     let size = reader.vector("size")?;
@@ -63,11 +51,7 @@ fn build(settings: &Settings) -> Result<Particles, Error> {
         let x = random.between(-0.5, 0.5);
         let y = random.between(-0.5, 0.5);
         let z = random.between(-0.5, 0.5);
-        let thermal = if speed > 0.0 {
-            random.normals() * speed
-        } else {
-            DVec3::ZERO
-        };
+        let thermal = if speed > 0.0 { random.normals() * speed } else { DVec3::ZERO };
         particles.push(DVec3::new(x, y, z) * size + center, thermal, mass, radius);
     }
     let (_, drift) = particles.center();

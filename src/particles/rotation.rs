@@ -59,16 +59,14 @@ const K_STEPS: u32 = 4000;
 impl Galaxy {
     /// Surface density of the disk [mass / length²].
     fn surface(&self, radius: f64) -> f64 {
-        self.disk_mass / (2.0 * PI * self.disk_scale * self.disk_scale)
-            * libm::exp(-radius / self.disk_scale)
+        self.disk_mass / (2.0 * PI * self.disk_scale * self.disk_scale) * libm::exp(-radius / self.disk_scale)
     }
 
     /// Softened pull of the whole galaxy as if it were spherical [length / time²].
     pub(super) fn spherical(&self, r: f64) -> f64 {
         let x = r / self.disk_scale;
         let disk = self.disk_mass * (1.0 - (1.0 + x) * libm::exp(-x));
-        self.g * (disk + self.halo_mass * hernquist::enclosed(r / self.halo_scale)) * r
-            / self.softened(r * r)
+        self.g * (disk + self.halo_mass * hernquist::enclosed(r / self.halo_scale)) * r / self.softened(r * r)
     }
 
     /// Square of the halo's angular velocity near the plane, at the mean square height.
@@ -112,11 +110,7 @@ impl Rotation {
                 // ⟨σ_z²⟩ by the virial theorem across the plane: its own pull, and the halo's.
                 let vertical = PI * galaxy.g * galaxy.surface(x * scale) * z0 * flatness
                     + PI * PI / 12.0 * z0 * z0 * galaxy.halo_turn(x * scale);
-                Ring {
-                    circular,
-                    vertical,
-                    ..Ring::default()
-                }
+                Ring { circular, vertical, ..Ring::default() }
             })
             .collect();
 
@@ -137,19 +131,13 @@ impl Rotation {
             let surface = galaxy.surface(radius(u32::try_from(row).unwrap_or(RINGS)) * scale);
             held += step * surface * rings[row].circular;
             let wanted = 3.36 * galaxy.g * surface * galaxy.toomre_q;
-            rings[row].radial = if surface > 0.0 {
-                (wanted * wanted / rings[row].epicyclic).min(held / surface)
-            } else {
-                0.0
-            };
+            rings[row].radial =
+                if surface > 0.0 { (wanted * wanted / rings[row].epicyclic).min(held / surface) } else { 0.0 };
             rings[row].azimuthal = rings[row].radial * rings[row].epicyclic / (4.0 * here);
         }
         // Asymmetric drift, from the radial Jeans equation.
-        let pressure: Vec<f64> = rings
-            .iter()
-            .zip(0..)
-            .map(|(ring, row)| ring.radial * galaxy.surface(radius(row) * scale))
-            .collect();
+        let pressure: Vec<f64> =
+            rings.iter().zip(0..).map(|(ring, row)| ring.radial * galaxy.surface(radius(row) * scale)).collect();
         for row in 0..rings.len() {
             let (low, high) = (row.saturating_sub(1), (row + 1).min(rings.len() - 1));
             #[expect(clippy::cast_precision_loss, reason = "1 or 2")]
@@ -165,11 +153,7 @@ impl Rotation {
     }
 
     /// The ring at a radius [length].
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "held within the table"
-    )]
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "held within the table")]
     pub(super) fn at(&self, radius: f64) -> Ring {
         let place = libm::log(radius / (self.scale * INNER)) / log_step();
         let place = place.clamp(0.0, f64::from(RINGS - 2));
@@ -199,21 +183,12 @@ fn radius(row: u32) -> f64 {
 
 /// ⟨e^(-k √(d² + ε²))⟩ k / (1 + k²)^(3/2) at every k, lengths in `R_d`.
 fn spectrum(height: f64, softening: f64) -> Vec<f64> {
-    let apart: Vec<(f64, f64)> = differences()
-        .map(|(d, weight)| {
-            (
-                (d * d * height * height + softening * softening).sqrt(),
-                weight,
-            )
-        })
-        .collect();
+    let apart: Vec<(f64, f64)> =
+        differences().map(|(d, weight)| ((d * d * height * height + softening * softening).sqrt(), weight)).collect();
     (1..=K_STEPS)
         .map(|i| {
             let k = K_STEP * f64::from(i);
-            let factor: f64 = apart
-                .iter()
-                .map(|(d, weight)| weight * libm::exp(-k * d))
-                .sum();
+            let factor: f64 = apart.iter().map(|(d, weight)| weight * libm::exp(-k * d)).sum();
             let spread = 1.0 + k * k;
             factor * k / (spread * spread.sqrt())
         })
@@ -225,21 +200,14 @@ fn pull(spectrum: &[f64], x: f64) -> f64 {
     if x > FAR {
         return (1.0 + 4.5 / (x * x)) / x;
     }
-    let sum: f64 = spectrum
-        .iter()
-        .zip(1_u32..)
-        .map(|(s, i)| s * libm::j1(K_STEP * f64::from(i) * x))
-        .sum();
+    let sum: f64 = spectrum.iter().zip(1_u32..).map(|(s, i)| s * libm::j1(K_STEP * f64::from(i) * x)).sum();
     x * K_STEP * sum
 }
 
 /// How much softening weakens the pull of a sheet on itself: ⟨d² / √(d² + ε²)⟩ / ⟨|d|⟩, softening in heights.
 fn flatness(softening: f64) -> f64 {
     let (weak, full) = differences().fold((0.0, 0.0), |(weak, full), (d, weight)| {
-        (
-            weak + weight * d * d / (d * d + softening * softening).sqrt(),
-            full + weight * d,
-        )
+        (weak + weight * d * d / (d * d + softening * softening).sqrt(), full + weight * d)
     });
     weak / full
 }
@@ -249,13 +217,8 @@ mod tests {
     use super::{differences, flatness, pull, spectrum};
 
     /// Freeman (1970), v² = 2 y² [I₀K₀ - I₁K₁](y), y = x/2, in G M / `R_d`: values by an independent Bessel library.
-    const FREEMAN: [(f64, f64); 5] = [
-        (0.25, 0.053940642),
-        (0.5, 0.136705006),
-        (1.0, 0.277958789),
-        (2.2, 0.386911990),
-        (6.0, 0.194455379),
-    ];
+    const FREEMAN: [(f64, f64); 5] =
+        [(0.25, 0.053940642), (0.5, 0.136705006), (1.0, 0.277958789), (2.2, 0.386911990), (6.0, 0.194455379)];
 
     #[test]
     fn a_thin_disk_turns_as_freeman_says() {

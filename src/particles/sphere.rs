@@ -19,18 +19,8 @@ pub const SPHERE: Shape = Shape {
 const KEYS: &[Key] = &[
     COUNT,
     SEED,
-    Key::new(
-        "mass",
-        Kind::Positive,
-        Value::Number(1.0),
-        "mass of all particles together [mass]",
-    ),
-    Key::new(
-        "radius",
-        Kind::Positive,
-        Value::Number(1.0),
-        "radius of the sphere [length]",
-    ),
+    Key::new("mass", Kind::Positive, Value::Number(1.0), "mass of all particles together [mass]"),
+    Key::new("radius", Kind::Positive, Value::Number(1.0), "radius of the sphere [length]"),
     Key::new(
         "virial",
         Kind::NotNegative,
@@ -51,10 +41,7 @@ const KEYS: &[Key] = &[
 
 /// `count` particles of equal mass. With  |W| = 3 G M² / 5 R  the dispersion per axis is  σ² = 2/5 virial G M / R.
 fn build(settings: &Settings) -> Result<Particles, Error> {
-    let reader = Reader {
-        shape: "sphere",
-        settings,
-    };
+    let reader = Reader { shape: "sphere", settings };
     let (count, mut particles) = reader.room()?;
     let mut random = Random::new(settings.whole("seed"));
     let total = reader.positive("mass")?;

@@ -26,4 +26,5 @@ macro_rules! scenes {
 }
 
 /// All of them, in the order in which a newcomer would try them.
-pub const SCENES: &[Builtin] = scenes!["throw", "kepler", "figure_eight", "solar_system", "galaxy", "merger", "fountain"];
+pub const SCENES: &[Builtin] =
+    scenes!["throw", "kepler", "figure_eight", "solar_system", "galaxy", "merger", "fountain"];

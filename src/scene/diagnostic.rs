@@ -83,7 +83,11 @@ impl fmt::Display for Diagnostic {
             let carets = "^".repeat(e.under);
             writeln!(f, "{:gutter$} |", "")?;
             writeln!(f, "{number:>gutter$} | {}", e.text)?;
-            writeln!(f, "{}", format!("{:gutter$} | {:before$}{carets} {}", "", "", e.label, before = e.before).trim_end())?;
+            writeln!(
+                f,
+                "{}",
+                format!("{:gutter$} | {:before$}{carets} {}", "", "", e.label, before = e.before).trim_end()
+            )?;
         }
         for note in &self.notes {
             writeln!(f, "{:gutter$} = {note}", "")?;

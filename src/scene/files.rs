@@ -44,7 +44,8 @@ impl Files {
         }
         let meta = fs::metadata(&path).map_err(|why| {
             let absent = why.kind() == std::io::ErrorKind::NotFound;
-            let message = if absent { format!("there is no file {shown}") } else { format!("cannot read {shown}: {why}") };
+            let message =
+                if absent { format!("there is no file {shown}") } else { format!("cannot read {shown}: {why}") };
             let fault = Fault::at(place, message).in_input();
             match similar(&path) {
                 Some(near) if absent => fault.label(format!("did you mean \"{}\"?", shorten(&near))),
@@ -74,10 +75,13 @@ impl Located {
         match self {
             Self::Embedded { text, .. } => Ok((*text).to_owned()),
             Self::Disk { path, .. } => {
-                let bad = |why: String| Fault::at(place, format!("cannot read {}: {why}", shorten_path(path))).in_input();
+                let bad =
+                    |why: String| Fault::at(place, format!("cannot read {}: {why}", shorten_path(path))).in_input();
                 let length = fs::metadata(path).map_err(|e| bad(e.to_string()))?.len();
                 if length > LONGEST_SHADER {
-                    return Err(bad(format!("{length} bytes are more than the {LONGEST_SHADER} that a shader may have")));
+                    return Err(bad(format!(
+                        "{length} bytes are more than the {LONGEST_SHADER} that a shader may have"
+                    )));
                 }
                 fs::read_to_string(path).map_err(|e| bad(e.to_string()))
             }

@@ -40,10 +40,13 @@ fn read_own(table: &Table<'_>, wgsl: &Entry, files: &Files, report: &mut Report)
     }
     let params = table.get("params").map_or_else(Vec::new, |entry| params(entry, report));
     let name = value::text(&wgsl.node, "wgsl", "the name of a file", report)?;
-    let text = files.locate("wgsl", name, &wgsl.node.place).and_then(|f| Ok((f.shader(&wgsl.node.place)?, f.name().to_owned())));
+    let text = files
+        .locate("wgsl", name, &wgsl.node.place)
+        .and_then(|f| Ok((f.shader(&wgsl.node.place)?, f.name().to_owned())));
     match text {
         Ok((text, path)) => {
-            let stem = Path::new(name).file_stem().map_or_else(|| name.to_owned(), |s| s.to_string_lossy().into_owned());
+            let stem =
+                Path::new(name).file_stem().map_or_else(|| name.to_owned(), |s| s.to_string_lossy().into_owned());
             let over = if over? == "each" { Over::Each } else { Over::Pairs };
             Some(Chosen::Own { law: Custom { name: stem, over, wgsl: text, file: name.to_owned(), params }, path })
         }
@@ -97,4 +100,3 @@ impl Chosen {
         }
     }
 }
-

@@ -144,7 +144,9 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
     let mut groups = Vec::new();
     if all("particles").next().is_none() {
         let fault = Fault::missing(&Place::end(), "there are no particles");
-        report.push(fault.note("help: add\n\n         [[particles]]\n         shape = \"plummer\"\n         count = 1000"));
+        report.push(
+            fault.note("help: add\n\n         [[particles]]\n         shape = \"plummer\"\n         count = 1000"),
+        );
     }
     for table in all("particles") {
         let start = ids(&particles);

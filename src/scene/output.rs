@@ -56,7 +56,8 @@ pub(super) fn read(table: Option<&Table<'_>>, steps: u64, report: &mut Report) -
     if let Some(entry) = table.get("formats") {
         let names: Vec<_> = Format::ALL.iter().map(|f| f.name()).collect();
         if let Data::List(list) = &entry.node.data {
-            let words: Vec<_> = list.iter().filter_map(|node| value::choice(node, "formats", "format", &names, report)).collect();
+            let words: Vec<_> =
+                list.iter().filter_map(|node| value::choice(node, "formats", "format", &names, report)).collect();
             output.formats = Format::ALL.iter().copied().filter(|f| words.contains(&f.name())).collect();
         } else {
             value::refuse::<()>(&entry.node, "formats", "a list, as in [\"csv\", \"png\"]", report);

@@ -34,7 +34,11 @@ fn set(root: &mut Vec<Entry>, text: usize, body: &str, report: &Report) -> Resul
         let homes = SECTIONS.iter().filter(|s| s.knows(only.word)).map(|s| s.path(only.word));
         let homes: Vec<_> = homes.collect();
         let fault = Fault::at(&only.place, format!("`{}` does not say in which section", shorten(only.word)));
-        return Err(if homes.is_empty() { fault.note(EXAMPLE) } else { fault.label(format!("write {}", homes.join(" or "))) });
+        return Err(if homes.is_empty() {
+            fault.note(EXAMPLE)
+        } else {
+            fault.label(format!("write {}", homes.join(" or ")))
+        });
     }
     let value = parse(value, text, body.len() - value.len())?;
     put(root, &path, "", value, report)

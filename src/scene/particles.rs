@@ -61,7 +61,13 @@ pub(super) fn read(table: &Table<'_>, room: u32, files: &Files, report: &mut Rep
     Some(Block { particles, color, resolved: out.0 })
 }
 
-fn from_file(table: &Table<'_>, entry: &Entry, files: &Files, out: &mut Writer, report: &mut Report) -> Option<Particles> {
+fn from_file(
+    table: &Table<'_>,
+    entry: &Entry,
+    files: &Files,
+    out: &mut Writer,
+    report: &mut Report,
+) -> Option<Particles> {
     let offsets = table.named(format!("{} file", table.name)).settings(OFFSETS, &["file", "color"], report);
     let name = value::text(&entry.node, "file", "the name of a file", report)?;
     let place = &entry.node.place;
@@ -97,7 +103,9 @@ fn from_shape(table: &Table<'_>, entry: &Entry, room: u32, out: &mut Writer, rep
     let (key, wanted) = wanted_count(&settings);
     if wanted > f64::from(room) {
         let place = table.get(key).map_or(&entry.node.place, |e| &e.node.place);
-        report.push(Fault::at(place, format!("{wanted} particles are too many")).label(format!("there is room for {room}")));
+        report.push(
+            Fault::at(place, format!("{wanted} particles are too many")).label(format!("there is room for {room}")),
+        );
         return None;
     }
     out.text("shape", name);
@@ -142,7 +150,8 @@ fn from_bodies(table: &Table<'_>, entry: &Entry, out: &mut Writer, report: &mut 
         let [position, velocity] = [position, velocity].map(resolved::vector);
         let [mass, radius] = [mass, radius].map(resolved::number);
         // Writing to a String cannot fail.
-        let _ = writeln!(text, "  {{ position = {position}, velocity = {velocity}, mass = {mass}, radius = {radius} }},");
+        let _ =
+            writeln!(text, "  {{ position = {position}, velocity = {velocity}, mass = {mass}, radius = {radius} }},");
     }
     out.line("bodies", &(text + "]"));
     out.settings(OFFSETS, &offsets);
@@ -163,7 +172,9 @@ fn sound(particles: &Particles, room: u32, place: &Place) -> Result<(), Fault> {
         return Err(Fault::at(place, "there are no particles in it"));
     }
     if count > room as usize {
-        return Err(Fault::at(place, format!("{count} particles are too many")).label(format!("there is room for {room}")));
+        return Err(
+            Fault::at(place, format!("{count} particles are too many")).label(format!("there is room for {room}"))
+        );
     }
     let fits = |x: f64| x.abs() <= f64::from(f32::MAX);
     let vectors = [("position", &particles.position), ("velocity", &particles.velocity)];
@@ -178,7 +189,9 @@ fn sound(particles: &Particles, room: u32, place: &Place) -> Result<(), Fault> {
         })
     });
     match wrong {
-        Some((id, what, found, wanted)) => Err(Fault::at(place, format!("particle {id} has the {what} {found}, not {wanted}"))),
+        Some((id, what, found, wanted)) => {
+            Err(Fault::at(place, format!("particle {id} has the {what} {found}, not {wanted}")))
+        }
         None => Ok(()),
     }
 }

@@ -113,7 +113,9 @@ impl Report {
         shorten(text)
     }
     fn line(&self, place: &Place) -> usize {
-        self.texts.get(place.text).map_or(0, |t| t.lines.partition_point(|&start| start <= place.span.start).saturating_sub(1))
+        self.texts
+            .get(place.text)
+            .map_or(0, |t| t.lines.partition_point(|&start| start <= place.span.start).saturating_sub(1))
     }
     /// The faults in the order of the text; `None` when there are none.
     pub(super) fn finish(mut self) -> Option<Diagnostics> {
@@ -173,7 +175,8 @@ impl Text {
         text.extend(before.iter().chain(&under).chain(&after));
         Some(Excerpt {
             position: self.name.is_some().then(|| {
-                let column = self.body.get(from..start).map_or(0, |s| s.chars().filter(|&c| c != '\u{feff}').count()) + 1;
+                let column =
+                    self.body.get(from..start).map_or(0, |s| s.chars().filter(|&c| c != '\u{feff}').count()) + 1;
                 (line + 1, column)
             }),
             text,

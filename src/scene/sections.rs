@@ -32,7 +32,13 @@ pub(super) const SECTIONS: &[Section] = &[
         own: particles::OWN,
         kinds: || SHAPES.iter().map(|s| s.keys).chain([particles::OFFSETS]).collect(),
     },
-    Section { name: "force", many: true, keys: &[], own: force::OWN, kinds: || FORCES.iter().map(|f| f.keys).collect() },
+    Section {
+        name: "force",
+        many: true,
+        keys: &[],
+        own: force::OWN,
+        kinds: || FORCES.iter().map(|f| f.keys).collect(),
+    },
     Section { name: "output", many: false, keys: output::KEYS, own: output::OWN, kinds: Vec::new },
     Section { name: "picture", many: false, keys: render::KEYS, own: &[], kinds: Vec::new },
 ];

@@ -52,10 +52,11 @@ pub(super) fn read(table: Option<&Table<'_>>, report: &mut Report) -> Simulation
                     simulation.steps = steps;
                     simulation.remark = remark(until, simulation.dt, steps);
                 }
-                None => report.push(
-                    Fault::at(&entry.node.place, "`until` is too far")
-                        .label(format!("{:.3e} steps of dt = {:?}, at most {MOST_STEPS:e}", until / simulation.dt, simulation.dt)),
-                ),
+                None => report.push(Fault::at(&entry.node.place, "`until` is too far").label(format!(
+                    "{:.3e} steps of dt = {:?}, at most {MOST_STEPS:e}",
+                    until / simulation.dt,
+                    simulation.dt
+                ))),
             }
         }
     }

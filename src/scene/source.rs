@@ -65,7 +65,11 @@ impl Source {
             notes.push(format!("help: did you mean the built-in scene `{near}`?"));
         }
         notes.push(format!("built-in scenes: {}", listed(names())));
-        Err(Diagnostics::alone(&shorten(word), "there is no such file, and no built-in scene of this name".to_owned(), notes))
+        Err(Diagnostics::alone(
+            &shorten(word),
+            "there is no such file, and no built-in scene of this name".to_owned(),
+            notes,
+        ))
     }
 
     pub(super) fn open(&self) -> Result<Opened, Diagnostics> {
@@ -85,7 +89,8 @@ impl Source {
                 if text.len() as u64 > LONGEST {
                     return Err(Diagnostics::alone(&shorten(name), too_long(), Vec::new()));
                 }
-                let stem = Path::new(name).file_stem().map_or_else(|| name.clone(), |s| s.to_string_lossy().into_owned());
+                let stem =
+                    Path::new(name).file_stem().map_or_else(|| name.clone(), |s| s.to_string_lossy().into_owned());
                 let folder = Some(folder.clone());
                 Ok(Opened { name: shorten(&stem), file: shorten(name), text: text.clone(), folder, embedded: &[] })
             }
@@ -117,7 +122,10 @@ fn read(path: &Path) -> Result<String, String> {
 }
 
 fn too_long() -> String {
-    format!("the scene is longer than {} MiB: put particles into a file of their own (CSV, Tipsy) and name it with `file`", LONGEST >> 20)
+    format!(
+        "the scene is longer than {} MiB: put particles into a file of their own (CSV, Tipsy) and name it with `file`",
+        LONGEST >> 20
+    )
 }
 
 /// The first block of comments: what one should see.

@@ -61,7 +61,9 @@ impl Node {
 /// Parses a scene. What does not parse is reported; what does is in the tree.
 pub(super) fn parse(text: usize, body: &str, report: &mut Report) -> Vec<Entry> {
     if let Some(span) = too_long_a_key(body) {
-        report.push_syntax(Fault::at(&Place { text, span }, "this key has too many dots").label("no scene needs more than 3"));
+        report.push_syntax(
+            Fault::at(&Place { text, span }, "this key has too many dots").label("no scene needs more than 3"),
+        );
         return Vec::new();
     }
     let (table, faults) = if body.len() <= RECOVERABLE {
@@ -93,15 +95,21 @@ fn report_syntax(text: usize, body: &str, faults: Vec<toml::de::Error>, report: 
         let place = Place { text, span };
         let (message, label) = match fault.message() {
             "duplicate key" => (format!("`{}` is given twice", super::report::shorten(words)), "the second one"),
-            m if m.starts_with("cannot recurse further") => ("this is nested too deeply".to_owned(), "80 levels at most"),
-            m if m.starts_with("string values must be quoted") && words.is_empty() => ("the value is missing".to_owned(), ""),
+            m if m.starts_with("cannot recurse further") => {
+                ("this is nested too deeply".to_owned(), "80 levels at most")
+            }
+            m if m.starts_with("string values must be quoted") && words.is_empty() => {
+                ("the value is missing".to_owned(), "")
+            }
             m if m.starts_with("string values must be quoted") => {
                 (format!("text must stand in quotes: \"{}\"", super::report::shorten(words)), "")
             }
             "invalid basic string, expected `\"`" | "invalid literal string, expected `'`" => {
                 ("this text has no closing quote".to_owned(), "")
             }
-            _ if is_decimal_comma(body, span_start) => ("a number has a point, not a comma".to_owned(), "write a point"),
+            _ if is_decimal_comma(body, span_start) => {
+                ("a number has a point, not a comma".to_owned(), "write a point")
+            }
             m => (format!("this is not TOML: {m}"), ""),
         };
         report.push_syntax(Fault::at(&place, message).label(label));

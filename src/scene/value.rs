@@ -47,7 +47,10 @@ pub(super) fn read(node: &Node, key: &str, kind: Kind, report: &mut Report) -> O
 pub(super) fn number(node: &Node, key: &str, kind: Kind, wanted: &str, report: &mut Report) -> Option<f64> {
     let whole = matches!(kind, Kind::Count | Kind::Whole);
     let value = match node.data {
-        #[expect(clippy::cast_precision_loss, reason = "the loss is checked for whole numbers, and harmless for others")]
+        #[expect(
+            clippy::cast_precision_loss,
+            reason = "the loss is checked for whole numbers, and harmless for others"
+        )]
         Data::Integer(Some(i)) => i as f64,
         Data::Integer(None) => {
             report.push(Fault::at(&node.place, format!("`{key}` is too large")).label(if whole {
@@ -77,7 +80,8 @@ pub(super) fn number(node: &Node, key: &str, kind: Kind, wanted: &str, report: &
     } else if low {
         return refuse(node, key, wanted, report);
     } else if value.abs() > largest {
-        let end = if whole { format!("it may be at most {largest}") } else { "single precision ends at 3.4e38".to_owned() };
+        let end =
+            if whole { format!("it may be at most {largest}") } else { "single precision ends at 3.4e38".to_owned() };
         report.push(Fault::at(&node.place, format!("`{key}` is too large")).label(end));
     } else if is_lost(value) && kind == Kind::Positive {
         report.push(Fault::at(&node.place, format!("`{key}` is too small")).label("it is zero in single precision"));
@@ -93,7 +97,9 @@ fn is_lost(value: f64) -> bool {
 }
 
 fn vector(node: &Node, key: &str, kind: Kind, report: &mut Report) -> Option<DVec3> {
-    let Data::List(list) = &node.data else { return refuse(node, key, &format!("{}, as in [0, 0, 1]", wanted(kind)), report) };
+    let Data::List(list) = &node.data else {
+        return refuse(node, key, &format!("{}, as in [0, 0, 1]", wanted(kind)), report);
+    };
     let before = report.len();
     let [x, y, z] = &list[..] else {
         return refuse(node, key, &format!("{}, as in [0, 0, 1]", wanted(kind)), report);
@@ -111,8 +117,15 @@ fn vector(node: &Node, key: &str, kind: Kind, report: &mut Report) -> Option<DVe
 }
 
 /// One of some words; `noun` is what they name.
-pub(super) fn choice<'a>(node: &Node, key: &str, noun: &str, known: &[&'a str], report: &mut Report) -> Option<&'a str> {
-    let wanted = if let [only] = known { format!("\"{only}\"") } else { format!("one of {}", listed(known.iter().copied())) };
+pub(super) fn choice<'a>(
+    node: &Node,
+    key: &str,
+    noun: &str,
+    known: &[&'a str],
+    report: &mut Report,
+) -> Option<&'a str> {
+    let wanted =
+        if let [only] = known { format!("\"{only}\"") } else { format!("one of {}", listed(known.iter().copied())) };
     let Data::Text(text) = &node.data else { return refuse(node, key, &wanted, report) };
     if let Some(word) = known.iter().find(|w| *w == text) {
         return Some(word);
@@ -138,7 +151,9 @@ pub(super) fn refuse<T>(node: &Node, key: &str, wanted: &str, report: &mut Repor
     let mut fault = Fault::at(&node.place, format!("`{key}` must be {wanted}, not {}", node.describe(report)));
     if let Data::Text(text) = &node.data {
         let bare = text.trim();
-        if wanted.contains("number") && bare.parse::<f64>().is_ok() || wanted == "true or false" && bare.parse::<bool>().is_ok() {
+        if wanted.contains("number") && bare.parse::<f64>().is_ok()
+            || wanted == "true or false" && bare.parse::<bool>().is_ok()
+        {
             fault = fault.label(format!("remove the quotes: {bare}"));
         }
     }

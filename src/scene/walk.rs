@@ -46,7 +46,8 @@ impl<'a> Table<'a> {
     }
     /// The fault of a key that must be given and is not.
     pub(super) fn lacks(&self, key: &str, wanted: &str, about: &str) -> Fault {
-        Fault::missing(self.place, format!("{} lacks `{key}`", self.name)).label(format!("add `{key}`, {wanted}: {about}"))
+        Fault::missing(self.place, format!("{} lacks `{key}`", self.name))
+            .label(format!("add `{key}`, {wanted}: {about}"))
     }
     fn unknown(&self, entry: &Entry, keys: &[Key], own: &[&str]) -> Fault {
         let known = || own.iter().copied().chain(keys.iter().map(|k| k.name));
@@ -64,7 +65,10 @@ impl<'a> Table<'a> {
     pub(super) fn one_of(&self, keys: &[&str], report: &mut Report) -> Option<&'a Entry> {
         let mut given = self.entries.iter().filter(|e| keys.contains(&e.key.as_str()));
         let Some(first) = given.next() else {
-            report.push(Fault::missing(self.place, format!("{} needs one of {}", self.name, listed(keys.iter().copied()))));
+            report.push(Fault::missing(
+                self.place,
+                format!("{} needs one of {}", self.name, listed(keys.iter().copied())),
+            ));
             return None;
         };
         let mut only = Some(first);
@@ -104,16 +108,25 @@ pub(super) fn sections<'a>(root: &'a [Entry], report: &mut Report) -> Vec<(&'sta
                 }
             }
             (Data::Table(_), true) => report.push(
-                Fault::at(&entry.node.place, format!("there can be several [[{0}]], so it stands in double brackets", section.name))
-                    .label(format!("write {}", section.header())),
+                Fault::at(
+                    &entry.node.place,
+                    format!("there can be several [[{0}]], so it stands in double brackets", section.name),
+                )
+                .label(format!("write {}", section.header())),
             ),
             (Data::List(_), false) => report.push(
-                Fault::at(&entry.node.place, format!("there is only one [{}], so it stands in single brackets", section.name))
-                    .label(format!("write {}", section.header())),
+                Fault::at(
+                    &entry.node.place,
+                    format!("there is only one [{}], so it stands in single brackets", section.name),
+                )
+                .label(format!("write {}", section.header())),
             ),
             _ => report.push(
-                Fault::at(&entry.node.place, format!("`{}` must be a section, not {}", section.name, entry.node.describe(report)))
-                    .label(format!("write {} on a line of its own", section.header())),
+                Fault::at(
+                    &entry.node.place,
+                    format!("`{}` must be a section, not {}", section.name, entry.node.describe(report)),
+                )
+                .label(format!("write {} on a line of its own", section.header())),
             ),
         }
     }
@@ -139,7 +152,8 @@ fn unknown_section(entry: &Entry) -> Fault {
     let fault = Fault::at(&entry.place, format!("unknown section `{name}`"));
     let fault = match nearest(&entry.key, SECTIONS.iter().map(|s| s.name)) {
         Some(near) => {
-            let header = SECTIONS.iter().find(|s| s.name == near).map_or_else(String::new, super::sections::Section::header);
+            let header =
+                SECTIONS.iter().find(|s| s.name == near).map_or_else(String::new, super::sections::Section::header);
             fault.label(format!("did you mean {header}?"))
         }
         None => fault,
@@ -156,7 +170,8 @@ pub(super) fn choice<'a>(entry: &Entry, noun: &str, known: &[&'a str], report: &
 pub(super) fn whole_from_one(entry: &Entry, report: &mut Report) -> Option<u64> {
     let value = value::number(&entry.node, &entry.key, Kind::Whole, "a whole number, one or above", report)?;
     if value < 1.0 {
-        report.push(Fault::at(&entry.node.place, format!("`{}` must be a whole number, one or above, not 0", entry.key)));
+        report
+            .push(Fault::at(&entry.node.place, format!("`{}` must be a whole number, one or above, not 0", entry.key)));
         return None;
     }
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "whole, at least one, and below 2^53")]
