@@ -77,6 +77,9 @@ impl Backend for Cpu {
         self.host.insert(name, array.clone());
         Ok(())
     }
+    fn forget(&mut self, name: &str) {
+        self.host.remove(name);
+    }
     async fn read(&mut self, name: &str, like: &Array, len: usize) -> Result<Array, Error> {
         let missing = || Error::Device(format!("there is no field `{name}` on the host"));
         let mut array = self.host.get(name).ok_or_else(missing)?;

@@ -11,10 +11,10 @@ pub mod kernel;
 pub mod lockstep;
 pub mod measure;
 pub mod particles;
-#[cfg(feature = "scene")]
 pub mod render;
 #[cfg(feature = "scene")]
 pub mod scene;
+pub mod selftest;
 pub mod settings;
 pub mod simulation;
 pub mod visit;

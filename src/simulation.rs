@@ -8,6 +8,7 @@ use crate::gpu::Gpu;
 use crate::integrators::{Integrator, Step};
 use crate::kernel::{ACCELERATION, ALARM, Array, Backend, Clock, Element, Field, POSITION, Plan, VELOCITY};
 use crate::particles::Particles;
+use crate::render::{self, Image, Picture};
 
 /// What a simulation is made of.
 pub struct Setup {
@@ -190,6 +191,19 @@ impl<B: Backend> Simulation<B> {
         }
         let time = self.steps as f64 * self.dt;
         Ok(Snapshot { step: self.steps, time, particles, potential })
+    }
+    /// Draws the current state. Only the picture is read back.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] when the picture was made for another number of particles, or what drawing says.
+    pub async fn draw(&mut self, picture: &Picture) -> Result<Image, Error> {
+        if picture.frame.count != self.count {
+            let (made, have) = (picture.frame.count, self.count);
+            return Err(Error::Scene(format!(
+                "a picture of {made} particles cannot be drawn of {have}: make a new one"
+            )));
+        }
+        render::draw(&mut self.backend, picture).await
     }
     /// One step, as `motes explain` prints it.
     #[must_use]

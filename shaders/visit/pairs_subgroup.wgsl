@@ -1,6 +1,6 @@
 // Everybody meets everybody, for adapters whose subgroups are all of eight lanes (lavapipe with 256-bit vectors):
 // each lane loads one source, and the eight are passed round by broadcast.
-const WORKGROUP: u32 = 64u;
+const WORKGROUP: u32 = 32u;
 const TARGETS: u32 = 4u;
 const BLOCK: u32 = 128u;
 

@@ -26,15 +26,64 @@ pub struct Found {
     pub faults: Faults,
 }
 
-/// An instance, as the environment (`WGPU_BACKEND` …) has it.
-#[must_use]
-pub fn instance() -> wgpu::Instance {
-    wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env())
+/// What to do where there is no driver.
+pub const NO_DRIVER: &str = "no GPU driver was found (on Debian or Ubuntu `apt-get install mesa-vulkan-drivers` brings a fast one that \
+                             runs on the processor)";
+
+impl Found {
+    /// Name, kind, backend and driver.
+    #[must_use]
+    pub fn describe(&self) -> String {
+        describe(&self.adapter.get_info())
+    }
+    /// Whether it is a processor that plays a GPU.
+    #[must_use]
+    pub fn software(&self) -> bool {
+        self.adapter.get_info().device_type == wgpu::DeviceType::Cpu
+    }
+    /// What the device binds and dispatches, and which optional features kernels use, by name.
+    #[must_use]
+    pub fn facts(&self) -> Vec<(&'static str, String)> {
+        let (limits, info) = (self.device.limits(), self.adapter.get_info());
+        let largest = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
+        let offered = |feature| if self.device.features().contains(feature) { "yes" } else { "no" }.to_owned();
+        vec![
+            ("largest field", format!("{} MiB, {} particles", largest >> 20, largest / 16)),
+            ("workgroup memory", format!("{} KiB", limits.max_compute_workgroup_storage_size >> 10)),
+            ("storage buffers", format!("{} in one kernel", limits.max_storage_buffers_per_shader_stage)),
+            ("workgroups", format!("{} in one dimension", limits.max_compute_workgroups_per_dimension)),
+            (
+                "subgroups",
+                format!(
+                    "{}, of {} to {} lanes",
+                    offered(wgpu::Features::SUBGROUP),
+                    info.subgroup_min_size,
+                    info.subgroup_max_size
+                ),
+            ),
+            ("timestamps", offered(wgpu::Features::TIMESTAMP_QUERY)),
+        ]
+    }
 }
 
-/// All adapters, best first.
+/// An instance, as the environment (`WGPU_BACKEND` …) has it; if it says nothing, without OpenGL, whose drivers talk to
+/// standard error where there is no desktop.
+#[must_use]
+pub fn instance() -> wgpu::Instance {
+    instance_of(wgpu::Backends::PRIMARY)
+}
+
+fn instance_of(backends: wgpu::Backends) -> wgpu::Instance {
+    let default = wgpu::InstanceDescriptor::new_without_display_handle();
+    wgpu::Instance::new(wgpu::InstanceDescriptor { backends, ..default }.with_env())
+}
+
+/// All adapters, best first. Those of OpenGL are looked for only where there are no others.
 pub async fn adapters(instance: &wgpu::Instance) -> Vec<wgpu::Adapter> {
     let mut all = instance.enumerate_adapters(wgpu::Backends::all()).await;
+    if all.is_empty() {
+        all = instance_of(wgpu::Backends::SECONDARY).enumerate_adapters(wgpu::Backends::all()).await;
+    }
     all.retain(|a| a.get_downlevel_capabilities().flags.contains(wgpu::DownlevelFlags::COMPUTE_SHADERS));
     all.sort_by_key(|a| rank(&a.get_info()));
     all
@@ -57,9 +106,7 @@ fn rank(info: &wgpu::AdapterInfo) -> (u8, u8) {
 /// [`Error::NoAdapter`] that lists what there is.
 pub fn choose(mut adapters: Vec<wgpu::Adapter>, choice: &Choice) -> Result<wgpu::Adapter, Error> {
     if adapters.is_empty() {
-        return Err(Error::NoAdapter(
-            "no GPU driver was found; on Debian or Ubuntu `apt-get install mesa-vulkan-drivers` brings one that runs on the processor".to_owned(),
-        ));
+        return Err(Error::NoAdapter(NO_DRIVER.to_owned()));
     }
     let index = match choice {
         Choice::Best => Some(0),
@@ -125,5 +172,5 @@ pub(super) fn machine(device: &wgpu::Device) -> Machine {
     let subgroup =
         if device.features().contains(wgpu::Features::SUBGROUP) && fixed { info.subgroup_min_size } else { 0 };
     // A large GPU holds about a quarter of a million invocations at once; a processor wants a workgroup for each core.
-    Machine { software, subgroup, invocations: if software { 2048 } else { 1 << 18 } }
+    Machine { software, subgroup, invocations: if software { 256 } else { 1 << 18 } }
 }

@@ -22,6 +22,9 @@ impl Buffers {
     pub fn get(&self, name: &str) -> Option<&wgpu::Buffer> {
         self.named.get(name).map(|(buffer, _)| buffer)
     }
+    pub fn forget(&mut self, name: &str) {
+        self.named.remove(name);
+    }
     /// Makes a field of at least so many bytes, unless there is one.
     pub fn require(&mut self, name: &str, bytes: u64) -> Result<(), Error> {
         if let Some((_, have)) = self.named.get(name) {

@@ -8,10 +8,11 @@ mod pipeline;
 mod program;
 mod read;
 mod submit;
+mod timing;
 
 use std::time::Duration;
 
-pub use adapter::{Choice, Found, adapters, choose, instance, open};
+pub use adapter::{Choice, Found, NO_DRIVER, adapters, choose, instance, open};
 use buffers::Buffers;
 pub use fault::Faults;
 use pipeline::Pipelines;
@@ -101,6 +102,13 @@ impl Gpu {
     pub fn wait(&mut self) -> Result<(), Error> {
         self.queue.wait()
     }
+    /// Runs a program in one submission, and gives the seconds by the device's own clock, if it has one for us.
+    ///
+    /// # Errors
+    /// When the device is lost or does not answer in time.
+    pub async fn timed(&mut self, program: &Program, times: u32) -> Result<Option<f64>, Error> {
+        timing::timed(&self.device, &mut self.queue, program, times).await
+    }
     /// Reads the clock.
     ///
     /// # Errors
@@ -159,6 +167,9 @@ impl Backend for Gpu {
     }
     fn write(&mut self, name: &str, array: &Array) -> Result<(), Error> {
         self.write_bytes(name, 0, &array.to_bytes())
+    }
+    fn forget(&mut self, name: &str) {
+        self.buffers.forget(name);
     }
     async fn read(&mut self, name: &str, like: &Array, len: usize) -> Result<Array, Error> {
         let bytes = like.zeros(1).to_bytes().len() as u64 * len as u64;

@@ -128,6 +128,10 @@ impl Queue {
     pub fn timeout(&self, what: &str) -> Error {
         Error::Timeout { what: what.to_owned(), seconds: self.patience.as_secs() }
     }
+    /// Nanoseconds of a tick of the device's clock.
+    pub fn period(&self) -> f32 {
+        self.inner.get_timestamp_period()
+    }
     pub fn patience(&self) -> Duration {
         self.patience
     }

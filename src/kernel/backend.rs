@@ -41,6 +41,8 @@ pub trait Backend {
     /// # Errors
     /// When there is no such field, or it is shorter.
     fn write(&mut self, name: &str, array: &Array) -> Result<(), Error>;
+    /// Drops a field; the next plan that names it makes a new one. A program that was compiled before keeps the old one.
+    fn forget(&mut self, name: &str);
     /// Reads a field: `len` elements of the kind of `like`.
     ///
     /// # Errors

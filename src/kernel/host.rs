@@ -43,6 +43,10 @@ impl Host {
     pub fn insert(&mut self, name: &str, array: Array) {
         self.arrays.insert(name.to_owned(), RwLock::new(array));
     }
+    /// Drops an array.
+    pub fn remove(&mut self, name: &str) {
+        self.arrays.remove(name);
+    }
     /// A copy of an array.
     #[must_use]
     pub fn get(&self, name: &str) -> Option<Array> {

@@ -36,7 +36,7 @@ const KEYS: &[Key] = &[
     Key::new(
         "halo_fraction",
         Kind::NotNegative,
-        Value::Number(0.5),
+        Value::Number(0.75),
         "share of the particles that are halo (below 1); their ids follow the disk's",
     ),
     Key::new(

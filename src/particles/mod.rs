@@ -2,6 +2,7 @@
 
 mod build;
 pub mod disk;
+mod exponential_disk;
 mod hernquist;
 pub mod lattice;
 pub mod plummer;

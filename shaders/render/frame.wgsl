@@ -1,0 +1,73 @@
+// A picture's frame. A pinhole camera at distance d from the centre:  X = s x d / (d − z);  with d = 0 a parallel one:  X = s x
+struct Frame {
+    center: vec3f,
+    distance: f32, // of the eye from the centre; 0 for parallel rays
+    right: vec3f,
+    scale: f32,    // pixels per length, at the centre
+    up: vec3f,
+    heaviest: f32, // the largest mass
+    back: vec3f,   // towards the eye
+    marker: f32,   // radius at which the heaviest is drawn at least [pixels]
+    width: u32,
+    height: u32,
+    largest: f32,  // radius at which a ball is drawn at most [pixels]
+    solid: f32,    // radius from which on a particle is a ball, and below it a light [pixels]
+    glow: f32,     // radius of a light [pixels]
+    unit: f32,     // the centre of a white light, on the canvas
+    slow: f32,     // speeds at the ends of the colours
+    fast: f32,
+    points: u32,   // of all trails together
+    sky: f32,      // brightness of the background
+    line: f32,     // half the width of a trail [pixels]
+    bloom: f32,    // brightness of the halo
+    reach: u32,    // of the halo [pixels of it]
+}
+@group(3) @binding(0) var<uniform> frame: Frame;
+
+const NOBODY: u32 = 0xffffffffu;
+// Nearer to the eye than this part of its distance nothing is seen.
+const NEAR: f32 = 0.05;
+// What is so many pixels away is out of the picture; further on whole numbers would end.
+const FAR_OUT: f32 = 1e6;
+
+struct Seen { place: vec2f, depth: f32, scale: f32, visible: bool }
+
+// Where a place is seen; `depth` grows away from the eye, `scale` is in pixels per length there.
+fn see(p: vec3f) -> Seen {
+    let r = p - frame.center;
+    let z = dot(frame.back, r);
+    let depth = frame.distance - z;
+    var scale = frame.scale;
+    var visible = true;
+    if frame.distance > 0.0 {
+        visible = depth > NEAR * frame.distance;
+        scale *= frame.distance / max(depth, NEAR * frame.distance);
+    }
+    let half = 0.5 * vec2f(f32(frame.width), f32(frame.height));
+    let place = half + scale * vec2f(dot(frame.right, r), -dot(frame.up, r));
+    visible = visible && abs(place.x) < FAR_OUT && abs(place.y) < FAR_OUT;
+    return Seen(place, depth, scale, visible);
+}
+
+// Pixels that something may touch, those at `high` not included.
+struct Box { low: vec2i, high: vec2i }
+
+fn box(place: vec2f, reach: f32) -> Box {
+    let size = vec2i(i32(frame.width), i32(frame.height));
+    let low = clamp(vec2i(floor(place - reach)), vec2i(0), size);
+    return Box(low, clamp(vec2i(ceil(place + reach)), low, size));
+}
+
+fn pixel(x: i32, y: i32) -> u32 { return u32(y) * frame.width + u32(x); }
+
+// The middle of a pixel.
+fn middle(x: i32, y: i32) -> vec2f { return vec2f(f32(x), f32(y)) + 0.5; }
+
+// Whole numbers in the order of depths, those below 0 too.
+fn key(depth: f32) -> u32 {
+    let bits = bitcast<u32>(depth);
+    return select(bits | 0x80000000u, ~bits, bits >= 0x80000000u);
+}
+
+// NaN and infinity have every bit of the exponent set. `x != x` will not do: compilers take it for false.
+fn broken(v: vec4f) -> bool { return any((bitcast<vec4u>(v) & vec4u(0x7f800000u)) == vec4u(0x7f800000u)); }

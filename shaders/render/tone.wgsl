@@ -1,0 +1,45 @@
+// The finished picture: sky, what is in front of it, a halo around what is bright, and noise instead of bands.
+@group(3) @binding(7) var<storage, read_write> pixels: array<u32>; // red, green, blue, 255 from the lowest byte on
+@group(3) @binding(9) var<storage, read> halo: array<vec4f>;
+
+// A night sky, a little lighter in the middle.
+fn background(place: vec2f) -> vec3f {
+    let size = vec2f(f32(frame.width), f32(frame.height));
+    let off = place / size - 0.5;
+    return frame.sky * mix(vec3f(0.036, 0.043, 0.072), vec3f(0.008, 0.009, 0.018), clamp(2.0 * dot(off, off), 0.0, 1.0));
+}
+
+fn near(x: i32, y: i32) -> vec3f {
+    let columns = i32((frame.width + SHRINK - 1u) / SHRINK);
+    let rows = i32((frame.height + SHRINK - 1u) / SHRINK);
+    return halo[clamp(y, 0, rows - 1) * columns + clamp(x, 0, columns - 1)].rgb;
+}
+
+// Between four pixels of the halo.
+fn halo_at(place: vec2f) -> vec3f {
+    let q = place / f32(SHRINK) - 0.5;
+    let part = q - floor(q);
+    let x = i32(floor(q.x));
+    let y = i32(floor(q.y));
+    return mix(mix(near(x, y), near(x + 1, y), part.x), mix(near(x, y + 1), near(x + 1, y + 1), part.x), part.y);
+}
+
+// A hash of whole numbers (Wellons 2018), as a number in [0, 1).
+fn noise(n: u32) -> f32 {
+    var h = n;
+    h = (h ^ (h >> 16u)) * 0x7feb352du;
+    h = (h ^ (h >> 15u)) * 0x846ca68bu;
+    return f32((h ^ (h >> 16u)) >> 8u) / 16777216.0;
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn tone(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let i = folded(group, groups) * WORKGROUP + lane;
+    if i < frame.width * frame.height {
+        let place = middle(i32(i % frame.width), i32(i / frame.width));
+        let light = frame.bloom * halo_at(place);
+        let c = screen(look(i, background(place)), light / (1.0 + light));
+        let bytes = vec3u(clamp(c, vec3f(0.0), vec3f(1.0)) * 255.0 + noise(i));
+        pixels[i] = 0xff000000u | (min(bytes.b, 255u) << 16u) | (min(bytes.g, 255u) << 8u) | min(bytes.r, 255u);
+    }
+}

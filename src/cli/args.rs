@@ -1,0 +1,164 @@
+//! What the command line accepts.
+
+use std::path::PathBuf;
+
+use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
+
+const AFTER: &str = "\
+Exit codes:
+  0   done
+  2   the arguments are wrong
+  3   the scene, or a WGSL file it names, is wrong
+  4   a file of particles is wrong
+  5   no adapter fits, or a limit of the device is too small
+  6   a number stopped being finite
+  7   the device was lost, ran out of memory or did not answer
+  8   a result could not be written
+  9   `compare` or `doctor` found a disagreement
+  75  stopped by Ctrl-C after everything up to there was written
+
+Examples:
+  motes run galaxy
+  motes run my.toml -o results --set simulation.dt=0.01
+  motes compare galaxy --steps 20";
+
+/// Particles moved by forces, on any GPU, checked against a second opinion in f64.
+#[derive(Debug, Parser)]
+#[command(name = "motes", version, after_help = AFTER, arg_required_else_help = true)]
+pub struct Args {
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Run a scene: numbers, snapshots, a plot and pictures go into a folder
+    Run(RunArgs),
+    /// Check a scene, and predict memory and time, without running it
+    Check(SceneArgs),
+    /// Print what one step of a scene does, kernel by kernel
+    Explain(SceneArgs),
+    /// Compare the device with the f64 twins, kernel by kernel and over some steps
+    Compare(CompareArgs),
+    /// List the scenes that come with motes, or print one
+    Scenes(ScenesArgs),
+    /// Measure interactions per second, beside a plain Rust loop on this processor
+    Bench(BenchArgs),
+    /// List adapters and test what simulations rely on
+    Doctor(DoctorArgs),
+}
+
+/// Where kernels run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum BackendChoice {
+    /// The best adapter, or the f64 twins when there is none
+    Auto,
+    /// An adapter, or an error
+    Gpu,
+    /// The f64 twins, on the processor
+    Cpu,
+}
+
+#[derive(Debug, ClapArgs)]
+pub struct DeviceArgs {
+    /// Where kernels run
+    #[arg(long, value_enum, default_value = "auto")]
+    pub backend: BackendChoice,
+    /// An adapter, by a part of its name or by its number in `motes doctor`
+    #[arg(long, value_name = "NAME")]
+    pub adapter: Option<String>,
+}
+
+#[derive(Debug, ClapArgs)]
+pub struct SceneArgs {
+    /// A scene file, or the name of a scene that `motes scenes` lists
+    pub scene: String,
+    /// Run this many steps instead of the scene's own number
+    #[arg(long, value_name = "N", conflicts_with = "until")]
+    pub steps: Option<u64>,
+    /// Run until this time instead
+    #[arg(long, value_name = "T")]
+    pub until: Option<f64>,
+    /// Set a value of the scene, such as simulation.dt=0.01 or force.0.g=2; may be given again
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub overrides: Vec<String>,
+    /// Let the scene name files outside of its own folder
+    #[arg(long)]
+    pub allow_outside: bool,
+    #[command(flatten)]
+    pub device: DeviceArgs,
+}
+
+#[derive(Debug, ClapArgs)]
+pub struct RunArgs {
+    #[command(flatten)]
+    pub scene: SceneArgs,
+    /// The folder for results [default: out/NAME]
+    #[arg(short, long, value_name = "DIR")]
+    pub output: Option<PathBuf>,
+    /// Print events as lines of JSON on standard output
+    #[arg(long, conflicts_with = "quiet")]
+    pub json: bool,
+    /// Print nothing but errors
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+#[derive(Debug, ClapArgs)]
+pub struct CompareArgs {
+    /// A scene file, or the name of a scene that `motes scenes` lists
+    pub scene: String,
+    /// Steps that device and twins run side by side
+    #[arg(long, value_name = "N", default_value_t = 10)]
+    pub steps: u32,
+    /// Set a value of the scene; may be given again
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub overrides: Vec<String>,
+    /// Let the scene name files outside of its own folder
+    #[arg(long)]
+    pub allow_outside: bool,
+    /// An adapter, by a part of its name or by its number in `motes doctor`
+    #[arg(long, value_name = "NAME")]
+    pub adapter: Option<String>,
+    /// Print the result as JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Debug, ClapArgs)]
+pub struct ScenesArgs {
+    /// Print the text of this one
+    pub name: Option<String>,
+}
+
+#[derive(Debug, ClapArgs)]
+pub struct BenchArgs {
+    /// The smallest number of bodies
+    #[arg(long, value_name = "N", default_value_t = 1024)]
+    pub from: u32,
+    /// The largest number of bodies
+    #[arg(long, value_name = "N", default_value_t = 1_048_576)]
+    pub to: u32,
+    /// Leave out sizes of which a step is expected to take longer than this [s]
+    #[arg(long, value_name = "S", default_value_t = 10.0)]
+    pub longest: f64,
+    /// How often each thing is measured; the median counts
+    #[arg(long, value_name = "N", default_value_t = 7)]
+    pub repeat: usize,
+    /// An adapter, by a part of its name or by its number in `motes doctor`
+    #[arg(long, value_name = "NAME")]
+    pub adapter: Option<String>,
+    /// Print the result as JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Debug, ClapArgs)]
+pub struct DoctorArgs {
+    /// Test only this adapter, by a part of its name or by its number
+    #[arg(long, value_name = "NAME")]
+    pub adapter: Option<String>,
+    /// Print the result as JSON
+    #[arg(long)]
+    pub json: bool,
+}

@@ -1,0 +1,84 @@
+//! `motes check`
+
+use std::time::{Duration, Instant};
+
+use motes::kernel::{ACCELERATION, Backend};
+use motes::{Cpu, Gpu, Simulation};
+
+use super::advice::advice;
+use super::args::SceneArgs;
+use super::engine::{self, Engine};
+use super::failure::Failure;
+use super::progress::duration;
+
+/// Checks a scene: its faults, its memory, and the time that a run would take.
+pub async fn check(args: &SceneArgs) -> Result<(), Failure> {
+    let mut scene = engine::load(args)?;
+    let setup = engine::setup(&mut scene);
+    let count = setup.check()?;
+    let engine = Engine::choose(&args.device).await?;
+    println!("{}: {count} particles, {} steps of {} by {}", scene.name, scene.steps, scene.dt, scene.integrator.name);
+    println!("on {}", engine.describe());
+
+    let machine = match &engine {
+        Engine::Gpu(found) => Gpu::new(&found.device, &found.queue, count)?.machine(),
+        Engine::Cpu(_) => Cpu::new(count)?.machine(),
+    };
+    let plans = setup.plans(machine)?;
+    println!("\nmemory on the device");
+    let mut fields = plans.step.fields(count);
+    for plan in [&plans.start, &plans.measure.0, &plans.measure.1] {
+        for (name, bytes) in plan.fields(count) {
+            let entry = fields.entry(name).or_insert(0);
+            *entry = bytes.max(*entry);
+        }
+    }
+    for (name, bytes) in &fields {
+        println!("  {name:20} {:>12}", size(*bytes));
+    }
+    println!("  {:20} {:>12}", "in all", size(fields.values().sum()));
+    println!("\na step: {} dispatches\n  {}", plans.step.dispatches(), plans.step);
+
+    let per_step = match &engine {
+        Engine::Gpu(found) => {
+            let gpu = Gpu::new(&found.device, &found.queue, count)?;
+            measure(Simulation::on(gpu, &setup)?, scene.steps).await?
+        }
+        Engine::Cpu(_) => measure(Simulation::on(Cpu::new(count)?, &setup)?, scene.steps).await?,
+    };
+    let total = per_step.mul_f64(scene.steps as f64);
+    println!("\ntime: {} per step, about {} in all, without writing files", duration(per_step), duration(total));
+    let remarks = advice(&scene, &setup)?;
+    for remark in engine.remark().into_iter().chain(remarks) {
+        println!("note: {remark}");
+    }
+    println!("\nno faults");
+    Ok(())
+}
+
+/// Runs some steps, for about a second at most, and gives the time of one.
+async fn measure<B: Backend>(mut simulation: Simulation<B>, steps: u64) -> Result<Duration, Failure> {
+    // The first step pays for what later ones have ready.
+    simulation.step(1)?;
+    simulation.read(ACCELERATION).await?;
+    let (start, mut batch, mut done) = (Instant::now(), 1, 0);
+    loop {
+        simulation.step(batch)?;
+        simulation.read(ACCELERATION).await?;
+        done += u64::from(batch);
+        if start.elapsed() > Duration::from_millis(300) || done >= steps.max(2) {
+            return Ok(start.elapsed().div_f64(done as f64));
+        }
+        batch *= 2;
+    }
+}
+
+/// Bytes, for people.
+pub fn size(bytes: u64) -> String {
+    match bytes {
+        0..1024 => format!("{bytes} B"),
+        1024..1_048_576 => format!("{:.1} KiB", bytes as f64 / 1024.0),
+        1_048_576..1_073_741_824 => format!("{:.1} MiB", bytes as f64 / 1_048_576.0),
+        _ => format!("{:.2} GiB", bytes as f64 / 1_073_741_824.0),
+    }
+}

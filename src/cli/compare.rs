@@ -1,0 +1,152 @@
+//! `motes compare`
+
+use glam::DVec3;
+use motes::kernel::Plan;
+use motes::lockstep::{self, Verdict};
+use motes::{Cpu, Gpu, Measure, Setup, Simulation, Snapshot, gpu};
+use serde_json::json;
+
+use super::args::{BackendChoice, CompareArgs, DeviceArgs, SceneArgs};
+use super::engine;
+use super::failure::Failure;
+
+/// Force errors beyond this median fail: the rounding of one f32 is 6e-8, and a sum of many adds some of it up.
+const MEDIAN: f64 = 1e-6;
+/// Rounds of kernel-by-kernel comparison: the first step from a fresh state, and some that are not fresh.
+const ROUNDS: usize = 3;
+
+/// Compares the device with the twins.
+pub async fn compare(args: &CompareArgs) -> Result<(), Failure> {
+    let mut scene = engine::load(&SceneArgs {
+        scene: args.scene.clone(),
+        steps: None,
+        until: None,
+        overrides: args.overrides.clone(),
+        allow_outside: args.allow_outside,
+        device: DeviceArgs { backend: BackendChoice::Gpu, adapter: args.adapter.clone() },
+    })?;
+    let setup = engine::setup(&mut scene);
+    let found = engine::open(gpu::adapters(&gpu::instance()).await, args.adapter.as_deref()).await?;
+    let verdicts = kernels(&found, &setup).await?;
+    let over = steps(&found, &setup, args.steps).await?;
+    let forces: Vec<&Verdict> = verdicts.iter().filter(|v| v.field == "acceleration" && v.kernel != "clear").collect();
+    let median = forces.iter().map(|v| v.relative[0]).fold(0.0, f64::max);
+    let good = verdicts.iter().all(Verdict::good) && median <= MEDIAN && over.good();
+    if args.json {
+        let rows: Vec<_> = verdicts.iter().map(row).collect();
+        let value = json!({ "scene": scene.name, "particles": setup.particles.len(), "device": found.describe(),
+            "tolerance": lockstep::TOLERANCE, "kernels": rows, "steps": args.steps, "position_error": over.position,
+            "position_scale": over.scale, "energy_error": over.energy, "good": good });
+        println!("{value:#}");
+    } else {
+        println!("{}: {} particles, {} against f64 twins\n", scene.name, setup.particles.len(), found.describe());
+        print_kernels(&verdicts);
+        println!("\n{} steps of the device against {} of the twins", args.steps, args.steps);
+        println!(
+            "  positions differ by {:.1e} (rms) of a system of size {:.1e}, at most by {:.1e}",
+            over.position[0], over.scale, over.position[1]
+        );
+        println!("  total energies differ by {:.1e}, relatively", over.energy);
+        println!("\n{}", if good { "they agree" } else { "THEY DISAGREE" });
+    }
+    if good { Ok(()) } else { Err(Failure::Disagreement) }
+}
+
+/// Every kernel of some steps, each given the device's own inputs.
+async fn kernels(found: &gpu::Found, setup: &Setup) -> Result<Vec<Verdict>, Failure> {
+    let count = setup.check()?;
+    let mut gpu = Gpu::new(&found.device, &found.queue, count)?;
+    gpu.pad(16);
+    let mut simulation = Simulation::on(gpu, setup)?;
+    let mut worst: Vec<Verdict> = Vec::new();
+    for _ in 0..ROUNDS {
+        simulation.step(1)?;
+        let plans = setup.plans(motes::kernel::Backend::machine(simulation.backend()))?;
+        let round = lockstep::compare(simulation.backend(), &plans.step, count).await?;
+        for verdict in round {
+            match worst.iter_mut().find(|w| w.kernel == verdict.kernel && w.field == verdict.field) {
+                Some(known) if known.worst >= verdict.worst => known.changed |= verdict.changed,
+                Some(known) => *known = Verdict { changed: known.changed | verdict.changed, ..verdict },
+                None => worst.push(verdict),
+            }
+        }
+    }
+    let unchecked: Plan = setup.plans(motes::kernel::Backend::machine(simulation.backend()))?.step;
+    for kernel in unchecked.kernels.iter().filter(|k| k.twin.is_none()) {
+        eprintln!("note: `{}` has no twin, so nothing is said of it", kernel.name);
+    }
+    Ok(worst)
+}
+
+/// How far apart device and twins are after some steps.
+struct Over {
+    /// rms and maximum [length]
+    position: [f64; 2],
+    /// The rms distance from the centre [length].
+    scale: f64,
+    /// |E − E'| / |E'|
+    energy: f64,
+    /// What the rms of the positions may be.
+    allowed: f64,
+}
+
+impl Over {
+    fn good(&self) -> bool {
+        self.position[0] <= self.allowed && self.position[1].is_finite()
+    }
+}
+
+async fn steps(found: &gpu::Found, setup: &Setup, steps: u32) -> Result<Over, Failure> {
+    let mut device = Simulation::new(&found.device, &found.queue, setup)?;
+    let mut twins = Simulation::on(Cpu::new(setup.check()?)?, setup)?;
+    device.step(steps)?;
+    twins.step(steps)?;
+    let (a, b) = (device.snapshot().await?, twins.snapshot().await?);
+    let (x, y) = (&a.particles.position, &b.particles.position);
+    let errors: Vec<f64> = x.iter().zip(y).map(|(x, y)| x.distance(*y)).collect();
+    let rms = |of: &[f64]| (of.iter().map(|e| e * e).sum::<f64>() / of.len().max(1) as f64).sqrt();
+    let center = Measure::of(&b).center;
+    let distances: Vec<f64> = y.iter().map(|y| y.distance(center)).collect();
+    let travelled = travelled(&b, setup);
+    let scale = rms(&distances).max(y.iter().map(|y| y.length()).fold(0.0, f64::max) * 1e-3);
+    // Each step rounds a position to half a unit in the last place, and a force to some 1e-6 of the way it makes.
+    let allowed = f64::from(f32::EPSILON) * rms(&y.iter().map(|y| y.length()).collect::<Vec<_>>()) * f64::from(steps)
+        + 1e-5 * rms(&travelled) * f64::from(steps).sqrt();
+    let (ea, eb) = (Measure::of(&a).total(), Measure::of(&b).total());
+    let energy = if eb == 0.0 { (ea - eb).abs() } else { ((ea - eb) / eb).abs() };
+    Ok(Over { position: [rms(&errors), errors.iter().copied().fold(0.0, f64::max)], scale, energy, allowed })
+}
+
+fn travelled(after: &Snapshot, setup: &Setup) -> Vec<f64> {
+    let before: &[DVec3] = &setup.particles.position;
+    after.particles.position.iter().zip(before).map(|(x, y)| x.distance(*y)).collect()
+}
+
+fn print_kernels(verdicts: &[Verdict]) {
+    let wide = verdicts.iter().map(|v| v.kernel.len()).max().unwrap_or(0).max(6);
+    let long = verdicts.iter().map(|v| v.field.len()).max().unwrap_or(0).max(5);
+    println!("{:wide$}  {:long$}  {:>9}  {:>9}  {:>9}  {:>9}", "kernel", "field", "median", "99 %", "max", "of limit");
+    for v in verdicts {
+        let verdict = match (v.good(), v.changed) {
+            (false, _) if v.spilled => "WROTE BEHIND THE END",
+            (false, _) => "WRONG",
+            (true, false) => "unchanged",
+            (true, true) => "ok",
+        };
+        let [median, most, max] = v.relative;
+        println!(
+            "{:wide$}  {:long$}  {median:9.1e}  {most:9.1e}  {max:9.1e}  {:9.3}  {verdict}",
+            v.kernel, v.field, v.worst
+        );
+    }
+    println!(
+        "\nmedian, 99 % and max are |device − twin| / |change|, per particle. The limit is {:.0e} of the change (or of its\n\
+         rms, where that is more) and 2 units in the last place; of it the worst particle used the part in the last column.",
+        lockstep::TOLERANCE
+    );
+}
+
+fn row(v: &Verdict) -> serde_json::Value {
+    json!({ "kernel": v.kernel, "field": v.field, "median": v.relative[0], "p99": v.relative[1], "max": v.relative[2],
+        "of_limit": v.worst, "element": v.element, "changed": v.changed, "good": v.good() })
+}

@@ -1,0 +1,76 @@
+//! `motes doctor`
+
+use motes::gpu::{self, Found};
+use motes::selftest::{self, Finding, Outcome};
+use serde_json::json;
+
+use super::args::DoctorArgs;
+use super::engine;
+use super::failure::Failure;
+
+/// Lists adapters, and tests them.
+pub async fn doctor(args: &DoctorArgs) -> Result<(), Failure> {
+    let instance = gpu::instance();
+    let count = gpu::adapters(&instance).await.len();
+    let mut reports = Vec::new();
+    let mut failed = false;
+    if !args.json {
+        println!("motes {}, {} {}\n", env!("CARGO_PKG_VERSION"), std::env::consts::OS, std::env::consts::ARCH);
+    }
+    let wanted: Vec<String> = match &args.adapter {
+        Some(name) => vec![name.clone()],
+        None => (0..count).map(|i| i.to_string()).collect(),
+    };
+    for name in wanted {
+        let found = match engine::open(gpu::adapters(&instance).await, Some(&name)).await {
+            Ok(found) => found,
+            Err(error) if args.adapter.is_some() => return Err(error.into()),
+            Err(error) => {
+                eprintln!("{name}: {error}");
+                failed = true;
+                continue;
+            }
+        };
+        let findings = selftest::run(&found.device, &found.queue).await?;
+        failed |= findings.iter().any(|f| f.outcome == Outcome::Fail);
+        if args.json {
+            reports.push(report(&found, &findings));
+        } else {
+            print(&name, &found, &findings);
+        }
+    }
+    if args.json {
+        println!("{:#}", json!({ "version": env!("CARGO_PKG_VERSION"), "adapters": reports }));
+    } else if count == 0 {
+        println!("{}\n\n`motes run` works without one, by the f64 twins on the processor.", gpu::NO_DRIVER);
+    } else {
+        println!("`motes run` takes adapter 0 unless --adapter names another.");
+    }
+    if failed { Err(Failure::Disagreement) } else { Ok(()) }
+}
+
+fn print(name: &str, found: &Found, findings: &[Finding]) {
+    println!("{name}: {}", found.describe());
+    for (fact, value) in found.facts() {
+        println!("   {fact:17} {value}");
+    }
+    for finding in findings {
+        println!("   {} {:17}{}", word(finding.outcome), finding.name, finding.text);
+    }
+    println!();
+}
+
+fn word(outcome: Outcome) -> &'static str {
+    match outcome {
+        Outcome::Pass => "PASS",
+        Outcome::Warn => "WARN",
+        Outcome::Fail => "FAIL",
+    }
+}
+
+fn report(found: &Found, findings: &[Finding]) -> serde_json::Value {
+    let facts: serde_json::Map<_, _> = found.facts().into_iter().map(|(k, v)| (k.to_owned(), json!(v))).collect();
+    let tests: Vec<_> =
+        findings.iter().map(|f| json!({ "name": f.name, "outcome": word(f.outcome), "text": f.text })).collect();
+    json!({ "adapter": found.describe(), "facts": facts, "tests": tests })
+}

@@ -1,0 +1,74 @@
+//! Where a scene runs: an adapter of this machine, or the twins when there is none.
+
+use motes::gpu::{self, Choice, Found};
+use motes::scene::{Options, Scene, Source};
+use motes::{Error, Setup};
+
+use super::args::{BackendChoice, DeviceArgs, SceneArgs};
+use super::failure::Failure;
+
+/// What runs the kernels.
+pub enum Engine {
+    /// A device.
+    Gpu(Box<Found>),
+    /// The twins, and why, unless they were asked for.
+    Cpu(Option<String>),
+}
+
+impl Engine {
+    /// Chooses by the arguments.
+    pub async fn choose(args: &DeviceArgs) -> Result<Self, Error> {
+        if args.backend == BackendChoice::Cpu {
+            return Ok(Self::Cpu(None));
+        }
+        let adapters = gpu::adapters(&gpu::instance()).await;
+        if adapters.is_empty() && args.backend == BackendChoice::Auto && args.adapter.is_none() {
+            return Ok(Self::Cpu(Some(gpu::NO_DRIVER.to_owned())));
+        }
+        Ok(Self::Gpu(Box::new(open(adapters, args.adapter.as_deref()).await?)))
+    }
+    /// Its name, for people and for files.
+    pub fn describe(&self) -> String {
+        match self {
+            Self::Gpu(found) => found.describe(),
+            Self::Cpu(_) => format!("f64 twins on {} cores of the processor", rayon::current_num_threads()),
+        }
+    }
+    /// What a user should know of it.
+    pub fn remark(&self) -> Option<String> {
+        match self {
+            Self::Cpu(Some(reason)) => {
+                Some(format!("{reason}; running the f64 twins instead, which are exact and slow"))
+            }
+            Self::Gpu(found) if found.software() => {
+                Some("this adapter is software: it runs on the processor".to_owned())
+            }
+            _ => None,
+        }
+    }
+}
+
+/// Opens an adapter, with a name or the best.
+pub async fn open(adapters: Vec<motes::wgpu::Adapter>, name: Option<&str>) -> Result<Found, Error> {
+    let choice = name.map_or(Choice::Best, |name| Choice::Named(name.to_owned()));
+    gpu::open(gpu::choose(adapters, &choice)?).await
+}
+
+/// Loads the scene of the arguments.
+pub fn load(args: &SceneArgs) -> Result<Scene, Failure> {
+    let mut overrides = args.overrides.clone();
+    overrides.extend(args.steps.map(|n| format!("simulation.steps={n}")));
+    overrides.extend(args.until.map(|t| format!("simulation.until={t:?}")));
+    let options = Options { allow_outside: args.allow_outside, ..Options::default() };
+    Ok(Scene::load(&Source::find(&args.scene)?, &overrides, &options)?)
+}
+
+/// What a simulation is made of, out of a scene.
+pub fn setup(scene: &mut Scene) -> Setup {
+    Setup {
+        particles: std::mem::take(&mut scene.particles),
+        forces: std::mem::take(&mut scene.forces),
+        integrator: (scene.integrator.build)(),
+        dt: scene.dt,
+    }
+}

@@ -1,0 +1,57 @@
+//! `motes explain`
+
+use motes::kernel::{Access, Backend, Kernel};
+use motes::{Cpu, Gpu};
+
+use super::args::SceneArgs;
+use super::engine::{self, Engine};
+use super::failure::Failure;
+
+/// Prints the plan of a step, and what each kernel reads and writes.
+pub async fn explain(args: &SceneArgs) -> Result<(), Failure> {
+    let mut scene = engine::load(args)?;
+    let setup = engine::setup(&mut scene);
+    let count = setup.check()?;
+    let engine = Engine::choose(&args.device).await?;
+    let machine = match &engine {
+        Engine::Gpu(found) => Gpu::new(&found.device, &found.queue, count)?.machine(),
+        Engine::Cpu(_) => Cpu::new(count)?.machine(),
+    };
+    let plans = setup.plans(machine)?;
+    println!("{}: {count} particles, {} steps of {} by {}", scene.name, scene.steps, scene.dt, scene.integrator.name);
+    println!("on {}\n", engine.describe());
+    if !plans.start.order.is_empty() {
+        println!("once:  {}", plans.start);
+    }
+    println!("step:  {}\n", plans.step);
+    for kernel in &plans.step.kernels {
+        println!("{}", describe(kernel));
+    }
+    Ok(())
+}
+
+fn describe(kernel: &Kernel) -> String {
+    let name = |access: Access| {
+        let mut names: Vec<&str> = Vec::new();
+        for binding in kernel.passes.iter().flat_map(|p| &p.shader.reflection().bindings) {
+            if binding.access == access && !names.contains(&binding.name.as_str()) {
+                names.push(&binding.name);
+            }
+        }
+        names.join(", ")
+    };
+    let files = kernel.passes.first().map(|pass| {
+        let files = pass.shader.sources().iter().map(|s| s.file.as_ref());
+        files.filter(|f| !f.ends_with("world.wgsl")).collect::<Vec<_>>().join(" + ")
+    });
+    let mut text = format!("{}\n    from    {}", kernel.name, files.unwrap_or_default());
+    for (what, names) in [("reads", name(Access::Read)), ("writes", name(Access::Write))] {
+        if !names.is_empty() {
+            text.push_str(&format!("\n    {what:7} {names}"));
+        }
+    }
+    let dispatches = kernel.passes.len();
+    let threads: u64 = kernel.passes.iter().map(|p| u64::from(p.threads.count) * u64::from(p.threads.layers)).sum();
+    let plural = if dispatches == 1 { "dispatch" } else { "dispatches" };
+    text + &format!("\n    in      {dispatches} {plural} of {threads} invocations in all")
+}

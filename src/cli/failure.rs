@@ -1,0 +1,48 @@
+//! What went wrong, as words on standard error and an exit code.
+
+use std::process::ExitCode;
+
+use motes::Error;
+use motes::scene::Diagnostics;
+
+/// Why a command did not end well.
+pub enum Failure {
+    /// The scene has faults.
+    Scene(Diagnostics),
+    /// Something else went wrong.
+    Error(Error),
+    /// Device and twins disagree, or a self test failed; the table that says so is printed already.
+    Disagreement,
+    /// Stopped by Ctrl-C; everything up to there is written.
+    Stopped,
+}
+
+impl Failure {
+    /// Says it, and gives the exit code that `motes --help` lists.
+    pub fn report(self) -> ExitCode {
+        ExitCode::from(match self {
+            Self::Scene(faults) => {
+                eprintln!("{faults}");
+                faults.exit_code()
+            }
+            Self::Error(error) => {
+                eprintln!("error: {error}");
+                error.exit_code()
+            }
+            Self::Disagreement => 9,
+            Self::Stopped => 75,
+        })
+    }
+}
+
+impl From<Diagnostics> for Failure {
+    fn from(faults: Diagnostics) -> Self {
+        Self::Scene(faults)
+    }
+}
+
+impl From<Error> for Failure {
+    fn from(error: Error) -> Self {
+        Self::Error(error)
+    }
+}

@@ -1,0 +1,53 @@
+//! The command line: arguments in, exit code out.
+
+mod advice;
+mod args;
+mod baseline;
+mod bench;
+mod check;
+mod compare;
+mod doctor;
+mod engine;
+mod explain;
+mod failure;
+mod output;
+mod plot;
+mod progress;
+mod run;
+mod scenes;
+mod stop;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use args::{Args, Command};
+use failure::Failure;
+
+/// Parses the arguments, does what they say, and turns what went wrong into words and an exit code.
+pub fn main() -> ExitCode {
+    let args = match Args::try_parse() {
+        Ok(args) => args,
+        Err(error) => {
+            // clap exits with 2 for wrong arguments and with 0 for --help; a closed pipe is no reason to complain.
+            let _ = error.print();
+            return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
+        }
+    };
+    match pollster::block_on(dispatch(args.command)) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => failure.report(),
+    }
+}
+
+async fn dispatch(command: Command) -> Result<(), Failure> {
+    match command {
+        Command::Run(args) => run::run(&args).await,
+        Command::Check(args) => check::check(&args).await,
+        Command::Explain(args) => explain::explain(&args).await,
+        Command::Compare(args) => compare::compare(&args).await,
+        Command::Scenes(args) => scenes::scenes(&args),
+        Command::Bench(args) => bench::bench(&args).await,
+        Command::Doctor(args) => doctor::doctor(&args).await,
+    }
+}

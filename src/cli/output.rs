@@ -1,0 +1,127 @@
+//! What a run leaves behind.
+
+use std::fs::File;
+use std::io::{BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use motes::io::{Precision, atomically, csv, npz};
+use motes::render::{Color, Picture, Trail, group_color, pack};
+use motes::scene::{Format, Group, Scene};
+use motes::settings::Settings;
+use motes::{Error, Measure, Snapshot};
+
+use super::plot;
+
+const HEADER: &str = "step,time,kinetic,potential,total,momentum_x,momentum_y,momentum_z,angular_momentum_x,\
+                      angular_momentum_y,angular_momentum_z";
+
+/// The folder, and what is in it so far.
+pub struct Output {
+    folder: PathBuf,
+    name: String,
+    formats: Vec<Format>,
+    precision: Precision,
+    digits: usize,
+    picture: Settings,
+    groups: Vec<Group>,
+    energy: BufWriter<File>,
+    rows: Vec<Measure>,
+    /// Where a few particles have been.
+    pub trail: Trail,
+}
+
+impl Output {
+    /// Makes the folder, the scene as it was resolved, and an empty table of energies.
+    pub fn new(folder: &Path, scene: &Scene, count: usize, precision: Precision, device: &str) -> Result<Self, Error> {
+        let failed =
+            |file: &Path, error: &std::io::Error| Error::Output { file: file.to_owned(), message: error.to_string() };
+        std::fs::create_dir_all(folder).map_err(|e| failed(folder, &e))?;
+        let resolved = format!("{}\n# Run by motes {} on {device}.\n", scene.resolved, env!("CARGO_PKG_VERSION"));
+        atomically(&folder.join("scene.toml"), |out| out.write_all(resolved.as_bytes()))?;
+        let path = folder.join("energy.csv");
+        let mut energy = BufWriter::new(File::create(&path).map_err(|e| failed(&path, &e))?);
+        writeln!(energy, "{HEADER}").map_err(|e| failed(&path, &e))?;
+        Ok(Self {
+            folder: folder.to_owned(),
+            name: scene.name.clone(),
+            formats: scene.output.formats.clone(),
+            precision,
+            digits: scene.steps.to_string().len(),
+            picture: scene.picture.clone(),
+            groups: scene.groups.clone(),
+            energy,
+            rows: Vec::new(),
+            trail: Trail::new(count),
+        })
+    }
+    /// Adds a row to the table of energies, and writes it out.
+    pub fn measure(&mut self, row: Measure) -> Result<(), Error> {
+        let (p, l) = (row.momentum, row.angular_momentum);
+        let numbers = [row.time, row.kinetic, row.potential, row.total(), p.x, p.y, p.z, l.x, l.y, l.z];
+        let text: Vec<String> = numbers.iter().map(|x| format!("{x:?}")).collect();
+        let written = writeln!(self.energy, "{},{}", row.step, text.join(",")).and_then(|()| self.energy.flush());
+        written.map_err(|e| Error::Output { file: self.folder.join("energy.csv"), message: e.to_string() })?;
+        self.rows.push(row);
+        Ok(())
+    }
+    /// The first row, which energies are compared with.
+    pub fn first(&self) -> Measure {
+        self.rows.first().copied().unwrap_or_default()
+    }
+    /// All rows.
+    pub fn rows(&self) -> &[Measure] {
+        &self.rows
+    }
+    /// Writes particles in every format that is numbers.
+    pub fn snapshot(&self, snapshot: &Snapshot) -> Result<(), Error> {
+        let stem = format!("snapshot_{:0width$}", snapshot.step, width = self.digits);
+        if self.formats.contains(&Format::Csv) {
+            let path = self.folder.join(&stem).with_extension("csv");
+            atomically(&path, |out| csv::write_csv(out, &snapshot.particles, self.precision))?;
+        }
+        if self.formats.contains(&Format::Npz) {
+            let path = self.folder.join(&stem).with_extension("npz");
+            let (particles, time, step) = (&snapshot.particles, snapshot.time, snapshot.step);
+            atomically(&path, |out| npz::write_npz(out, particles, time, step, self.precision))?;
+        }
+        Ok(())
+    }
+    /// Whether pictures are wanted.
+    pub fn pictures(&self) -> bool {
+        self.formats.contains(&Format::Png)
+    }
+    /// The picture of a state, to be drawn.
+    pub fn picture(&self, snapshot: &Snapshot) -> Result<Picture, Error> {
+        let of = |id: usize| {
+            let found = self.groups.iter().position(|g| g.ids.start as usize <= id && id < g.ids.end as usize);
+            u32::try_from(found.unwrap_or(0)).unwrap_or(0)
+        };
+        let groups: Vec<u32> = (0..snapshot.particles.len()).map(of).collect();
+        let mut picture = Picture::new(&self.picture, &snapshot.particles, &groups, self.trail.clone())?;
+        // Colours that the scene gives count before those of the palette, unless speed was asked for.
+        if self.picture.text("color") != "speed" && self.groups.iter().any(|g| g.color.is_some()) {
+            let color = |group: &u32| {
+                let own = self.groups.get(*group as usize).and_then(|g| g.color);
+                pack(own.unwrap_or_else(|| group_color(*group)))
+            };
+            picture.color = Color::Given(groups.iter().map(color).collect());
+        }
+        Ok(picture)
+    }
+    /// The file of the picture of a step.
+    pub fn frame(&self, step: u64) -> PathBuf {
+        self.folder.join(format!("picture_{step:0width$}.png", width = self.digits))
+    }
+    /// The file of the last picture.
+    pub fn portrait(&self) -> PathBuf {
+        self.folder.join(format!("{}.png", self.name))
+    }
+    /// Plots the energies.
+    pub fn plot(&self) -> Result<(), Error> {
+        plot::energy(&self.folder.join("energy.svg"), &self.rows, &self.name)
+    }
+    /// The folder.
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+}

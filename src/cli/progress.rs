@@ -1,0 +1,130 @@
+//! How a run shows itself: a bar on a terminal, lines elsewhere, JSON for programs, or nothing.
+
+use std::io::IsTerminal;
+use std::time::{Duration, Instant};
+
+use indicatif::{ProgressBar, ProgressStyle};
+use motes::Measure;
+use serde_json::{Value, json};
+
+use super::args::RunArgs;
+
+/// The version of the JSON events.
+const SCHEMA: u32 = 1;
+/// Between two lines of a log, at least.
+const PAUSE: Duration = Duration::from_secs(2);
+
+/// Where news of a run go.
+pub struct Progress {
+    kind: Kind,
+    start: Instant,
+    last: Option<Instant>,
+    steps: u64,
+}
+
+enum Kind {
+    Bar(ProgressBar),
+    Lines,
+    Json,
+    Quiet,
+}
+
+impl Progress {
+    /// By the arguments, and by whether somebody looks.
+    pub fn new(args: &RunArgs, steps: u64) -> Self {
+        let kind = match (args.json, args.quiet, std::io::stderr().is_terminal()) {
+            (true, ..) => Kind::Json,
+            (_, true, _) => Kind::Quiet,
+            (.., true) => {
+                let bar = ProgressBar::new(steps);
+                let template = "{bar:30} {human_pos}/{human_len} steps  {per_sec}  {eta} left  {msg}";
+                if let Ok(style) = ProgressStyle::with_template(template) {
+                    bar.set_style(style);
+                }
+                Kind::Bar(bar)
+            }
+            _ => Kind::Lines,
+        };
+        Self { kind, start: Instant::now(), last: None, steps }
+    }
+    /// An event that programs may want, and people have in another form.
+    pub fn event(&self, name: &str, mut fields: Value) {
+        if let (Kind::Json, Some(map)) = (&self.kind, fields.as_object_mut()) {
+            map.insert("event".to_owned(), json!(name));
+            map.insert("schema".to_owned(), json!(SCHEMA));
+            println!("{fields}");
+        }
+    }
+    /// A line for people.
+    pub fn say(&self, text: &str) {
+        match &self.kind {
+            Kind::Bar(bar) => bar.suspend(|| eprintln!("{text}")),
+            Kind::Lines => eprintln!("{text}"),
+            Kind::Json | Kind::Quiet => {}
+        }
+    }
+    /// A line of the result.
+    pub fn conclude(&self, text: &str) {
+        match &self.kind {
+            Kind::Bar(_) | Kind::Lines => println!("{text}"),
+            Kind::Json | Kind::Quiet => {}
+        }
+    }
+    /// So many steps are done.
+    pub fn at(&mut self, step: u64) {
+        match &self.kind {
+            Kind::Bar(bar) => bar.set_position(step),
+            Kind::Lines if self.last.is_none_or(|last| last.elapsed() > PAUSE) => {
+                if self.last.is_some() && step < self.steps {
+                    let left = self.start.elapsed().mul_f64((self.steps - step) as f64 / step.max(1) as f64);
+                    eprintln!("step {step} of {}, about {} left", self.steps, duration(left));
+                }
+                self.last = Some(Instant::now());
+            }
+            _ => {}
+        }
+    }
+    /// A state was measured.
+    pub fn measured(&self, row: &Measure, first: &Measure) {
+        let error = row.drift_from(first);
+        if let Kind::Bar(bar) = &self.kind {
+            bar.set_message(format!("energy error {error:.1e}"));
+        }
+        self.event(
+            "progress",
+            json!({ "step": row.step, "time": row.time, "kinetic": row.kinetic, "potential": row.potential,
+                "total": row.total(), "energy_error": error }),
+        );
+    }
+    /// The run is over; how long it took.
+    pub fn finish(&self) -> Duration {
+        if let Kind::Bar(bar) = &self.kind {
+            bar.finish_and_clear();
+        }
+        self.start.elapsed()
+    }
+}
+
+/// A time, for people.
+pub fn duration(time: Duration) -> String {
+    let seconds = time.as_secs_f64();
+    match seconds {
+        s if s < 1e-3 => format!("{:.0} µs", s * 1e6),
+        s if s < 1.0 => format!("{:.1} ms", s * 1e3),
+        s if s < 120.0 => format!("{s:.1} s"),
+        s if s < 7200.0 => format!("{:.0} min", s / 60.0),
+        s if s < 172_800.0 => format!("{:.1} h", s / 3600.0),
+        s => format!("{:.1} days", s / 86400.0),
+    }
+}
+
+/// A large number, for people.
+pub fn large(x: f64) -> String {
+    match x {
+        x if x >= 1e12 => format!("{:.2} T", x / 1e12),
+        x if x >= 1e9 => format!("{:.2} G", x / 1e9),
+        x if x >= 1e6 => format!("{:.2} M", x / 1e6),
+        x if x >= 1e3 => format!("{:.2} k", x / 1e3),
+        x => format!("{x:.2} "),
+    }
+}

@@ -1,0 +1,181 @@
+//! `motes run`
+
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+use motes::io::Precision;
+use motes::kernel::Backend;
+use motes::scene::Scene;
+use motes::{Cpu, Error, Measure, POSITION, Setup, Simulation};
+use serde_json::json;
+
+use super::advice::{advice, conserved};
+use super::args::RunArgs;
+use super::engine::{self, Engine};
+use super::failure::Failure;
+use super::output::Output;
+use super::progress::{Progress, duration, large};
+use super::stop::Stop;
+
+/// How long one batch of steps should take: Ctrl-C is heard between two.
+const BATCH: Duration = Duration::from_millis(250);
+/// How many points a trail gets, about.
+const TRAIL: u64 = 1000;
+
+/// Runs a scene.
+pub async fn run(args: &RunArgs) -> Result<(), Failure> {
+    let mut scene = engine::load(&args.scene)?;
+    let setup = engine::setup(&mut scene);
+    let count = setup.check()?;
+    let engine = Engine::choose(&args.scene.device).await?;
+    let mut run = Run::new(args, scene, &setup, &engine)?;
+    // Everything that can be refused is refused before the first file is written.
+    let result = match &engine {
+        Engine::Gpu(found) => {
+            let simulation = Simulation::new(&found.device, &found.queue, &setup)?;
+            let result = run.drive(simulation, Precision::Single).await;
+            // What the device said outside of our calls explains what came of it.
+            found.faults.check()?;
+            result
+        }
+        Engine::Cpu(_) => run.drive(Simulation::on(Cpu::new(count)?, &setup)?, Precision::Double).await,
+    };
+    if let (Err(Failure::Error(Error::Timeout { .. })), Engine::Gpu(_)) = (&result, &engine) {
+        // A device that hangs hangs whoever drops it.
+        let code = result.err().map(Failure::report);
+        std::process::exit(if code.is_some() { 7 } else { 0 });
+    }
+    result
+}
+
+struct Run {
+    scene: Scene,
+    device: String,
+    folder: PathBuf,
+    count: usize,
+    /// Whether the energy and the momentum should stay what they are.
+    conserved: (bool, bool),
+    progress: Progress,
+    stop: Stop,
+}
+
+impl Run {
+    fn new(args: &RunArgs, scene: Scene, setup: &Setup, engine: &Engine) -> Result<Self, Failure> {
+        let progress = Progress::new(args, scene.steps);
+        let device = engine.describe();
+        let count = setup.particles.len();
+        let folder = args.output.clone().unwrap_or_else(|| PathBuf::from("out").join(&scene.name));
+        progress.event(
+            "start",
+            json!({ "version": env!("CARGO_PKG_VERSION"), "scene": scene.name, "particles": count, "steps": scene.steps,
+                "dt": scene.dt, "integrator": scene.integrator.name, "device": device, "output": folder }),
+        );
+        progress.say(&format!(
+            "{}: {count} particles, {} steps of {} by {}",
+            scene.name, scene.steps, scene.dt, scene.integrator.name
+        ));
+        progress.say(&format!("on {device}"));
+        for remark in engine.remark().into_iter().chain(advice(&scene, setup)?) {
+            progress.say(&format!("note: {remark}"));
+            progress.event("remark", json!({ "text": remark }));
+        }
+        Ok(Self { conserved: conserved(setup)?, scene, device, folder, count, progress, stop: Stop::listen() })
+    }
+
+    async fn drive<B: Backend>(&mut self, mut simulation: Simulation<B>, precision: Precision) -> Result<(), Failure> {
+        let mut output = Output::new(&self.folder, &self.scene, self.count, precision, &self.device)?;
+        let (steps, every) = (self.scene.steps, self.scene.output.every);
+        self.write(&mut simulation, &mut output).await?;
+        let mut batch = 1;
+        while simulation.steps() < steps && !self.stop.asked() {
+            let done = simulation.steps();
+            let next = ((done / every + 1) * every).min(steps);
+            let most = if output.trail.wanted() { (steps / TRAIL).max(1) } else { u64::MAX };
+            let some = u32::try_from((next - done).min(batch).min(most)).unwrap_or(u32::MAX);
+            let start = Instant::now();
+            simulation.step(some)?;
+            // Looking waits for the batch, and finds what broke in it.
+            simulation.check().await?;
+            let factor = (BATCH.as_secs_f64() / start.elapsed().as_secs_f64().max(1e-6)).clamp(0.5, 4.0);
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "a size of batches, at least one"
+            )]
+            if u64::from(some) == batch || factor < 1.0 {
+                batch = ((batch as f64 * factor) as u64).clamp(1, 1 << 20);
+            }
+            if output.trail.wanted() {
+                let positions: Vec<_> =
+                    simulation.read(POSITION).await?.iter().map(|x| x.as_dvec4().truncate()).collect();
+                output.trail.push(&positions);
+            }
+            self.progress.at(simulation.steps());
+            if simulation.steps() == next || self.stop.asked() {
+                self.write(&mut simulation, &mut output).await?;
+            }
+        }
+        self.conclude(simulation, &output).await
+    }
+
+    /// Measures and writes the present state.
+    async fn write<B: Backend>(&mut self, simulation: &mut Simulation<B>, output: &mut Output) -> Result<(), Failure> {
+        let snapshot = simulation.snapshot().await?;
+        output.measure(Measure::of(&snapshot))?;
+        output.snapshot(&snapshot)?;
+        if snapshot.step == 0 {
+            output.trail.push(&snapshot.particles.position);
+        }
+        if output.pictures() {
+            let image = simulation.draw(&output.picture(&snapshot)?).await?;
+            image.save(&output.frame(snapshot.step))?;
+        }
+        if let Some(row) = output.rows().last() {
+            self.progress.measured(row, &output.first());
+        }
+        Ok(())
+    }
+
+    async fn conclude<B: Backend>(&mut self, mut simulation: Simulation<B>, output: &Output) -> Result<(), Failure> {
+        let took = self.progress.finish();
+        output.plot()?;
+        if output.pictures() {
+            let snapshot = simulation.snapshot().await?;
+            simulation.draw(&output.picture(&snapshot)?).await?.save(&output.portrait())?;
+        }
+        let (steps, stopped) = (simulation.steps(), simulation.steps() < self.scene.steps);
+        let rate = steps as f64 / took.as_secs_f64().max(1e-9);
+        let (first, last) = (output.first(), output.rows().last().copied().unwrap_or_default());
+        let worst = output.rows().iter().map(|row| row.drift_from(&first).abs()).fold(0.0, f64::max);
+        self.progress.event(
+            "finish",
+            json!({ "steps": steps, "stopped": stopped, "seconds": took.as_secs_f64(), "steps_per_second": rate,
+                "energy": last.total(), "energy_error": last.drift_from(&first), "worst_energy_error": worst,
+                "output": output.folder() }),
+        );
+        let say = |text: String| self.progress.conclude(&text);
+        if stopped {
+            say(format!("stopped at step {steps} of {}; everything up to there is written", self.scene.steps));
+        }
+        say(format!(
+            "{steps} steps in {}: {}steps/s, {}particle-steps/s",
+            duration(took),
+            large(rate),
+            large(rate * self.count as f64)
+        ));
+        let (energy, change) =
+            (last.drift_from(&first), if self.conserved.0 { "error" } else { "not conserved, change" });
+        say(format!("energy {:.6e} → {:.6e}, {change} {energy:+.1e}", first.total(), last.total()));
+        if self.conserved.1 {
+            let (p, l) = (last.momentum - first.momentum, last.angular_momentum - first.angular_momentum);
+            say(format!("momentum changed by {:.1e}, angular momentum by {:.1e}", p.length(), l.length()));
+        }
+        let picture = if output.pictures() { format!("{}.png, ", self.scene.name) } else { String::new() };
+        say(format!(
+            "results in {}: {picture}energy.csv, energy.svg, scene.toml, {} states",
+            output.folder().display(),
+            output.rows().len()
+        ));
+        if stopped { Err(Failure::Stopped) } else { Ok(()) }
+    }
+}

@@ -1,0 +1,50 @@
+//! Files that are whole or not there.
+
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, BufWriter, Write};
+use std::path::Path;
+
+use crate::error::Error;
+
+/// Writes a file so that no reader and no crash ever sees half of it: into a temporary file in the same folder, which takes
+/// the name once it is complete and on the disk. A link is followed; what is no ordinary file (a pipe, `/dev/stdout`) is
+/// written to as it is.
+///
+/// # Errors
+/// [`Error::Output`] with the path, if the folder, the disk or `write` fails; a file that was there before is then untouched.
+pub fn atomically(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> Result<(), Error> {
+    replaced(path, write).map_err(|error| Error::Output { file: path.to_owned(), message: error.to_string() })
+}
+
+fn replaced(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> io::Result<()> {
+    match fs::metadata(path) {
+        Ok(there) if there.is_dir() => return Err(io::Error::other("it is a folder")),
+        Ok(there) if !there.is_file() => {
+            return filled(OpenOptions::new().write(true).open(path)?, write).map(drop);
+        }
+        _ => {}
+    }
+    let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    let folder = match target.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".motes-").suffix(".part");
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        // As for any new file: the user's umask takes its share. (A temporary file would be private.)
+        builder.permissions(fs::Permissions::from_mode(0o666));
+    }
+    let (file, temporary) = builder.tempfile_in(folder)?.into_parts();
+    filled(file, write)?.sync_all()?;
+    temporary.persist(&target).map_err(|error| error.error)
+}
+
+fn filled(file: File, write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> io::Result<File> {
+    let mut writer = BufWriter::with_capacity(1 << 16, file);
+    write(&mut writer)?;
+    writer.flush()?;
+    writer.into_inner().map_err(io::IntoInnerError::into_error)
+}

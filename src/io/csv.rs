@@ -1,0 +1,239 @@
+//! Comma-separated text. Columns `x,y,z`, and any of `vx,vy,vz` (0 when left out), `mass` (1), `radius` (0), `id` and `name`;
+//! lines that start with `#` are comments.
+
+use std::fmt::{self, Write as _};
+use std::fs::File;
+use std::io::{self, BufRead, BufReader, Seek, SeekFrom, Write};
+use std::path::Path;
+
+use ::csv::{ByteRecord, ReaderBuilder, Trim};
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::problems::{Problems, order};
+use super::{Precision, input, open, picked};
+use crate::error::Error;
+use crate::particles::Particles;
+
+/// The columns with numbers, and what they are when left out.
+pub(super) const NUMBERS: [(&str, f64); 8] =
+    [("x", 0.0), ("y", 0.0), ("z", 0.0), ("vx", 0.0), ("vy", 0.0), ("vz", 0.0), ("mass", 1.0), ("radius", 0.0)];
+const ID: &str = "id";
+const NAME: &str = "name";
+
+/// Reads particles. With a column `id` the rows may come in any order; ids count from 0.
+///
+/// # Errors
+/// [`Error::Input`] that lists, with line and column, every cell that is missing, no number, not finite, or negative where
+/// that makes no sense; every column that is unknown, missing or given twice; every id that is missing or given twice.
+pub fn read(path: &Path) -> Result<Particles, Error> {
+    let (file, _) = open(path)?;
+    let mut rows =
+        ReaderBuilder::new().comment(Some(b'#')).flexible(true).trim(Trim::All).has_headers(false).from_reader(file);
+    let mut problems = Problems::default();
+    let mut record = ByteRecord::new();
+    let failed = |error: ::csv::Error| input(path, error.to_string());
+    if !rows.read_byte_record(&mut record).map_err(failed)? {
+        return Err(input(path, "is empty; its first line must name the columns, such as x,y,z,vx,vy,vz,mass"));
+    }
+    let columns = Columns::named(&record, &mut problems);
+    let (mut particles, mut ids, mut lines) = (Particles::default(), Vec::new(), Vec::new());
+    while rows.read_byte_record(&mut record).map_err(failed)? {
+        let line = Line::of(path, &record);
+        if record.len() > columns.count {
+            problems.note(|| format!("{line}: {} cells, but {} columns", record.len(), columns.count));
+        }
+        let [x, y, z, vx, vy, vz, mass, radius] = columns.numbers(&record, &line, &mut problems);
+        particles.push(DVec3::new(x, y, z), DVec3::new(vx, vy, vz), mass, radius);
+        if let Some(place) = columns.id {
+            match cell(&record, place).map(str::parse::<u32>) {
+                Some(Ok(id)) => {
+                    ids.push(u64::from(id));
+                    lines.push(line);
+                }
+                Some(Err(_)) => problems.note(|| {
+                    format!(
+                        "{line}, column id: `{}` is not a whole number from 0 to {}",
+                        shown(&record, place),
+                        u32::MAX
+                    )
+                }),
+                None => problems.note(|| format!("{line}, column id: the cell is missing")),
+            }
+        }
+    }
+    if columns.id.is_none() {
+        problems.check(path)?;
+        return Ok(particles);
+    }
+    // Ids that could not be read have been noted; gaps would only repeat them.
+    if ids.len() == particles.len() {
+        let order = order(&ids, |row| lines[row].to_string(), &mut problems);
+        problems.check(path)?;
+        return Ok(picked(&particles, &order));
+    }
+    problems.check(path)?;
+    Ok(particles)
+}
+
+/// Where a row begins. Its number is only counted when it is shown: `csv` knows where it stopped before, but not how many
+/// blank lines and comments it has skipped since.
+struct Line<'a> {
+    path: &'a Path,
+    byte: u64,
+    before: u64,
+}
+
+impl<'a> Line<'a> {
+    fn of(path: &'a Path, record: &ByteRecord) -> Self {
+        let (byte, before) = record.position().map_or((0, 1), |start| (start.byte(), start.line()));
+        Self { path, byte, before }
+    }
+
+    /// Its number, counted from 1.
+    fn number(&self) -> io::Result<u64> {
+        let mut file = BufReader::new(File::open(self.path)?);
+        file.seek(SeekFrom::Start(self.byte))?;
+        let mut number = self.before;
+        let mut line = Vec::new();
+        while file.read_until(b'\n', &mut line)? > 0 && matches!(line[0], b'#' | b'\r' | b'\n') {
+            number += 1;
+            line.clear();
+        }
+        Ok(number)
+    }
+}
+
+impl fmt::Display for Line<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "line {}", self.number().unwrap_or(self.before))
+    }
+}
+
+/// Where each column is.
+struct Columns {
+    count: usize,
+    numbers: [Option<usize>; 8],
+    id: Option<usize>,
+}
+
+impl Columns {
+    fn named(header: &ByteRecord, problems: &mut Problems) -> Self {
+        let mut columns = Self { count: header.len(), numbers: [None; 8], id: None };
+        let mut name = None;
+        for place in 0..header.len() {
+            let title = shown(header, place);
+            let slot = match NUMBERS.iter().position(|(known, _)| *known == title) {
+                Some(number) => &mut columns.numbers[number],
+                None if title == ID => &mut columns.id,
+                None if title == NAME => &mut name,
+                None => {
+                    problems.note(|| unknown("column", &title, &[ID, NAME]));
+                    continue;
+                }
+            };
+            if slot.replace(place).is_some() {
+                problems.note(|| format!("the column `{title}` is there twice"));
+            }
+        }
+        for ((title, _), place) in NUMBERS.iter().zip(columns.numbers).take(3) {
+            if place.is_none() {
+                problems.note(|| format!("the column `{title}` is missing; the first line must name x, y and z"));
+            }
+        }
+        columns
+    }
+
+    fn numbers(&self, record: &ByteRecord, line: &Line, problems: &mut Problems) -> [f64; 8] {
+        let mut values = NUMBERS.map(|(_, default)| default);
+        for ((value, (title, _)), place) in values.iter_mut().zip(NUMBERS).zip(self.numbers) {
+            let Some(place) = place else { continue };
+            let at = || format!("{line}, column {title}");
+            let text = record.get(place).unwrap_or_default();
+            if text.is_empty() {
+                problems.note(|| format!("{}: the cell is missing", at()));
+                continue;
+            }
+            match cell(record, place).and_then(|text| text.parse::<f64>().ok()) {
+                Some(number) if number.is_finite() => {
+                    *value = number;
+                    if number < 0.0 && matches!(title, "mass" | "radius") {
+                        problems.note(|| format!("{}: {number} is below 0", at()));
+                    }
+                }
+                Some(_) => {
+                    problems.note(|| format!("{}: `{}` is not finite", at(), shown(record, place)));
+                }
+                None => {
+                    problems.note(|| format!("{}: `{}` is not a number", at(), shown(record, place)));
+                }
+            }
+        }
+        values
+    }
+}
+
+fn cell(record: &ByteRecord, place: usize) -> Option<&str> {
+    record.get(place).and_then(|bytes| std::str::from_utf8(bytes).ok())
+}
+
+/// A cell for a message: no longer than a message may be.
+fn shown(record: &ByteRecord, place: usize) -> String {
+    let text = String::from_utf8_lossy(record.get(place).unwrap_or_default());
+    text.chars().take(40).collect()
+}
+
+/// What to say about a name that is neither one of [`NUMBERS`] nor of `others`.
+pub(super) fn unknown(what: &str, title: &str, others: &[&'static str]) -> String {
+    let known = || NUMBERS.iter().map(|(name, _)| *name).chain(others.iter().copied());
+    let first = title.to_lowercase().chars().next();
+    let like = known()
+        .filter(|name| name.chars().next() == first)
+        .map(|name| (strsim::damerau_levenshtein(&title.to_lowercase(), name), name))
+        .min()
+        .filter(|(distance, name)| *distance <= 1 + name.len() / 3);
+    match like {
+        Some((_, name)) => format!("unknown {what} `{title}`; did you mean `{name}`?"),
+        None => format!("unknown {what} `{title}`; known are {}", known().collect::<Vec<_>>().join(", ")),
+    }
+}
+
+/// Writes a header and one row per particle, in the order of the ids: `id,x,y,z,vx,vy,vz,mass`. Each number is the shortest
+/// decimal that reads back to the same bits of the precision; radii are not written.
+///
+/// # Errors
+/// Those of `out`.
+pub fn write_csv(mut out: impl Write, particles: &Particles, precision: Precision) -> io::Result<()> {
+    /// Rows per piece of work, and pieces that are in memory at once: about 16 MB of text.
+    const ROWS: usize = 4096;
+    const PIECES: usize = 32;
+    out.write_all(b"id,x,y,z,vx,vy,vz,mass\n")?;
+    let mut pieces: Vec<String> = vec![String::new(); PIECES];
+    for start in (0..particles.len()).step_by(ROWS * PIECES) {
+        pieces.par_iter_mut().enumerate().for_each(|(piece, text)| {
+            text.clear();
+            let first = start + piece * ROWS;
+            for id in first..particles.len().min(first + ROWS) {
+                row(text, id, particles, precision);
+            }
+        });
+        for text in &pieces {
+            out.write_all(text.as_bytes())?;
+        }
+    }
+    Ok(())
+}
+
+fn row(text: &mut String, id: usize, particles: &Particles, precision: Precision) {
+    let (x, v) = (particles.position[id], particles.velocity[id]);
+    // Writing into a String cannot fail. `{:?}` is the shortest decimal that reads back, with an exponent where that is shorter.
+    let _ = write!(text, "{id}");
+    for number in [x.x, x.y, x.z, v.x, v.y, v.z, particles.mass[id]] {
+        #[expect(clippy::cast_possible_truncation, reason = "single precision was asked for")]
+        let _ = match precision {
+            Precision::Single => write!(text, ",{:?}", number as f32),
+            Precision::Double => write!(text, ",{number:?}"),
+        };
+    }
+    text.push('\n');
+}

@@ -1,0 +1,72 @@
+//! Everything that is wrong with a file, gathered into one error.
+
+use std::path::Path;
+
+use crate::error::Error;
+
+/// How many problems are spelled out.
+const SHOWN: usize = 20;
+
+/// A list of problems, of which the first are kept and the others counted.
+#[derive(Debug, Default)]
+pub(super) struct Problems {
+    shown: Vec<String>,
+    more: u64,
+}
+
+impl Problems {
+    /// Notes one. The text is only made if it will be shown.
+    pub(super) fn note(&mut self, text: impl FnOnce() -> String) {
+        if self.shown.len() < SHOWN {
+            self.shown.push(text());
+        } else {
+            self.more += 1;
+        }
+    }
+
+    /// Whether there are none.
+    pub(super) fn none(&self) -> bool {
+        self.shown.is_empty()
+    }
+
+    /// An error that lists them all.
+    pub(super) fn check(mut self, path: &Path) -> Result<(), Error> {
+        if self.more > 0 {
+            self.shown.push(format!("and {} more", self.more));
+        }
+        match self.shown.as_slice() {
+            [] => Ok(()),
+            [only] => Err(super::input(path, only)),
+            all => Err(super::input(path, format!("\n  {}", all.join("\n  ")))),
+        }
+    }
+}
+
+/// The places of rows in the order of their ids, which must be 0, 1, 2, … without gaps or repeats. `place` names a row.
+pub(super) fn order(ids: &[u64], place: impl Fn(usize) -> String, problems: &mut Problems) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..ids.len()).collect();
+    order.sort_by_key(|row| ids[*row]);
+    let mut expected = 0;
+    let mut before = None;
+    for row in &order {
+        let id = ids[*row];
+        match before {
+            Some(other) if ids[other] == id => {
+                problems.note(|| format!("{}: id {id} again; it is already at {}", place(*row), place(other)));
+            }
+            _ => {
+                if id != expected {
+                    let missing = if id - expected == 1 {
+                        format!("id {expected} is")
+                    } else {
+                        format!("ids {expected} to {} are", id - 1)
+                    };
+                    problems.note(|| format!("{}: id {id}, but {missing} missing; ids count from 0", place(*row)));
+                }
+                expected = id.saturating_add(1);
+            }
+        }
+        before = Some(*row);
+    }
+    order
+}

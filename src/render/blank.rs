@@ -1,0 +1,21 @@
+//! An empty canvas.
+
+use super::frame::{BINS, CANVAS, FRONT, Frame, HISTOGRAM, MISSED, NOBODY, OWNER, STREAK};
+use crate::error::Error;
+use crate::kernel::{Host, Kernel, Threads};
+
+/// The kernel.
+pub fn kernel(frame: &Frame) -> Result<Kernel, Error> {
+    let threads = Threads::new(frame.area().max(256));
+    let pass = frame.pass(&[crate::shader!("render/blank.wgsl")], threads, 1)?;
+    debug_assert!(threads.count as usize >= BINS);
+    let twin = |host: &Host| {
+        for field in [CANVAS, STREAK, HISTOGRAM, MISSED] {
+            host.write(field)?.fill(0);
+        }
+        host.write(FRONT)?.fill(NOBODY);
+        host.write(OWNER)?.fill(NOBODY);
+        Ok(())
+    };
+    Ok(frame.kernel("blank", vec![pass], twin))
+}

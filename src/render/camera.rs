@@ -1,0 +1,113 @@
+//! Where a picture is taken from.
+
+use glam::DVec3;
+
+use super::Trail;
+use crate::particles::Particles;
+use crate::settings::Settings;
+
+/// An eye, what it looks at, and how much of it is in the picture.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Camera {
+    /// What is in the middle of the picture.
+    pub center: DVec3,
+    /// From the centre towards the eye; of length 1, as are `right` and `up`.
+    pub back: DVec3,
+    /// What is to the right in the picture.
+    pub right: DVec3,
+    /// What is up in the picture.
+    pub up: DVec3,
+    /// Half the height of the picture, at the centre [length].
+    pub extent: f64,
+    /// From the centre to the eye [length]; zero for parallel rays.
+    pub distance: f64,
+}
+
+/// Half the height of the picture at the distance 1 from the eye: an angle of view of 30°.
+const HALF_VIEW: f64 = 0.268;
+/// So few particles are all in the picture, and leave trails; of more, the outermost are left to themselves.
+pub const FEW: usize = 64;
+/// The part of many particles that may lie beyond each edge before the margin is added.
+const OUTER: f64 = 0.02;
+/// What is left free around the particles, as a part of their own extent.
+const MARGIN: f64 = 0.22;
+/// A picture is framed by so many particles at most.
+const SAMPLE: usize = 20_000;
+
+impl Camera {
+    /// The camera of a scene's `[picture]`, with all that matters of these particles and their trails in view.
+    #[must_use]
+    pub fn fit(particles: &Particles, trail: &Trail, settings: &Settings) -> Self {
+        let back = settings.vector("eye").normalize_or(DVec3::NEG_Y);
+        let wanted = settings.vector("up").cross(back);
+        // Straight from above, up in the picture is y.
+        let right = wanted.try_normalize().unwrap_or_else(|| DVec3::Y.cross(back).normalize_or(DVec3::X));
+        let perspective = settings.text("projection") == "perspective";
+        let mut camera =
+            Self { center: settings.vector("center"), back, right, up: back.cross(right), extent: 1.0, distance: 0.0 };
+        if settings.flag("auto_frame") {
+            camera.frame(particles, trail, settings.number("width") / settings.number("height"), perspective);
+        } else {
+            camera.reach(settings.number("extent"), perspective);
+        }
+        camera
+    }
+
+    fn reach(&mut self, extent: f64, perspective: bool) {
+        self.extent = extent;
+        self.distance = if perspective { extent / HALF_VIEW } else { 0.0 };
+    }
+
+    fn frame(&mut self, particles: &Particles, trail: &Trail, aspect: f64, perspective: bool) {
+        let few = particles.len() <= FEW;
+        let stride = particles.len().div_ceil(SAMPLE).max(1);
+        let mut shapes: Vec<(DVec3, f64)> =
+            particles.position.iter().copied().zip(particles.radius.iter().copied()).step_by(stride).collect();
+        shapes.extend(trail.points().map(|x| (x, 0.0)));
+        shapes.retain(|(x, radius)| x.is_finite() && radius.is_finite());
+        if shapes.is_empty() {
+            return self.reach(1.0, perspective);
+        }
+        let outer = if few { 0.0 } else { OUTER };
+        let depth = |(x, _): &(DVec3, f64)| x.dot(self.back);
+        let (near, far) = span(shapes.iter().map(|s| (depth(s), depth(s))), outer);
+        let mut middle = DVec3::new(0.0, 0.0, 0.5 * (near + far));
+        let mut extent = 0.0;
+        // What is nearer looks larger: with the frame, the picture of the particles changes, and a few rounds settle it.
+        for _ in 0..6 {
+            let back = self.back;
+            let distance = if perspective && extent > 0.0 { extent / HALF_VIEW } else { f64::INFINITY };
+            let (shapes, depth_of_center) = (&shapes, middle.z);
+            let seen = |direction: DVec3, center: f64| {
+                shapes.iter().map(move |(x, radius)| {
+                    let depth = (x.dot(back) - depth_of_center) / distance;
+                    let larger = 1.0 / (1.0 - depth.min(0.8));
+                    let at = (x.dot(direction) - center) * larger;
+                    (at - radius * larger, at + radius * larger)
+                })
+            };
+            let (left, right) = span(seen(self.right, middle.x), outer);
+            let (low, high) = span(seen(self.up, middle.y), outer);
+            middle += DVec3::new(0.5 * (left + right), 0.5 * (low + high), 0.0);
+            extent = (0.5 * (high - low)).max(0.5 * (right - left) / aspect) * (1.0 + MARGIN);
+        }
+        self.center = middle.x * self.right + middle.y * self.up + middle.z * self.back;
+        // One place has no extent, and f32 none that is smaller than this.
+        let least = 1e-5 * self.center.length();
+        self.reach(if extent > least { extent } else { least.max(1.0) }, perspective);
+    }
+}
+
+/// From the lowest to the highest of some intervals, without the `outer` part of each end.
+fn span(intervals: impl Iterator<Item = (f64, f64)>, outer: f64) -> (f64, f64) {
+    let (mut low, mut high): (Vec<f64>, Vec<f64>) = intervals.unzip();
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        clippy::cast_precision_loss,
+        reason = "a part of a length"
+    )]
+    let skip = ((low.len().max(1) - 1) as f64 * outer) as usize;
+    let last = high.len() - 1 - skip;
+    (*low.select_nth_unstable_by(skip, f64::total_cmp).1, *high.select_nth_unstable_by(last, f64::total_cmp).1)
+}

@@ -1,0 +1,62 @@
+//! Draws a picture on any backend.
+
+use super::frame::{COLOR, HISTOGRAM, MISSED, OWN, PIXELS, TRAIL};
+use super::{Color, Exposure, Picture};
+use crate::error::Error;
+use crate::kernel::{Array, Backend, Element};
+
+/// A finished picture.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Image {
+    /// Pixels from left to right.
+    pub width: u32,
+    /// Pixels from top to bottom.
+    pub height: u32,
+    /// Red, green, blue and alpha of each pixel, row by row from the top.
+    pub rgba: Vec<u8>,
+    /// Particles out of the picture: beyond its edges, or behind the eye.
+    pub outside: u32,
+    /// Particles that are not drawn because a number of theirs is NaN or infinite.
+    pub broken: u32,
+}
+
+/// Draws the current state of a backend's particles. Only the pixels, and a histogram for the exposure, are read back.
+///
+/// # Errors
+/// When the picture does not fit the device, or the device is lost, out of memory or does not answer in time.
+pub async fn draw<B: Backend>(backend: &mut B, picture: &Picture) -> Result<Image, Error> {
+    let image = attempt(backend, picture).await;
+    // The next picture may have another size.
+    OWN.iter().for_each(|field| backend.forget(field));
+    image
+}
+
+async fn attempt<B: Backend>(backend: &mut B, picture: &Picture) -> Result<Image, Error> {
+    let frame = &picture.frame;
+    let expose = backend.compile(&picture.plan()?)?;
+    if let Color::Given(colors) = &picture.color {
+        backend.write(COLOR.name, &Array::Uint(colors.clone()))?;
+    }
+    if frame.points > 0 {
+        backend.write(TRAIL.name, &Array::Vec4(picture.trail.array()))?;
+    }
+    backend.run(&expose, 1)?;
+    let histogram = words(backend, HISTOGRAM.name, super::frame::BINS).await?;
+    let exposure = Exposure::of(&histogram, frame, picture.exposure);
+    let develop = backend.compile(&picture.development(exposure)?)?;
+    backend.run(&develop, 1)?;
+    let missed = words(backend, MISSED.name, 2).await?;
+    let pixels = words(backend, PIXELS.name, frame.area() as usize).await?;
+    Ok(Image {
+        width: frame.width,
+        height: frame.height,
+        rgba: pixels.iter().flat_map(|p| p.to_le_bytes()).collect(),
+        outside: missed.first().copied().unwrap_or(0),
+        broken: missed.get(1).copied().unwrap_or(0),
+    })
+}
+
+async fn words<B: Backend>(backend: &mut B, name: &str, len: usize) -> Result<Vec<u32>, Error> {
+    let array = backend.read(name, &Array::Uint(Vec::new()), len).await?;
+    Ok(u32::view(&array).cloned().unwrap_or_default())
+}

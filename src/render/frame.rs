@@ -1,0 +1,216 @@
+//! What every kernel of a picture knows: `Frame` in `shaders/render/frame.wgsl`, and its geometry in f64.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3, Vec4};
+
+use super::Camera;
+use crate::error::Error;
+use crate::kernel::{Field, Host, Kernel, Pass, Scalar, Shader, Source, Threads};
+
+pub const PROJECTED: Field<Vec4> = Field::new("projected");
+pub const COLOR: Field<u32> = Field::new("color");
+pub const TRAIL: Field<Vec4> = Field::new("trail");
+pub const MISSED: Field<u32> = Field::new("missed");
+pub const CANVAS: Field<u32> = Field::new("canvas");
+pub const FRONT: Field<u32> = Field::new("front");
+pub const OWNER: Field<u32> = Field::new("owner");
+pub const STREAK: Field<u32> = Field::new("streak");
+pub const HISTOGRAM: Field<u32> = Field::new("histogram");
+pub const HALO: Field<Vec4> = Field::new("halo");
+pub const SPREAD: Field<Vec4> = Field::new("spread");
+pub const PIXELS: Field<u32> = Field::new("pixels");
+
+/// Fields that live as long as one picture is drawn.
+pub const OWN: [&str; 12] = [
+    PROJECTED.name,
+    COLOR.name,
+    TRAIL.name,
+    MISSED.name,
+    CANVAS.name,
+    FRONT.name,
+    OWNER.name,
+    STREAK.name,
+    HISTOGRAM.name,
+    HALO.name,
+    SPREAD.name,
+    PIXELS.name,
+];
+
+pub const NOBODY: u32 = u32::MAX;
+pub const BINS: usize = 256;
+/// So many pixels of the picture are one of the halo, each way.
+pub const SHRINK: u32 = 4;
+const NEAR: f64 = 0.05;
+const FAR_OUT: f64 = 1e6;
+
+/// The numbers of a picture.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Frame {
+    /// Where it is taken from.
+    pub camera: Camera,
+    /// Particles.
+    pub count: u32,
+    /// Pixels from left to right.
+    pub width: u32,
+    /// Pixels from top to bottom.
+    pub height: u32,
+    /// The largest mass [mass].
+    pub heaviest: f64,
+    /// The radius at which the heaviest particle is drawn at least [pixels].
+    pub marker: f64,
+    /// The radius at which a ball is drawn at most [pixels].
+    pub largest: f64,
+    /// The radius from which on a particle is a ball, and below it a light [pixels].
+    pub solid: f64,
+    /// The radius of a light [pixels].
+    pub glow: f64,
+    /// What the middle of a white light adds to the canvas.
+    pub unit: f64,
+    /// The speeds at the ends of the colours [length / time].
+    pub speeds: (f64, f64),
+    /// Points of all trails together.
+    pub points: u32,
+    /// Brightness of the background.
+    pub sky: f64,
+    /// Half the width of a trail [pixels].
+    pub line: f64,
+    /// Brightness of the halo.
+    pub bloom: f64,
+    /// How far the halo reaches [pixels of it].
+    pub reach: u32,
+}
+
+/// Where a place is seen.
+pub struct Seen {
+    pub place: DVec2,
+    pub depth: f64,
+    pub scale: f64,
+    pub visible: bool,
+}
+
+impl Frame {
+    /// Pixels per length, at the centre.
+    pub(super) fn scale(&self) -> f64 {
+        0.5 * f64::from(self.height) / self.camera.extent
+    }
+    pub(super) fn size(&self) -> DVec2 {
+        DVec2::new(f64::from(self.width), f64::from(self.height))
+    }
+    /// Pixels.
+    pub(super) fn area(&self) -> u32 {
+        self.width * self.height
+    }
+    /// Columns and rows of the halo.
+    pub(super) fn shrunk(&self) -> (u32, u32) {
+        (self.width.div_ceil(SHRINK), self.height.div_ceil(SHRINK))
+    }
+    pub(super) fn see(&self, x: DVec3) -> Seen {
+        let camera = &self.camera;
+        let r = x - camera.center;
+        let depth = camera.distance - r.dot(camera.back);
+        let near = NEAR * camera.distance;
+        let parallel = camera.distance == 0.0;
+        let scale = if parallel { self.scale() } else { self.scale() * camera.distance / depth.max(near) };
+        let place = 0.5 * self.size() + scale * DVec2::new(r.dot(camera.right), -r.dot(camera.up));
+        let visible = (parallel || depth > near) && place.abs().max_element() < FAR_OUT;
+        Seen { place, depth, scale, visible }
+    }
+    /// Columns and rows that something between two corners may touch.
+    pub(super) fn touched(&self, low: DVec2, high: DVec2) -> (Range<u32>, Range<u32>) {
+        let low = low.floor().clamp(DVec2::ZERO, self.size());
+        let high = high.ceil().clamp(DVec2::ZERO, self.size());
+        (whole(low.x)..whole(high.x), whole(low.y)..whole(high.y))
+    }
+    pub(super) fn pixel(&self, x: u32, y: u32) -> usize {
+        y as usize * self.width as usize + x as usize
+    }
+    fn values(&self) -> [(&'static str, Scalar); 21] {
+        let camera = &self.camera;
+        let float = Scalar::Float;
+        [
+            ("center", Scalar::Vector(camera.center)),
+            ("distance", float(camera.distance)),
+            ("right", Scalar::Vector(camera.right)),
+            ("scale", float(self.scale())),
+            ("up", Scalar::Vector(camera.up)),
+            ("heaviest", float(self.heaviest)),
+            ("back", Scalar::Vector(camera.back)),
+            ("marker", float(self.marker)),
+            ("width", Scalar::Uint(self.width)),
+            ("height", Scalar::Uint(self.height)),
+            ("largest", float(self.largest)),
+            ("solid", float(self.solid)),
+            ("glow", float(self.glow)),
+            ("unit", float(self.unit)),
+            ("slow", float(self.speeds.0)),
+            ("fast", float(self.speeds.1)),
+            ("points", Scalar::Uint(self.points)),
+            ("sky", float(self.sky)),
+            ("line", float(self.line)),
+            ("bloom", float(self.bloom)),
+            ("reach", Scalar::Uint(self.reach)),
+        ]
+    }
+    /// Elements of the fields that do not have one for each particle.
+    fn sizes(&self) -> Vec<(&'static str, u64)> {
+        let area = u64::from(self.area());
+        let (columns, rows) = self.shrunk();
+        vec![
+            (TRAIL.name, u64::from(self.points.max(1))),
+            (MISSED.name, 2),
+            (CANVAS.name, 3 * area),
+            (FRONT.name, area),
+            (OWNER.name, area),
+            (STREAK.name, area),
+            (HISTOGRAM.name, BINS as u64),
+            (HALO.name, u64::from(columns) * u64::from(rows)),
+            (SPREAD.name, u64::from(columns) * u64::from(rows)),
+            (PIXELS.name, area),
+        ]
+    }
+    /// A dispatch of files joined with `world.wgsl` and `frame.wgsl`; `each` is about what one invocation does.
+    pub(super) fn pass(&self, files: &[Source], threads: Threads, each: u64) -> Result<Pass, Error> {
+        let mut all = vec![crate::shader!("world.wgsl"), crate::shader!("render/frame.wgsl")];
+        all.extend_from_slice(files);
+        let shader = Shader::join(&all)?;
+        let packed = shader.reflection().binding("frame").map(|b| b.packed.pack("frame", &self.values()));
+        let uniforms = packed.transpose()?.map(|bytes| ("frame", bytes)).into_iter().collect();
+        let work = u64::from(threads.count) * u64::from(threads.layers) * each;
+        Ok(Pass { shader, constants: Vec::new(), uniforms, threads, work })
+    }
+    /// Passes and their twin.
+    pub(super) fn kernel(
+        &self,
+        name: &str,
+        passes: Vec<Pass>,
+        twin: impl Fn(&Host) -> Result<(), Error> + Send + Sync + 'static,
+    ) -> Kernel {
+        Kernel { name: name.to_owned(), passes, twin: Some(Arc::new(twin)), sizes: self.sizes(), scratch: &[] }
+    }
+}
+
+/// The middle of a pixel.
+pub fn middle(x: u32, y: u32) -> DVec2 {
+    DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5)
+}
+
+/// A number that is known to be whole, not negative and below 2³².
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the caller knows")]
+pub fn whole(x: f64) -> u32 {
+    x as u32
+}
+
+/// Whole numbers in the order of depths, as the device holds them.
+pub fn key(depth: f64) -> u32 {
+    #[expect(clippy::cast_possible_truncation, reason = "rounding to f32 is what the device does")]
+    let bits = (depth as f32).to_bits();
+    if bits >> 31 == 0 { bits | 1 << 31 } else { !bits }
+}
+
+/// Bytes as parts of 1.
+pub fn unpack(color: u32) -> DVec3 {
+    let [r, g, b, _] = color.to_le_bytes();
+    DVec3::new(f64::from(r), f64::from(g), f64::from(b)) / 255.0
+}

@@ -1,0 +1,82 @@
+//! How bright a canvas is, and what to make of it.
+
+use super::frame::{BINS, CANVAS, Frame, HISTOGRAM};
+use crate::error::Error;
+use crate::kernel::{Host, Kernel, Threads};
+
+/// The kernel.
+pub fn kernel(frame: &Frame) -> Result<Kernel, Error> {
+    let pass = frame.pass(&[crate::shader!("render/meter.wgsl")], Threads::new(frame.area()), 1)?;
+    let twin = |host: &Host| {
+        let canvas = host.read(CANVAS)?;
+        let mut histogram = host.write(HISTOGRAM)?;
+        for light in canvas.chunks_exact(3).map(|rgb| rgb[0].max(rgb[1]).max(rgb[2])).filter(|light| *light > 0) {
+            histogram[bin(light)] += 1;
+        }
+        Ok(())
+    };
+    Ok(frame.kernel("meter", vec![pass], twin))
+}
+
+/// Eight bins for each doubling.
+fn bin(light: u32) -> usize {
+    let octave = light.ilog2();
+    let eighth = if octave >= 3 { light >> (octave - 3) } else { light << (3 - octave) } & 7;
+    (8 * octave + eighth) as usize
+}
+
+/// The brightness in the middle of a bin.
+fn brightness(bin: usize) -> f64 {
+    let (octave, eighth) = (u32::try_from(bin / 8).unwrap_or(31), u32::try_from(bin % 8).unwrap_or(7));
+    f64::from(octave).exp2() * (1.0 + (f64::from(eighth) + 0.5) / 8.0)
+}
+
+/// How light becomes brightness, in canvas units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Exposure {
+    /// Where the scale turns from linear to logarithmic.
+    pub knee: f64,
+    /// What becomes white.
+    pub white: f64,
+}
+
+impl Exposure {
+    /// From a histogram: almost everything is below white, and half of what is lit above the knee.
+    pub fn of(histogram: &[u32], frame: &Frame, exposure: f64) -> Self {
+        let lit: u64 = histogram.iter().take(BINS).map(|n| u64::from(*n)).sum();
+        let quantile = |part: f64| {
+            let mut below = 0;
+            let found = histogram.iter().position(|n| {
+                below += u64::from(*n);
+                #[expect(clippy::cast_precision_loss, reason = "pixels")]
+                let enough = below as f64 >= part * lit as f64;
+                enough
+            });
+            brightness(found.unwrap_or(0))
+        };
+        // A single light is never lost, and never white: the halo has yet to be added.
+        let white = if lit == 0 { frame.unit } else { quantile(0.998) }.max(frame.unit) * 1.4;
+        let knee = if lit == 0 { frame.unit } else { quantile(0.5) }.min(0.5 * frame.unit);
+        Self { knee: knee.max(1e-3 * white) / exposure, white: white / exposure }
+    }
+    /// 1 / log₂(1 + white / knee)
+    pub fn slope(&self) -> f64 {
+        (1.0 + self.white / self.knee).log2().recip()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bins_are_in_order_and_none_is_left_out() {
+        let mut last = 0;
+        for light in (1..100_000).chain([u32::MAX / 3, u32::MAX]) {
+            let bin = bin(light);
+            assert!(bin >= last && bin < BINS);
+            assert!((brightness(bin) / f64::from(light)).ln().abs() < 0.5, "{light}");
+            last = bin;
+        }
+    }
+}

@@ -1,0 +1,31 @@
+//! Pictures, drawn by kernels like any other: on a device, or by their twins with no driver at all.
+//!
+//! Few or large particles are shaded balls with trails; many small ones are lights that add up on a canvas of whole
+//! numbers, so that a picture has the same bytes on every run.
+
+mod blank;
+mod camera;
+mod cover;
+mod draw;
+mod frame;
+mod halo;
+mod look;
+mod meter;
+mod paint;
+mod palette;
+mod picture;
+#[cfg(feature = "scene")]
+mod png;
+mod project;
+mod splat;
+mod streak;
+mod tone;
+mod trail;
+
+pub use camera::Camera;
+pub use draw::{Image, draw};
+pub use frame::Frame;
+pub use meter::Exposure;
+pub use palette::{Color, group_color, pack};
+pub use picture::{KEYS, Picture};
+pub use trail::Trail;

@@ -1,0 +1,84 @@
+//! Colours of groups, and how a picture's particles get theirs.
+
+use super::camera::FEW;
+use crate::particles::Particles;
+use crate::settings::Settings;
+
+/// Colours that stay apart on a dark background, for most eyes; red, green, blue.
+const PALETTE: [[u8; 3]; 10] = [
+    [255, 190, 92],
+    [94, 160, 255],
+    [255, 112, 122],
+    [104, 222, 148],
+    [198, 150, 255],
+    [70, 214, 226],
+    [255, 146, 66],
+    [242, 240, 234],
+    [240, 130, 210],
+    [184, 204, 84],
+];
+
+/// What decides a particle's colour.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Color {
+    /// A colour for each particle, as [`pack`]ed bytes.
+    Given(Vec<u32>),
+    /// Its speed, on a scale between two speeds [length / time].
+    Speed {
+        /// The dark end.
+        slow: f64,
+        /// The bright end.
+        fast: f64,
+    },
+}
+
+/// Red in the lowest byte.
+#[must_use]
+pub fn pack(rgb: [u8; 3]) -> u32 {
+    u32::from_le_bytes([rgb[0], rgb[1], rgb[2], 255])
+}
+
+/// The colour of a group.
+#[must_use]
+pub fn group_color(group: u32) -> [u8; 3] {
+    PALETTE[group as usize % PALETTE.len()]
+}
+
+impl Color {
+    /// As the scene's `color` says. `groups` has a number for each particle, or is empty when all are one group.
+    #[must_use]
+    pub fn choose(settings: &Settings, particles: &Particles, groups: &[u32]) -> Self {
+        let several = groups.iter().any(|g| Some(g) != groups.first());
+        let few = particles.len() <= FEW;
+        let by_speed = match settings.text("color") {
+            "speed" => true,
+            "group" => false,
+            _ => !several && !few,
+        };
+        if by_speed {
+            return Self::by_speed(particles);
+        }
+        let group = |i: usize| {
+            // Of a few particles that are all one group each has a colour of its own.
+            let own = if few && !several { u32::try_from(i).ok() } else { groups.get(i).copied() };
+            pack(group_color(own.unwrap_or(0)))
+        };
+        Self::Given((0..particles.len()).map(group).collect())
+    }
+
+    fn by_speed(particles: &Particles) -> Self {
+        let mut speeds: Vec<f64> = particles.velocity.iter().map(|v| v.length()).filter(|v| v.is_finite()).collect();
+        if speeds.is_empty() {
+            return Self::Speed { slow: 0.0, fast: 1.0 };
+        }
+        speeds.sort_unstable_by(f64::total_cmp);
+        let (slow, fast) = (speeds[speeds.len() / 50], speeds[(speeds.len() - 1) - speeds.len() / 50]);
+        // All equally fast: the middle of the scale.
+        let least = 1e-3 * fast.abs().max(1e-30);
+        if fast - slow > least {
+            Self::Speed { slow, fast }
+        } else {
+            Self::Speed { slow: slow - least, fast: fast + least }
+        }
+    }
+}

@@ -1,0 +1,49 @@
+//! The finished picture.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::frame::{Frame, HALO, PIXELS, middle, whole};
+use super::halo::between;
+use super::look::{Look, expose, screen};
+use super::meter::Exposure;
+use super::palette::pack;
+use crate::error::Error;
+use crate::kernel::{Host, Kernel, Threads};
+
+/// The kernel.
+pub fn kernel(frame: &Frame, exposure: Exposure) -> Result<Kernel, Error> {
+    let files = [crate::shader!("render/look.wgsl"), crate::shader!("render/tone.wgsl")];
+    let mut pass = frame.pass(&files, Threads::new(frame.area()), 8)?;
+    expose(&mut pass, exposure)?;
+    let frame = *frame;
+    let twin = move |host: &Host| {
+        let (halo, mut pixels) = (host.read(HALO)?, host.write(PIXELS)?);
+        let (halo, pixels): (&[_], &mut [_]) = (&halo, &mut pixels);
+        Look::at(host, frame, exposure, |look| {
+            pixels.par_iter_mut().zip(0..frame.area()).for_each(|(pixel, i)| {
+                let (x, y) = (i % frame.width, i / frame.width);
+                let light = frame.bloom * between(&frame, halo, x, y);
+                let c = screen(look.pixel(x, y, background(&frame, x, y)), light / (1.0 + light))
+                    .clamp(DVec3::ZERO, DVec3::ONE);
+                let bytes = c * 255.0 + noise(i);
+                *pixel = pack(bytes.to_array().map(|x| u8::try_from(whole(x)).unwrap_or(u8::MAX)));
+            });
+        })
+    };
+    Ok(frame.kernel("tone", vec![pass], twin))
+}
+
+fn background(frame: &Frame, x: u32, y: u32) -> DVec3 {
+    let off = middle(x, y) / frame.size() - 0.5;
+    let (inner, outer) = (DVec3::new(0.036, 0.043, 0.072), DVec3::new(0.008, 0.009, 0.018));
+    frame.sky * inner.lerp(outer, (2.0 * off.length_squared()).clamp(0.0, 1.0))
+}
+
+/// A number in [0, 1).
+fn noise(n: u32) -> f64 {
+    let mut h = n;
+    h = (h ^ (h >> 16)).wrapping_mul(0x7feb_352d);
+    h = (h ^ (h >> 15)).wrapping_mul(0x846c_a68b);
+    f64::from((h ^ (h >> 16)) >> 8) / 16_777_216.0
+}

@@ -1,0 +1,86 @@
+//! Where a few particles have been.
+
+use glam::{DVec3, DVec4};
+
+use super::camera::FEW;
+
+/// Past positions of up to 64 particles; of more, nothing is kept. Push as often as you like: when it is full, every
+/// second moment is dropped, and from then on every second push.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Trail {
+    count: usize,
+    stride: u64,
+    pushes: u64,
+    points: Vec<DVec3>,
+}
+
+/// Moments that are kept, at most.
+const MOMENTS: usize = 2048;
+
+impl Trail {
+    /// For `count` particles.
+    #[must_use]
+    pub fn new(count: usize) -> Self {
+        Self { count, stride: 1, pushes: 0, points: Vec::new() }
+    }
+    /// Whether it keeps anything: else there is no need to read positions for it.
+    #[must_use]
+    pub fn wanted(&self) -> bool {
+        (1..=FEW).contains(&self.count)
+    }
+    /// Adds a moment: the position of every particle.
+    pub fn push(&mut self, positions: &[DVec3]) {
+        if !self.wanted() || positions.len() != self.count {
+            return;
+        }
+        if self.pushes.is_multiple_of(self.stride) {
+            if self.points.len() >= MOMENTS * self.count {
+                let kept: Vec<DVec3> = self.points.chunks(self.count).step_by(2).flatten().copied().collect();
+                self.points = kept;
+                self.stride *= 2;
+            }
+            if self.pushes.is_multiple_of(self.stride) {
+                self.points.extend_from_slice(positions);
+            }
+        }
+        self.pushes += 1;
+    }
+    /// Moments kept.
+    #[must_use]
+    pub fn moments(&self) -> usize {
+        self.points.len() / self.count.max(1)
+    }
+    /// All points: all particles at the first moment, at the second, and so on.
+    pub fn points(&self) -> impl Iterator<Item = DVec3> {
+        self.points.iter().copied()
+    }
+    /// The same for the device.
+    pub(super) fn array(&self) -> Vec<DVec4> {
+        self.points.iter().map(|x| x.extend(0.0)).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn it_never_grows_beyond_its_size_and_stays_evenly_spaced() {
+        let mut trail = Trail::new(3);
+        for i in 0..50_000 {
+            trail.push(&[f64::from(i), f64::from(i) + 0.25, f64::from(i) + 0.5].map(|x| DVec3::splat(x)));
+            assert!(trail.moments() <= MOMENTS);
+        }
+        let first: Vec<f64> = trail.points().step_by(3).map(|x| x.x).collect();
+        assert!(first.len() > MOMENTS / 2 && first[0] == 0.0, "{}", first.len());
+        let stride = first[1];
+        assert!(first.windows(2).all(|w| w[1] - w[0] == stride), "{stride}");
+        assert!(first[first.len() - 1] > 50_000.0 - 2.0 * stride);
+    }
+    #[test]
+    fn of_many_particles_nothing_is_kept() {
+        let mut trail = Trail::new(FEW + 1);
+        trail.push(&[DVec3::ONE; FEW + 1]);
+        assert_eq!((trail.moments(), trail.wanted()), (0, false));
+    }
+}

@@ -1,0 +1,148 @@
+//! Tests of a device: what simulations rely on, and what its driver is known to get wrong.
+
+use std::time::Instant;
+
+use crate::error::Error;
+use crate::gpu::Gpu;
+use crate::kernel::{Array, Backend, Element, Field, Kernel, Pass, Plan, Shader, Source, Threads};
+
+/// How a test ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Outcome {
+    /// As it should be.
+    Pass,
+    /// Not as it should be, and motes works round it.
+    Warn,
+    /// Results of this device cannot be trusted.
+    Fail,
+}
+
+/// A test and its end.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Finding {
+    /// What was tested.
+    pub name: &'static str,
+    /// How it ended.
+    pub outcome: Outcome,
+    /// What was seen, and what it means.
+    pub text: String,
+}
+
+const PROBE: &str = "probe";
+const ANSWER: Field<u32> = Field::new("answer");
+/// Words of the probe and of the answer.
+const WORDS: usize = 8;
+
+/// Tests a device.
+///
+/// # Errors
+/// When the device is lost or does not answer; a wrong answer is a finding.
+pub async fn run(device: &wgpu::Device, queue: &wgpu::Queue) -> Result<Vec<Finding>, Error> {
+    let mut gpu = Gpu::new(device, queue, 1)?;
+    let mut findings = vec![loops(&mut gpu).await?];
+    findings.extend(arithmetic(&mut gpu).await?);
+    findings.push(timestamps(&mut gpu).await?);
+    Ok(findings)
+}
+
+/// Asks a shader a question.
+async fn ask(gpu: &mut Gpu, source: Source, probe: &[u32]) -> Result<Vec<u32>, Error> {
+    let program = gpu.compile(&question(source)?)?;
+    let mut words = probe.to_vec();
+    words.resize(WORDS, 0);
+    gpu.write(PROBE, &Array::Uint(words))?;
+    gpu.write(ANSWER.name, &Array::Uint(vec![0xDEAD_BEEF; WORDS]))?;
+    gpu.run(&program, 1)?;
+    let answer = gpu.read(ANSWER.name, &Array::Uint(Vec::new()), WORDS).await?;
+    Ok(u32::view(&answer).cloned().unwrap_or_default())
+}
+
+fn question(source: Source) -> Result<Plan, Error> {
+    let name = source.file.to_string();
+    let shader = Shader::join(&[source])?;
+    let pass = Pass { shader, constants: Vec::new(), uniforms: Vec::new(), threads: Threads::new(1), work: 1 };
+    let sizes = vec![(PROBE, WORDS as u64), (ANSWER.name, WORDS as u64)];
+    let kernel = Kernel { name, passes: vec![pass], twin: None, sizes, scratch: &[] };
+    Ok(Plan { kernels: vec![kernel], order: vec![0] })
+}
+
+async fn loops(gpu: &mut Gpu) -> Result<Finding, Error> {
+    let name = "loops";
+    for turns in [60_000_u32, 70_000, 1_000_000] {
+        let answer = ask(gpu, crate::shader!("selftest/long_loop.wgsl"), &[turns, 7]).await?;
+        let step = |x: u32, _| x.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        if answer.first() != Some(&(0..turns).fold(7, step)) {
+            return Ok(if turns <= 65_535 {
+                Finding {
+                    name,
+                    outcome: Outcome::Fail,
+                    text: format!("a loop of {turns} turns is cut short: sums over particles are wrong"),
+                }
+            } else {
+                let text = format!(
+                    "a loop of {turns} turns is cut short without a word (Mesa before 25 does so after 65 535); motes keeps its loops shorter"
+                );
+                Finding { name, outcome: Outcome::Warn, text }
+            });
+        }
+    }
+    Ok(Finding { name, outcome: Outcome::Pass, text: "a loop of 1 000 000 turns runs to its end".to_owned() })
+}
+
+async fn arithmetic(gpu: &mut Gpu) -> Result<Vec<Finding>, Error> {
+    let (a, b, c) = (1.234_567_8_f32, 3.456_789e-4_f32, 1.000_123_4_f32);
+    let probe = [a.to_bits(), b.to_bits(), c.to_bits(), 0, f32::NAN.to_bits()];
+    let answer = ask(gpu, crate::shader!("selftest/arithmetic.wgsl"), &probe).await?;
+    let float = |i: usize| f32::from_bits(answer.get(i).copied().unwrap_or(u32::MAX));
+    let word = |i: usize| answer.get(i).copied().unwrap_or(u32::MAX);
+    let s = a + b;
+    let want = (a - (s - (s - a))) + (b - (s - a));
+    let finding = |name, outcome, text: &str| Finding { name, outcome, text: text.to_owned() };
+    let sums = match (float(0).to_bits() == want.to_bits(), float(1).to_bits() == want.to_bits()) {
+        (true, true) => {
+            finding("compensated sums", Outcome::Pass, "a rounding error is found, plainly and with a guard")
+        }
+        (false, true) => finding(
+            "compensated sums",
+            Outcome::Warn,
+            "the compiler folds (a + b) − a; with a guard the rounding error is found",
+        ),
+        (_, false) => finding("compensated sums", Outcome::Fail, "not even a guarded sum finds its rounding error"),
+    };
+    let nan = match (word(3), word(4)) {
+        (1, 1) => finding("NaN", Outcome::Pass, "found by its bits, and by x != x"),
+        (1, _) => finding("NaN", Outcome::Warn, "found by its bits; x != x is taken for false"),
+        _ => finding("NaN", Outcome::Fail, "not found by its bits: broken particles would go unseen"),
+    };
+    let fused = c.mul_add(c, -(c * c));
+    let fma =
+        if float(2).to_bits() == fused.to_bits() { "rounds once" } else { "rounds twice; motes does not rely on it" };
+    let ulp = |got: f32, want: f32| got.to_bits().abs_diff(want.to_bits());
+    let (division, root) = (ulp(float(5), a / b), ulp(float(6), a.sqrt()));
+    let outcome = if division > 3 || root > 4 { Outcome::Fail } else { Outcome::Pass };
+    let text = format!(
+        "a division is {division} units in the last place from the nearest, a square root {root} (WGSL allows 2.5 and about 4)"
+    );
+    Ok(vec![sums, nan, finding("fma", Outcome::Pass, fma), Finding { name: "division, root", outcome, text }])
+}
+
+async fn timestamps(gpu: &mut Gpu) -> Result<Finding, Error> {
+    let name = "timestamps";
+    gpu.write(PROBE, &Array::Uint(vec![60_000, 7, 0, 0, 0, 0, 0, 0]))?;
+    let program = gpu.compile(&question(crate::shader!("selftest/long_loop.wgsl"))?)?;
+    gpu.run(&program, 1)?;
+    gpu.wait()?;
+    let start = Instant::now();
+    let Some(device) = gpu.timed(&program, 100).await? else {
+        let text = "not offered; times are taken on the processor".to_owned();
+        return Ok(Finding { name, outcome: Outcome::Warn, text });
+    };
+    let wall = start.elapsed().as_secs_f64();
+    let text = format!(
+        "{:.2} ms on the device's clock, {:.2} ms on the processor's, with read-back",
+        device * 1e3,
+        wall * 1e3
+    );
+    let outcome = if device > 0.0 && device <= wall { Outcome::Pass } else { Outcome::Warn };
+    Ok(Finding { name, outcome, text })
+}

@@ -1,0 +1,80 @@
+//! Files of particles: what was written reads back to the same bits, and what is broken is an error that says where.
+
+mod csv_text;
+mod npz_archives;
+mod round_trips;
+mod tipsy_files;
+mod whole_files;
+
+use std::fs;
+use std::io::Cursor;
+use std::path::{Path, PathBuf};
+
+use glam::DVec3;
+use motes::error::Error;
+use motes::io::{Precision, csv, npz, read, tipsy};
+use motes::particles::Particles;
+use tempfile::TempDir;
+
+fn folder() -> TempDir {
+    tempfile::tempdir().expect("a temporary folder")
+}
+
+fn put(folder: &TempDir, name: &str, bytes: impl AsRef<[u8]>) -> PathBuf {
+    let path = folder.path().join(name);
+    fs::write(&path, bytes).expect("a file");
+    path
+}
+
+/// The message of the error that reading a file must give.
+#[track_caller]
+fn refusal(path: &Path) -> String {
+    match read(path) {
+        Err(Error::Input { file, message }) => {
+            assert_eq!(file, path);
+            message
+        }
+        other => panic!("{}: {other:?} is no Error::Input", path.display()),
+    }
+}
+
+#[track_caller]
+fn refused(name: &str, bytes: impl AsRef<[u8]>, words: &[&str]) {
+    let folder = folder();
+    let message = refusal(&put(&folder, name, bytes));
+    for word in words {
+        assert!(message.contains(word), "`{message}` does not say `{word}`");
+    }
+}
+
+fn bits(p: &Particles) -> Vec<u64> {
+    let vectors = p.position.iter().chain(&p.velocity).flat_map(DVec3::to_array);
+    vectors.chain(p.mass.iter().copied()).chain(p.radius.iter().copied()).map(f64::to_bits).collect()
+}
+
+fn some(count: u32) -> Particles {
+    let mut particles = Particles::default();
+    for i in 0..count {
+        let x = f64::from(i) + 1.0 / 3.0;
+        particles.push(DVec3::new(x, -x * 1e-3, 1e5 / x), DVec3::new(x.sqrt(), -0.0, 0.7 * x), 0.1 * x, 0.0);
+    }
+    particles
+}
+
+fn csv_bytes(particles: &Particles, precision: Precision) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    csv::write_csv(&mut bytes, particles, precision).expect("memory");
+    bytes
+}
+
+fn npz_bytes(particles: &Particles, precision: Precision) -> Vec<u8> {
+    let mut bytes = Cursor::new(Vec::new());
+    npz::write_npz(&mut bytes, particles, 2.5, 77, precision).expect("memory");
+    bytes.into_inner()
+}
+
+fn tipsy_bytes(particles: &Particles) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    tipsy::write_tipsy(&mut bytes, particles, 2.5, 0.125).expect("memory");
+    bytes
+}

@@ -1,0 +1,83 @@
+//! What was written reads back to the same bits; what was damaged never panics.
+
+use glam::DVec3;
+use motes::io::{Precision, npz, read, tipsy};
+use motes::particles::Particles;
+use proptest::prelude::*;
+
+use crate::{bits, csv_bytes, folder, npz_bytes, put, some, tipsy_bytes};
+
+/// The same, all numbers narrowed to f32.
+fn narrow(p: &Particles) -> Vec<u32> {
+    #[expect(clippy::cast_possible_truncation, reason = "on purpose")]
+    bits(p).into_iter().map(|bits| (f64::from_bits(bits) as f32).to_bits()).collect()
+}
+
+prop_compose! {
+    /// Finite f64 of every size and sign: subnormals, zeros, the largest.
+    fn finite()(bits in any::<u64>(), special in 0..12_usize) -> f64 {
+        let x = f64::from_bits(bits);
+        let specials = [0.0, -0.0, f64::MIN_POSITIVE, 5e-324, -5e-324, f64::MAX, f64::MIN, 0.1];
+        specials.get(special).copied().unwrap_or(if x.is_finite() { x } else { 1.0 })
+    }
+}
+
+prop_compose! {
+    /// The same for f32, widened.
+    fn single()(bits in any::<u32>(), special in 0..12_usize) -> f64 {
+        let x = f32::from_bits(bits);
+        let specials = [0.0, -0.0, f32::MIN_POSITIVE, 1e-45, -1e-45, f32::MAX, f32::MIN, 0.1];
+        f64::from(specials.get(special).copied().unwrap_or(if x.is_finite() { x } else { 1.0 }))
+    }
+}
+
+fn of(numbers: &[f64]) -> Particles {
+    let mut particles = Particles::default();
+    for n in numbers.chunks_exact(7) {
+        particles.push(DVec3::new(n[0], n[1], n[2]), DVec3::new(n[3], n[4], n[5]), n[6].abs(), 0.0);
+    }
+    particles
+}
+
+proptest! {
+    #[test]
+    fn doubles_come_back_bit_for_bit(numbers in prop::collection::vec(finite(), 0..70)) {
+        let folder = folder();
+        let particles = of(&numbers);
+        let text = put(&folder, "a.csv", csv_bytes(&particles, Precision::Double));
+        prop_assert_eq!(bits(&read(&text).expect("csv")), bits(&particles));
+        let archive = put(&folder, "a.npz", npz_bytes(&particles, Precision::Double));
+        let back = npz::read(&archive).expect("npz");
+        prop_assert_eq!((bits(&back.particles), back.time, back.step), (bits(&particles), 2.5, 77));
+    }
+
+    #[test]
+    fn singles_come_back_bit_for_bit(numbers in prop::collection::vec(single(), 0..70)) {
+        let folder = folder();
+        let particles = of(&numbers);
+        // Decimal text is read as f64: the same f32 when narrowed again.
+        let text = put(&folder, "a.csv", csv_bytes(&particles, Precision::Single));
+        prop_assert_eq!(narrow(&read(&text).expect("csv")), narrow(&particles));
+        let archive = put(&folder, "a.npz", npz_bytes(&particles, Precision::Single));
+        prop_assert_eq!(bits(&read(&archive).expect("npz")), bits(&particles));
+        let binary = put(&folder, "a.tipsy", tipsy_bytes(&particles));
+        let back = tipsy::read(&binary).expect("tipsy");
+        prop_assert_eq!((bits(&back.particles), back.time), (bits(&particles), 2.5));
+    }
+
+    #[test]
+    fn noise_is_an_error_or_particles_but_never_a_panic(
+        which in 0..3_usize, place in any::<prop::sample::Index>(), byte in any::<u8>(), twice in any::<prop::sample::Index>(),
+    ) {
+        let folder = folder();
+        let (name, mut bytes) = [
+            ("a.csv", csv_bytes(&some(9), Precision::Single)),
+            ("a.npz", npz_bytes(&some(9), Precision::Single)),
+            ("a.tipsy", tipsy_bytes(&some(9))),
+        ][which].clone();
+        let length = bytes.len();
+        bytes[place.index(length)] = byte;
+        bytes[twice.index(length)] ^= 1 << (byte % 8);
+        let _ = read(&put(&folder, name, bytes));
+    }
+}

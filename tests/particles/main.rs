@@ -1,0 +1,132 @@
+//! The generators: same bits for ever, the totals they promise, and the models' published numbers within sampling error.
+
+mod disk;
+mod models;
+
+use std::borrow::Cow;
+
+use glam::DVec3;
+use motes::error::Error;
+use motes::particles::{Particles, SHAPES, shape};
+use motes::settings::{Kind, Settings, Value};
+
+fn settings(name: &str, values: &[(&'static str, f64)]) -> Settings {
+    let start =
+        Settings::defaults(shape(name).expect("a shape").keys).with("size", Value::Vector(DVec3::new(3.0, 4.0, 5.0)));
+    values.iter().fold(start, |all, (key, x)| all.with(key, Value::Number(*x)))
+}
+
+fn made(name: &str, settings: &Settings) -> Particles {
+    (shape(name).expect("a shape").build)(settings).expect("good settings")
+}
+
+fn make(name: &str, values: &[(&'static str, f64)]) -> Particles {
+    made(name, &settings(name, values))
+}
+
+/// FNV-1a over the bits of all numbers.
+fn hash(particles: &Particles) -> u64 {
+    let vectors = particles.position.iter().chain(&particles.velocity).flat_map(DVec3::to_array);
+    let numbers = vectors.chain(particles.mass.iter().copied()).chain(particles.radius.iter().copied());
+    numbers
+        .flat_map(|x| x.to_bits().to_le_bytes())
+        .fold(0xcbf2_9ce4_8422_2325, |hash: u64, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
+}
+
+/// Sum of mass, centre of mass, its velocity.
+fn totals(p: &Particles) -> (f64, DVec3, DVec3) {
+    let mass: f64 = p.mass.iter().sum();
+    let x: DVec3 = p.position.iter().zip(&p.mass).map(|(x, m)| *x * *m).sum();
+    let v: DVec3 = p.velocity.iter().zip(&p.mass).map(|(v, m)| *v * *m).sum();
+    (mass, x / mass, v / mass)
+}
+
+#[test]
+fn the_bits_never_change() {
+    let stored = [
+        ("plummer", 0xe3b5_8a2c_371b_8eec),
+        ("sphere", 0x85a1_99b2_52d8_1b88),
+        ("disk", 0x6c6c_7862_37bc_89f1),
+        ("lattice", 0x138f_3cc1_8be2_c72b),
+        ("box", 0x7947_fcef_4d33_1765),
+    ];
+    assert_eq!(stored.map(|(name, _)| name).as_slice(), SHAPES.iter().map(|s| s.name).collect::<Vec<_>>());
+    let values = [("count", 100.0), ("seed", 7.0), ("virial", 0.3), ("jitter", 0.2), ("speed", 0.5)];
+    let made = stored.map(|(name, _)| (name, hash(&make(name, &values))));
+    assert_eq!(made, stored, "a platform or a generator has changed");
+    for (name, _) in stored {
+        let other = [("count", 100.0), ("seed", 8.0), ("virial", 0.3), ("jitter", 0.2), ("speed", 0.5)];
+        assert_ne!(make(name, &values), make(name, &other), "{name} does not look at its seed");
+    }
+}
+
+#[test]
+fn every_key_matters() {
+    for shape in SHAPES {
+        let base = settings(shape.name, &[("count", 40.0), ("virial", 0.2), ("jitter", 0.1), ("speed", 0.1)]);
+        let before = hash(&made(shape.name, &base));
+        for key in shape.keys {
+            let other = match key.kind {
+                Kind::Vector | Kind::Direction => Value::Vector(DVec3::new(2.0, 3.0, 4.0)),
+                Kind::Count | Kind::Whole => Value::Number(37.0),
+                _ => Value::Number(base.number(key.name) * 0.7 + 0.05),
+            };
+            let after = hash(&made(shape.name, &base.clone().with(key.name, other)));
+            assert_ne!(before, after, "{}: {} changes nothing", shape.name, key.name);
+        }
+    }
+}
+
+#[test]
+fn totals_are_exact() {
+    let (center, velocity) = (DVec3::new(3.0, -2.0, 1.0), DVec3::new(-0.5, 0.25, 4.0));
+    for (name, mass) in [("plummer", 2.5), ("sphere", 2.5), ("disk", 7.0), ("box", 500.0 * 2.5)] {
+        let p = made(
+            name,
+            &settings(
+                name,
+                &[("count", 500.0), ("mass", 2.5), ("virial", 0.4), ("speed", 1.0), ("particle_radius", 0.1)],
+            )
+            .with("center", Value::Vector(center))
+            .with("velocity", Value::Vector(velocity)),
+        );
+        let (total, x, v) = totals(&p);
+        assert_eq!((p.len(), p.radius.as_slice()), (500, [0.1; 500].as_slice()), "{name}");
+        // 500 roundings of 1e-16.
+        assert!((total / mass - 1.0).abs() < 1e-13, "{name}: mass {total}");
+        assert!((v - velocity).length() < 1e-13, "{name}: velocity {v}");
+        // A box is placed, not balanced: a side of 5 has the standard error 5 / √(12 · 500).
+        let room = if name == "box" { 0.3 } else { 1e-13 };
+        assert!((x - center).length() < room, "{name}: centre {x}");
+    }
+}
+
+#[test]
+fn bad_settings_are_errors() {
+    for (name, key, value, words) in [
+        ("plummer", "count", Value::Number(0.0), "count is 0"),
+        ("plummer", "scale", Value::Number(-1.0), "scale is -1; it must be above 0"),
+        ("plummer", "mass", Value::Number(f64::NAN), "mass is NaN"),
+        ("plummer", "cutoff", Value::Number(1.5), "cutoff is 1.5; it must be above 0 and at most 1"),
+        ("plummer", "scale", Value::Number(1e-320), "too far apart"),
+        ("plummer", "center", Value::Vector(DVec3::INFINITY), "center"),
+        ("plummer", "count", Value::Number(1e10), "10000000000 particles need ids beyond"),
+        ("sphere", "virial", Value::Number(-0.1), "virial is -0.1; it must be 0 or above"),
+        ("sphere", "radius", Value::Text(Cow::Borrowed("big")), "radius is 0"),
+        ("disk", "halo_fraction", Value::Number(1.0), "halo_fraction is 1; it must be 0 or above and below 1"),
+        ("disk", "halo_fraction", Value::Number(0.0), "no particle is left for the halo"),
+        ("disk", "halo_fraction", Value::Number(0.999), "no particle is left for the disk"),
+        ("disk", "normal", Value::Vector(DVec3::ZERO), "a direction must not be zero"),
+        ("disk", "disk_scale", Value::Number(0.0), "disk_scale is 0"),
+        ("lattice", "size", Value::Vector(DVec3::new(2.0, 2.5, 2.0)), "three whole numbers"),
+        ("lattice", "size", Value::Vector(DVec3::splat(1e6)), "particles need ids beyond the 4294967295"),
+        ("box", "size", Value::Vector(DVec3::NEG_X), "a side must be 0 or above"),
+    ] {
+        let bad = settings(name, &[("count", 50.0)]).with(key, value);
+        let error = (shape(name).expect("a shape").build)(&bad).expect_err(key);
+        let limit = words.contains("ids");
+        assert!(matches!(error, Error::Scene(_)) != limit && matches!(error, Error::Limit(_)) == limit, "{error:?}");
+        assert!(error.to_string().contains(words), "{name}.{key}: `{error}` does not say `{words}`");
+        assert!(error.to_string().contains(name));
+    }
+}
