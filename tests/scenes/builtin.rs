@@ -1,0 +1,88 @@
+//! The scenes that come with the program.
+
+use glam::DVec3;
+use motes::scene::{Options, SCENES, Scene, Source};
+
+fn builtin(name: &str) -> Scene {
+    let source = Source::find(name).expect("a built-in scene");
+    Scene::load(&source, &[], &Options::default()).unwrap_or_else(|faults| panic!("{faults}"))
+}
+
+#[test]
+fn every_one_loads_and_says_what_to_see() {
+    let names: Vec<_> = SCENES.iter().map(|s| s.name).collect();
+    assert_eq!(names, ["throw", "kepler", "figure_eight", "solar_system", "galaxy", "merger", "fountain"]);
+    for builtin in SCENES {
+        let scene = self::builtin(builtin.name);
+        assert!(scene.about.len() > 200, "{}: {}", builtin.name, scene.about);
+        assert_eq!(scene.about, builtin.about());
+        assert!(!scene.forces.is_empty() && scene.steps > 1 && scene.remarks.is_empty(), "{}", builtin.name);
+    }
+}
+
+#[test]
+fn every_one_has_its_file_in_the_folder() {
+    let mut files: Vec<_> = std::fs::read_dir("scenes")
+        .expect("the folder of the scenes")
+        .filter_map(|e| e.ok()?.path().file_stem().map(|s| s.to_string_lossy().into_owned()))
+        .collect();
+    let mut names: Vec<_> = SCENES.iter().map(|s| s.name.to_owned()).collect();
+    files.sort();
+    names.sort();
+    assert_eq!(files, names);
+}
+
+#[test]
+fn the_solar_system_rests_about_its_centre_of_mass() {
+    let p = builtin("solar_system").particles;
+    let total: f64 = p.mass.iter().sum();
+    assert!((total - 1.001_341_838_645_984_7).abs() < 1e-15, "{total}");
+    let sum = |list: &[DVec3]| p.mass.iter().zip(list).map(|(m, v)| *m * *v).sum::<DVec3>();
+    // Ten roundings of numbers near 0.005 AU, and of 8e-6 AU / day.
+    assert!(sum(&p.position).length() < 1e-17, "{}", sum(&p.position));
+    assert!(sum(&p.velocity).length() < 1e-20, "{}", sum(&p.velocity));
+    // The energy that the same data give elsewhere, and the angular momentum.
+    let g = 0.017_202_098_95_f64.powi(2);
+    let kinetic: f64 = p.mass.iter().zip(&p.velocity).map(|(m, v)| 0.5 * m * v.length_squared()).sum();
+    let mut potential = 0.0;
+    for i in 0..p.len() {
+        for j in 0..i {
+            potential -= g * p.mass[i] * p.mass[j] / p.position[i].distance(p.position[j]);
+        }
+    }
+    assert!((kinetic / 3.582_692_681_25e-8 - 1.0).abs() < 1e-11, "{kinetic}");
+    assert!((potential / -6.905_284_179_09e-8 - 1.0).abs() < 1e-11, "{potential}");
+    let spin: DVec3 = (0..p.len()).map(|i| p.mass[i] * p.position[i].cross(p.velocity[i])).sum();
+    assert!(spin.distance(DVec3::new(1.597_350_18e-6, 5.061_644_70e-7, 6.079_867_18e-5)) < 1e-13, "{spin}");
+}
+
+#[test]
+fn the_figure_eight_and_kepler_have_their_published_energies() {
+    let energy = |scene: &Scene| {
+        let p = &scene.particles;
+        let mut sum: f64 = p.mass.iter().zip(&p.velocity).map(|(m, v)| 0.5 * m * v.length_squared()).sum();
+        for i in 0..p.len() {
+            for j in 0..i {
+                sum -= p.mass[i] * p.mass[j] / p.position[i].distance(p.position[j]);
+            }
+        }
+        sum
+    };
+    let eight = builtin("figure_eight");
+    assert!((energy(&eight) + 1.287_141_995_631_85).abs() < 1e-13);
+    #[expect(clippy::cast_precision_loss, reason = "2000 steps")]
+    let period = eight.dt * eight.steps as f64;
+    assert!((period - 6.325_913_982_926_21).abs() < 1e-13);
+    let kepler = builtin("kepler");
+    assert!((energy(&kepler) + 0.045).abs() < 1e-15);
+    assert!((kepler.dt * 1000.0 - std::f64::consts::TAU).abs() < 1e-15);
+}
+
+#[test]
+fn groups_and_colours_cover_all_particles() {
+    let merger = builtin("merger");
+    let ids: Vec<_> = merger.groups.iter().map(|g| g.ids.clone()).collect();
+    assert_eq!(ids, [0..2048, 2048..4096]);
+    assert_eq!(merger.groups[0].color, Some([0x7f, 0xb2, 0xff]));
+    assert_eq!(merger.particles.len(), 4096);
+}
