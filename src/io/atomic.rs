@@ -27,7 +27,6 @@ fn replaced(
     write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
 ) -> io::Result<()> {
     match fs::metadata(path) {
-        Ok(there) if there.is_dir() => return Err(io::Error::other("it is a folder")),
         Ok(there) if !there.is_file() => {
             return filled(OpenOptions::new().write(true).open(path)?, write).map(drop);
         }

@@ -6,6 +6,7 @@
 mod archive;
 mod atomic;
 pub mod csv;
+mod line;
 mod npy;
 pub mod npz;
 mod problems;

@@ -177,6 +177,10 @@ fn a_lattice_is_straight_and_x_runs_fastest() {
         .iter()
         .map(|d| d.abs().max_element())
         .fold(0.0, f64::max);
+    assert!(
+        moved.iter().any(|d| d.x < -0.1) && moved.iter().any(|d| d.x > 0.1),
+        "to one side only"
+    );
     assert!((0.11..0.125).contains(&worst), "{worst}"); // a quarter of 0.5
 }
 
