@@ -82,7 +82,7 @@ fn the_figure_eight_and_kepler_have_their_published_energies() {
 fn groups_and_colours_cover_all_particles() {
     let merger = builtin("merger");
     let ids: Vec<_> = merger.groups.iter().map(|g| g.ids.clone()).collect();
-    assert_eq!(ids, [0..2048, 2048..4096]);
+    assert_eq!(ids, [0..5120, 5120..10_240]);
     assert_eq!(merger.groups[0].color, Some([0x7f, 0xb2, 0xff]));
-    assert_eq!(merger.particles.len(), 4096);
+    assert_eq!(merger.particles.len(), 10_240);
 }
