@@ -28,7 +28,7 @@ const HALF_VIEW: f64 = 0.268;
 /// So few particles are all in the picture, and leave trails; of more, the outermost are left to themselves.
 pub const FEW: usize = 64;
 /// The part of many particles that may lie beyond each edge before the margin is added.
-const OUTER: f64 = 0.02;
+const OUTER: f64 = 0.03;
 /// What is left free around the particles, as a part of their own extent.
 const MARGIN: f64 = 0.22;
 /// A picture is framed by so many particles at most.
