@@ -81,6 +81,8 @@ fn gpu_and_twins_draw_the_same_picture() {
         {
             let mut particles = support::cloud(count, 7);
             particles.radius.iter_mut().enumerate().for_each(|(i, r)| *r = 0.017 * (i % 7) as f64);
+            particles.mass.iter_mut().enumerate().for_each(|(i, m)| *m *= 0.09_f64.powi((i % 5) as i32));
+            particles.mass[count / 2] = 0.0;
             let settings = settings(width, height).with("style", word(style)).with("projection", word(projection));
             let settings = settings.with("color", word(color)).with("eye", Value::Vector(DVec3::new(0.3, -0.9, 0.55)));
             let groups: Vec<u32> = (0..count as u32).map(|i| i % 3).collect();
@@ -120,6 +122,8 @@ fn a_large_ball_has_the_area_of_its_disc() {
         // The dark side of a ball is lit too, by 0.16 of its colour.
         let area = lit(image) as f64;
         assert!((area / (std::f64::consts::PI * 75.0 * 75.0) - 1.0).abs() < 0.03, "{projection}: {area}");
+        // Several layers of the dispatch draw it: no row is left out between two.
+        assert_close(image, &on_cpu(&particles, &picture), projection);
         // Its middle is in the middle of the picture.
         let rows: Vec<usize> = (0..600).filter(|y| image.rgba[(y * 900 + 450) * 4] > SKY).collect();
         assert_eq!((rows[0] + rows[rows.len() - 1]) / 2, 299, "{projection}");
@@ -302,6 +306,15 @@ fn a_trail_is_where_the_particle_was() {
     assert!((0..57).all(|x| (0..100).all(|y| red(x, y) < SKY)), "nothing before the first point");
     assert!((62..130).all(|x| red(x, 46) < SKY && red(x, 53) < SKY), "a thin line");
     assert_close(image, &on_cpu(&particles, &picture), "trail");
+    // Broad lines in every direction, longer than what one layer of the dispatch walks.
+    let mut particles = support::cloud(40, 13);
+    particles.radius.fill(0.0);
+    let settings = settings.with("width", Value::Number(1500.0)).with("height", Value::Number(1200.0));
+    let mut trail = Trail::new(40);
+    trail.push(&particles.position.iter().map(|x| DVec3::new(x.y, x.z, x.x)).collect::<Vec<_>>());
+    let mut picture = Picture::new(&settings, &particles, &[], trail).unwrap();
+    picture.frame.line = 3.3;
+    assert_close(&on_gpu(&particles, &[&picture])[0], &on_cpu(&particles, &picture), "broad trails");
 }
 
 #[test]
