@@ -42,6 +42,7 @@ pub struct Exposure {
 
 impl Exposure {
     /// From a histogram: almost everything is below white, and most of what is lit above the knee.
+    #[must_use]
     pub fn of(histogram: &[u32], frame: &Frame, exposure: f64) -> Self {
         let lit: u64 = histogram.iter().take(BINS).map(|n| u64::from(*n)).sum();
         let quantile = |part: f64| {
@@ -61,6 +62,7 @@ impl Exposure {
         Self { knee: knee.max(1e-3 * white) / exposure, white: white / exposure }
     }
     /// 1 / log₂(1 + white / knee)
+    #[must_use]
     pub fn slope(&self) -> f64 {
         (1.0 + self.white / self.knee).log2().recip()
     }

@@ -111,8 +111,7 @@ impl Picture {
             height: super::frame::whole(height),
             heaviest: particles.mass.iter().copied().fold(0.0, f64::max),
             marker: match style {
-                "auto" if few => 0.025 * short / (1.0 + f64::from(count) / 16.0),
-                "balls" if few => 0.025 * short / (1.0 + f64::from(count) / 16.0),
+                "auto" | "balls" if few => 0.025 * short / (1.0 + f64::from(count) / 16.0),
                 "balls" => 1.0,
                 _ => 0.0,
             },
