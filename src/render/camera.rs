@@ -98,7 +98,10 @@ impl Camera {
     }
 }
 
-/// From the lowest to the highest of some intervals, without the `outer` part of each end.
+/// So much longer than the rest the whole must be before its ends are taken for stragglers.
+const STRAGGLING: f64 = 1.5;
+
+/// From the lowest to the highest of some intervals; without the `outer` part of each end, if that is far off.
 fn span(intervals: impl Iterator<Item = (f64, f64)>, outer: f64) -> (f64, f64) {
     let (mut low, mut high): (Vec<f64>, Vec<f64>) = intervals.unzip();
     #[expect(
@@ -109,5 +112,47 @@ fn span(intervals: impl Iterator<Item = (f64, f64)>, outer: f64) -> (f64, f64) {
     )]
     let skip = ((low.len().max(1) - 1) as f64 * outer) as usize;
     let last = high.len() - 1 - skip;
-    (*low.select_nth_unstable_by(skip, f64::total_cmp).1, *high.select_nth_unstable_by(last, f64::total_cmp).1)
+    let lowest = low.iter().copied().fold(f64::INFINITY, f64::min);
+    let highest = high.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let (low, high) =
+        (*low.select_nth_unstable_by(skip, f64::total_cmp).1, *high.select_nth_unstable_by(last, f64::total_cmp).1);
+    if highest - lowest <= STRAGGLING * (high - low) { (lowest, highest) } else { (low, high) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn stragglers_are_left_out_and_edges_are_not() {
+        let line = |end: f64| (0..100_u32).map(|i| f64::from(i) / 99.0).chain([end]).map(|x| (x, x));
+        assert_eq!(span(line(1.2), 0.03), (0.0, 1.2));
+        let (low, high) = span(line(50.0), 0.03);
+        assert!(low > 0.02 && high < 1.0, "{low} {high}");
+        assert_eq!(span(line(50.0), 0.0), (0.0, 50.0));
+    }
+    #[test]
+    fn few_particles_are_all_in_the_picture_with_their_balls_and_trails() {
+        let mut particles = Particles::default();
+        particles.push(DVec3::new(7.0, 1.0, -2.0), DVec3::ZERO, 1.0, 0.5);
+        particles.push(DVec3::new(-3.0, -20.0, 4.0), DVec3::ZERO, 1.0, 0.1);
+        let mut trail = Trail::new(2);
+        trail.push(&[DVec3::new(0.0, 9.0, 12.0), DVec3::new(0.0, 30.0, -12.0)]);
+        for projection in ["perspective", "orthographic"] {
+            let word = crate::settings::Value::Text(projection.into());
+            let settings = Settings::defaults(super::super::KEYS).with("projection", word);
+            let camera = Camera::fit(&particles, &trail, &settings);
+            let balls = particles.position.iter().copied().zip([0.5, 0.1]);
+            let mut fullest: f64 = 0.0;
+            for (x, radius) in balls.chain(trail.points().map(|x| (x, 0.0))) {
+                let r = x - camera.center;
+                let larger =
+                    if camera.distance > 0.0 { camera.distance / (camera.distance - r.dot(camera.back)) } else { 1.0 };
+                let across = (r.dot(camera.right).abs() + radius) * larger / camera.extent * 720.0 / 1280.0;
+                let up = (r.dot(camera.up).abs() + radius) * larger / camera.extent;
+                fullest = fullest.max(across).max(up);
+            }
+            assert!((0.75..0.95).contains(&fullest), "{projection}: {fullest}");
+        }
+    }
 }
