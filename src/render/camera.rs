@@ -131,28 +131,35 @@ mod tests {
         assert!(low > 0.02 && high < 1.0, "{low} {high}");
         assert_eq!(span(line(50.0), 0.0), (0.0, 50.0));
     }
+    /// How much of the picture these particles and trails fill, from the middle to the fuller edge.
+    fn filled(shapes: &[(DVec3, f64)], past: &[DVec3], projection: &'static str) -> f64 {
+        let mut particles = Particles::default();
+        for (x, radius) in shapes {
+            particles.push(*x, DVec3::ZERO, 1.0, *radius);
+        }
+        let mut trail = Trail::new(shapes.len());
+        trail.push(past);
+        let word = crate::settings::Value::Text(projection.into());
+        let settings = Settings::defaults(super::super::KEYS).with("projection", word);
+        let camera = Camera::fit(&particles, &trail, &settings);
+        let part = |(x, radius): (DVec3, f64)| {
+            let r = x - camera.center;
+            let near = if camera.distance > 0.0 { r.dot(camera.back) / camera.distance } else { 0.0 };
+            let across = (r.dot(camera.right).abs() + radius) / (1.0 - near) * 720.0 / 1280.0;
+            across.max((r.dot(camera.up).abs() + radius) / (1.0 - near)) / camera.extent
+        };
+        shapes.iter().copied().chain(past.iter().map(|x| (*x, 0.0))).map(part).fold(0.0, f64::max)
+    }
     #[test]
     fn few_particles_are_all_in_the_picture_with_their_balls_and_trails() {
-        let mut particles = Particles::default();
-        particles.push(DVec3::new(7.0, 1.0, -2.0), DVec3::ZERO, 1.0, 0.5);
-        particles.push(DVec3::new(-3.0, -20.0, 4.0), DVec3::ZERO, 1.0, 0.1);
-        let mut trail = Trail::new(2);
-        trail.push(&[DVec3::new(0.0, 9.0, 12.0), DVec3::new(0.0, 30.0, -12.0)]);
+        let (high, wide) = (DVec3::new(0.0, 30.0, -12.0), DVec3::new(90.0, 1.0, 0.0));
+        let two = [(DVec3::new(7.0, 1.0, -2.0), 0.5), (DVec3::new(-3.0, -20.0, 4.0), 0.1)];
+        let large = [(DVec3::new(7.0, 1.0, -2.0), 15.0), (DVec3::new(-3.0, -2.0, 4.0), 9.0)];
         for projection in ["perspective", "orthographic"] {
-            let word = crate::settings::Value::Text(projection.into());
-            let settings = Settings::defaults(super::super::KEYS).with("projection", word);
-            let camera = Camera::fit(&particles, &trail, &settings);
-            let balls = particles.position.iter().copied().zip([0.5, 0.1]);
-            let mut fullest: f64 = 0.0;
-            for (x, radius) in balls.chain(trail.points().map(|x| (x, 0.0))) {
-                let r = x - camera.center;
-                let larger =
-                    if camera.distance > 0.0 { camera.distance / (camera.distance - r.dot(camera.back)) } else { 1.0 };
-                let across = (r.dot(camera.right).abs() + radius) * larger / camera.extent * 720.0 / 1280.0;
-                let up = (r.dot(camera.up).abs() + radius) * larger / camera.extent;
-                fullest = fullest.max(across).max(up);
+            for (shapes, past) in [(two, high), (two, wide), (large, DVec3::X)] {
+                let filled = filled(&shapes, &[DVec3::new(0.0, 9.0, 12.0), past], projection);
+                assert!((0.75..0.9).contains(&filled), "{projection} {past}: {filled}");
             }
-            assert!((0.75..0.95).contains(&fullest), "{projection}: {fullest}");
         }
     }
 }

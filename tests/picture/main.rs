@@ -1,10 +1,12 @@
 //! Pictures: kernels against twins, the same bytes on every run, awkward sizes and places.
 
+mod limits;
+mod places;
+#[path = "../support/mod.rs"]
 mod support;
 
-use glam::{DVec3, Vec4};
-use motes::kernel::{Array, Backend, Clock};
-use motes::render::{Camera, Image, KEYS, Picture, Trail};
+use glam::DVec3;
+use motes::render::{Image, KEYS, Picture, Trail};
 use motes::settings::{Settings, Value};
 use motes::*;
 
@@ -148,151 +150,6 @@ fn the_nearer_ball_is_in_front_whatever_its_id() {
         // The first colour is amber, the second blue.
         let middle = &image.rgba[(100 * 200 + 100) * 4..][..3];
         assert_eq!(middle[0] > middle[2], near == 0, "{near}: {middle:?}");
-    }
-}
-
-#[test]
-fn what_is_behind_the_eye_or_beside_the_picture_is_counted_and_not_drawn() {
-    let mut particles = support::cloud(80, 3);
-    particles.radius.fill(0.0);
-    let plain = settings(300, 200).with("auto_frame", Value::Flag(false)).with("extent", Value::Number(2.5));
-    let settings = plain.with("eye", Value::Vector(DVec3::NEG_Y)).with("color", word("group"));
-    let before = Picture::new(&settings, &particles, &[], Trail::new(80)).unwrap();
-    let clean = &on_gpu(&particles, &[&before])[0];
-    assert_eq!((clean.outside, clean.broken), (0, 0));
-    let distance = before.frame.camera.distance;
-    // On the axis behind the eye, at the eye, just before it; far beside; as far away as numbers go.
-    let away = [
-        DVec3::new(0.0, -2.0 * distance, 0.0),
-        DVec3::new(0.0, -distance, 0.0),
-        DVec3::new(0.0, -0.99 * distance, 0.0),
-        DVec3::new(40.0, 0.0, 0.0),
-        DVec3::new(0.0, 0.0, -9.0),
-        DVec3::new(3e38, -3e38, 3e38),
-    ];
-    particles.position[..6].copy_from_slice(&away);
-    let image = &on_gpu(&particles, &[&before])[0];
-    assert_eq!((image.outside, image.broken), (6, 0));
-    let cpu = on_cpu(&particles, &before);
-    assert_close(image, &cpu, "away");
-    assert!(lit(image) < lit(clean));
-}
-
-#[test]
-fn broken_numbers_are_drawn_nowhere_and_counted() {
-    let mut particles = support::cloud(70, 9);
-    particles.radius.fill(0.03);
-    let picture = Picture::new(&settings(260, 150), &particles, &[], Trail::new(70)).unwrap();
-    let device = support::device();
-    let mut gpu = Simulation::new(&device.found.device, &device.found.queue, &setup(particles.clone())).unwrap();
-    let mut cpu = Simulation::on(Cpu::new(70).unwrap(), &setup(particles.clone())).unwrap();
-    let mut position: Vec<Vec4> =
-        particles.position.iter().zip(&particles.mass).map(|(x, m)| x.extend(*m).as_vec4()).collect();
-    let mut velocity: Vec<Vec4> =
-        particles.velocity.iter().zip(&particles.radius).map(|(v, r)| v.extend(*r).as_vec4()).collect();
-    position[3].x = f32::NAN;
-    position[64].z = f32::NEG_INFINITY;
-    position[10].w = f32::NAN;
-    velocity[20].w = f32::INFINITY;
-    velocity[30].y = f32::NAN;
-    gpu.write(POSITION, &position).unwrap();
-    gpu.write(VELOCITY, &velocity).unwrap();
-    cpu.write(POSITION, &position).unwrap();
-    cpu.write(VELOCITY, &velocity).unwrap();
-    let (gpu, cpu) = (pollster::block_on(gpu.draw(&picture)).unwrap(), pollster::block_on(cpu.draw(&picture)).unwrap());
-    assert_eq!(gpu.broken, 5);
-    assert_close(&gpu, &cpu, "broken");
-}
-
-#[test]
-fn particles_at_one_place_have_a_picture() {
-    for place in [DVec3::ZERO, DVec3::new(1e6, -2e6, 3e6)] {
-        for count in [1, 2, 65, 20_000] {
-            let mut particles = Particles::default();
-            for _ in 0..count {
-                particles.push(place, DVec3::ZERO, 0.0, 0.0);
-            }
-            let picture = Picture::new(&settings(190, 110), &particles, &[], Trail::new(count)).unwrap();
-            let Camera { center, extent, distance, .. } = picture.frame.camera;
-            assert!(extent > 0.0 && extent.is_finite() && distance.is_finite(), "{extent} {distance}");
-            assert!(center.distance(place) <= 1e-9 * place.length());
-            let image = &on_gpu(&particles, &[&picture])[0];
-            assert!(lit(image) > 0 && image.outside == 0, "{count} at {place}");
-            assert!(image.rgba[(55 * 190 + 95) * 4] > 100, "{count} at {place}: the middle is dark");
-            assert_close(image, &on_cpu(&particles, &picture), "one place");
-        }
-    }
-}
-
-#[test]
-fn all_lights_on_one_pixel_do_not_overflow() {
-    // The canvas holds what all of them give: with a unit one bit larger, it would not.
-    let count = 70_000_u32;
-    let many = count as usize;
-    let mut particles = Particles::default();
-    for _ in 0..count {
-        particles.push(DVec3::ZERO, DVec3::ZERO, 1.0, 0.0);
-    }
-    let settings = settings(65, 65).with("color", word("group")).with("style", word("glow"));
-    let mut picture = Picture::new(&settings, &particles, &[], Trail::new(many)).unwrap();
-    picture.color = render::Color::Given(vec![u32::MAX; many]);
-    let device = support::device();
-    let mut gpu = Gpu::new(&device.found.device, &device.found.queue, count).unwrap();
-    let program = gpu.compile(&picture.plan().unwrap()).unwrap();
-    gpu.set_clock(Clock { count, dt: 0.1, ..Clock::default() }).unwrap();
-    let array = |v: &[DVec3]| Array::Vec4(v.iter().map(|x| x.extend(1.0)).collect());
-    gpu.write("position", &array(&particles.position)).unwrap();
-    gpu.write("velocity", &Array::Vec4(vec![glam::DVec4::ZERO; many])).unwrap();
-    gpu.write("color", &Array::Uint(vec![u32::MAX; many])).unwrap();
-    gpu.run(&program, 1).unwrap();
-    let canvas = pollster::block_on(gpu.read("canvas", &Array::Uint(Vec::new()), 3 * 65 * 65)).unwrap();
-    let Array::Uint(canvas) = canvas else { panic!("a canvas is of whole numbers") };
-    // The particles are in the middle of the middle pixel, where each gives the whole unit.
-    let middle = canvas[3 * (32 * 65 + 32)];
-    assert!((f64::from(middle) - f64::from(count) * picture.frame.unit).abs() < 0.5, "{middle}");
-    assert!(middle > u32::MAX / 4, "{middle}: a coarser unit than need be");
-    assert!(f64::from(count) * 2.0 * picture.frame.unit > f64::from(u32::MAX) / 2.0);
-}
-
-#[test]
-fn nothing_is_written_behind_the_end() {
-    const MARK: u8 = 0xA7;
-    const PAD: u64 = 256;
-    for (count, width, height) in [(1_u32, 61, 33), (65, 130, 67), (1000, 64, 64)] {
-        let mut particles = support::cloud(count as usize, 11);
-        particles.radius.iter_mut().step_by(2).for_each(|r| *r = 0.2);
-        // Much is beyond the edges.
-        let settings =
-            settings(width, height).with("auto_frame", Value::Flag(false)).with("extent", Value::Number(0.4));
-        let picture = Picture::new(&settings, &particles, &[], trail(&particles)).unwrap();
-        let device = support::device();
-        let mut gpu = Gpu::new(&device.found.device, &device.found.queue, count).unwrap();
-        gpu.pad(PAD);
-        let plans =
-            [picture.plan().unwrap(), picture.development(render::Exposure { knee: 900.0, white: 9e4 }).unwrap()];
-        let programs = plans.each_ref().map(|plan| gpu.compile(plan).unwrap());
-        gpu.set_clock(Clock { count, dt: 0.1, ..Clock::default() }).unwrap();
-        let fields: Vec<(String, u64)> =
-            plans.iter().flat_map(|plan| plan.fields(count)).filter(|(name, _)| name != "world").collect();
-        for (name, _) in &fields {
-            gpu.write_bytes(name, 0, &vec![MARK; usize::try_from(gpu.size(name)).unwrap()]).unwrap();
-        }
-        let array = |v: &[DVec3], w: &[f64]| Array::Vec4(v.iter().zip(w).map(|(x, w)| x.extend(*w)).collect());
-        gpu.write("position", &array(&particles.position, &particles.mass)).unwrap();
-        gpu.write("velocity", &array(&particles.velocity, &particles.radius)).unwrap();
-        gpu.write("color", &Array::Uint(vec![0xff30_90e0; count as usize])).unwrap();
-        let points: Vec<_> = picture.trail.points().map(|x| x.extend(0.0)).collect();
-        if !points.is_empty() {
-            gpu.write("trail", &Array::Vec4(points)).unwrap();
-        }
-        for program in &programs {
-            gpu.run(program, 1).unwrap();
-        }
-        for (name, bytes) in fields {
-            let size = gpu.size(&name);
-            let behind = pollster::block_on(gpu.bytes(&name, bytes, size - bytes)).unwrap();
-            assert!(behind.len() as u64 >= PAD * 16 && behind.iter().all(|b| *b == MARK), "{name} of {count}");
-        }
     }
 }
 
