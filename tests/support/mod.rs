@@ -3,6 +3,7 @@
 
 pub mod choices;
 pub mod machines;
+pub mod mutants;
 pub mod states;
 
 use std::sync::{Mutex, MutexGuard, OnceLock};
