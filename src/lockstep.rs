@@ -93,7 +93,13 @@ pub async fn compare(gpu: &mut Gpu, plan: &Plan, count: u32) -> Result<Vec<Verdi
             let spilled = tail.chunks_exact(4).any(|word| word != sentinel(fields.len()));
             if spilled {
                 let field = (**name).to_owned();
-                verdicts.push(Verdict { kernel: kernel.name.clone(), field, spilled, changed: true, ..Verdict::none() });
+                verdicts.push(Verdict {
+                    kernel: kernel.name.clone(),
+                    field,
+                    spilled,
+                    changed: true,
+                    ..Verdict::none()
+                });
             }
         }
         for (place, ((name, bytes, kind), before)) in fields.iter().zip(before).enumerate() {

@@ -19,7 +19,10 @@ const STEPS: u32 = 30;
 fn forces() -> Vec<Box<dyn Force>> {
     vec![
         force("gravity", &[("softening", Value::Number(0.17))]),
-        force("wind", &[("velocity", vector(0.6, 0.2, -0.3)), ("gust", Value::Number(0.7)), ("rate", Value::Number(0.4))]),
+        force(
+            "wind",
+            &[("velocity", vector(0.6, 0.2, -0.3)), ("gust", Value::Number(0.7)), ("rate", Value::Number(0.4))],
+        ),
         force("drag", &[("linear", Value::Number(0.3)), ("quadratic", Value::Number(0.2))]),
     ]
 }
@@ -108,7 +111,8 @@ fn the_same_in_a_callers_encoder() {
 
         let mut encoded = simulation(&shared, entry.name);
         for steps in [7, 1, STEPS - 8] {
-            let mut encoder = shared.found.device.create_command_encoder(&motes::wgpu::CommandEncoderDescriptor::default());
+            let mut encoder =
+                shared.found.device.create_command_encoder(&motes::wgpu::CommandEncoderDescriptor::default());
             encoded.encode(steps, &mut encoder);
             shared.found.queue.submit([encoder.finish()]);
         }

@@ -75,7 +75,8 @@ fn more_particles_than_a_device_binds() {
     let shared = support::device();
     let few = |limits: &mut motes::wgpu::Limits| limits.max_storage_buffer_binding_size = 4096;
     let (device, queue) = pollster::block_on(support::limited(&shared, few));
-    let simulate = |count| Simulation::new(&device, &queue, &setup(support::cloud(count, 1), Vec::new(), 0.1)).map(|_| ());
+    let simulate =
+        |count| Simulation::new(&device, &queue, &setup(support::cloud(count, 1), Vec::new(), 0.1)).map(|_| ());
     assert!(simulate(256).is_ok(), "256 of 16 bytes fit");
     match simulate(257) {
         Err(error @ Error::Limit(_)) => {
@@ -155,7 +156,10 @@ fn a_users_shader_is_told_what_is_wrong_and_where() {
     };
     let [strength, center] = good();
     in_scene(&[strength.clone()], &["swirl", "`center`"]);
-    in_scene(&[strength.clone(), center.clone(), ("spin", Value::Number(2.0))], &["swirl", "`spin`", "`strength`", "`center`"]);
+    in_scene(
+        &[strength.clone(), center.clone(), ("spin", Value::Number(2.0))],
+        &["swirl", "`spin`", "`strength`", "`center`"],
+    );
     in_scene(&[("strength", Value::Vector(DVec3::X)), center.clone()], &["swirl", "`strength`", "`f32`"]);
     in_scene(&[strength, ("center", Value::Number(0.1))], &["swirl", "`center`", "vec3"]);
     let error = complaint(each, "fn force(me: Particle) -> vec4f { return vec4f(); }", &good());
@@ -164,7 +168,8 @@ fn a_users_shader_is_told_what_is_wrong_and_where() {
 
 #[test]
 fn the_twins_cannot_run_a_users_shader() {
-    let error = on_cpu(&setup(support::cloud(3, 1), custom(Over::Each, SWIRL, &good()), 0.1)).map(|_| ()).expect_err("no twin");
+    let error =
+        on_cpu(&setup(support::cloud(3, 1), custom(Over::Each, SWIRL, &good()), 0.1)).map(|_| ()).expect_err("no twin");
     assert!(matches!(error, Error::Scene(_)), "{error:?}");
     for word in ["swirl", "twin", "GPU"] {
         assert!(error.to_string().contains(word), "`{error}` does not say `{word}`");

@@ -45,7 +45,10 @@ fn forces_are_gradients_or_depend_on_velocity() {
         let moved = accelerations(&force, &faster, TIME);
         if a.iter().all(|a| a.w == 0.0) {
             others += 1;
-            assert!(a.iter().zip(&moved).all(|(a, b)| a != b), "{name}: no potential, although velocity is nothing to it");
+            assert!(
+                a.iter().zip(&moved).all(|(a, b)| a != b),
+                "{name}: no potential, although velocity is nothing to it"
+            );
             return;
         }
         gradients += 1;
@@ -159,29 +162,55 @@ fn the_spline_is_newton_outside_and_smooth_inside() {
 
 #[test]
 fn numbers_by_hand() {
-    let felt = |force, x: [f64; 3], v: [f64; 3], time| {
-        accelerations(&[force], &one(DVec3::from(x), DVec3::from(v)), time)[0]
-    };
+    let felt =
+        |force, x: [f64; 3], v: [f64; 3], time| accelerations(&[force], &one(DVec3::from(x), DVec3::from(v)), time)[0];
     let number = Value::Number;
     let near = |got: DVec4, want: [f64; 4]| {
-        assert!((got - DVec4::from(want)).length() < 1e-14 * DVec4::from(want).length().max(1.0), "{got}, not {want:?}");
+        assert!(
+            (got - DVec4::from(want)).length() < 1e-14 * DVec4::from(want).length().max(1.0),
+            "{got}, not {want:?}"
+        );
     };
     // φ = −g · x
-    near(felt(force("uniform", &[("acceleration", vector(2.0, -3.0, 0.5))]), [4.0, 2.0, -6.0], [9.0; 3], 7.0), [2.0, -3.0, 0.5, 1.0]);
+    near(
+        felt(force("uniform", &[("acceleration", vector(2.0, -3.0, 0.5))]), [4.0, 2.0, -6.0], [9.0; 3], 7.0),
+        [2.0, -3.0, 0.5, 1.0],
+    );
     // u = (3, 0, 4), |u| = 5, γ + c |u| = 0.2 + 0.5
     let drag = [("linear", number(0.2)), ("quadratic", number(0.1)), ("wind", vector(-1.0, 2.0, 0.0))];
     near(felt(force("drag", &drag), [9.0; 3], [2.0, 2.0, 4.0], 7.0), [-2.1, 0.0, -2.8, 0.0]);
     // A quarter of a period less a sixth: sin 2π (1/4 − 1/6) = sin 30° = 1/2; the wind is 1 + 0.4 / 2 times (3, 0, 4).
-    let wind = [("velocity", vector(3.0, 0.0, 4.0)), ("rate", number(0.5)), ("gust", number(0.4)), ("period", number(8.0)), ("wavelength", number(6.0))];
+    let wind = [
+        ("velocity", vector(3.0, 0.0, 4.0)),
+        ("rate", number(0.5)),
+        ("gust", number(0.4)),
+        ("period", number(8.0)),
+        ("wavelength", number(6.0)),
+    ];
     near(felt(force("wind", &wind), [3.0, 7.0, -1.0], [0.6, 0.2, 0.0], 2.0), [1.5, -0.1, 2.4, 0.0]);
     // Two periods later, and a wavelength further on, it is the same.
     near(felt(force("wind", &wind), [6.6, 7.0, 3.8], [0.6, 0.2, 0.0], 18.0), [1.5, -0.1, 2.4, 0.0]);
     // r = 2 from the axis, core 1: |u| = Γ 2 / 2π 5 = 2 for Γ = 10 π; the axis may have any length; along it nothing happens.
-    let vortex = [("center", vector(1.0, 1.0, 1.0)), ("axis", vector(0.0, 0.0, 7.0)), ("circulation", number(5.0 * TAU)), ("core", number(1.0)), ("rate", number(0.5))];
+    let vortex = [
+        ("center", vector(1.0, 1.0, 1.0)),
+        ("axis", vector(0.0, 0.0, 7.0)),
+        ("circulation", number(5.0 * TAU)),
+        ("core", number(1.0)),
+        ("rate", number(0.5)),
+    ];
     near(felt(force("vortex", &vortex), [3.0, 1.0, 9.0], [0.0, 0.0, 2.0], 7.0), [0.0, 1.0, -1.0, 0.0]);
     // The centre has come to (1, 0, 0), d = (0, 3, 4); ε² = 11, d² + ε² = 36.
     let attractor = |profile| {
-        force("attractor", &[("position", vector(-1.0, 0.0, 0.0)), ("velocity", vector(1.0, 0.0, 0.0)), ("profile", word(profile)), ("strength", number(72.0)), ("softening", number(11f64.sqrt()))])
+        force(
+            "attractor",
+            &[
+                ("position", vector(-1.0, 0.0, 0.0)),
+                ("velocity", vector(1.0, 0.0, 0.0)),
+                ("profile", word(profile)),
+                ("strength", number(72.0)),
+                ("softening", number(11f64.sqrt())),
+            ],
+        )
     };
     let at = |profile| felt(attractor(profile), [1.0, 3.0, 4.0], [9.0; 3], 2.0);
     near(at("point"), [0.0, -1.0, -4.0 / 3.0, -12.0]);

@@ -22,7 +22,14 @@ fn kepler(eccentricity: f64, time: f64) -> (DVec3, DVec3) {
 }
 
 /// The error of the whole phase, so that no single component can pass through zero and fake an order.
-fn error(forces: Vec<Box<dyn Force>>, name: &str, start: (DVec3, DVec3), end: (DVec3, DVec3), time: f64, steps: u32) -> f64 {
+fn error(
+    forces: Vec<Box<dyn Force>>,
+    name: &str,
+    start: (DVec3, DVec3),
+    end: (DVec3, DVec3),
+    time: f64,
+    steps: u32,
+) -> f64 {
     let mut simulation = cpu(&one(start.0, start.1), forces, name, time / f64::from(steps));
     simulation.step(steps).expect("steps");
     let (x, v) = states::phase(&mut simulation);
@@ -61,7 +68,11 @@ fn orders_with_position_and_time() {
                 resting = errors[1];
             } else {
                 // Every consistent method is the same in a frame that moves, but for rounding: 1e-16 in each of 2^14 steps.
-                assert!((errors[1] - resting).abs() < 1e-11 + 1e-6 * resting, "{}: {errors:?}, {resting:e}", entry.name);
+                assert!(
+                    (errors[1] - resting).abs() < 1e-11 + 1e-6 * resting,
+                    "{}: {errors:?}, {resting:e}",
+                    entry.name
+                );
             }
         }
     }
@@ -87,12 +98,15 @@ fn orders_with_velocity_and_time() {
     // Gusts and quadratic drag: no closed form, so the reference is the method of order 4 with steps 16 times finer.
     let gusts = || -> Vec<Box<dyn Force>> {
         vec![
-            force("wind", &[
-                ("velocity", vector(0.6, 0.2, -0.3)),
-                ("gust", Value::Number(0.7)),
-                ("period", Value::Number(0.9)),
-                ("wavelength", Value::Number(2.3)),
-            ]),
+            force(
+                "wind",
+                &[
+                    ("velocity", vector(0.6, 0.2, -0.3)),
+                    ("gust", Value::Number(0.7)),
+                    ("period", Value::Number(0.9)),
+                    ("wavelength", Value::Number(2.3)),
+                ],
+            ),
             force("drag", &[("quadratic", Value::Number(0.4))]),
         ]
     };
@@ -120,14 +134,29 @@ struct Row {
 }
 
 const TABLE: &[Row] = &[
-    Row { eccentricity: 0.0, name: "forward_euler", orbit: [3.585324e-1, 6.836036e-2], ten: [6.186605e-1, 3.328089e-1] },
-    Row { eccentricity: 0.0, name: "symplectic_euler", orbit: [1.757028e-4, 3.947881e-5], ten: [1.757027e-3, 3.947881e-5] },
+    Row {
+        eccentricity: 0.0,
+        name: "forward_euler",
+        orbit: [3.585324e-1, 6.836036e-2],
+        ten: [6.186605e-1, 3.328089e-1],
+    },
+    Row {
+        eccentricity: 0.0,
+        name: "symplectic_euler",
+        orbit: [1.757028e-4, 3.947881e-5],
+        ten: [1.757027e-3, 3.947881e-5],
+    },
     Row { eccentricity: 0.0, name: "leapfrog", orbit: [8.268216e-5, 3.896189e-10], ten: [8.268216e-4, 3.896189e-10] },
     Row { eccentricity: 0.0, name: "midpoint", orbit: [1.455951e-4, 1.947878e-7], ten: [1.538561e-3, 1.947866e-6] },
     Row { eccentricity: 0.0, name: "heun", orbit: [3.343661e-4, 7.790861e-7], ten: [3.674054e-3, 7.790669e-6] },
     Row { eccentricity: 0.0, name: "rk4", orbit: [2.324649e-10, 1.7106e-12], ten: [3.049354e-9, 1.709e-11] },
     Row { eccentricity: 0.5, name: "forward_euler", orbit: [1.193491, 9.509909e-2], ten: [1.357662, 5.818698e-1] },
-    Row { eccentricity: 0.5, name: "symplectic_euler", orbit: [4.348412e-3, 9.078130e-3], ten: [4.345892e-2, 9.078171e-3] },
+    Row {
+        eccentricity: 0.5,
+        name: "symplectic_euler",
+        orbit: [4.348412e-3, 9.078130e-3],
+        ten: [4.345892e-2, 9.078171e-3],
+    },
     Row { eccentricity: 0.5, name: "leapfrog", orbit: [1.769537e-3, 1.073000e-4], ten: [1.769426e-2, 1.073000e-4] },
     Row { eccentricity: 0.5, name: "midpoint", orbit: [1.891219e-3, 1.272764e-4], ten: [1.401449e-2, 1.272764e-4] },
     Row { eccentricity: 0.5, name: "heun", orbit: [4.620506e-3, 2.686187e-4], ten: [5.709841e-2, 4.024103e-4] },

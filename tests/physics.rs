@@ -28,7 +28,8 @@ fn snapshot(simulation: &mut Simulation<motes::Gpu>) -> Snapshot {
 const PERIOD: f64 = 6.325_913_982_926_21;
 
 fn figure_eight() -> Particles {
-    let (x, v) = (DVec3::new(0.97000435669734, -0.24308753153583, 0.0), DVec3::new(-0.93240737144104, -0.86473146092102, 0.0));
+    let (x, v) =
+        (DVec3::new(0.97000435669734, -0.24308753153583, 0.0), DVec3::new(-0.93240737144104, -0.86473146092102, 0.0));
     let mut particles = Particles::default();
     particles.push(x, -v / 2.0, 1.0, 0.0);
     particles.push(-x, -v / 2.0, 1.0, 0.0);
@@ -37,7 +38,8 @@ fn figure_eight() -> Particles {
 }
 
 /// Places of the first two bodies at t = 1 by a Taylor series of order 30 with 200 bits; the third's follows.
-const AT_ONE: [[f64; 2]; 2] = [[0.993_582_914_758_773, 0.219_204_946_881_732], [-0.050_734_281_224_149, 0.046_861_245_993_923]];
+const AT_ONE: [[f64; 2]; 2] =
+    [[0.993_582_914_758_773, 0.219_204_946_881_732], [-0.050_734_281_224_149, 0.046_861_245_993_923]];
 
 #[test]
 fn the_figure_eight_is_where_it_should_be() {
@@ -152,7 +154,13 @@ fn plummer_stays() {
     let first = Measure::of(&snapshot(&mut simulation));
     // Mass shares, their radii by the formula r = a / √(M^(−2/3) − 1), and what an N-body realisation of some thousand
     // may be off: √N noise of the inner ones, and of the outer ones what the cut takes away.
-    let radii = [(0.1, 0.308_678, 0.08), (0.25, 0.477_806, 0.05), (0.5, 0.768_571, 0.05), (0.75, 1.281_104, 0.05), (0.9, 2.183_670, 0.04)];
+    let radii = [
+        (0.1, 0.308_678, 0.08),
+        (0.25, 0.477_806, 0.05),
+        (0.5, 0.768_571, 0.05),
+        (0.75, 1.281_104, 0.05),
+        (0.9, 2.183_670, 0.04),
+    ];
     for time in 0..4 {
         simulation.step(if time == 0 { 0 } else { 128 }).expect("steps");
         let now = snapshot(&mut simulation);
@@ -229,8 +237,10 @@ fn time_turned_round() {
         v.iter_mut().for_each(|v| *v = -*v);
         simulation.write(VELOCITY, &v).expect("velocities");
     };
-    let places = |simulation: &mut Simulation<motes::Gpu>| pollster::block_on(simulation.read(POSITION)).expect("places");
-    let farthest = |a: &[glam::Vec4], b: &[glam::Vec4]| a.iter().zip(b).map(|(a, b)| a.distance(*b)).fold(0.0, f32::max);
+    let places =
+        |simulation: &mut Simulation<motes::Gpu>| pollster::block_on(simulation.read(POSITION)).expect("places");
+    let farthest =
+        |a: &[glam::Vec4], b: &[glam::Vec4]| a.iter().zip(b).map(|(a, b)| a.distance(*b)).fold(0.0, f32::max);
     let begin = places(&mut simulation);
     simulation.step(128).expect("steps");
     let away = farthest(&begin, &places(&mut simulation));

@@ -94,7 +94,8 @@ fn every_integrator_whole() {
             fill(simulation.backend(), &plans.step, count);
             // Nothing is broken here, so the watch raises no alarm: it has a test of its own. And the midpoint rule's
             // first slopes weigh nothing.
-            let idle = |v: &Verdict| v.field == "alarm" || v.kernel.contains(" WEIGHT=0 ") && v.field.starts_with("slope");
+            let idle =
+                |v: &Verdict| v.field == "alarm" || v.kernel.contains(" WEIGHT=0 ") && v.field.starts_with("slope");
             judge(&verdicts(simulation.backend(), &plans.step, count, &entry.name), count, &entry.name, idle);
         }
     }

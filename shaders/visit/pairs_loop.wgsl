@@ -43,10 +43,7 @@ fn pairs(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: v
         } else {
             for (var k = start; k < min(start + BLOCK, end); k += 1u) {
                 let you = source(k);
-                meet_other(a, you, &sum_a);
-                meet_other(b, you, &sum_b);
-                meet_other(c, you, &sum_c);
-                meet_other(d, you, &sum_d);
+                meet_others(you, a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
             }
         }
         merge(&total_a, sum_a);

@@ -28,7 +28,8 @@ fn pairs(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: v
         var sum_c = Sum();
         var sum_d = Sum();
         let apart = start + BLOCK <= mine || start >= mine + WORKGROUP * TARGETS;
-        if apart && start + BLOCK <= end {
+        let full = start + BLOCK <= end;
+        if full && apart {
             for (var k = start; k < start + BLOCK; k += 8u) {
                 let p = position[k + place];
                 meet(source(k, subgroupBroadcast(p, 0u)), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
@@ -40,13 +41,22 @@ fn pairs(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: v
                 meet(source(k + 6u, subgroupBroadcast(p, 6u)), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
                 meet(source(k + 7u, subgroupBroadcast(p, 7u)), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
             }
+        } else if full {
+            for (var k = start; k < start + BLOCK; k += 8u) {
+                let p = position[k + place];
+                meet_others(source(k, subgroupBroadcast(p, 0u)), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
+                meet_others(source(k + 1u, subgroupBroadcast(p, 1u)), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
+                meet_others(source(k + 2u, subgroupBroadcast(p, 2u)), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
+                meet_others(source(k + 3u, subgroupBroadcast(p, 3u)), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
+                meet_others(source(k + 4u, subgroupBroadcast(p, 4u)), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
+                meet_others(source(k + 5u, subgroupBroadcast(p, 5u)), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
+                meet_others(source(k + 6u, subgroupBroadcast(p, 6u)), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
+                meet_others(source(k + 7u, subgroupBroadcast(p, 7u)), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
+            }
         } else {
             for (var k = start; k < min(start + BLOCK, end); k += 1u) {
                 let you = source(k, position[k]);
-                meet_other(a, you, &sum_a);
-                meet_other(b, you, &sum_b);
-                meet_other(c, you, &sum_c);
-                meet_other(d, you, &sum_d);
+                meet_others(you, a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
             }
         }
         merge(&total_a, sum_a);

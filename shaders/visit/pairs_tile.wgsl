@@ -49,10 +49,7 @@ fn pairs(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: v
             let some = min(BLOCK, end - start);
             for (var k = 0u; k < some; k += 1u) {
                 let you = source(start, k);
-                meet_other(a, you, &sum_a);
-                meet_other(b, you, &sum_b);
-                meet_other(c, you, &sum_c);
-                meet_other(d, you, &sum_d);
+                meet_others(you, a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
             }
         }
         merge(&total_a, sum_a);

@@ -32,9 +32,20 @@ fn add(i: u32, sum: Sum) {
     acceleration[i] += vec4f(1.0, 1.0, 1.0, 0.5) * finish(particle(i), sum);
 }
 
-// Nobody meets itself.
+// Nobody meets itself. Both ways are computed and one is kept: a branch would cost more.
 fn meet_other(me: Particle, you: Particle, sum: ptr<function, Sum>) {
-    if you.index != me.index { gather(me, you, you.position - me.position, sum); }
+    var met = *sum;
+    gather(me, you, you.position - me.position, &met);
+    if you.index != me.index { *sum = met; }
+}
+
+// You and four targets, of which one may be you.
+fn meet_others(you: Particle, a: Particle, b: Particle, c: Particle, d: Particle,
+               sum_a: ptr<function, Sum>, sum_b: ptr<function, Sum>, sum_c: ptr<function, Sum>, sum_d: ptr<function, Sum>) {
+    meet_other(a, you, sum_a);
+    meet_other(b, you, sum_b);
+    meet_other(c, you, sum_c);
+    meet_other(d, you, sum_d);
 }
 
 // You and four targets that are known to be others.

@@ -31,15 +31,15 @@ struct Row {
 pub async fn bench(args: &BenchArgs) -> Result<(), Failure> {
     let found = engine::open(gpu::adapters(&gpu::instance()).await, args.adapter.as_deref()).await?;
     if !args.json {
-        println!(
+        out!(
             "{}\ncommit {}, {} cores, {} repeats, medians\n",
             found.describe(),
             commit(),
             rayon::current_num_threads(),
             args.repeat
         );
-        println!("all pairs, gravity with potential, leapfrog, whole steps");
-        println!("{:>9}  {:>12}  {:>16}  {:>16}  {:>7}", "bodies", "step", "device", "plain Rust", "ratio");
+        out!("all pairs, gravity with potential, leapfrog, whole steps");
+        out!("{:>9}  {:>12}  {:>16}  {:>16}  {:>7}", "bodies", "step", "device", "plain Rust", "ratio");
     }
     let rows = sizes(args, &found)?;
     let integrators = integrators(args, &found)?;
@@ -51,7 +51,7 @@ pub async fn bench(args: &BenchArgs) -> Result<(), Failure> {
             "cores": rayon::current_num_threads(), "repeat": args.repeat, "softening": SOFTENING, "pairs": sizes,
             "integrators": { "bodies": INTEGRATED, "steps": steps },
             "relative_force_error": { "bodies": INTEGRATED, "median": accuracy[0], "p99": accuracy[1], "max": accuracy[2] } });
-        println!("{value:#}");
+        out!("{value:#}");
     }
     Ok(())
 }
@@ -63,13 +63,13 @@ fn sizes(args: &BenchArgs, found: &gpu::Found) -> Result<Vec<Row>, Failure> {
         let expected = rows.last().map_or(0.0, |row| 4.0 * median(&row.device));
         if expected > args.longest {
             if !args.json {
-                println!("{count:>9}  left out: a step is expected to take {expected:.0} s (--longest)");
+                out!("{count:>9}  left out: a step is expected to take {expected:.0} s (--longest)");
             }
             break;
         }
         let row = measure(args, found, count, rows.last())?;
         if !args.json {
-            println!("{row}");
+            out!("{row}");
         }
         rows.push(row);
         count = count.saturating_mul(2);
@@ -150,10 +150,10 @@ fn integrators(args: &BenchArgs, found: &gpu::Found) -> Result<Vec<(&'static str
         simulations.iter().map(|(name, evaluations, _, times)| (*name, *evaluations, median(times))).collect();
     if !args.json {
         let one = rows.iter().find(|r| r.0 == "leapfrog").map_or(1.0, |r| r.2);
-        println!("\nintegrators, {INTEGRATED} bodies");
-        println!("{:>18}  {:>11}  {:>12}  {:>22}", "", "evaluations", "step", "per evaluation, to\u{a0}leapfrog");
+        out!("\nintegrators, {INTEGRATED} bodies");
+        out!("{:>18}  {:>11}  {:>12}  {:>22}", "", "evaluations", "step", "per evaluation, to\u{a0}leapfrog");
         for (name, evaluations, time) in &rows {
-            println!(
+            out!(
                 "{name:>18}  {evaluations:>11}  {:>9.2} ms  {:>22.2}",
                 time * 1e3,
                 time / one / (*evaluations).max(1) as f64

@@ -17,15 +17,15 @@ pub async fn check(args: &SceneArgs) -> Result<(), Failure> {
     let setup = engine::setup(&mut scene);
     let count = setup.check()?;
     let engine = Engine::choose(&args.device).await?;
-    println!("{}: {count} particles, {} steps of {} by {}", scene.name, scene.steps, scene.dt, scene.integrator.name);
-    println!("on {}", engine.describe());
+    out!("{}: {count} particles, {} steps of {} by {}", scene.name, scene.steps, scene.dt, scene.integrator.name);
+    out!("on {}", engine.describe());
 
     let machine = match &engine {
         Engine::Gpu(found) => Gpu::new(&found.device, &found.queue, count)?.machine(),
         Engine::Cpu(_) => Cpu::new(count)?.machine(),
     };
     let plans = setup.plans(machine)?;
-    println!("\nmemory on the device");
+    out!("\nmemory on the device");
     let mut fields = plans.step.fields(count);
     for plan in [&plans.start, &plans.measure.0, &plans.measure.1] {
         for (name, bytes) in plan.fields(count) {
@@ -34,10 +34,10 @@ pub async fn check(args: &SceneArgs) -> Result<(), Failure> {
         }
     }
     for (name, bytes) in &fields {
-        println!("  {name:20} {:>12}", size(*bytes));
+        out!("  {name:20} {:>12}", size(*bytes));
     }
-    println!("  {:20} {:>12}", "in all", size(fields.values().sum()));
-    println!("\na step: {} dispatches\n  {}", plans.step.dispatches(), plans.step);
+    out!("  {:20} {:>12}", "in all", size(fields.values().sum()));
+    out!("\na step: {} dispatches\n  {}", plans.step.dispatches(), plans.step);
 
     let per_step = match &engine {
         Engine::Gpu(found) => {
@@ -47,12 +47,12 @@ pub async fn check(args: &SceneArgs) -> Result<(), Failure> {
         Engine::Cpu(_) => measure(Simulation::on(Cpu::new(count)?, &setup)?, scene.steps).await?,
     };
     let total = per_step.mul_f64(scene.steps as f64);
-    println!("\ntime: {} per step, about {} in all, without writing files", duration(per_step), duration(total));
+    out!("\ntime: {} per step, about {} in all, without writing files", duration(per_step), duration(total));
     let remarks = advice(&scene, &setup)?;
     for remark in engine.remark().into_iter().chain(remarks) {
-        println!("note: {remark}");
+        out!("note: {remark}");
     }
-    println!("\nno faults");
+    out!("\nno faults");
     Ok(())
 }
 

@@ -37,17 +37,19 @@ pub async fn compare(args: &CompareArgs) -> Result<(), Failure> {
         let value = json!({ "scene": scene.name, "particles": setup.particles.len(), "device": found.describe(),
             "tolerance": lockstep::TOLERANCE, "kernels": rows, "steps": args.steps, "position_error": over.position,
             "position_scale": over.scale, "energy_error": over.energy, "good": good });
-        println!("{value:#}");
+        out!("{value:#}");
     } else {
-        println!("{}: {} particles, {} against f64 twins\n", scene.name, setup.particles.len(), found.describe());
+        out!("{}: {} particles, {} against f64 twins\n", scene.name, setup.particles.len(), found.describe());
         print_kernels(&verdicts);
-        println!("\n{} steps of the device against {} of the twins", args.steps, args.steps);
-        println!(
+        out!("\n{} steps of the device against {} of the twins", args.steps, args.steps);
+        out!(
             "  positions differ by {:.1e} (rms) of a system of size {:.1e}, at most by {:.1e}",
-            over.position[0], over.scale, over.position[1]
+            over.position[0],
+            over.scale,
+            over.position[1]
         );
-        println!("  total energies differ by {:.1e}, relatively", over.energy);
-        println!("\n{}", if good { "they agree" } else { "THEY DISAGREE" });
+        out!("  total energies differ by {:.1e}, relatively", over.energy);
+        out!("\n{}", if good { "they agree" } else { "THEY DISAGREE" });
     }
     if good { Ok(()) } else { Err(Failure::Disagreement) }
 }
@@ -73,7 +75,7 @@ async fn kernels(found: &gpu::Found, setup: &Setup) -> Result<Vec<Verdict>, Fail
     }
     let unchecked: Plan = setup.plans(motes::kernel::Backend::machine(simulation.backend()))?.step;
     for kernel in unchecked.kernels.iter().filter(|k| k.twin.is_none()) {
-        eprintln!("note: `{}` has no twin, so nothing is said of it", kernel.name);
+        note!("note: `{}` has no twin, so nothing is said of it", kernel.name);
     }
     Ok(worst)
 }
@@ -125,7 +127,7 @@ fn travelled(after: &Snapshot, setup: &Setup) -> Vec<f64> {
 fn print_kernels(verdicts: &[Verdict]) {
     let wide = verdicts.iter().map(|v| v.kernel.len()).max().unwrap_or(0).max(6);
     let long = verdicts.iter().map(|v| v.field.len()).max().unwrap_or(0).max(5);
-    println!("{:wide$}  {:long$}  {:>9}  {:>9}  {:>9}  {:>9}", "kernel", "field", "median", "99 %", "max", "of limit");
+    out!("{:wide$}  {:long$}  {:>9}  {:>9}  {:>9}  {:>9}", "kernel", "field", "median", "99 %", "max", "of limit");
     for v in verdicts {
         let verdict = match (v.good(), v.changed) {
             (false, _) if v.spilled => "WROTE BEHIND THE END",
@@ -134,12 +136,14 @@ fn print_kernels(verdicts: &[Verdict]) {
             (true, true) => "ok",
         };
         let [median, most, max] = v.relative;
-        println!(
+        out!(
             "{:wide$}  {:long$}  {median:9.1e}  {most:9.1e}  {max:9.1e}  {:9.3}  {verdict}",
-            v.kernel, v.field, v.worst
+            v.kernel,
+            v.field,
+            v.worst
         );
     }
-    println!(
+    out!(
         "\nmedian, 99 % and max are |device − twin| / |change|, per particle. The limit is {:.0e} of the change (or of its\n\
          rms, where that is more) and 2 units in the last place; of it the worst particle used the part in the last column.",
         lockstep::TOLERANCE

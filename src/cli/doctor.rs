@@ -15,7 +15,7 @@ pub async fn doctor(args: &DoctorArgs) -> Result<(), Failure> {
     let mut reports = Vec::new();
     let mut failed = false;
     if !args.json {
-        println!("motes {}, {} {}\n", env!("CARGO_PKG_VERSION"), std::env::consts::OS, std::env::consts::ARCH);
+        out!("motes {}, {} {}\n", env!("CARGO_PKG_VERSION"), std::env::consts::OS, std::env::consts::ARCH);
     }
     let wanted: Vec<String> = match &args.adapter {
         Some(name) => vec![name.clone()],
@@ -26,7 +26,7 @@ pub async fn doctor(args: &DoctorArgs) -> Result<(), Failure> {
             Ok(found) => found,
             Err(error) if args.adapter.is_some() => return Err(error.into()),
             Err(error) => {
-                eprintln!("{name}: {error}");
+                note!("{name}: {error}");
                 failed = true;
                 continue;
             }
@@ -40,24 +40,24 @@ pub async fn doctor(args: &DoctorArgs) -> Result<(), Failure> {
         }
     }
     if args.json {
-        println!("{:#}", json!({ "version": env!("CARGO_PKG_VERSION"), "adapters": reports }));
+        out!("{:#}", json!({ "version": env!("CARGO_PKG_VERSION"), "adapters": reports }));
     } else if count == 0 {
-        println!("{}\n\n`motes run` works without one, by the f64 twins on the processor.", gpu::NO_DRIVER);
+        out!("{}\n\n`motes run` works without one, by the f64 twins on the processor.", gpu::NO_DRIVER);
     } else {
-        println!("`motes run` takes adapter 0 unless --adapter names another.");
+        out!("`motes run` takes adapter 0 unless --adapter names another.");
     }
     if failed { Err(Failure::Disagreement) } else { Ok(()) }
 }
 
 fn print(name: &str, found: &Found, findings: &[Finding]) {
-    println!("{name}: {}", found.describe());
+    out!("{name}: {}", found.describe());
     for (fact, value) in found.facts() {
-        println!("   {fact:17} {value}");
+        out!("   {fact:17} {value}");
     }
     for finding in findings {
-        println!("   {} {:17}{}", word(finding.outcome), finding.name, finding.text);
+        out!("   {} {:17}{}", word(finding.outcome), finding.name, finding.text);
     }
-    println!();
+    out!();
 }
 
 fn word(outcome: Outcome) -> &'static str {

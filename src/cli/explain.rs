@@ -18,14 +18,14 @@ pub async fn explain(args: &SceneArgs) -> Result<(), Failure> {
         Engine::Cpu(_) => Cpu::new(count)?.machine(),
     };
     let plans = setup.plans(machine)?;
-    println!("{}: {count} particles, {} steps of {} by {}", scene.name, scene.steps, scene.dt, scene.integrator.name);
-    println!("on {}\n", engine.describe());
+    out!("{}: {count} particles, {} steps of {} by {}", scene.name, scene.steps, scene.dt, scene.integrator.name);
+    out!("on {}\n", engine.describe());
     if !plans.start.order.is_empty() {
-        println!("once:  {}", plans.start);
+        out!("once:  {}", plans.start);
     }
-    println!("step:  {}\n", plans.step);
+    out!("step:  {}\n", plans.step);
     for kernel in &plans.step.kernels {
-        println!("{}", describe(kernel));
+        out!("{}", describe(kernel));
     }
     Ok(())
 }

@@ -22,11 +22,11 @@ impl Failure {
     pub fn report(self) -> ExitCode {
         ExitCode::from(match self {
             Self::Scene(faults) => {
-                eprintln!("{faults}");
+                note!("{faults}");
                 faults.exit_code()
             }
             Self::Error(error) => {
-                eprintln!("error: {error}");
+                note!("error: {error}");
                 error.exit_code()
             }
             Self::Disagreement => 9,

@@ -1,5 +1,20 @@
 //! The command line: arguments in, exit code out.
 
+/// A line on standard output. Nobody may be listening: that is no reason to stop.
+macro_rules! out {
+    ($($text:tt)*) => {{
+        use std::io::Write as _;
+        let _ = writeln!(std::io::stdout(), $($text)*);
+    }};
+}
+/// A line on standard error.
+macro_rules! note {
+    ($($text:tt)*) => {{
+        use std::io::Write as _;
+        let _ = writeln!(std::io::stderr(), $($text)*);
+    }};
+}
+
 mod advice;
 mod args;
 mod baseline;

@@ -52,21 +52,21 @@ impl Progress {
         if let (Kind::Json, Some(map)) = (&self.kind, fields.as_object_mut()) {
             map.insert("event".to_owned(), json!(name));
             map.insert("schema".to_owned(), json!(SCHEMA));
-            println!("{fields}");
+            out!("{fields}");
         }
     }
     /// A line for people.
     pub fn say(&self, text: &str) {
         match &self.kind {
-            Kind::Bar(bar) => bar.suspend(|| eprintln!("{text}")),
-            Kind::Lines => eprintln!("{text}"),
+            Kind::Bar(bar) => bar.suspend(|| note!("{text}")),
+            Kind::Lines => note!("{text}"),
             Kind::Json | Kind::Quiet => {}
         }
     }
     /// A line of the result.
     pub fn conclude(&self, text: &str) {
         match &self.kind {
-            Kind::Bar(_) | Kind::Lines => println!("{text}"),
+            Kind::Bar(_) | Kind::Lines => out!("{text}"),
             Kind::Json | Kind::Quiet => {}
         }
     }
@@ -77,7 +77,7 @@ impl Progress {
             Kind::Lines if self.last.is_none_or(|last| last.elapsed() > PAUSE) => {
                 if self.last.is_some() && step < self.steps {
                     let left = self.start.elapsed().mul_f64((self.steps - step) as f64 / step.max(1) as f64);
-                    eprintln!("step {step} of {}, about {} left", self.steps, duration(left));
+                    note!("step {step} of {}, about {} left", self.steps, duration(left));
                 }
                 self.last = Some(Instant::now());
             }

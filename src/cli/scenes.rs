@@ -10,13 +10,13 @@ pub fn scenes(args: &ScenesArgs) -> Result<(), Failure> {
     let Some(name) = &args.name else {
         for scene in SCENES {
             let about = scene.about();
-            println!("{:14} {}", scene.name, first_sentence(&about));
+            out!("{:14} {}", scene.name, first_sentence(&about));
         }
-        println!("\nmotes run NAME runs one; motes scenes NAME prints it, to be saved and changed.");
+        out!("\nmotes run NAME runs one; motes scenes NAME prints it, to be saved and changed.");
         return Ok(());
     };
     match Source::find(name)? {
-        Source::Builtin(scene) => print!("{}", scene.text),
+        Source::Builtin(scene) => out!("{}", scene.text.trim_end()),
         Source::File(path) => {
             return Err(
                 motes::Error::Scene(format!("{} is a file of yours, not a scene of motes", path.display())).into()

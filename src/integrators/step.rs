@@ -84,7 +84,14 @@ impl<'a> Step<'a> {
     ///
     /// # Errors
     /// The first thing that went wrong while the step was written.
-    pub fn finished(self) -> Result<Plan, Error> {
+    pub fn finished(mut self) -> Result<Plan, Error> {
+        // Where nothing asks for the time within a step, nothing need set it.
+        let asked =
+            |kernel: &Kernel| kernel.name != "tick" && kernel.passes.iter().any(|p| p.shader.reflection().reads_time);
+        let within: Vec<_> = self.plan.kernels.iter().map(|k| k.name.starts_with(at::NAME)).collect();
+        if !self.plan.kernels.iter().zip(&within).any(|(kernel, at)| !at && asked(kernel)) {
+            self.plan.order.retain(|index| !within.get(*index).is_some_and(|at| *at));
+        }
         self.error.map_or(Ok(self.plan), Err)
     }
     /// The two plans around a measurement: the first keeps the forces that the next step is going to use and evaluates

@@ -53,8 +53,8 @@ pub struct Reflection {
     pub overrides: BTreeMap<String, f64>,
     /// Its whole-numbered `const`s.
     pub constants: BTreeMap<String, u32>,
-    /// The functions it defines.
-    pub functions: Vec<String>,
+    /// Whether it reads `world.time`.
+    pub reads_time: bool,
 }
 
 impl Reflection {
@@ -71,7 +71,7 @@ impl Reflection {
             bindings: variables.filter_map(|(_, v)| binding(module, v)).collect(),
             overrides: module.overrides.iter().filter_map(|(_, o)| default(module, o)).collect(),
             constants: module.constants.iter().filter_map(|(_, c)| constant(module, c)).collect(),
-            functions: module.functions.iter().filter_map(|(_, f)| f.name.clone()).collect(),
+            reads_time: reads(module, "world", "time"),
         }
     }
     /// The binding of a name.
@@ -94,6 +94,19 @@ fn default(module: &Module, item: &naga::Override) -> Option<(String, f64)> {
         _ => return None,
     };
     Some((item.name.clone()?, value))
+}
+
+/// Whether any function takes this member of this variable.
+fn reads(module: &Module, variable: &str, member: &str) -> bool {
+    let functions = module.functions.iter().map(|(_, f)| f).chain(module.entry_points.iter().map(|e| &e.function));
+    functions.flat_map(|f| f.expressions.iter().map(move |(_, e)| (f, e))).any(|(function, expression)| {
+        let Expression::AccessIndex { base, index } = *expression else { return false };
+        let Expression::GlobalVariable(global) = function.expressions[base] else { return false };
+        let global = &module.global_variables[global];
+        let TypeInner::Struct { members, .. } = &module.types[global.ty].inner else { return false };
+        let name = members.get(index as usize).and_then(|m| m.name.as_deref());
+        global.name.as_deref() == Some(variable) && name == Some(member)
+    })
 }
 
 fn workgroup_bytes(module: &Module) -> u64 {

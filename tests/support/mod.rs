@@ -32,7 +32,10 @@ pub fn device() -> MutexGuard<'static, Shared> {
 }
 
 /// The same adapter with another device, whose limits are changed to smaller ones.
-pub async fn limited(shared: &Shared, change: impl FnOnce(&mut motes::wgpu::Limits)) -> (motes::wgpu::Device, motes::wgpu::Queue) {
+pub async fn limited(
+    shared: &Shared,
+    change: impl FnOnce(&mut motes::wgpu::Limits),
+) -> (motes::wgpu::Device, motes::wgpu::Queue) {
     let mut required_limits = shared.found.device.limits();
     change(&mut required_limits);
     let descriptor = motes::wgpu::DeviceDescriptor {

@@ -5,6 +5,9 @@ use std::sync::Arc;
 use crate::error::Error;
 use crate::kernel::{Clock, Kernel, Shader};
 
+/// What it is called in a plan.
+pub const NAME: &str = "at";
+
 /// The kernel, for a part of the step.
 pub fn kernel(factor: f64) -> Result<Kernel, Error> {
     let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("integrators/at.wgsl")])?;
@@ -13,5 +16,5 @@ pub fn kernel(factor: f64) -> Result<Kernel, Error> {
         host.set_clock(Clock { time: (f64::from(clock.step) + factor) * clock.dt, ..clock });
         Ok(())
     };
-    Ok(Kernel::new("at", shader, vec![("FACTOR", factor)], 1, Arc::new(twin)))
+    Ok(Kernel::new(NAME, shader, vec![("FACTOR", factor)], 1, Arc::new(twin)))
 }
