@@ -99,7 +99,7 @@ impl Camera {
 }
 
 /// So much longer than the rest the whole must be before its ends are taken for stragglers.
-const STRAGGLING: f64 = 1.5;
+const STRAGGLING: f64 = 2.0;
 
 /// From the lowest to the highest of some intervals; without the `outer` part of each end, if that is far off.
 fn span(intervals: impl Iterator<Item = (f64, f64)>, outer: f64) -> (f64, f64) {
@@ -152,12 +152,13 @@ mod tests {
     }
     #[test]
     fn few_particles_are_all_in_the_picture_with_their_balls_and_trails() {
+        let left = DVec3::new(-5.0, -9.0, -12.0);
         let (high, wide) = (DVec3::new(0.0, 30.0, -12.0), DVec3::new(90.0, 1.0, 0.0));
         let two = [(DVec3::new(7.0, 1.0, -2.0), 0.5), (DVec3::new(-3.0, -20.0, 4.0), 0.1)];
         let large = [(DVec3::new(7.0, 1.0, -2.0), 15.0), (DVec3::new(-3.0, -2.0, 4.0), 9.0)];
         for projection in ["perspective", "orthographic"] {
-            for (shapes, past) in [(two, high), (two, wide), (large, DVec3::X)] {
-                let filled = filled(&shapes, &[DVec3::new(0.0, 9.0, 12.0), past], projection);
+            for (shapes, past) in [(two, high), (two, wide), (large, left), (large, -left)] {
+                let filled = filled(&shapes, &[DVec3::new(0.0, 2.0, -3.0), past], projection);
                 assert!((0.75..0.9).contains(&filled), "{projection} {past}: {filled}");
             }
         }
