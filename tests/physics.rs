@@ -248,6 +248,6 @@ fn time_turned_round() {
     simulation.step(128).expect("steps");
     let back = farthest(&begin, &places(&mut simulation));
     assert!(away > 0.5, "they went only {away}");
-    // 256 roundings of 6e-8 at random are 1e-6, and encounters stretch them; seen 3e-7.
-    assert!(back < 1e-5, "they came back to {back:e}");
+    // 256 roundings of 6e-8 at random are 1e-6; three times that (seen 3e-7).
+    assert!(back < 3e-6, "they came back to {back:e}");
 }
