@@ -136,8 +136,23 @@ fn no_binding_number_is_written_in_rust() {
 
 /// A module may name only what stands before it.
 const ORDER: [&str; 17] = [
-    "error", "settings", "kernel", "visit", "forces", "particles", "integrators", "cpu", "gpu", "io", "render",
-    "simulation", "measure", "lockstep", "selftest", "scene", "cli",
+    "error",
+    "settings",
+    "kernel",
+    "visit",
+    "forces",
+    "particles",
+    "integrators",
+    "cpu",
+    "gpu",
+    "io",
+    "render",
+    "simulation",
+    "measure",
+    "lockstep",
+    "selftest",
+    "scene",
+    "cli",
 ];
 /// The backends know kernels and nothing of physics; only these know them.
 const KNOW_BACKENDS: [&str; 4] = ["simulation", "lockstep", "selftest", "cli"];
@@ -201,7 +216,8 @@ fn every_force_is_one_shader_and_one_rust_file_of_its_name() {
     for shader in &shaders {
         let owner = |host: &&File| {
             let its = host.stem() == shader || shader.strip_prefix(host.stem()).is_some_and(|r| r.starts_with('_'));
-            its && host.path.starts_with("src/forces/") && host.text.contains(&format!("shader!(\"forces/{shader}.wgsl\")"))
+            its && host.path.starts_with("src/forces/")
+                && host.text.contains(&format!("shader!(\"forces/{shader}.wgsl\")"))
         };
         if !rust.iter().any(|host| owner(&host)) {
             faults.push(format!("shaders/forces/{shader}.wgsl belongs to no src/forces/*.rs of its name"));

@@ -1,5 +1,7 @@
 //! `motes explain`
 
+use std::fmt::Write as _;
+
 use motes::kernel::{Access, Backend, Kernel};
 use motes::{Cpu, Gpu};
 
@@ -47,11 +49,13 @@ fn describe(kernel: &Kernel) -> String {
     let mut text = format!("{}\n    from    {}", kernel.name, files.unwrap_or_default());
     for (what, names) in [("reads", name(Access::Read)), ("writes", name(Access::Write))] {
         if !names.is_empty() {
-            text.push_str(&format!("\n    {what:7} {names}"));
+            let _ = write!(text, "\n    {what:7} {names}");
         }
     }
     let dispatches = kernel.passes.len();
     let threads: u64 = kernel.passes.iter().map(|p| u64::from(p.threads.count) * u64::from(p.threads.layers)).sum();
     let plural = if dispatches == 1 { "dispatch" } else { "dispatches" };
-    text + &format!("\n    in      {dispatches} {plural} of {threads} invocations in all")
+    let invocations = if threads == 1 { "1 invocation".to_owned() } else { format!("{threads} invocations") };
+    let _ = write!(text, "\n    in      {dispatches} {plural} of {invocations} in all");
+    text
 }

@@ -141,7 +141,12 @@ impl Run {
         output.plot()?;
         if output.pictures() {
             let snapshot = simulation.snapshot().await?;
-            simulation.draw(&output.picture(&snapshot)?).await?.save(&output.portrait())?;
+            let image = simulation.draw(&output.picture(&snapshot)?).await?;
+            image.save(&output.portrait())?;
+            if image.outside > 0 {
+                let (few, all) = (image.outside, self.count);
+                self.progress.say(&format!("note: {few} of {all} particles are outside of the last picture"));
+            }
         }
         let (steps, stopped) = (simulation.steps(), simulation.steps() < self.scene.steps);
         let rate = steps as f64 / took.as_secs_f64().max(1e-9);
