@@ -12,15 +12,15 @@ pub struct Measure {
     pub step: u64,
     /// The time.
     pub time: f64,
-    /// ½ Σ m v² [mass length² / time²]
+    /// ½ Σ m v² \[mass length² / time²\]
     pub kinetic: f64,
-    /// The potential energy of all forces that have one [mass length² / time²]
+    /// The potential energy of all forces that have one \[mass length² / time²\]
     pub potential: f64,
-    /// Σ m v [mass length / time]
+    /// Σ m v \[mass length / time\]
     pub momentum: DVec3,
-    /// Σ m x × v, about the origin [mass length² / time]
+    /// Σ m x × v, about the origin \[mass length² / time\]
     pub angular_momentum: DVec3,
-    /// Σ m x / Σ m; the mean position when all masses are zero [length]
+    /// Σ m x / Σ m; the mean position when all masses are zero \[length\]
     pub center: DVec3,
 }
 

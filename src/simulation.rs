@@ -18,7 +18,7 @@ pub struct Setup {
     pub forces: Vec<Box<dyn Force>>,
     /// How.
     pub integrator: Box<dyn Integrator>,
-    /// The step size [time].
+    /// The step size \[time\].
     pub dt: f64,
 }
 
@@ -31,7 +31,7 @@ pub struct Snapshot {
     pub time: f64,
     /// Positions, velocities, masses and radii, by id.
     pub particles: Particles,
-    /// Each particle's share of the potential energy [mass length² / time²].
+    /// Each particle's share of the potential energy \[mass length² / time²\].
     pub potential: Vec<f64>,
 }
 

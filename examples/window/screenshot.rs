@@ -38,7 +38,7 @@ impl State {
         self.found.queue.submit([encoder.finish()]);
         buffer.map_async(wgpu::MapMode::Read, .., |_| {});
         let failed = |error: String| Error::Device(error);
-        let wait = wgpu::PollType::Wait { submission_index: None, timeout: Some(std::time::Duration::from_secs(60)) };
+        let wait = wgpu::PollType::Wait { submission_index: None, timeout: Some(std::time::Duration::from_mins(1)) };
         self.found.device.poll(wait).map_err(|e| failed(e.to_string()))?;
         let bytes = buffer.get_mapped_range(..).map_err(|e| failed(e.to_string()))?.to_vec();
         let blue_first =

@@ -16,7 +16,7 @@ use super::progress::large;
 const SOFTENING: f64 = 0.02;
 /// Bodies of the comparison of integrators.
 const INTEGRATED: u32 = 4096;
-/// One measurement takes about this long, unless a step is longer [s].
+/// One measurement takes about this long, unless a step is longer \[s\].
 const SPAN: f64 = 0.15;
 
 struct Row {

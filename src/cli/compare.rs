@@ -82,9 +82,9 @@ async fn kernels(found: &gpu::Found, setup: &Setup) -> Result<Vec<Verdict>, Fail
 
 /// How far apart device and twins are after some steps.
 struct Over {
-    /// rms and maximum [length]
+    /// rms and maximum \[length\]
     position: [f64; 2],
-    /// The rms distance from the centre [length].
+    /// The rms distance from the centre \[length\].
     scale: f64,
     /// |E − E'| / |E'|
     energy: f64,

@@ -5,9 +5,9 @@ use super::pack::{Packed, Scalar};
 /// Time, step size and count, as every kernel sees them.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Clock {
-    /// The time at which forces are evaluated [time]: `step × dt` between steps.
+    /// The time at which forces are evaluated \[time\]: `step × dt` between steps.
     pub time: f64,
-    /// The step size [time].
+    /// The step size \[time\].
     pub dt: f64,
     /// Steps done.
     pub step: u32,

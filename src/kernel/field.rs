@@ -4,12 +4,12 @@ use std::marker::PhantomData;
 
 use glam::{DVec4, Vec4};
 
-/// Where particles are, and how heavy: `xyz` position [length], `w` mass [mass].
+/// Where particles are, and how heavy: `xyz` position \[length\], `w` mass \[mass\].
 pub const POSITION: Field<Vec4> = Field::new("position");
-/// How particles move, and how large they are drawn: `xyz` velocity [length / time], `w` radius [length].
+/// How particles move, and how large they are drawn: `xyz` velocity \[length / time\], `w` radius \[length\].
 pub const VELOCITY: Field<Vec4> = Field::new("velocity");
-/// What forces do: `xyz` acceleration [length / time²]; `w` the particle's share of the potential energy, per unit mass
-/// [length² / time²], so that the sum of mass × w over all particles is the potential energy (each of a pair holds half).
+/// What forces do: `xyz` acceleration \[length / time²\]; `w` the particle's share of the potential energy, per unit mass
+/// \[length² / time²\], so that the sum of mass × w over all particles is the potential energy (each of a pair holds half).
 pub const ACCELERATION: Field<Vec4> = Field::new("acceleration");
 /// After how many steps a particle is first seen not to be finite, and its id, the lowest of them; both `u32::MAX` while
 /// all is well.

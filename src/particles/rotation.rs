@@ -19,7 +19,7 @@ pub(super) struct Galaxy {
     pub toomre_q: f64,
 }
 
-/// The disk's state at one radius; all are \[length / time\] or its square, frequencies [1 / time²].
+/// The disk's state at one radius; all are \[length / time\] or its square, frequencies \[1 / time²\].
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Ring {
     /// Square of the circular velocity.

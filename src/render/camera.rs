@@ -17,9 +17,9 @@ pub struct Camera {
     pub right: DVec3,
     /// What is up in the picture.
     pub up: DVec3,
-    /// Half the height of the picture, at the centre [length].
+    /// Half the height of the picture, at the centre \[length\].
     pub extent: f64,
-    /// From the centre to the eye [length]; zero for parallel rays.
+    /// From the centre to the eye \[length\]; zero for parallel rays.
     pub distance: f64,
 }
 

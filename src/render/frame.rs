@@ -56,29 +56,29 @@ pub struct Frame {
     pub width: u32,
     /// Pixels from top to bottom.
     pub height: u32,
-    /// The largest mass [mass].
+    /// The largest mass \[mass\].
     pub heaviest: f64,
-    /// The radius at which the heaviest particle is drawn at least [pixels].
+    /// The radius at which the heaviest particle is drawn at least \[pixels\].
     pub marker: f64,
-    /// The radius at which a ball is drawn at most [pixels].
+    /// The radius at which a ball is drawn at most \[pixels\].
     pub largest: f64,
-    /// The radius from which on a particle is a ball, and below it a light [pixels].
+    /// The radius from which on a particle is a ball, and below it a light \[pixels\].
     pub solid: f64,
-    /// The radius of a light [pixels].
+    /// The radius of a light \[pixels\].
     pub glow: f64,
     /// What the middle of a white light adds to the canvas.
     pub unit: f64,
-    /// The speeds at the ends of the colours [length / time].
+    /// The speeds at the ends of the colours \[length / time\].
     pub speeds: (f64, f64),
     /// Points of all trails together.
     pub points: u32,
     /// Brightness of the background.
     pub sky: f64,
-    /// Half the width of a trail [pixels].
+    /// Half the width of a trail \[pixels\].
     pub line: f64,
     /// Brightness of the halo.
     pub bloom: f64,
-    /// How far the halo reaches [pixels of it].
+    /// How far the halo reaches \[pixels of it\].
     pub reach: u32,
 }
 

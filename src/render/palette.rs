@@ -23,7 +23,7 @@ const PALETTE: [[u8; 3]; 10] = [
 pub enum Color {
     /// A colour for each particle, as [`pack`]ed bytes.
     Given(Vec<u32>),
-    /// Its speed, on a scale between two speeds [length / time].
+    /// Its speed, on a scale between two speeds \[length / time\].
     Speed {
         /// The dark end.
         slow: f64,

@@ -80,9 +80,9 @@ pub struct Picture {
 const SIDE: f64 = 8192.0;
 /// Pixels in all, at most: three numbers for each fit the 128 MiB that every device binds.
 const AREA: f64 = 11_184_810.0;
-/// A ball of many is this large at most [pixels].
+/// A ball of many is this large at most \[pixels\].
 const LARGEST_OF_MANY: f64 = 80.0;
-/// No ball is that large [pixels].
+/// No ball is that large \[pixels\].
 const NEVER: f64 = 1e9;
 
 impl Picture {

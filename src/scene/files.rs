@@ -6,7 +6,7 @@ use std::path::{Component, Path, PathBuf};
 use super::report::{Fault, Place, nearest, shorten};
 use super::source::{Opened, shorten_path};
 
-/// The longest shader [bytes].
+/// The longest shader \[bytes\].
 const LONGEST_SHADER: u64 = 1 << 20;
 
 /// Where files are sought.

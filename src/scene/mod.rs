@@ -53,7 +53,7 @@ pub struct Scene {
     pub name: String,
     /// The first comment of the file: what one should see.
     pub about: String,
-    /// The length of a step [time]; positive.
+    /// The length of a step \[time\]; positive.
     pub dt: f64,
     /// How many steps; at least one.
     pub steps: u64,

@@ -8,7 +8,7 @@ use super::builtin::{Builtin, SCENES};
 use super::diagnostic::Diagnostics;
 use super::report::{listed, nearest, shorten};
 
-/// The longest scene that is read [bytes]. Many particles belong in a file of their own.
+/// The longest scene that is read \[bytes\]. Many particles belong in a file of their own.
 pub(super) const LONGEST: u64 = 16 << 20;
 
 /// Where a scene comes from.
