@@ -21,6 +21,7 @@ use winit::keyboard::{Key, NamedKey};
 use winit::window::{Window, WindowId};
 
 const STEPS_PER_FRAME: u32 = 2;
+const HALO: f64 = 0.4;
 
 #[derive(Clone)]
 struct Options {
@@ -109,6 +110,8 @@ struct State {
     pipeline: wgpu::RenderPipeline,
     view: wgpu::Buffer,
     group: wgpu::BindGroup,
+    /// The number of bodies in the disk; those of the halo follow.
+    disk: f32,
     start: Instant,
     frames: u64,
     paused: bool,
@@ -139,6 +142,8 @@ impl State {
             pipeline,
             view,
             group,
+            #[expect(clippy::cast_possible_truncation, reason = "a number of bodies")]
+            disk: (f64::from(count) * (1.0 - HALO)) as f32,
             start: Instant::now(),
             frames: 0,
             paused: false,
@@ -187,7 +192,7 @@ impl State {
         let camera =
             proj::directx::perspective(0.8, aspect, 0.1, 1000.0) * view::look_at_mat4(eye, Vec3::ZERO, Vec3::Z);
         let mut words = camera.to_cols_array().to_vec();
-        words.extend([aspect, 0.09, 0.0, 0.0]);
+        words.extend([aspect, 0.09, self.disk, 0.0]);
         let bytes: Vec<u8> = words.iter().flat_map(|w| w.to_le_bytes()).collect();
         self.found.queue.write_buffer(&self.view, 0, &bytes);
     }
@@ -213,7 +218,9 @@ impl State {
 fn setup(count: u32) -> Result<Setup, Error> {
     let absent = || Error::Scene("a part of the register is missing".to_owned());
     let disk = particles::shape("disk").ok_or_else(absent)?;
-    let settings = Settings::defaults(disk.keys).with("count", Value::Number(f64::from(count)));
+    let settings = Settings::defaults(disk.keys)
+        .with("count", Value::Number(f64::from(count)))
+        .with("halo_fraction", Value::Number(HALO));
     let gravity = forces::entry("gravity").ok_or_else(absent)?;
     let softened = Settings::defaults(gravity.keys).with("softening", Value::Number(0.15));
     Ok(Setup {

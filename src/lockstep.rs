@@ -12,8 +12,11 @@ use crate::kernel::{Access, Array, Backend, Clock, Host, Kernel, POSITION, Plan,
 pub const TOLERANCE: f64 = 1e-5;
 /// And beside that, in units of the last place of the result, for the last addition and for a product before it.
 const LAST_PLACES: f64 = 2.0;
-/// What stands behind the last element of every field.
-const SENTINEL: [u8; 4] = [0xA5, 0x5A, 0xC3, 0x3C];
+/// What stands behind the last element of a field, and in all of a scratch field: a small f32, another one in every
+/// field, so that a kernel which copies from behind one field to behind another is seen.
+fn sentinel(place: usize) -> [u8; 4] {
+    [0xA5, u8::try_from(place % 251).unwrap_or(0), 0xC3, 0x3C]
+}
 
 /// One field that one kernel wrote.
 #[derive(Debug, Clone, PartialEq)]
@@ -63,10 +66,14 @@ pub async fn compare(gpu: &mut Gpu, plan: &Plan, count: u32) -> Result<Vec<Verdi
                 fields.push((always.to_owned(), 16 * u64::from(count), Array::Vec4(Vec::new())));
             }
         }
-        for (name, bytes, _) in &fields {
-            let tail = gpu.size(name).saturating_sub(*bytes);
-            let words = usize::try_from(tail / 4).unwrap_or(0);
-            gpu.write_bytes(name, *bytes, &SENTINEL.repeat(words))?;
+        for (place, (name, bytes, _)) in fields.iter().enumerate() {
+            behind(gpu, name, *bytes, sentinel(place))?;
+        }
+        // What is left of an earlier run must not matter.
+        let scratch = |name: &&&str| gpu.size(name) > 0;
+        let scratch: Vec<_> = kernel.scratch.iter().filter(scratch).collect();
+        for name in &scratch {
+            behind(gpu, name, 0, sentinel(fields.len()))?;
         }
         let mut host = Host::default();
         for (name, bytes, kind) in &fields {
@@ -80,13 +87,22 @@ pub async fn compare(gpu: &mut Gpu, plan: &Plan, count: u32) -> Result<Vec<Verdi
         if kernel.writes().iter().any(|name| name == "world") {
             verdicts.push(clocks(&kernel.name, clock, gpu.clock().await?, host.clock()));
         }
-        for ((name, bytes, kind), before) in fields.iter().zip(before) {
+        for name in &scratch {
+            let used = used(kernel, name, count);
+            let tail = gpu.bytes(name, used, gpu.size(name).saturating_sub(used)).await?;
+            let spilled = tail.chunks_exact(4).any(|word| word != sentinel(fields.len()));
+            if spilled {
+                let field = (**name).to_owned();
+                verdicts.push(Verdict { kernel: kernel.name.clone(), field, spilled, changed: true, ..Verdict::none() });
+            }
+        }
+        for (place, ((name, bytes, kind), before)) in fields.iter().zip(before).enumerate() {
             if !kernel.writes().contains(name) {
                 continue;
             }
             let all = gpu.bytes(name, 0, gpu.size(name)).await?;
             let (data, tail) = all.split_at(usize::try_from(*bytes).unwrap_or(0).min(all.len()));
-            let spilled = tail.chunks_exact(4).any(|word| word != SENTINEL);
+            let spilled = tail.chunks_exact(4).any(|word| word != sentinel(place));
             let (Some(before), Some(want)) = (before, host.get(name)) else { continue };
             let mut verdict = judge(&before, &want, &kind.like(data));
             (verdict.kernel, verdict.field, verdict.spilled) = (kernel.name.clone(), name.clone(), spilled);
@@ -94,6 +110,20 @@ pub async fn compare(gpu: &mut Gpu, plan: &Plan, count: u32) -> Result<Vec<Verdi
         }
     }
     Ok(verdicts)
+}
+
+/// Fills a field with a word, from an offset on.
+fn behind(gpu: &mut Gpu, name: &str, from: u64, word: [u8; 4]) -> Result<(), Error> {
+    let words = usize::try_from(gpu.size(name).saturating_sub(from) / 4).unwrap_or(0);
+    gpu.write_bytes(name, from, &word.repeat(words))
+}
+
+/// The bytes of a field that a kernel has a use for.
+fn used(kernel: &Kernel, name: &str, count: u32) -> u64 {
+    let own = kernel.sizes.iter().find(|(field, _)| *field == name);
+    let bindings = kernel.passes.iter().flat_map(|p| &p.shader.reflection().bindings);
+    let stride = bindings.filter(|b| b.name == name).map(|b| b.stride).max().unwrap_or(0);
+    stride * own.map_or(u64::from(count), |(_, n)| *n)
 }
 
 /// The fields that a kernel names, their bytes, and an empty array of their kind.
@@ -105,10 +135,8 @@ fn fields(kernel: &Kernel, count: u32) -> Vec<(String, u64, Array)> {
         if binding.access == Access::Uniform || !binding.array || known || scratch {
             continue;
         }
-        let own = kernel.sizes.iter().find(|(name, _)| *name == binding.name);
-        let elements = own.map_or(u64::from(count), |(_, n)| *n);
         let kind = if binding.stride == 16 { Array::Vec4(Vec::new()) } else { Array::Uint(Vec::new()) };
-        list.push((binding.name.clone(), binding.stride * elements, kind));
+        list.push((binding.name.clone(), used(kernel, &binding.name, count), kind));
     }
     list
 }

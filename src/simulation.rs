@@ -69,7 +69,7 @@ impl Setup {
         let mut step = Step::new(&self.forces, count, machine);
         self.integrator.step(&mut step);
         let measure = Step::measurement(&self.forces, count, machine)?;
-        Ok(Plans { start: start.finished()?, step: step.done()?, measure })
+        Ok(Plans { start: start.begun()?, step: step.done()?, measure })
     }
     /// The number of particles, if all is well.
     ///
@@ -114,7 +114,7 @@ impl<B: Backend> Simulation<B> {
         let count = setup.check()?;
         let plans = setup.plans(backend.machine())?;
         let plan = plans.step.to_string();
-        let start = if plans.start.order.is_empty() { None } else { Some(backend.compile(&plans.start)?) };
+        let start = Some(backend.compile(&plans.start)?);
         let step = backend.compile(&plans.step)?;
         let measure = (backend.compile(&plans.measure.0)?, backend.compile(&plans.measure.1)?);
         backend.set_clock(Clock { time: 0.0, dt: setup.dt, step: 0, count })?;
@@ -161,8 +161,9 @@ impl<B: Backend> Simulation<B> {
     pub async fn check(&mut self) -> Result<(), Error> {
         let alarm = self.backend.read(ALARM.name, &Array::Uint(Vec::new()), 2).await?;
         match u32::view(&alarm).map(Vec::as_slice) {
-            Some([step, particle]) if *step != u32::MAX => {
-                Err(Error::NotFinite { particle: *particle, step: u64::from(*step) })
+            // The first look comes before the first step, every other one after a step that is done.
+            Some([done, particle]) if *done != u32::MAX => {
+                Err(Error::NotFinite { particle: *particle, step: u64::from(done.saturating_sub(1)) })
             }
             _ => Ok(()),
         }

@@ -22,7 +22,7 @@ fn draw(i: u32, layer: u32, a: Seen, b: Seen, age: f32) {
     let low = i32(clamp(floor(min(start.x, start.x + along.x) - frame.line - 0.5), 0.0, size.x));
     let high = i32(clamp(ceil(max(start.x, start.x + along.x) + frame.line + 0.5), 0.0, size.x));
     // On a diagonal √2 more than straight across.
-    let across = i32(ceil(1.4143 * (frame.line + 0.5)));
+    let across = i32(ceil(1.4143 * (frame.line + 0.5) + 0.5)) - 1;
     let squared = max(dot(way, way), 1e-12);
     let first_step = max(low, i32(layer * WALK));
     for (var u = first_step; u < min(high, i32((layer + 1u) * WALK)); u += 1) {

@@ -152,8 +152,10 @@ fn errors(area: &Area, rows: &[Measure]) -> Result<(), String> {
         .y_desc(what)
         .draw()
         .map_err(|e| e.to_string())?;
-    // A logarithm has no place for "no error": it is drawn on the lower edge.
-    let values: Points = values.into_iter().map(|(time, error)| (time, error.max(low))).collect();
+    // A logarithm has no place for "no error": it is left out, or drawn on the lower edge if there is nothing else.
+    let none = values.iter().all(|(_, error)| *error == 0.0);
+    let seen = values.into_iter().filter(|(_, error)| none || *error > 0.0);
+    let values: Points = seen.map(|(time, error)| (time, error.max(low))).collect();
     chart.draw_series(LineSeries::new(values.iter().copied(), line(DRIFT, 2))).map_err(|e| e.to_string())?;
     dots(&values, |dots| chart.draw_series(dots.map(|at| Circle::new(at, fine(3), DRIFT.filled()))).map(drop))
 }

@@ -45,8 +45,9 @@ impl Force for Gravity {
 
 /// Plummer (1911).
 fn plummer(gm: f64, softening: f64, r: DVec3) -> DVec4 {
-    let distance = (r.length_squared() + softening * softening).sqrt();
-    (r * (gm / distance.powi(3))).extend(-gm / distance)
+    let inverse = 1.0 / (r.length_squared() + softening * softening).sqrt();
+    let potential = gm * inverse;
+    (r * (potential * inverse * inverse)).extend(-potential)
 }
 
 /// The potential of a cubic spline of support h (Monaghan & Lattanzio 1985; Springel, Yoshida & White 2001, appendix A).

@@ -41,9 +41,9 @@ pub async fn bytes(
     let index = queue.submit_commands(commands)?;
 
     let (sender, receiver) = oneshot_channel();
-    stage.slice(..).map_async(wgpu::MapMode::Read, move |result| {
-        let _ = sender.send(result);
-    });
+    // A device that is lost makes invalid buffers, and says nothing: the first complaint is of their use.
+    let map = || stage.slice(..).map_async(wgpu::MapMode::Read, move |result| drop(sender.send(result)));
+    fault::scoped(device, map).map_err(|e| Error::Lost(format!("a field cannot be read: {e}")))?;
     let deadline = Instant::now() + queue.patience();
     let mut mapped = std::pin::pin!(receiver.receive());
     let answer = poll_fn(|context| {
@@ -59,7 +59,7 @@ pub async fn bytes(
                 context.waker().wake_by_ref();
                 Poll::Pending
             }
-            Err(error) => Poll::Ready(Err(Error::Device(error.to_string()))),
+            Err(error) => Poll::Ready(Err(Error::Lost(error.to_string()))),
         }
     })
     .await?;

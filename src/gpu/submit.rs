@@ -122,7 +122,8 @@ impl Queue {
         match self.device.poll(wait) {
             Ok(_) => Ok(()),
             Err(wgpu::PollError::Timeout) => Err(self.timeout("a batch of steps")),
-            Err(error) => Err(Error::Device(error.to_string())),
+            // A device that is lost takes submissions without a word, and does not know them afterwards.
+            Err(error) => Err(Error::Lost(error.to_string())),
         }
     }
     pub fn timeout(&self, what: &str) -> Error {

@@ -59,16 +59,28 @@ impl<'a> Step<'a> {
         self.add(runge_kutta::finish(self.count, weight));
     }
 
-    /// The plan of one step: what the integrator wrote, a look for broken numbers, and the clock's tick.
+    /// The plan of what is done once: what the integrator wrote, and a look for numbers that are broken from the start,
+    /// while they are those of the particles at fault. A step spreads them: everybody attracts everybody.
+    ///
+    /// # Errors
+    /// The first thing that went wrong while it was written.
+    pub fn begun(mut self) -> Result<Plan, Error> {
+        if self.plan.order.is_empty() {
+            self.evaluate();
+        }
+        self.add(watch::kernel(self.count));
+        self.finished()
+    }
+    /// The plan of one step: what the integrator wrote, the clock's tick, and a look for broken numbers.
     ///
     /// # Errors
     /// The first thing that went wrong while the step was written.
     pub fn done(mut self) -> Result<Plan, Error> {
-        self.add(watch::kernel(self.count));
         self.add(tick::kernel());
+        self.add(watch::kernel(self.count));
         self.finished()
     }
-    /// The plan without watch and tick.
+    /// The plan without tick and watch.
     ///
     /// # Errors
     /// The first thing that went wrong while the step was written.

@@ -1,15 +1,15 @@
 //! Comma-separated text. Columns `x,y,z`, and any of `vx,vy,vz` (0 when left out), `mass` (1), `radius` (0), `id` and `name`;
 //! lines that start with `#` are comments.
 
-use std::fmt::{self, Write as _};
-use std::fs::File;
-use std::io::{self, BufRead, BufReader, Seek, SeekFrom, Write};
+use std::fmt::Write as _;
+use std::io::{self, Write};
 use std::path::Path;
 
 use ::csv::{ByteRecord, ReaderBuilder, Trim};
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::line::Line;
 use super::problems::{Problems, order};
 use super::{Precision, input, open, picked};
 use crate::error::Error;
@@ -74,40 +74,6 @@ pub fn read(path: &Path) -> Result<Particles, Error> {
     }
     problems.check(path)?;
     Ok(particles)
-}
-
-/// Where a row begins. Its number is only counted when it is shown: `csv` knows where it stopped before, but not how many
-/// blank lines and comments it has skipped since.
-struct Line<'a> {
-    path: &'a Path,
-    byte: u64,
-    before: u64,
-}
-
-impl<'a> Line<'a> {
-    fn of(path: &'a Path, record: &ByteRecord) -> Self {
-        let (byte, before) = record.position().map_or((0, 1), |start| (start.byte(), start.line()));
-        Self { path, byte, before }
-    }
-
-    /// Its number, counted from 1.
-    fn number(&self) -> io::Result<u64> {
-        let mut file = BufReader::new(File::open(self.path)?);
-        file.seek(SeekFrom::Start(self.byte))?;
-        let mut number = self.before;
-        let mut line = Vec::new();
-        while file.read_until(b'\n', &mut line)? > 0 && matches!(line[0], b'#' | b'\r' | b'\n') {
-            number += 1;
-            line.clear();
-        }
-        Ok(number)
-    }
-}
-
-impl fmt::Display for Line<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        write!(f, "line {}", self.number().unwrap_or(self.before))
-    }
 }
 
 /// Where each column is.
@@ -199,7 +165,7 @@ pub(super) fn unknown(what: &str, title: &str, others: &[&'static str]) -> Strin
 }
 
 /// Writes a header and one row per particle, in the order of the ids: `id,x,y,z,vx,vy,vz,mass`. Each number is the shortest
-/// decimal that reads back to the same bits of the precision; radii are not written.
+/// decimal that reads back to the same bits of the precision, also where it is read as f64 first; radii are not written.
 ///
 /// # Errors
 /// Those of `out`.
@@ -229,11 +195,28 @@ fn row(text: &mut String, id: usize, particles: &Particles, precision: Precision
     // Writing into a String cannot fail. `{:?}` is the shortest decimal that reads back, with an exponent where that is shorter.
     let _ = write!(text, "{id}");
     for number in [x.x, x.y, x.z, v.x, v.y, v.z, particles.mass[id]] {
-        #[expect(clippy::cast_possible_truncation, reason = "single precision was asked for")]
-        let _ = match precision {
-            Precision::Single => write!(text, ",{:?}", number as f32),
-            Precision::Double => write!(text, ",{number:?}"),
-        };
+        let start = text.len();
+        match precision {
+            Precision::Single => {
+                #[expect(clippy::cast_possible_truncation, reason = "single precision was asked for")]
+                let single = number as f32;
+                let _ = write!(text, ",{single:?}");
+                if !reads_back(&text[start + 1..], single) {
+                    text.truncate(start);
+                    let _ = write!(text, ",{:?}", f64::from(single));
+                }
+            }
+            Precision::Double => {
+                let _ = write!(text, ",{number:?}");
+            }
+        }
     }
     text.push('\n');
+}
+
+/// Whether a reader that knows only f64 finds the same f32 when it narrows: rounding twice is not always rounding once. Of all
+/// f32 only ±7.038531e-26 is lost, half way between two of them for an f64.
+fn reads_back(text: &str, single: f32) -> bool {
+    #[expect(clippy::cast_possible_truncation, reason = "this is the question")]
+    text.parse::<f64>().is_ok_and(|wide| (wide as f32).to_bits() == single.to_bits())
 }

@@ -6,6 +6,7 @@
 mod archive;
 mod atomic;
 pub mod csv;
+mod line;
 mod npy;
 pub mod npz;
 mod problems;
@@ -34,7 +35,7 @@ pub enum Precision {
 pub struct Snapshot {
     /// The particles, in the order of their ids.
     pub particles: Particles,
-    /// The time [time]; 0 where the file does not say.
+    /// The time \[time\]; 0 where the file does not say.
     pub time: f64,
     /// The step; 0 where the file does not say.
     pub step: u64,

@@ -147,7 +147,7 @@ fn counted(header: &[u8; HEADER]) -> Result<(Bytes, [u64; 3]), String> {
 }
 
 /// Writes the standard form: big-endian, padded header, every particle a dark one in the order of the ids, with the same
-/// `softening` [length] and a potential of 0. Numbers are narrowed to f32; radii are not written.
+/// `softening` \[length\] and a potential of 0. Numbers are narrowed to f32; radii are not written.
 ///
 /// # Errors
 /// Those of `out`; and what Tipsy cannot hold: more than 2³¹ - 1 particles, numbers beyond the range of f32.

@@ -21,7 +21,7 @@ pub(super) struct Halo {
     /// ln r of the first row, and from row to row.
     first: f64,
     step: f64,
-    /// Squares of the dispersion per axis and of the escape speed [length² / time²].
+    /// Squares of the dispersion per axis and of the escape speed \[length² / time²\].
     rows: Vec<(f64, f64)>,
 }
 

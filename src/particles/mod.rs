@@ -20,13 +20,13 @@ use crate::settings::{Key, Settings};
 /// Particles, one entry per id in every array. Units are the scene's own.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Particles {
-    /// Where they are [length].
+    /// Where they are \[length\].
     pub position: Vec<DVec3>,
-    /// How they move [length / time].
+    /// How they move \[length / time\].
     pub velocity: Vec<DVec3>,
-    /// How heavy they are [mass]; zero is a test particle.
+    /// How heavy they are \[mass\]; zero is a test particle.
     pub mass: Vec<f64>,
-    /// How large they are drawn [length]; zero lets the picture choose.
+    /// How large they are drawn \[length\]; zero lets the picture choose.
     pub radius: Vec<f64>,
 }
 

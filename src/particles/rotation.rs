@@ -19,7 +19,7 @@ pub(super) struct Galaxy {
     pub toomre_q: f64,
 }
 
-/// The disk's state at one radius; all are [length / time] or its square, frequencies [1 / time²].
+/// The disk's state at one radius; all are \[length / time\] or its square, frequencies [1 / time²].
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Ring {
     /// Square of the circular velocity.
@@ -47,12 +47,12 @@ const OUTER: f64 = 50.0;
 const RINGS: u32 = 320;
 
 impl Galaxy {
-    /// Surface density of the disk [mass / length²].
+    /// Surface density of the disk \[mass / length²\].
     fn surface(&self, radius: f64) -> f64 {
         self.disk_mass / (2.0 * PI * self.disk_scale * self.disk_scale) * libm::exp(-radius / self.disk_scale)
     }
 
-    /// Softened pull of the whole galaxy as if it were spherical [length / time²].
+    /// Softened pull of the whole galaxy as if it were spherical \[length / time²\].
     pub(super) fn spherical(&self, r: f64) -> f64 {
         let x = r / self.disk_scale;
         let disk = self.disk_mass * (1.0 - (1.0 + x) * libm::exp(-x));
@@ -138,7 +138,7 @@ impl Rotation {
         Self { scale, rings }
     }
 
-    /// The ring at a radius [length].
+    /// The ring at a radius \[length\].
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "held within the table")]
     pub(super) fn at(&self, radius: f64) -> Ring {
         let place = libm::log(radius / (self.scale * INNER)) / log_step();

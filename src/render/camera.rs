@@ -28,7 +28,7 @@ const HALF_VIEW: f64 = 0.268;
 /// So few particles are all in the picture, and leave trails; of more, the outermost are left to themselves.
 pub const FEW: usize = 64;
 /// The part of many particles that may lie beyond each edge before the margin is added.
-const OUTER: f64 = 0.02;
+const OUTER: f64 = 0.03;
 /// What is left free around the particles, as a part of their own extent.
 const MARGIN: f64 = 0.22;
 /// A picture is framed by so many particles at most.
@@ -98,7 +98,10 @@ impl Camera {
     }
 }
 
-/// From the lowest to the highest of some intervals, without the `outer` part of each end.
+/// So much longer than the rest the whole must be before its ends are taken for stragglers.
+const STRAGGLING: f64 = 1.5;
+
+/// From the lowest to the highest of some intervals; without the `outer` part of each end, if that is far off.
 fn span(intervals: impl Iterator<Item = (f64, f64)>, outer: f64) -> (f64, f64) {
     let (mut low, mut high): (Vec<f64>, Vec<f64>) = intervals.unzip();
     #[expect(
@@ -109,5 +112,54 @@ fn span(intervals: impl Iterator<Item = (f64, f64)>, outer: f64) -> (f64, f64) {
     )]
     let skip = ((low.len().max(1) - 1) as f64 * outer) as usize;
     let last = high.len() - 1 - skip;
-    (*low.select_nth_unstable_by(skip, f64::total_cmp).1, *high.select_nth_unstable_by(last, f64::total_cmp).1)
+    let lowest = low.iter().copied().fold(f64::INFINITY, f64::min);
+    let highest = high.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let (low, high) =
+        (*low.select_nth_unstable_by(skip, f64::total_cmp).1, *high.select_nth_unstable_by(last, f64::total_cmp).1);
+    if highest - lowest <= STRAGGLING * (high - low) { (lowest, highest) } else { (low, high) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn stragglers_are_left_out_and_edges_are_not() {
+        let line = |end: f64| (0..100_u32).map(|i| f64::from(i) / 99.0).chain([end]).map(|x| (x, x));
+        assert_eq!(span(line(1.2), 0.03), (0.0, 1.2));
+        let (low, high) = span(line(50.0), 0.03);
+        assert!(low > 0.02 && high < 1.0, "{low} {high}");
+        assert_eq!(span(line(50.0), 0.0), (0.0, 50.0));
+    }
+    /// How much of the picture these particles and trails fill, from the middle to the fuller edge.
+    fn filled(shapes: &[(DVec3, f64)], past: &[DVec3], projection: &'static str) -> f64 {
+        let mut particles = Particles::default();
+        for (x, radius) in shapes {
+            particles.push(*x, DVec3::ZERO, 1.0, *radius);
+        }
+        let mut trail = Trail::new(shapes.len());
+        trail.push(past);
+        let word = crate::settings::Value::Text(projection.into());
+        let settings = Settings::defaults(super::super::KEYS).with("projection", word);
+        let camera = Camera::fit(&particles, &trail, &settings);
+        let part = |(x, radius): (DVec3, f64)| {
+            let r = x - camera.center;
+            let near = if camera.distance > 0.0 { r.dot(camera.back) / camera.distance } else { 0.0 };
+            let across = (r.dot(camera.right).abs() + radius) / (1.0 - near) * 720.0 / 1280.0;
+            across.max((r.dot(camera.up).abs() + radius) / (1.0 - near)) / camera.extent
+        };
+        shapes.iter().copied().chain(past.iter().map(|x| (*x, 0.0))).map(part).fold(0.0, f64::max)
+    }
+    #[test]
+    fn few_particles_are_all_in_the_picture_with_their_balls_and_trails() {
+        let (high, wide) = (DVec3::new(0.0, 30.0, -12.0), DVec3::new(90.0, 1.0, 0.0));
+        let two = [(DVec3::new(7.0, 1.0, -2.0), 0.5), (DVec3::new(-3.0, -20.0, 4.0), 0.1)];
+        let large = [(DVec3::new(7.0, 1.0, -2.0), 15.0), (DVec3::new(-3.0, -2.0, 4.0), 9.0)];
+        for projection in ["perspective", "orthographic"] {
+            for (shapes, past) in [(two, high), (two, wide), (large, DVec3::X)] {
+                let filled = filled(&shapes, &[DVec3::new(0.0, 9.0, 12.0), past], projection);
+                assert!((0.75..0.9).contains(&filled), "{projection} {past}: {filled}");
+            }
+        }
+    }
 }

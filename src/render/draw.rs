@@ -27,7 +27,9 @@ pub struct Image {
 pub async fn draw<B: Backend>(backend: &mut B, picture: &Picture) -> Result<Image, Error> {
     let image = attempt(backend, picture).await;
     // The next picture may have another size.
-    OWN.iter().for_each(|field| backend.forget(field));
+    for field in OWN {
+        backend.forget(field);
+    }
     image
 }
 

@@ -41,7 +41,8 @@ pub struct Exposure {
 }
 
 impl Exposure {
-    /// From a histogram: almost everything is below white, and half of what is lit above the knee.
+    /// From a histogram: almost everything is below white, and most of what is lit above the knee.
+    #[must_use]
     pub fn of(histogram: &[u32], frame: &Frame, exposure: f64) -> Self {
         let lit: u64 = histogram.iter().take(BINS).map(|n| u64::from(*n)).sum();
         let quantile = |part: f64| {
@@ -55,11 +56,13 @@ impl Exposure {
             brightness(found.unwrap_or(0))
         };
         // A single light is never lost, and never white: the halo has yet to be added.
-        let white = if lit == 0 { frame.unit } else { quantile(0.998) }.max(frame.unit) * 1.4;
-        let knee = if lit == 0 { frame.unit } else { quantile(0.5) }.min(0.5 * frame.unit);
+        let (white, middle) = if lit == 0 { (frame.unit, frame.unit) } else { (quantile(0.998), quantile(0.5)) };
+        let white = white.max(frame.unit) * 1.4;
+        let knee = (middle / 2.5).min(0.5 * frame.unit);
         Self { knee: knee.max(1e-3 * white) / exposure, white: white / exposure }
     }
     /// 1 / log₂(1 + white / knee)
+    #[must_use]
     pub fn slope(&self) -> f64 {
         (1.0 + self.white / self.knee).log2().recip()
     }

@@ -111,8 +111,7 @@ impl Picture {
             height: super::frame::whole(height),
             heaviest: particles.mass.iter().copied().fold(0.0, f64::max),
             marker: match style {
-                "auto" if few => 0.025 * short / (1.0 + f64::from(count) / 16.0),
-                "balls" if few => 0.025 * short / (1.0 + f64::from(count) / 16.0),
+                "auto" | "balls" if few => 0.025 * short / (1.0 + f64::from(count) / 16.0),
                 "balls" => 1.0,
                 _ => 0.0,
             },
@@ -122,13 +121,13 @@ impl Picture {
                 "balls" => 0.0,
                 _ => solid(particles, 0.5 * height / camera.extent, few),
             },
-            glow: (0.4 * (width * height / f64::from(count)).sqrt()).clamp(1.5, (short / 120.0).max(1.5)),
+            glow: (0.4 * (width * height / f64::from(count)).sqrt()).clamp(1.5, (short / 150.0).max(1.5)),
             unit: unit(count),
             speeds: if let Color::Speed { slow, fast } = color { (slow, fast) } else { (0.0, 1.0) },
             points: u32::try_from(trail.points().count()).unwrap_or(0),
             sky: if settings.text("background") == "black" { 0.0 } else { 1.0 },
             line: (short / 800.0).max(0.5),
-            bloom: 2.4,
+            bloom: 1.8,
             reach: super::frame::whole(short / 48.0).max(1),
         };
         Ok(Self { frame, color, trail, exposure: settings.number("exposure") })

@@ -68,13 +68,14 @@ mod tests {
     fn it_never_grows_beyond_its_size_and_stays_evenly_spaced() {
         let mut trail = Trail::new(3);
         for i in 0..50_000 {
-            trail.push(&[f64::from(i), f64::from(i) + 0.25, f64::from(i) + 0.5].map(|x| DVec3::splat(x)));
+            trail.push(&[f64::from(i), f64::from(i) + 0.25, f64::from(i) + 0.5].map(DVec3::splat));
             assert!(trail.moments() <= MOMENTS);
         }
         let first: Vec<f64> = trail.points().step_by(3).map(|x| x.x).collect();
-        assert!(first.len() > MOMENTS / 2 && first[0] == 0.0, "{}", first.len());
+        assert!(first.len() >= MOMENTS / 2 && first[0].abs() < 0.5, "{}", first.len());
         let stride = first[1];
-        assert!(first.windows(2).all(|w| w[1] - w[0] == stride), "{stride}");
+        // Whole numbers, exact in f64.
+        assert!(first.windows(2).all(|w| (w[1] - w[0]).to_bits() == stride.to_bits()), "{stride}");
         assert!(first[first.len() - 1] > 50_000.0 - 2.0 * stride);
     }
     #[test]

@@ -1,5 +1,7 @@
 //! Files of particles: what was written reads back to the same bits, and what is broken is an error that says where.
 
+#![cfg(feature = "scene")]
+
 mod csv_text;
 mod npz_archives;
 mod round_trips;

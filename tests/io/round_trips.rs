@@ -39,6 +39,19 @@ fn of(numbers: &[f64]) -> Particles {
     particles
 }
 
+#[test]
+fn a_single_survives_rounding_twice() {
+    // The shortest decimal of this f32, read as f64 and narrowed, is its neighbour.
+    let x = 7.038_531e-26_f32;
+    #[expect(clippy::cast_possible_truncation, reason = "on purpose")]
+    let twice = 7.038_531e-26_f64 as f32;
+    assert_ne!(x.to_bits(), twice.to_bits(), "the example is none");
+    let particles = of(&[f64::from(x), f64::from(-x), 0.0, 0.0, 0.0, 0.0, 1.0]);
+    let folder = folder();
+    let path = put(&folder, "a.csv", csv_bytes(&particles, Precision::Single));
+    assert_eq!(narrow(&read(&path).expect("csv")), narrow(&particles));
+}
+
 proptest! {
     #[test]
     fn doubles_come_back_bit_for_bit(numbers in prop::collection::vec(finite(), 0..70)) {

@@ -120,6 +120,7 @@ fn a_lattice_is_straight_and_x_runs_fastest() {
     let bent = made("lattice", &straight.with("jitter", Value::Number(0.25)));
     let moved: Vec<DVec3> = p.position.iter().zip(&bent.position).map(|(a, b)| *b - *a).collect();
     let worst = moved.iter().map(|d| d.abs().max_element()).fold(0.0, f64::max);
+    assert!(moved.iter().any(|d| d.x < -0.1) && moved.iter().any(|d| d.x > 0.1), "to one side only");
     assert!((0.11..0.125).contains(&worst), "{worst}"); // a quarter of 0.5
 }
 

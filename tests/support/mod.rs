@@ -1,6 +1,11 @@
 //! What several tests need: a device, and particles with no round numbers.
 #![allow(dead_code, reason = "each test uses a part of it")]
 
+pub mod choices;
+pub mod machines;
+pub mod mutants;
+pub mod states;
+
 use std::sync::{Mutex, MutexGuard, OnceLock};
 
 use glam::DVec3;
@@ -24,6 +29,19 @@ pub fn device() -> MutexGuard<'static, Shared> {
         Mutex::new(Shared { found: found.expect("tests need an adapter; tests/run installs one") })
     });
     shared.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
+}
+
+/// The same adapter with another device, whose limits are changed to smaller ones.
+pub async fn limited(shared: &Shared, change: impl FnOnce(&mut motes::wgpu::Limits)) -> (motes::wgpu::Device, motes::wgpu::Queue) {
+    let mut required_limits = shared.found.device.limits();
+    change(&mut required_limits);
+    let descriptor = motes::wgpu::DeviceDescriptor {
+        label: Some("limited"),
+        required_features: shared.found.device.features(),
+        required_limits,
+        ..Default::default()
+    };
+    shared.found.adapter.request_device(&descriptor).await.expect("an adapter gives less than it has")
 }
 
 /// Numbers that repeat, and are neither 0 nor 1.

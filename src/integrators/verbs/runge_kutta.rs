@@ -60,8 +60,8 @@ pub fn finish(count: u32, weight: f64) -> Result<Kernel, Error> {
         let (mut x, mut v, a) = (host.write(POSITION)?, host.write(VELOCITY)?, host.read(ACCELERATION)?);
         let (sum_x, sum_v) = (host.read(SLOPE_POSITION)?, host.read(SLOPE_VELOCITY)?);
         for i in 0..x.len() {
-            x[i] = x0[i] + dt * (sum_x[i] + weight * vector(v[i]));
-            v[i] = v0[i] + dt * (sum_v[i] + weight * vector(a[i]));
+            x[i] = x0[i] + dt * vector(sum_x[i] + weight * v[i]);
+            v[i] = v0[i] + dt * vector(sum_v[i] + weight * a[i]);
         }
         Ok(())
     };

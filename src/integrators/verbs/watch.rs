@@ -3,20 +3,21 @@
 use std::sync::Arc;
 
 use crate::error::Error;
-use crate::kernel::{ALARM, Kernel, POSITION, Shader, VELOCITY};
+use crate::kernel::{ACCELERATION, ALARM, Kernel, POSITION, Shader, VELOCITY};
 
 /// The kernel.
 pub fn kernel(count: u32) -> Result<Kernel, Error> {
     let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("integrators/watch.wgsl")])?;
     let twin = |host: &crate::kernel::Host| {
-        let step = host.clock().step;
-        let (position, velocity) = (host.read(POSITION)?, host.read(VELOCITY)?);
-        let broken = position.iter().zip(velocity.iter()).position(|(x, v)| !x.is_finite() || !v.is_finite());
+        let done = host.clock().step;
+        let (position, velocity, acceleration) = (host.read(POSITION)?, host.read(VELOCITY)?, host.read(ACCELERATION)?);
+        let well = |i: &usize| position[*i].is_finite() && velocity[*i].is_finite() && acceleration[*i].is_finite();
+        let broken = (0..position.len()).find(|i| !well(i));
         let mut alarm = host.write(ALARM)?;
         if let (Some(id), [first, lowest, ..]) = (broken, &mut alarm[..]) {
             let id = u32::try_from(id).unwrap_or(u32::MAX);
-            if *first >= step {
-                (*first, *lowest) = (step, id.min(*lowest));
+            if *first >= done {
+                (*first, *lowest) = (done, id.min(*lowest));
             }
         }
         Ok(())

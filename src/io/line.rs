@@ -1,0 +1,42 @@
+//! The numbers of lines for messages about CSV files.
+
+use std::fmt;
+use std::fs::File;
+use std::io::{self, BufRead, BufReader, Seek, SeekFrom};
+use std::path::Path;
+
+use ::csv::ByteRecord;
+
+/// Where a row begins. Its number is only counted when it is shown: `csv` knows where it stopped before, but not how many
+/// blank lines and comments it has skipped since.
+pub(super) struct Line<'a> {
+    path: &'a Path,
+    byte: u64,
+    before: u64,
+}
+
+impl<'a> Line<'a> {
+    pub(super) fn of(path: &'a Path, record: &ByteRecord) -> Self {
+        let (byte, before) = record.position().map_or((0, 1), |start| (start.byte(), start.line()));
+        Self { path, byte, before }
+    }
+
+    /// Its number, counted from 1.
+    fn number(&self) -> io::Result<u64> {
+        let mut file = BufReader::new(File::open(self.path)?);
+        file.seek(SeekFrom::Start(self.byte))?;
+        let mut number = self.before;
+        let mut line = Vec::new();
+        while file.read_until(b'\n', &mut line)? > 0 && matches!(line[0], b'#' | b'\r' | b'\n') {
+            number += 1;
+            line.clear();
+        }
+        Ok(number)
+    }
+}
+
+impl fmt::Display for Line<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "line {}", self.number().unwrap_or(self.before))
+    }
+}

@@ -1,0 +1,223 @@
+//! The command as a user meets it: words, files and exit codes.
+
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+use std::time::{Duration, Instant};
+
+fn motes(args: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_motes"));
+    command.args(args).env_remove("WGPU_ADAPTER_NAME").stdin(Stdio::null());
+    command
+}
+
+fn output(command: &mut Command) -> (i32, String, String) {
+    let Output { status, stdout, stderr } = command.output().expect("the program starts");
+    let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("output is UTF-8");
+    (status.code().unwrap_or(-1), text(stdout), text(stderr))
+}
+
+fn path(folder: &tempfile::TempDir, name: &str) -> String {
+    folder.path().join(name).to_str().expect("a path of words").to_owned()
+}
+
+fn names(folder: &str) -> Vec<String> {
+    let mut names: Vec<_> = std::fs::read_dir(folder)
+        .expect("the folder is there")
+        .map(|entry| entry.expect("an entry").file_name().into_string().expect("a name of words"))
+        .collect();
+    names.sort();
+    names
+}
+
+fn text(folder: &str, name: &str) -> String {
+    std::fs::read_to_string(Path::new(folder).join(name)).unwrap_or_else(|e| panic!("{name}: {e}"))
+}
+
+#[test]
+fn a_run_leaves_numbers_a_plot_pictures_and_a_scene_that_gives_the_same_again() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = path(&folder, "first");
+    let small = ["--set", "picture.width=160", "--set", "picture.height=90", "--set", "output.every=10"];
+    let formats = ["--set", "output.formats=[\"csv\", \"npz\", \"png\"]"];
+    let args = [&["run", "figure_eight", "--steps", "20", "-o", &out][..], &small, &formats].concat();
+    let (code, stdout, stderr) = output(&mut motes(&args));
+    assert_eq!(code, 0, "{stderr}");
+    assert!(stdout.contains("20 steps in") && stdout.contains("energy -1.287"), "{stdout}");
+    assert!(stderr.contains("figure_eight: 3 particles, 20 steps"), "{stderr}");
+    let expected = [
+        "energy.csv",
+        "energy.svg",
+        "figure_eight.png",
+        "picture_00.png",
+        "picture_10.png",
+        "picture_20.png",
+        "scene.toml",
+        "snapshot_00.csv",
+        "snapshot_00.npz",
+        "snapshot_10.csv",
+        "snapshot_10.npz",
+        "snapshot_20.csv",
+        "snapshot_20.npz",
+    ];
+    assert_eq!(names(&out), expected);
+    let energy = text(&out, "energy.csv");
+    let header = "step,time,kinetic,potential,total,momentum_x,momentum_y,momentum_z,angular_momentum_x,angular_momentum_y,angular_momentum_z";
+    assert_eq!(energy.lines().next(), Some(header));
+    assert_eq!(energy.lines().map(|l| l.split(',').count()).collect::<Vec<_>>(), [11; 4]);
+    let snapshot = text(&out, "snapshot_20.csv");
+    assert!(snapshot.starts_with("id,x,y,z,vx,vy,vz,mass\n0,"), "{snapshot}");
+    assert_ne!(snapshot, text(&out, "snapshot_10.csv"), "twenty steps are not ten");
+
+    let again = path(&folder, "again");
+    let scene = format!("{out}/scene.toml");
+    let (code, _, stderr) = output(&mut motes(&["run", &scene, "-o", &again]));
+    assert_eq!(code, 0, "{stderr}");
+    for name in ["energy.csv", "snapshot_20.csv"] {
+        assert_eq!(text(&out, name), text(&again, name), "{name} of the resolved scene");
+    }
+    assert!(text(&out, "scene.toml").contains(env!("CARGO_PKG_VERSION")));
+}
+
+#[test]
+fn faults_of_a_scene_are_told_all_at_once_and_nothing_is_written() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (scene, out) = (path(&folder, "bad.toml"), path(&folder, "out"));
+    let text =
+        "[simulation]\ndt = -1\nstep = 5\n[[particles]]\nshape = \"plumer\"\ncount = 0\n[[force]]\nkind = \"gravty\"\n";
+    std::fs::write(&scene, text).expect("written");
+    let (code, stdout, stderr) = output(&mut motes(&["run", &scene, "-o", &out]));
+    assert_eq!((code, stdout.as_str()), (3, ""), "{stderr}");
+    for words in
+        ["bad.toml:2:6", "did you mean `steps`?", "did you mean \"plummer\"?", "did you mean \"gravity\"?", "^"]
+    {
+        assert!(stderr.contains(words), "no {words} in\n{stderr}");
+    }
+    assert!(!Path::new(&out).exists(), "a bad scene writes nothing");
+}
+
+#[test]
+fn exit_codes_are_those_of_the_help() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (_, help, _) = output(&mut motes(&["--help"]));
+    let case = |args: &[&str], code: i32, words: &str| {
+        let (got, stdout, stderr) = output(&mut motes(args));
+        assert_eq!(got, code, "motes {args:?}\n{stdout}{stderr}");
+        assert!(stderr.contains(words), "motes {args:?} does not say {words:?}:\n{stderr}");
+        assert!(help.contains(&format!("\n  {code} ")), "{code} is not in the help");
+    };
+    case(&["run", "throw", "--sideways"], 2, "--sideways");
+    case(&["run", "thrwo"], 3, "throw");
+    case(&["check", "throw", "--set", "simulation.dt=0"], 3, "simulation.dt=0");
+
+    std::fs::write(path(&folder, "p.csv"), "x,y,z\n1,2,3\n4,oops,6\n").expect("written");
+    let scene = path(&folder, "p.toml");
+    std::fs::write(&scene, "[simulation]\ndt = 1\nsteps = 1\n[[particles]]\nfile = \"p.csv\"\n").expect("written");
+    case(&["check", &scene], 4, "oops");
+
+    case(&["run", "throw", "--adapter", "no such adapter"], 5, "no such adapter");
+
+    let clash = path(&folder, "clash.toml");
+    let body = "{ position = [1, 0, 0], mass = 1 }";
+    let text = format!(
+        "[simulation]\ndt = 0.1\nsteps = 5\n[[particles]]\nbodies = [{body}, {body}]\n[[force]]\nkind = \"gravity\"\n"
+    );
+    std::fs::write(&clash, text).expect("written");
+    for backend in ["gpu", "cpu"] {
+        let out = path(&folder, backend);
+        case(&["run", &clash, "-o", &out, "--backend", backend], 6, "particle 0 stopped being finite in step 0");
+    }
+
+    let file = path(&folder, "file");
+    std::fs::write(&file, "").expect("written");
+    case(&["run", "throw", "--steps", "1", "-o", &file], 8, &file);
+}
+
+#[test]
+fn without_a_driver_the_twins_run_and_say_so() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = path(&folder, "out");
+    let blind = |args: &[&str]| {
+        let mut command = motes(args);
+        command
+            .env("VK_DRIVER_FILES", "/nonexistent")
+            .env("VK_ICD_FILENAMES", "/nonexistent")
+            .env("WGPU_BACKEND", "vulkan");
+        output(&mut command)
+    };
+    let (code, _, stderr) = blind(&["run", "kepler", "--steps", "10", "-o", &out, "--set", "output.formats=[\"csv\"]"]);
+    assert_eq!(code, 0, "{stderr}");
+    assert!(stderr.contains("f64 twins") && stderr.contains("mesa-vulkan-drivers"), "{stderr}");
+    // The twins' digits are those of f64.
+    let row = text(&out, "snapshot_10.csv").lines().nth(1).map(str::len);
+    assert!(row > Some(80), "{row:?}");
+    let (code, _, stderr) = blind(&["run", "kepler", "--backend", "gpu", "-o", &out]);
+    assert_eq!(code, 5, "{stderr}");
+    let (code, stdout, _) = blind(&["doctor"]);
+    assert!(code == 0 && stdout.contains("no GPU driver was found"), "{stdout}");
+}
+
+#[test]
+fn programs_read_lines_of_json_and_quiet_is_quiet() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = path(&folder, "out");
+    let args = ["run", "throw", "--steps", "30", "-o", &out, "--set", "output.formats=[]", "--set", "output.every=10"];
+    let (code, stdout, stderr) = output(&mut motes(&[&args[..], &["--json"]].concat()));
+    assert_eq!((code, stderr.as_str()), (0, ""));
+    let events: Vec<serde_json::Value> = stdout.lines().map(|l| serde_json::from_str(l).expect("JSON")).collect();
+    let kinds: Vec<_> = events.iter().filter_map(|e| e["event"].as_str()).filter(|e| *e != "remark").collect();
+    assert_eq!(kinds, ["start", "progress", "progress", "progress", "progress", "finish"]);
+    assert_eq!(events.last().map(|e| e["steps"].clone()), Some(30.into()));
+    let (code, stdout, stderr) = output(&mut motes(&[&args[..], &["--quiet"]].concat()));
+    assert_eq!((code, stdout.as_str(), stderr.as_str()), (0, "", ""));
+}
+
+#[cfg(unix)]
+#[test]
+fn ctrl_c_ends_the_batch_and_writes() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = path(&folder, "out");
+    let args = ["run", "kepler", "--steps", "100000000", "-o", &out, "--set", "output.formats=[\"csv\"]"];
+    let child = motes(&args).stdout(Stdio::piped()).stderr(Stdio::null()).spawn().expect("the program starts");
+    let start = Instant::now();
+    while !Path::new(&out).join("energy.csv").exists() || text(&out, "energy.csv").lines().count() < 2 {
+        assert!(start.elapsed() < Duration::from_secs(60), "the run does not begin");
+        std::thread::sleep(Duration::from_millis(50));
+    }
+    let killed = Command::new("kill").args(["-INT", &child.id().to_string()]).status().expect("kill");
+    assert!(killed.success());
+    let Output { status, stdout, .. } = child.wait_with_output().expect("it ends");
+    assert_eq!(status.code(), Some(75));
+    assert!(String::from_utf8_lossy(&stdout).contains("stopped at step"));
+    assert_eq!(text(&out, "energy.csv").lines().count(), 3, "the first state and the last");
+    assert!(names(&out).iter().filter(|n| n.starts_with("snapshot_")).count() == 2);
+}
+
+#[test]
+fn the_other_commands_print_what_they_promise() {
+    let lines = |args: &[&str], words: &[&str]| {
+        let (code, stdout, stderr) = output(&mut motes(args));
+        assert_eq!(code, 0, "motes {args:?}\n{stdout}{stderr}");
+        for word in words {
+            assert!(stdout.contains(word), "motes {args:?} does not print {word:?}:\n{stdout}");
+        }
+        stdout
+    };
+    lines(
+        &["explain", "kepler", "--set", "simulation.integrator=leapfrog"],
+        &["kick FACTOR=0.5 | drift | at FACTOR=1 | clear | gravity"],
+    );
+    lines(&["check", "fountain"], &["position", "in all", "per step", "no faults"]);
+    lines(&["check", "fountain", "--set", "simulation.integrator=leapfrog"], &["depends on velocity", "of order 1"]);
+    lines(&["doctor"], &["loops", "compensated sums", "NaN", "timestamps"]);
+    lines(&["compare", "kepler", "--steps", "5"], &["gravity", "they agree"]);
+    let list = lines(&["scenes"], &[]);
+    for scene in motes::scene::SCENES {
+        assert!(list.contains(scene.name), "{}", scene.name);
+        assert_eq!(lines(&["scenes", scene.name], &[]), scene.text);
+    }
+    let bench = lines(&["bench", "--from", "256", "--to", "512", "--repeat", "1", "--json"], &[]);
+    let bench: serde_json::Value = serde_json::from_str(&bench).expect("JSON");
+    assert_eq!(bench["pairs"].as_array().map(Vec::len), Some(2));
+    assert!(bench["pairs"][0]["ratio"].as_f64() > Some(0.0) && bench["commit"].is_string());
+    assert_eq!(bench["integrators"]["steps"].as_array().map(Vec::len), Some(motes::integrators::INTEGRATORS.len()));
+}

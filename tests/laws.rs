@@ -1,0 +1,190 @@
+//! Laws: what every force must obey, whatever it is called; and numbers by hand for those that are there.
+
+mod support;
+
+use std::f64::consts::TAU;
+
+use glam::{DVec3, DVec4};
+use motes::Particles;
+use motes::forces::{self, Entry, Force, Over};
+use motes::settings::{Kind, Settings, Value};
+use support::choices::{self, nudged};
+use support::states::{accelerations, force, one, vector, word};
+
+const TIME: f64 = 0.83;
+
+/// Every force of the register in all its variants.
+fn every(mut look: impl FnMut(&str, &'static Entry, &Settings, Box<dyn Force>)) {
+    for entry in forces::FORCES {
+        for settings in choices::variants(entry.keys) {
+            look(&format!("{} {:?}", entry.name, settings.0), entry, &settings, (entry.build)(&settings));
+        }
+    }
+}
+
+fn is_pairs(force: &dyn Force) -> bool {
+    force.laws().iter().any(|law| law.over != Over::Each)
+}
+
+/// Σ m w: each of a pair holds its half.
+fn potential(force: &[Box<dyn Force>], particles: &Particles) -> f64 {
+    accelerations(force, particles, TIME).iter().zip(&particles.mass).map(|(a, m)| a.w * m).sum()
+}
+
+/// Either a force has a potential, and is F = −∇U of it whatever the velocity; or it has none, and depends on velocity.
+#[test]
+fn forces_are_gradients_or_depend_on_velocity() {
+    let (mut gradients, mut others) = (0, 0);
+    every(|name, _, _, force| {
+        let force = [force];
+        let particles = support::cloud(6, 3);
+        let a = accelerations(&force, &particles, TIME);
+        assert!(a.iter().all(|a| a.is_finite() && a.truncate().length() > 0.0), "{name}: {a:?}");
+        let mut faster = particles.clone();
+        faster.velocity.iter_mut().for_each(|v| *v = *v * 1.7 + DVec3::new(0.1, 0.2, -0.3));
+        let moved = accelerations(&force, &faster, TIME);
+        if a.iter().all(|a| a.w == 0.0) {
+            others += 1;
+            assert!(a.iter().zip(&moved).all(|(a, b)| a != b), "{name}: no potential, although velocity is nothing to it");
+            return;
+        }
+        gradients += 1;
+        assert_eq!(a, moved, "{name}: a potential, although it depends on velocity");
+        let h = 1e-5;
+        for (i, acceleration) in a.iter().enumerate() {
+            for k in 0..3 {
+                let at = |side: f64| {
+                    let mut there = particles.clone();
+                    there.position[i][k] += side * h;
+                    potential(&force, &there)
+                };
+                let want = -(at(1.0) - at(-1.0)) / (2.0 * h);
+                let got = particles.mass[i] * acceleration[k];
+                // Rounding 1e-16 |U| / h and the third derivative h² U‴ / 6, where U‴ is at most some U / ε³ with ε = 0.17.
+                let allowed = 1e-11 * potential(&force, &particles).abs().max(1.0) * 10.0 + 1e-7 * got.abs();
+                assert!((got - want).abs() < allowed, "{name}: particle {i}, component {k}: {got} is not {want}");
+            }
+        }
+    });
+    assert!(gradients >= 6 && others >= 3, "{gradients} with a potential and {others} without are too few to be all");
+}
+
+/// What pairs do to each other adds up to nothing: no force on the whole, no torque.
+#[test]
+fn action_is_reaction() {
+    let mut pairs = 0;
+    every(|name, _, _, force| {
+        if !is_pairs(force.as_ref()) {
+            return;
+        }
+        pairs += 1;
+        let particles = support::cloud(40, 3);
+        let a = accelerations(&[force], &particles, TIME);
+        let (mut push, mut turn, mut size) = (DVec3::ZERO, DVec3::ZERO, 0.0);
+        for ((a, x), m) in a.iter().zip(&particles.position).zip(&particles.mass) {
+            push += *m * a.truncate();
+            turn += *m * x.cross(a.truncate());
+            size += m * a.truncate().length();
+        }
+        // 40 sums of 40 terms, each rounded by 1e-16.
+        let allowed = 40.0 * f64::EPSILON * size;
+        assert!(push.length() < allowed && turn.length() < allowed, "{name}: {push} and {turn} of {size}");
+        assert!(size > 1e-3, "{name} does nothing");
+    });
+    assert!(pairs >= 2);
+}
+
+/// A key that nobody reads, or a name mistyped, changes nothing.
+#[test]
+fn every_key_is_read() {
+    for entry in forces::FORCES {
+        let variants = choices::variants(entry.keys);
+        let at = |settings: &Settings| accelerations(&[(entry.build)(settings)], &support::cloud(6, 3), TIME);
+        for key in entry.keys {
+            let others = |settings: &Settings| -> Vec<Settings> {
+                let value = &settings.0[key.name];
+                match key.kind {
+                    Kind::Choice(words) => {
+                        let other = words.iter().filter(|w| *w != &settings.text(key.name));
+                        other.map(|w| settings.clone().with(key.name, Value::Text((*w).into()))).collect()
+                    }
+                    _ => vec![settings.clone().with(key.name, nudged(value))],
+                }
+            };
+            // One variant in which it matters is enough: a softening says nothing to a spring.
+            let all: Vec<_> = variants.iter().flat_map(|v| others(v).into_iter().map(move |o| (v, o))).collect();
+            let only_word = matches!(key.kind, Kind::Choice([_]));
+            let read = all.iter().any(|(one, other)| at(one) != at(other));
+            assert!(read || only_word, "{}: the key `{}` changes nothing", entry.name, key.name);
+        }
+    }
+}
+
+/// Two bodies at a distance, and what the first feels.
+fn gravity(kernel: &'static str, softening: f64, distance: f64) -> DVec4 {
+    let mut two = one(DVec3::ZERO, DVec3::ZERO);
+    two.push(DVec3::new(0.0, distance, 0.0), DVec3::ZERO, 3.0, 0.0);
+    let settings = [("g", Value::Number(0.7)), ("kernel", word(kernel)), ("softening", Value::Number(softening))];
+    // Each holds half of the potential.
+    accelerations(&[force("gravity", &settings)], &two, 0.0)[0] * DVec4::new(1.0, 1.0, 1.0, 2.0)
+}
+
+#[test]
+fn the_spline_is_newton_outside_and_smooth_inside() {
+    let (gm, softening) = (0.7 * 3.0, 0.4);
+    let h = 2.8 * softening;
+    for distance in [h, 1.01 * h, 3.0 * h] {
+        let (soft, newton) = (gravity("spline", softening, distance), gravity("plummer", 0.0, distance));
+        assert!((soft - newton).length() < 1e-14 * newton.length(), "{distance}: {soft} is not {newton}");
+        assert!((newton.y - gm / distance.powi(2)).abs() < 1e-14 && (newton.w + gm / distance).abs() < 1e-14);
+    }
+    // In the middle the potential is that of Plummer's law, −G m / ε, which is what makes the two ε one.
+    let (middle, plummer) = (gravity("spline", softening, 1e-9), gravity("plummer", softening, 1e-9));
+    assert!((middle.w + gm / softening).abs() < 1e-14 && (plummer.w + gm / softening).abs() < 1e-14);
+    assert!(middle.y.abs() < 1e-7, "no force in the middle");
+    // Across the seams value and slope go on: what is left is the second derivative times the way.
+    for seam in [0.5 * h, h] {
+        let way = 1e-7;
+        let (below, above) = (gravity("spline", softening, seam - way), gravity("spline", softening, seam + way));
+        let steepest = gm / (softening * softening * softening);
+        assert!((above.y - below.y).abs() < 2.0 * way * steepest, "the force leaps at {seam}: {below} {above}");
+        assert!((above.w - below.w - 2.0 * way * below.y).abs() < way * way * steepest * 4.0, "φ leaps at {seam}");
+    }
+    // At u = 1/4, by hand: force 32/3 + (8 − 38.4) / 16, potential −2.8 + (16/3 + (1.6 − 9.6) / 16) / 16.
+    let quarter = gravity("spline", softening, h / 4.0);
+    let (pull, potential) = (32.0 / 3.0 - 30.4 / 16.0, -2.8 + (16.0 / 3.0 - 0.5) / 16.0);
+    assert!((quarter.y - gm * pull * (h / 4.0) / h.powi(3)).abs() < 1e-13, "{quarter}");
+    assert!((quarter.w - gm * potential / h).abs() < 1e-13, "{quarter} {}", gm * potential / h);
+}
+
+#[test]
+fn numbers_by_hand() {
+    let felt = |force, x: [f64; 3], v: [f64; 3], time| {
+        accelerations(&[force], &one(DVec3::from(x), DVec3::from(v)), time)[0]
+    };
+    let number = Value::Number;
+    let near = |got: DVec4, want: [f64; 4]| {
+        assert!((got - DVec4::from(want)).length() < 1e-14 * DVec4::from(want).length().max(1.0), "{got}, not {want:?}");
+    };
+    // φ = −g · x
+    near(felt(force("uniform", &[("acceleration", vector(2.0, -3.0, 0.5))]), [4.0, 2.0, -6.0], [9.0; 3], 7.0), [2.0, -3.0, 0.5, 1.0]);
+    // u = (3, 0, 4), |u| = 5, γ + c |u| = 0.2 + 0.5
+    let drag = [("linear", number(0.2)), ("quadratic", number(0.1)), ("wind", vector(-1.0, 2.0, 0.0))];
+    near(felt(force("drag", &drag), [9.0; 3], [2.0, 2.0, 4.0], 7.0), [-2.1, 0.0, -2.8, 0.0]);
+    // A quarter of a period less a sixth: sin 2π (1/4 − 1/6) = sin 30° = 1/2; the wind is 1 + 0.4 / 2 times (3, 0, 4).
+    let wind = [("velocity", vector(3.0, 0.0, 4.0)), ("rate", number(0.5)), ("gust", number(0.4)), ("period", number(8.0)), ("wavelength", number(6.0))];
+    near(felt(force("wind", &wind), [3.0, 7.0, -1.0], [0.6, 0.2, 0.0], 2.0), [1.5, -0.1, 2.4, 0.0]);
+    // Two periods later, and a wavelength further on, it is the same.
+    near(felt(force("wind", &wind), [6.6, 7.0, 3.8], [0.6, 0.2, 0.0], 18.0), [1.5, -0.1, 2.4, 0.0]);
+    // r = 2 from the axis, core 1: |u| = Γ 2 / 2π 5 = 2 for Γ = 10 π; the axis may have any length; along it nothing happens.
+    let vortex = [("center", vector(1.0, 1.0, 1.0)), ("axis", vector(0.0, 0.0, 7.0)), ("circulation", number(5.0 * TAU)), ("core", number(1.0)), ("rate", number(0.5))];
+    near(felt(force("vortex", &vortex), [3.0, 1.0, 9.0], [0.0, 0.0, 2.0], 7.0), [0.0, 1.0, -1.0, 0.0]);
+    // The centre has come to (1, 0, 0), d = (0, 3, 4); ε² = 11, d² + ε² = 36.
+    let attractor = |profile| {
+        force("attractor", &[("position", vector(-1.0, 0.0, 0.0)), ("velocity", vector(1.0, 0.0, 0.0)), ("profile", word(profile)), ("strength", number(72.0)), ("softening", number(11f64.sqrt()))])
+    };
+    let at = |profile| felt(attractor(profile), [1.0, 3.0, 4.0], [9.0; 3], 2.0);
+    near(at("point"), [0.0, -1.0, -4.0 / 3.0, -12.0]);
+    near(at("harmonic"), [0.0, -216.0, -288.0, 900.0]);
+    near(at("logarithmic"), [0.0, -6.0, -8.0, 36.0 * 36f64.ln()]);
+}

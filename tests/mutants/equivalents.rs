@@ -1,0 +1,63 @@
+//! Mutants that no test can notice, because they do the same; each with its reason.
+
+use super::Mutant;
+
+/// A change in certain lines of certain files.
+#[derive(Debug)]
+pub struct Equivalent {
+    /// What the file's path contains.
+    pub file: &'static str,
+    /// What the line contains.
+    pub line: &'static str,
+    /// The token.
+    pub old: &'static str,
+    /// What it becomes.
+    pub new: &'static str,
+    /// Why it does the same.
+    pub why: &'static str,
+}
+
+impl Equivalent {
+    pub fn is(&self, file: &str, mutant: &Mutant) -> bool {
+        let place = file.contains(self.file) && mutant.line.contains(self.line);
+        place && mutant.old == self.old && mutant.new == self.new
+    }
+}
+
+const fn same(
+    file: &'static str,
+    line: &'static str,
+    old: &'static str,
+    new: &'static str,
+    why: &'static str,
+) -> Equivalent {
+    Equivalent { file, line, old, new, why }
+}
+
+const ANY_SIZE: &str = "the host reads the size of a workgroup by reflection, and any will do";
+const ALWAYS_SET: &str = "the host sets every override";
+const SLOW_WAY: &str = "it takes the way for blocks that are not apart, which is slower and gives the same sum";
+const STORES_NOTHING: &str = "lanes behind the last particle store nothing of theirs";
+const APART: &str = "let apart = start + BLOCK <= mine || start >= mine + WORKGROUP * TARGETS;";
+
+pub const EQUIVALENT: &[Equivalent] = &[
+    same("", "const WORKGROUP: u32 = 64u;", "64u", "65u", ANY_SIZE),
+    same("", "override FACTOR: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
+    same("", "override WEIGHT: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
+    same("at.wgsl", "override FACTOR: f32 = 0.0;", "0.0", "1.0", ALWAYS_SET),
+    same("pairs_finish.wgsl", "override LAYERS: u32 = 1u;", "1u", "2u", ALWAYS_SET),
+    same("span.wgsl", "override WHOLE: bool = true;", "true", "false", ALWAYS_SET),
+    same("gravity_spline.wgsl", "if distance2 >= h * h {", ">=", ">", "at u = 1 both formulas are the same number"),
+    same("gravity_spline.wgsl", "if u < 0.5 {", "<", "<=", "at u = 1/2 both formulas are the same number"),
+    same("wind.wgsl", "var along = 0.0;", "0.0", "1.0", "a wind of no speed has gusts of no speed, whatever their phase"),
+    same("watch.wgsl", "if i < world.count {", "<", "<=", "behind the last element stands a finite number, or the last one again"),
+    same("particle.wgsl", "let index = min(i, world.count - 1u);", "-", "+", STORES_NOTHING),
+    same("span.wgsl", "i >= world.count { return Sum(); }", ">=", ">", STORES_NOTHING),
+    same("pairs_tile.wgsl", "position[min(start + lane, world.count - 1u)]", "-", "+", "what is loaded behind the last source is met by nobody"),
+    same("visit/pairs_", "for (var start = first; start < end; start += BLOCK) {", "<", "<=", "one more block, of no sources"),
+    same("visit/pairs_", APART, "<=", "<", SLOW_WAY),
+    same("visit/pairs_", APART, "||", "&&", SLOW_WAY),
+    same("visit/pairs_", APART, ">=", ">", SLOW_WAY),
+    same("visit/pairs_", "if apart && start + BLOCK <= end {", "<=", "<", SLOW_WAY),
+    same("pairs_subgroup.wgsl", APART, "*", "/", "blocks and targets begin at multiples of 128: behind mine + 8 is behind mine + 128"),
+];

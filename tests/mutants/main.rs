@@ -1,0 +1,100 @@
+//! Mutation: every operator and literal of every shader is changed once, and the lockstep with the twins must notice.
+
+mod equivalents;
+mod stages;
+#[path = "../support/mod.rs"]
+mod support;
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+use equivalents::EQUIVALENT;
+use stages::Stage;
+use support::mutants::{Mutant, mutants};
+
+/// Pictures are tested as pictures, and `selftest` is a test.
+const WITHOUT_TWINS: [&str; 2] = ["render", "selftest"];
+
+/// The shaders that have twins, by their names in messages.
+fn files() -> Vec<(String, String)> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut folders: Vec<PathBuf> = vec![root.join("shaders")];
+    let mut files = Vec::new();
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(&folder).expect("a folder") {
+            let path = entry.expect("an entry").path();
+            if path.is_dir() {
+                if !WITHOUT_TWINS.iter().any(|folder| path.ends_with(folder)) {
+                    folders.push(path);
+                }
+            } else if path.extension().is_some_and(|e| e == "wgsl") {
+                let name = path.strip_prefix(root).expect("inside").to_string_lossy().replace('\\', "/");
+                files.push((name, std::fs::read_to_string(&path).expect("a text")));
+            }
+        }
+    }
+    files.sort();
+    files
+}
+
+/// Whether any stage sees the difference.
+fn noticed(stages: &mut [Stage], file: &str, mutant: &Mutant) -> bool {
+    stages.iter_mut().filter(|s| s.uses(file)).any(|stage| match stage.mutated(file, &mutant.text) {
+        // What does not compile is noticed by everybody.
+        None => true,
+        Some(plan) => !stage.good(&plan),
+    })
+}
+
+/// The shaders as they are agree with their twins.
+fn agree(stages: &mut [Stage]) {
+    for stage in stages {
+        let plan = stage.plan.clone();
+        assert!(stage.good(&plan), "{}: the shaders as they are do not agree with their twins", stage.name);
+    }
+}
+
+#[test]
+fn every_mutant_is_noticed() {
+    let shared = support::device();
+    let mut stages = stages::all(&shared);
+    agree(&mut stages);
+    let has_subgroups = support::machines::subgroups_of_eight(&shared);
+    let mut used = vec![false; EQUIVALENT.len()];
+    let mut wrong = String::new();
+    let (mut killed, mut lived) = (0, 0);
+    for (file, text) in files() {
+        if file.contains("subgroup") && !has_subgroups {
+            continue;
+        }
+        assert!(stages.iter().any(|s| s.uses(&file)), "{file}: no stage runs it");
+        for mutant in mutants(&text) {
+            let noticed = noticed(&mut stages, &file, &mutant);
+            let known = EQUIVALENT.iter().position(|e| e.is(&file, &mutant));
+            if let Some(known) = known {
+                used[known] = true;
+            }
+            let Mutant { line, column, old, new, .. } = &mutant;
+            let what = match (noticed, known) {
+                (true, None) | (false, Some(_)) => None,
+                (false, None) => Some("nobody notices it".to_owned()),
+                (true, Some(k)) => Some(format!("it is noticed, although {}", EQUIVALENT[k].why)),
+            };
+            if let Some(what) = what {
+                let _ = writeln!(wrong, "{file}: column {column}: `{old}` → `{new}` in `{line}`: {what}");
+            }
+            if noticed { killed += 1 } else { lived += 1 }
+        }
+    }
+    for (equivalent, _) in EQUIVALENT.iter().zip(&used).filter(|(_, used)| !**used) {
+        if has_subgroups || !equivalent.file.contains("subgroup") {
+            let _ = writeln!(wrong, "{equivalent:?}: there is no such mutant any more");
+        }
+    }
+    // Had a mutant broken the device, all after it would have been noticed for nothing.
+    agree(&mut stages);
+    println!("{killed} mutants noticed, {lived} equivalent");
+    assert!(wrong.is_empty(), "\n{wrong}");
+    // As many as were there when this was written, less a third: an empty list of mutants would be noticed in full.
+    assert!(killed > 300, "{killed} mutants are too few to be all");
+}

@@ -1,0 +1,220 @@
+//! Stages: states of a device in which a kernel shows what it does.
+
+use std::collections::BTreeMap;
+use std::time::Duration;
+
+use motes::forces::{self, Force, Law};
+use motes::integrators::INTEGRATORS;
+use motes::kernel::{ACCELERATION, ALARM, Backend, Clock, Kernel, Machine, POSITION, Plan, Shader, Source, VELOCITY};
+use motes::lockstep::{Verdict, compare};
+use motes::settings::{Kind, Value};
+use motes::{Gpu, Setup, Simulation, wgpu};
+
+use crate::support::machines::{alone, cut, kernel, machines};
+use crate::support::states::{force, integrator};
+use crate::support::{self, Shared, choices};
+
+/// Large, and not a round number: what is wrong in a step shows.
+const DT: f64 = 0.37;
+/// Eight workgroups of 64, the last not full: on a device of four in a row two rows, and none too many.
+const FEW: usize = 500;
+/// Twelve workgroups in three rows; sources in six blocks, of which some lie apart from the targets of each workgroup,
+/// and the last is not full.
+const MANY: usize = 740;
+
+/// A state, and a kernel to run in it.
+pub struct Stage {
+    pub name: String,
+    pub plan: Plan,
+    simulation: Simulation<Gpu>,
+    fields: BTreeMap<String, Vec<u8>>,
+    clock: Clock,
+}
+
+impl Stage {
+    /// Keeps the state that a simulation is in.
+    fn new(name: &str, mut simulation: Simulation<Gpu>, kernel: Kernel) -> Self {
+        let plan = alone(kernel);
+        let count = simulation.count();
+        let gpu = simulation.backend();
+        gpu.pace(Duration::from_millis(80), Duration::from_secs(5));
+        gpu.compile(&plan).expect("a good plan");
+        let clock = pollster::block_on(gpu.clock()).expect("a clock");
+        let names = plan.fields(count).into_keys().chain([POSITION.name.into(), VELOCITY.name.into()]);
+        let read = |name: String| {
+            let bytes = pollster::block_on(gpu.bytes(&name, 0, gpu.size(&name))).expect("a field");
+            (name, bytes)
+        };
+        let fields = names.filter(|n| n != "world").map(read).collect();
+        Self { name: name.to_owned(), plan, simulation, fields, clock }
+    }
+    /// Runs a plan from that state. Whether it agrees with its twins.
+    pub fn good(&mut self, plan: &Plan) -> bool {
+        let count = self.simulation.count();
+        let gpu = self.simulation.backend();
+        for (name, bytes) in &self.fields {
+            gpu.write_bytes(name, 0, bytes).expect("a field");
+        }
+        gpu.set_clock(self.clock).expect("a clock");
+        let verdicts = pollster::block_on(compare(gpu, plan, count));
+        verdicts.is_ok_and(|all| !all.is_empty() && all.iter().all(Verdict::good))
+    }
+    /// Whether a file is part of what runs here.
+    pub fn uses(&self, file: &str) -> bool {
+        let mut passes = self.plan.kernels.iter().flat_map(|k| &k.passes);
+        passes.any(|p| p.shader.sources().iter().any(|s| s.file == file))
+    }
+    /// The plan with another text in place of a file's; `None` when that does not compile.
+    pub fn mutated(&self, file: &str, text: &str) -> Option<Plan> {
+        let mut plan = self.plan.clone();
+        // A stranger's text: loops are bounded and memory starts at zero, so that no mutant hangs, or lives by chance.
+        let theirs = |s: &Source| if s.file == file { Source::theirs(file.into(), text.into()) } else { s.clone() };
+        for pass in plan.kernels.iter_mut().flat_map(|k| &mut k.passes) {
+            if pass.shader.sources().iter().any(|s| s.file == file) {
+                let sources: Vec<_> = pass.shader.sources().iter().map(theirs).collect();
+                pass.shader = Shader::join(&sources).ok()?;
+            }
+        }
+        Some(plan)
+    }
+}
+
+type Device = (wgpu::Device, wgpu::Queue);
+
+/// Particles three steps on their way, under a force that is not the one on stage.
+fn moving(device: &Device, count: usize, machine: Option<Machine>) -> Simulation<Gpu> {
+    let mut gpu = Gpu::new(&device.0, &device.1, u32::try_from(count).expect("few")).expect("a GPU");
+    gpu.pad(5);
+    if let Some(machine) = machine {
+        gpu.pretend(machine);
+    }
+    let integrator = integrator("symplectic_euler");
+    let forces = vec![force("uniform", &[])];
+    let setup = Setup { particles: support::cloud(count, 11), forces, integrator, dt: DT };
+    let mut simulation = Simulation::on(gpu, &setup).expect("a simulation");
+    simulation.step(3).expect("three steps");
+    simulation
+}
+
+/// A stage where every field but position, velocity and alarm holds numbers that differ from element to element.
+fn stage(name: &str, mut simulation: Simulation<Gpu>, kernel: Kernel) -> Stage {
+    let gpu = simulation.backend();
+    gpu.compile(&alone(kernel.clone())).expect("a good kernel");
+    let mut random = support::Random::new(23);
+    let kept = [POSITION.name, VELOCITY.name, ALARM.name, "world"];
+    for name in alone(kernel.clone()).fields(1).keys().filter(|n| !kept.contains(&n.as_str())) {
+        let words: Vec<f32> = (0..gpu.size(name) / 4).map(|_| random.next() as f32).collect();
+        gpu.write_bytes(name, 0, bytemuck::cast_slice(&words)).expect("a field");
+    }
+    Stage::new(name, simulation, kernel)
+}
+
+/// All stages, those that cost the least first.
+pub fn all(shared: &Shared) -> Vec<Stage> {
+    let few = |limits: &mut wgpu::Limits| limits.max_compute_workgroups_per_dimension = 4;
+    let device = pollster::block_on(support::limited(shared, few));
+    let mut stages = Vec::new();
+    integrators(&device, &mut stages);
+    watches(&device, &mut stages);
+    laws(&device, &mut stages);
+    pairs(shared, &device, &mut stages);
+    stages
+}
+
+/// One stage for each shader of the integrators, with constants that are neither 0 nor 1.
+fn integrators(device: &Device, stages: &mut Vec<Stage>) {
+    let machine = moving(device, 1, None).backend().machine();
+    for entry in INTEGRATORS {
+        let setup =
+            Setup { particles: support::cloud(FEW, 11), forces: Vec::new(), integrator: (entry.build)(), dt: DT };
+        let plans = setup.plans(machine).expect("plans");
+        for kernel in [plans.step, plans.measure.0, plans.measure.1].into_iter().flat_map(|p| p.kernels) {
+            let pass = kernel.passes.last().expect("a pass");
+            let file = &pass.shader.sources().last().expect("a file").file;
+            let telling = pass.constants.iter().all(|(_, value)| *value != 0.0 && *value != 1.0);
+            if telling && !stages.iter().any(|s: &Stage| s.uses(file)) {
+                stages.push(stage(&kernel.name.clone(), moving(device, FEW, None), kernel));
+            }
+        }
+    }
+}
+
+/// What the watch must tell apart: which field, which particle, what was seen before.
+fn watches(device: &Device, stages: &mut Vec<Stage>) {
+    let Some(watch) = stages.iter().find(|s| s.name == "watch").map(|s| s.plan.kernels[0].clone()) else {
+        panic!("every plan has a watch")
+    };
+    let odd = f32::from_bits(0x7fc0_0001);
+    let nobody = [u32::MAX; 2];
+    let cases = [
+        (POSITION, 3, 0, odd, nobody),
+        (VELOCITY, 3, 1, f32::NEG_INFINITY, nobody),
+        (ACCELERATION, FEW - 1, 3, f32::NAN, nobody),
+        // After fewer steps another was found: it stays. After as many: the lower id. After more: this one.
+        (POSITION, 3, 2, f32::INFINITY, [1, 50]),
+        (POSITION, 3, 2, f32::INFINITY, [3, 490]),
+        (POSITION, 3, 2, f32::INFINITY, [9, 490]),
+    ];
+    for (case, (field, id, place, bad, alarm)) in cases.into_iter().enumerate() {
+        let mut simulation = moving(device, FEW, None);
+        let mut values = pollster::block_on(simulation.read(field)).expect("a field");
+        values[id][place] = bad;
+        simulation.write(field, &values).expect("a field");
+        simulation.write(ALARM, &alarm).expect("a field");
+        stages.push(Stage::new(&format!("watch {case}"), simulation, watch.clone()));
+    }
+}
+
+/// Every law alone, in all its variants; those over pairs by the visit that compiles fastest.
+fn laws(device: &Device, stages: &mut Vec<Stage>) {
+    let machine = Machine { software: true, subgroup: 0, invocations: 1 };
+    for entry in forces::FORCES {
+        for settings in choices::variants(entry.keys) {
+            // Vectors that are none, or short, may go another way.
+            let mut all = vec![settings.clone()];
+            for key in entry.keys.iter().filter(|key| key.kind == Kind::Vector) {
+                for part in [0.0, 0.3] {
+                    let vector = (settings.vector(key.name) * part).as_vec3().as_dvec3();
+                    all.push(settings.clone().with(key.name, Value::Vector(vector)));
+                }
+            }
+            for settings in all {
+                let kernel = kernel((entry.build)(&settings).as_ref(), FEW, &machine);
+                stages.push(stage(entry.name, moving(device, FEW, Some(machine)), kernel));
+            }
+        }
+    }
+}
+
+/// A law that looks at everything that a visit passes to it: whom it meets, by index too, and where.
+struct Curious;
+
+impl Force for Curious {
+    fn laws(&self) -> Vec<Law> {
+        let wgsl = "fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
+            let v = velocity[you.index].xyz - velocity[me.index].xyz;
+            let near = 1.0 / (1.0 + dot(r, r));
+            (*sum).acceleration += (you.mass * near) * v;
+            (*sum).potential += you.mass * me.mass * near;
+        }
+        fn finish(me: Particle, sum: Sum) -> vec4f { return vec4f(sum.acceleration, sum.potential); }";
+        vec![Law::pairs("curious", Source::ours("curious", wgsl), Vec::new(), |me, you, r| {
+            let near = 1.0 / (1.0 + r.length_squared());
+            (you.mass * near * (you.velocity - me.velocity)).extend(you.mass * me.mass * near)
+        })]
+    }
+}
+
+/// Each file of `pairs`: in one dispatch, and in two of three layers each.
+fn pairs(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
+    let gravity: Box<dyn Force> = force("gravity", &[("softening", Value::Number(0.17)), ("g", Value::Number(1.3))]);
+    for (name, machine) in machines(shared).into_iter().filter(|(name, _)| !name.contains("layers")) {
+        let whole = kernel(gravity.as_ref(), MANY, &machine);
+        let layered = kernel(gravity.as_ref(), MANY, &Machine { invocations: 1 << 18, ..machine });
+        let cut = cut(&whole, layered.passes.last().expect("a finish"), MANY as u32, 3, 128);
+        let curious = kernel(&Curious, MANY, &machine);
+        for (case, kernel) in [("whole", whole), ("cut", cut), ("curious", curious)] {
+            stages.push(stage(&format!("{name}, {case}"), moving(device, MANY, Some(machine)), kernel));
+        }
+    }
+}

@@ -1,0 +1,59 @@
+//! Settings for every entry of a register, without naming it: no number in them is 0 or 1, so that a wrong operator shows.
+
+use std::borrow::Cow;
+
+use glam::DVec3;
+use motes::forces::{Entry, Force};
+use motes::settings::{Key, Kind, Settings, Value};
+
+/// Every combination of the words and flags that some keys accept; all numbers nudged away from their defaults.
+pub fn variants(keys: &[Key]) -> Vec<Settings> {
+    keys.iter().fold(vec![Settings::default()], |some, key| {
+        let values = values(key);
+        some.iter().flat_map(|s| values.iter().map(|v| s.clone().with(key.name, v.clone()))).collect()
+    })
+}
+
+/// The forces of an entry in all its variants, each with a name for messages.
+pub fn forces(entry: &Entry) -> Vec<(String, Box<dyn Force>)> {
+    let named = |s: &Settings| (format!("{} {}", entry.name, words(s)), (entry.build)(s));
+    variants(entry.keys).iter().map(named).collect()
+}
+
+/// What a key is set to: all its words, or one number that f32 holds.
+fn values(key: &Key) -> Vec<Value> {
+    match (key.kind, &key.default) {
+        (Kind::Choice(words), _) => words.iter().map(|w| Value::Text(Cow::Borrowed(*w))).collect(),
+        (Kind::Flag, _) => vec![Value::Flag(false), Value::Flag(true)],
+        (_, None) => vec![nudged(&default(key.kind))],
+        (_, Some(value)) => vec![nudged(value)],
+    }
+}
+
+/// Another value of the same kind: not the old one, not 0, not 1.
+pub fn nudged(value: &Value) -> Value {
+    match value {
+        Value::Number(x) if *x > 1.0 && x.fract() == 0.0 => Value::Number(x + 2.0),
+        Value::Number(x) => Value::Number(f64::from((x * 1.3 + 0.17) as f32)),
+        Value::Vector(v) => Value::Vector((*v + DVec3::new(0.31, -0.23, 0.47)).as_vec3().as_dvec3()),
+        Value::Flag(on) => Value::Flag(!on),
+        Value::Text(word) => Value::Text(word.clone()),
+    }
+}
+
+fn default(kind: Kind) -> Value {
+    match kind {
+        Kind::Vector | Kind::Direction => Value::Vector(DVec3::new(0.2, 0.6, -0.4)),
+        Kind::Count | Kind::Whole => Value::Number(3.0),
+        _ => Value::Number(0.7),
+    }
+}
+
+fn words(settings: &Settings) -> String {
+    let word = |v: &Value| match v {
+        Value::Text(t) => Some(t.to_string()),
+        Value::Flag(on) => Some(on.to_string()),
+        _ => None,
+    };
+    settings.0.values().filter_map(word).collect::<Vec<_>>().join(" ")
+}

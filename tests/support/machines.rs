@@ -1,0 +1,70 @@
+//! The variants of `pairs`: machines to pretend to be, and cuts that only very many particles would bring about.
+
+use motes::forces::Force;
+use motes::gpu::Gpu;
+use motes::kernel::{Kernel, Machine, Pass, Plan, Scalar};
+
+use super::Shared;
+
+/// Machines that bring about each file of `pairs`, in one layer and in many. Subgroups only where the device has them.
+pub fn machines(shared: &Shared) -> Vec<(&'static str, Machine)> {
+    let machine = |software, subgroup, invocations| Machine { software, subgroup, invocations };
+    let mut all = vec![
+        ("tile", machine(false, 0, 1)),
+        ("tile in layers", machine(false, 0, 1 << 18)),
+        ("loop", machine(true, 0, 1)),
+        ("loop in layers", machine(true, 0, 1 << 18)),
+    ];
+    if subgroups_of_eight(shared) {
+        all.extend([("subgroup", machine(true, 8, 1)), ("subgroup in layers", machine(true, 8, 1 << 18))]);
+    }
+    all
+}
+
+/// Whether the file for subgroups can run here.
+pub fn subgroups_of_eight(shared: &Shared) -> bool {
+    let info = shared.found.device.adapter_info();
+    let allowed = shared.found.device.features().contains(motes::wgpu::Features::SUBGROUP);
+    allowed && info.subgroup_min_size == 8 && info.subgroup_max_size == 8
+}
+
+/// The GPU of a test, with sentinels behind every field.
+pub fn gpu(shared: &Shared, count: usize) -> Gpu {
+    let count = u32::try_from(count).expect("few");
+    let mut gpu = Gpu::new(&shared.found.device, &shared.found.queue, count).expect("some particles");
+    gpu.pad(5);
+    gpu
+}
+
+/// The kernels of a force's first law on a machine.
+pub fn kernel(force: &dyn Force, count: usize, machine: &Machine) -> Kernel {
+    let law = force.laws().into_iter().next().expect("a law");
+    law.kernel(u32::try_from(count).expect("few"), machine).expect("a kernel")
+}
+
+/// A plan of one kernel.
+pub fn alone(kernel: Kernel) -> Plan {
+    Plan { kernels: vec![kernel], order: vec![0] }
+}
+
+/// The same meetings in `layers` layers, cut into dispatches that see `slice` sources in each. `kernel` has one pass that
+/// meets everybody in one layer; `finish` is the last pass of a kernel in layers.
+pub fn cut(kernel: &Kernel, finish: &Pass, count: u32, layers: u32, slice: u32) -> Kernel {
+    let whole = &kernel.passes[0];
+    let span = whole.shader.reflection().binding("span").expect("a span").packed.clone();
+    let dispatch = |first: u32| {
+        let end = (first + layers * slice).min(count);
+        let values = [("first", first), ("end", end), ("slice", slice)].map(|(name, n)| (name, Scalar::Uint(n)));
+        let mut pass = whole.clone();
+        pass.constants = vec![("WHOLE", 0.0)];
+        pass.uniforms.retain(|(name, _)| *name != "span");
+        pass.uniforms.push(("span", span.pack("span", &values).expect("three numbers")));
+        pass.threads.layers = layers;
+        pass
+    };
+    let mut passes: Vec<_> = (0..count).step_by((layers * slice) as usize).map(dispatch).collect();
+    let mut last = finish.clone();
+    last.constants = vec![("LAYERS", f64::from(layers))];
+    passes.push(last);
+    Kernel { passes, sizes: vec![("parts", u64::from(layers * count))], ..kernel.clone() }
+}

@@ -1,0 +1,72 @@
+//! Simulations to test with, and forces looked at alone.
+
+use glam::{DVec3, DVec4};
+use motes::forces::{self, Force};
+use motes::integrators::{self, Integrator, Step};
+use motes::kernel::{ACCELERATION, Array, Backend, Clock, POSITION, VELOCITY};
+use motes::settings::{Settings, Value};
+use motes::{Cpu, Particles, Setup, Simulation};
+
+/// A force by its name, its defaults changed by some settings.
+pub fn force(name: &str, settings: &[(&'static str, Value)]) -> Box<dyn Force> {
+    let entry = forces::entry(name).unwrap_or_else(|| panic!("no force is called {name}"));
+    let defaults = Settings::defaults(entry.keys);
+    (entry.build)(&settings.iter().fold(defaults, |s, (key, value)| s.with(key, value.clone())))
+}
+
+/// A word as a value.
+pub fn word(text: &'static str) -> Value {
+    Value::Text(text.into())
+}
+
+/// Three numbers as a value.
+pub fn vector(x: f64, y: f64, z: f64) -> Value {
+    Value::Vector(DVec3::new(x, y, z))
+}
+
+/// An integrator by its name.
+pub fn integrator(name: &str) -> Box<dyn Integrator> {
+    (integrators::entry(name).unwrap_or_else(|| panic!("no integrator is called {name}")).build)()
+}
+
+/// One particle of mass 1.
+pub fn one(position: DVec3, velocity: DVec3) -> Particles {
+    let mut particles = Particles::default();
+    particles.push(position, velocity, 1.0, 0.0);
+    particles
+}
+
+/// A simulation by the twins.
+pub fn cpu(particles: &Particles, forces: Vec<Box<dyn Force>>, name: &str, dt: f64) -> Simulation<Cpu> {
+    let count = u32::try_from(particles.len()).expect("few");
+    let setup = Setup { particles: particles.clone(), forces, integrator: integrator(name), dt };
+    Simulation::on(Cpu::new(count).expect("some"), &setup).expect("a simulation")
+}
+
+/// Position and velocity of the particles as the twins hold them, in f64.
+pub fn phase(simulation: &mut Simulation<Cpu>) -> (Vec<DVec4>, Vec<DVec4>) {
+    let host = simulation.backend().host();
+    match (host.get(POSITION.name), host.get(VELOCITY.name)) {
+        (Some(Array::Vec4(x)), Some(Array::Vec4(v))) => (x, v),
+        _ => panic!("a simulation has position and velocity"),
+    }
+}
+
+/// What the twins of some forces say at a state: acceleration, and potential per unit mass.
+pub fn accelerations(forces: &[Box<dyn Force>], particles: &Particles, time: f64) -> Vec<DVec4> {
+    let count = u32::try_from(particles.len()).expect("few");
+    let mut cpu = Cpu::new(count).expect("some");
+    let mut step = Step::new(forces, count, cpu.machine());
+    step.evaluate();
+    let plan = step.finished().expect("a plan");
+    let program = cpu.compile(&plan).expect("twins");
+    let join = |v: &[DVec3], w: &[f64]| Array::Vec4(v.iter().zip(w).map(|(v, w)| v.extend(*w)).collect());
+    cpu.write(POSITION.name, &join(&particles.position, &particles.mass)).expect("position");
+    cpu.write(VELOCITY.name, &join(&particles.velocity, &particles.radius)).expect("velocity");
+    cpu.set_clock(Clock { time, dt: 0.01, step: 0, count }).expect("clock");
+    cpu.run(&program, 1).expect("twins run");
+    match cpu.host().get(ACCELERATION.name) {
+        Some(Array::Vec4(a)) => a,
+        _ => panic!("forces give accelerations"),
+    }
+}

@@ -1,0 +1,238 @@
+//! Every kernel against its f64 twin, in lockstep: each law alone, each integrator whole, at sizes around the workgroup's.
+
+mod support;
+
+use std::fmt::Display;
+
+use motes::gpu::Gpu;
+use motes::integrators::{INTEGRATORS, Step};
+use motes::kernel::{ACCELERATION, Backend, Machine, POSITION, Plan, VELOCITY};
+use motes::lockstep::{Verdict, compare};
+use motes::{Setup, Simulation, forces};
+use support::choices;
+use support::machines::{self, alone, cut, gpu};
+use support::states::{force, integrator};
+
+const SIZES: [usize; 6] = [1, 2, 63, 64, 65, 1000];
+/// Large, so that what is wrong in a step shows.
+const DT: f64 = 0.37;
+
+/// A cloud a few steps on its way, so that the clock and all fields hold something.
+fn moving(gpu: Gpu, count: usize, forces: Vec<Box<dyn forces::Force>>, name: &str) -> Simulation<Gpu> {
+    let setup = Setup { particles: support::cloud(count, 7), forces, integrator: integrator(name), dt: DT };
+    let mut simulation = Simulation::on(gpu, &setup).expect("a simulation");
+    simulation.step(3).expect("three steps");
+    simulation
+}
+
+fn verdicts(gpu: &mut Gpu, plan: &Plan, count: usize, of: &impl Display) -> Vec<Verdict> {
+    let count = u32::try_from(count).expect("few");
+    let verdicts = pollster::block_on(compare(gpu, plan, count)).unwrap_or_else(|e| panic!("{of}, {count}: {e}"));
+    assert!(!verdicts.is_empty(), "{of}: nothing was compared");
+    verdicts
+}
+
+/// All good, and each kernel changes something; `idle` says which ones may not.
+fn judge(verdicts: &[Verdict], count: usize, of: &impl Display, idle: impl Fn(&Verdict) -> bool) {
+    for verdict in verdicts {
+        assert!(verdict.good(), "{of}, {count} particles: {verdict:?}");
+        assert!(verdict.changed || idle(verdict), "{of}, {count} particles: changes nothing: {verdict:?}");
+    }
+}
+
+/// What an earlier step left in the fields that a step only uses.
+fn fill(gpu: &mut Gpu, plan: &Plan, count: usize) {
+    let kept = ["world", "alarm", POSITION.name, VELOCITY.name];
+    for name in plan.fields(u32::try_from(count).expect("few")).keys().filter(|name| !kept.contains(&name.as_str())) {
+        let words = vec![0.7f32; usize::try_from(gpu.size(name) / 4).expect("small")];
+        gpu.write_bytes(name, 0, bytemuck::cast_slice(&words)).expect("a field");
+    }
+}
+
+#[test]
+fn every_law_alone() {
+    let shared = support::device();
+    for entry in forces::FORCES {
+        for variant in 0..choices::forces(entry).len() {
+            let pick = || choices::forces(entry).swap_remove(variant);
+            let pairs = pick().1.laws().iter().any(|law| law.over == forces::Over::Pairs);
+            let plain = [("as it is", gpu(&shared, 1).machine())].to_vec();
+            for (machine_name, machine) in if pairs { machines::machines(&shared) } else { plain } {
+                // Three blocks of sources, and a half: layers of unequal length.
+                for count in SIZES.into_iter().chain(pairs.then_some(333)) {
+                    let (name, law) = pick();
+                    let of = format!("{name}, {machine_name}");
+                    let mut gpu = gpu(&shared, count);
+                    gpu.pretend(machine);
+                    // The integrator that needs the fewest pipelines.
+                    let mut simulation = moving(gpu, count, vec![law], "symplectic_euler");
+                    let law = [pick().1];
+                    let mut step = Step::new(&law, simulation.count(), machine);
+                    step.evaluate();
+                    let plan = step.finished().expect("a plan");
+                    // Alone in the world, nobody attracts.
+                    let idle = |_: &Verdict| count == 1 && pairs;
+                    judge(&verdicts(simulation.backend(), &plan, count, &of), count, &of, idle);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn every_integrator_whole() {
+    let shared = support::device();
+    for entry in INTEGRATORS {
+        for count in SIZES {
+            let forces = || vec![force("uniform", &[]), force("wind", &[]), force("attractor", &[])];
+            let gpu = gpu(&shared, count);
+            let machine = gpu.machine();
+            let mut simulation = moving(gpu, count, forces(), entry.name);
+            let setup =
+                Setup { particles: support::cloud(count, 7), forces: forces(), integrator: (entry.build)(), dt: DT };
+            let plans = setup.plans(machine).expect("plans");
+            fill(simulation.backend(), &plans.step, count);
+            // Nothing is broken here, so the watch raises no alarm: it has a test of its own. And the midpoint rule's
+            // first slopes weigh nothing.
+            let idle = |v: &Verdict| v.field == "alarm" || v.kernel.contains(" WEIGHT=0 ") && v.field.starts_with("slope");
+            judge(&verdicts(simulation.backend(), &plans.step, count, &entry.name), count, &entry.name, idle);
+        }
+    }
+}
+
+#[test]
+fn what_surrounds_a_measurement() {
+    let shared = support::device();
+    for count in SIZES {
+        let forces = || vec![force("uniform", &[]), force("drag", &[("linear", motes::settings::Value::Number(0.3))])];
+        let gpu = gpu(&shared, count);
+        let machine = gpu.machine();
+        let mut simulation = moving(gpu, count, forces(), "leapfrog");
+        let setup =
+            Setup { particles: support::cloud(count, 7), forces: forces(), integrator: integrator("leapfrog"), dt: DT };
+        let (before, after) = setup.plans(machine).expect("plans").measure;
+        judge(&verdicts(simulation.backend(), &before, count, &"before"), count, &"before", |_| false);
+        simulation.write(ACCELERATION, &vec![glam::Vec4::splat(0.7); count]).expect("another acceleration");
+        judge(&verdicts(simulation.backend(), &after, count, &"after"), count, &"after", |_| false);
+    }
+}
+
+#[test]
+fn the_watch_sees_what_is_broken() {
+    let shared = support::device();
+    let broken = [f32::NAN, f32::from_bits(0x7fc0_0001), f32::from_bits(0xff80_0001), f32::INFINITY, f32::NEG_INFINITY];
+    for count in [2usize, 65, 1000] {
+        for (case, bad) in broken.into_iter().enumerate() {
+            let mut simulation = moving(gpu(&shared, count), count, vec![force("uniform", &[])], "symplectic_euler");
+            let setup = Setup {
+                particles: support::cloud(count, 7),
+                forces: vec![force("uniform", &[])],
+                integrator: integrator("symplectic_euler"),
+                dt: DT,
+            };
+            let machine = simulation.backend().machine();
+            let plan = setup.plans(machine).expect("plans").step;
+            let watch = plan.kernels.into_iter().find(|k| k.name == "watch").expect("a watch");
+            let id = count - 1 - case.min(count - 1);
+            let place = case % 4;
+            let field = [POSITION, VELOCITY, ACCELERATION][case % 3];
+            let mut values = pollster::block_on(simulation.read(field)).expect("a field");
+            values[id][place] = bad;
+            simulation.write(field, &values).expect("a field");
+            judge(&verdicts(simulation.backend(), &alone(watch), count, &"watch"), count, &"watch", |_| false);
+            match pollster::block_on(simulation.check()) {
+                Err(motes::Error::NotFinite { particle, step: 2 }) => assert_eq!(particle as usize, id),
+                other => panic!("{bad} in particle {id}: {other:?}"),
+            }
+        }
+    }
+}
+
+/// A device that dispatches few workgroups in each dimension folds what a large one has in line.
+#[test]
+fn dispatches_fold_over_two_dimensions() {
+    let shared = support::device();
+    let few = |limits: &mut motes::wgpu::Limits| limits.max_compute_workgroups_per_dimension = 4;
+    let (device, queue) = pollster::block_on(support::limited(&shared, few));
+    // 16 workgroups in 4 rows, 5 in 2 rows of 3 (one too many), 4 in line; and layers beside them.
+    for count in [1000, 300, 256] {
+        for (name, machine) in machines::machines(&shared) {
+            let mut gpu = Gpu::new(&device, &queue, u32::try_from(count).expect("few")).expect("a GPU");
+            gpu.pad(5);
+            // Up to four layers.
+            gpu.pretend(Machine { invocations: machine.invocations.min(count as u32), ..machine });
+            let machine = gpu.machine();
+            let forces = || vec![force("gravity", &[("softening", motes::settings::Value::Number(0.17))])];
+            let mut simulation = moving(gpu, count, forces(), "rk4");
+            let setup =
+                Setup { particles: support::cloud(count, 7), forces: forces(), integrator: integrator("rk4"), dt: DT };
+            let plan = setup.plans(machine).expect("plans").step;
+            judge(&verdicts(simulation.backend(), &plan, count, &name), count, &name, |v| v.field == "alarm");
+        }
+    }
+}
+
+/// Cut into many dispatches, in one layer or more, everybody still meets everybody; in one layer even to the bit.
+#[test]
+fn cuts_change_no_bit() {
+    let shared = support::device();
+    let count = 1000usize;
+    let law = force("gravity", &[("softening", motes::settings::Value::Number(0.17))]);
+    for (name, machine) in machines::machines(&shared) {
+        if name.contains("layers") {
+            continue;
+        }
+        let whole = machines::kernel(law.as_ref(), count, &machine);
+        let layered = machines::kernel(law.as_ref(), count, &Machine { invocations: 1 << 18, ..machine });
+        let finish = layered.passes.last().expect("a finish");
+        let mut results = Vec::new();
+        for (layers, slice) in [(1, 1024), (1, 128), (1, 256), (1, 384), (2, 128), (3, 256)] {
+            let of = format!("{name}, {layers} layers of {slice}");
+            let kernel = cut(&whole, finish, 1000, layers, slice);
+            let kernel = if slice == 1024 { whole.clone() } else { kernel };
+            let mut simulation = moving(gpu(&shared, count), count, Vec::new(), "symplectic_euler");
+            judge(&verdicts(simulation.backend(), &alone(kernel), count, &of), count, &of, |_| false);
+            let values = pollster::block_on(simulation.read(ACCELERATION)).expect("accelerations");
+            if layers == 1 {
+                results.push(bytemuck::cast_slice::<_, u8>(&values).to_vec());
+            }
+        }
+        assert!(results.windows(2).all(|w| w[0] == w[1]), "{name}: a cut changes bits");
+    }
+}
+
+/// So many that a dispatch may not meet all of them: 65 537 sources are three dispatches.
+#[test]
+fn more_than_one_dispatch_can_meet() {
+    let shared = support::device();
+    let count = 65_537usize;
+    let particles = support::cloud(count, 7);
+    let mut gpu = gpu(&shared, count);
+    let machine = Machine { invocations: 1, ..gpu.machine() };
+    gpu.pretend(machine);
+    let softening = 0.171_875; // held by f32
+    let law = || force("gravity", &[("softening", motes::settings::Value::Number(softening))]);
+    let kernel = machines::kernel(law().as_ref(), count, &machine);
+    assert_eq!(kernel.passes.len(), 4, "three dispatches, and one that adds them up");
+    let setup = Setup { particles, forces: Vec::new(), integrator: integrator("symplectic_euler"), dt: DT };
+    let mut simulation = Simulation::on(gpu, &setup).expect("a simulation");
+    let program = simulation.backend().compile(&alone(kernel)).expect("a program");
+    simulation.backend().run(&program, 1).expect("a run");
+    let got = pollster::block_on(simulation.read(ACCELERATION)).expect("accelerations");
+    // The twin would meet four billion: look at some, among them those at the seams.
+    let all = &setup.particles;
+    let change = got.iter().map(|a| f64::from(a.truncate().length_squared())).sum::<f64>() / count as f64;
+    for i in [0usize, 1, 63, 64, 255, 256, 32_767, 32_768, 40_000, 65_535, 65_536] {
+        let (mut a, mut w) = (glam::DVec3::ZERO, 0.0);
+        for j in (0..count).filter(|j| *j != i) {
+            let r = all.position[j] - all.position[i];
+            let d = (r.length_squared() + softening * softening).sqrt();
+            a += r * (all.mass[j] / d.powi(3));
+            w -= 0.5 * all.mass[j] / d;
+        }
+        let (error, error_w) = ((got[i].as_dvec4().truncate() - a).length(), (f64::from(got[i].w) - w).abs());
+        // The tolerance of lockstep: parts of the usual change.
+        assert!(error < motes::lockstep::TOLERANCE * change.sqrt(), "particle {i}: {error:e}");
+        assert!(error_w < motes::lockstep::TOLERANCE * w.abs(), "particle {i}: potential {error_w:e}");
+    }
+}
