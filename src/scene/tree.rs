@@ -4,13 +4,12 @@ use std::ops::Range;
 
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
-use toml_parser::lexer::TokenKind;
 
 use super::report::{Fault, Place, Report};
 
-/// The longest dotted key. The parser bounds brackets (80 levels) but not dots, and a tree a million levels deep would
-/// overflow the stack when it is dropped.
-const LONGEST_KEY: usize = 8;
+/// The deepest nesting. The parser bounds brackets and the dots of a key each by 80, which together are thousands.
+const LEVELS: usize = 16;
+const TOO_DEEP: (&str, &str) = ("this is nested too deeply", "no scene needs more than 6 levels");
 /// Above this many bytes only the first fault of syntax is looked for: each costs memory.
 const RECOVERABLE: usize = 1 << 20;
 
@@ -60,12 +59,6 @@ impl Node {
 
 /// Parses a scene. What does not parse is reported; what does is in the tree.
 pub(super) fn parse(text: usize, body: &str, report: &mut Report) -> Vec<Entry> {
-    if let Some(span) = too_long_a_key(body) {
-        report.push_syntax(
-            Fault::at(&Place { text, span }, "this key has too many dots").label("no scene needs more than 3"),
-        );
-        return Vec::new();
-    }
     let (table, faults) = if body.len() <= RECOVERABLE {
         DeTable::parse_recoverable(body)
     } else {
@@ -75,28 +68,34 @@ pub(super) fn parse(text: usize, body: &str, report: &mut Report) -> Vec<Entry> 
         }
     };
     report_syntax(text, body, faults, report);
-    entries(table.into_inner(), text, 0)
+    let mut planter = Planter { text, at: 0, too_deep: None };
+    let entries = planter.entries(table.into_inner(), LEVELS);
+    if let Some(place) = planter.too_deep {
+        report.push_syntax(Fault::at(&place, TOO_DEEP.0).label(TOO_DEEP.1));
+    }
+    entries
 }
 
 /// Parses one value that starts at byte `at` of the text; the error says what is wrong with it.
 pub(super) fn parse_value(text: usize, at: usize, body: &str) -> Result<Node, String> {
-    if too_long_a_key(body).is_some() {
-        return Err("a key in it has too many dots".to_owned());
-    }
-    DeValue::parse(body).map(|value| node(value, text, at)).map_err(|fault| fault.message().to_owned())
+    let value = DeValue::parse(body).map_err(|fault| fault.message().to_owned())?;
+    let mut planter = Planter { text, at, too_deep: None };
+    let node = planter.node(value, LEVELS);
+    if planter.too_deep.is_some() { Err(TOO_DEEP.0.to_owned()) } else { Ok(node) }
 }
 
 /// Reports what the parser found, in words that say what to do.
 fn report_syntax(text: usize, body: &str, faults: Vec<toml::de::Error>, report: &mut Report) {
     for fault in faults {
-        let span = fault.span().unwrap_or(body.len()..body.len());
+        // The parser does not say where a key has too many dots.
+        let span = fault.span().unwrap_or(Place::end().span);
         let span_start = span.start;
         let words = body.get(span.clone()).unwrap_or("").trim_matches(['"', '\'']);
         let place = Place { text, span };
         let (message, label) = match fault.message() {
             "duplicate key" => (format!("`{}` is given twice", super::report::shorten(words)), "the second one"),
-            m if m.starts_with("cannot recurse further") => {
-                ("this is nested too deeply".to_owned(), "80 levels at most")
+            m if m.starts_with("cannot recurse further") || m.starts_with("recursion limit") => {
+                (TOO_DEEP.0.to_owned(), TOO_DEEP.1)
             }
             m if m.starts_with("string values must be quoted") && words.is_empty() => {
                 ("the value is missing".to_owned(), "")
@@ -121,51 +120,48 @@ fn is_decimal_comma(body: &str, at: usize) -> bool {
     body.as_bytes().get(at) == Some(&b',') && digit(at.checked_sub(1)) && digit(at.checked_add(1))
 }
 
-/// The first dotted key with more than [`LONGEST_KEY`] parts.
-fn too_long_a_key(body: &str) -> Option<Range<usize>> {
-    let mut dots = 0;
-    for token in toml_parser::Source::new(body).lex() {
-        match token.kind() {
-            TokenKind::Dot => dots += 1,
-            TokenKind::Atom | TokenKind::Whitespace | TokenKind::BasicString | TokenKind::LiteralString => {}
-            _ => dots = 0,
-        }
-        if dots > LONGEST_KEY {
-            return Some(token.span().start()..token.span().end());
-        }
+/// Makes the tree of a text of which the parser saw the part that starts at byte `at`.
+struct Planter {
+    text: usize,
+    at: usize,
+    /// The first value beyond [`LEVELS`].
+    too_deep: Option<Place>,
+}
+
+impl Planter {
+    fn entries(&mut self, table: DeTable<'_>, levels: usize) -> Vec<Entry> {
+        // Where a value is missing, the parser puts one without any extent in its place.
+        let given = table.into_iter().filter(|(_, value)| !value.span().is_empty());
+        let mut list: Vec<_> = given
+            .map(|(key, value)| {
+                let place = self.place(key.span());
+                Entry { key: key.into_inner().into_owned(), place, node: self.node(value, levels) }
+            })
+            .collect();
+        list.sort_by_key(|e| e.place.span.start);
+        list
     }
-    None
-}
 
-fn entries(table: DeTable<'_>, text: usize, at: usize) -> Vec<Entry> {
-    // Where a value is missing, the parser puts one without any extent in its place.
-    let mut list: Vec<_> = table
-        .into_iter()
-        .filter(|(_, value)| !value.span().is_empty())
-        .map(|(key, value)| {
-            let place = place(text, at, key.span());
-            Entry { key: key.into_inner().into_owned(), place, node: node(value, text, at) }
-        })
-        .collect();
-    list.sort_by_key(|e| e.place.span.start);
-    list
-}
+    fn node(&mut self, value: Spanned<DeValue<'_>>, levels: usize) -> Node {
+        let place = self.place(value.span());
+        let data = match value.into_inner() {
+            DeValue::String(s) => Data::Text(s.into_owned()),
+            DeValue::Integer(i) => Data::Integer(i64::from_str_radix(i.as_str(), i.radix()).ok()),
+            // The grammar has been checked; what does not parse was reported as a fault of syntax.
+            DeValue::Float(f) => Data::Float(f.as_str().parse().unwrap_or(f64::NAN)),
+            DeValue::Boolean(b) => Data::Flag(b),
+            DeValue::Datetime(_) => Data::Date,
+            DeValue::Array(_) | DeValue::Table(_) if levels == 0 => {
+                self.too_deep.get_or_insert_with(|| place.clone());
+                Data::List(Vec::new())
+            }
+            DeValue::Array(list) => Data::List(list.into_iter().map(|v| self.node(v, levels - 1)).collect()),
+            DeValue::Table(table) => Data::Table(self.entries(table, levels - 1)),
+        };
+        Node { place, data }
+    }
 
-fn node(value: Spanned<DeValue<'_>>, text: usize, at: usize) -> Node {
-    let place = place(text, at, value.span());
-    let data = match value.into_inner() {
-        DeValue::String(s) => Data::Text(s.into_owned()),
-        DeValue::Integer(i) => Data::Integer(i64::from_str_radix(i.as_str(), i.radix()).ok()),
-        // The grammar has been checked; what does not parse was reported as a fault of syntax.
-        DeValue::Float(f) => Data::Float(f.as_str().parse().unwrap_or(f64::NAN)),
-        DeValue::Boolean(b) => Data::Flag(b),
-        DeValue::Datetime(_) => Data::Date,
-        DeValue::Array(list) => Data::List(list.into_iter().map(|v| node(v, text, at)).collect()),
-        DeValue::Table(table) => Data::Table(entries(table, text, at)),
-    };
-    Node { place, data }
-}
-
-fn place(text: usize, at: usize, span: Range<usize>) -> Place {
-    Place { text, span: at + span.start..at + span.end }
+    fn place(&self, span: Range<usize>) -> Place {
+        Place { text: self.text, span: self.at + span.start..self.at + span.end }
+    }
 }

@@ -86,6 +86,10 @@ fn groups_and_colours_cover_all_particles() {
     assert_eq!(ids, [0..5120, 5120..10_240]);
     assert_eq!(merger.groups[0].color, Some([0x7f, 0xb2, 0xff]));
     assert_eq!(merger.particles.len(), 10_240);
+    for (color, rgb) in [("#fc8", [0xff, 0xcc, 0x88]), ("#0102fF", [1, 2, 255]), ("skyblue", [0x87, 0xce, 0xeb])] {
+        let scene = crate::load(crate::SMALL, &[&format!("particles.0.color={color}")]);
+        assert_eq!(scene.unwrap_or_else(|faults| panic!("{faults}")).groups[0].color, Some(rgb));
+    }
 }
 
 /// The positions after some steps, in f64.

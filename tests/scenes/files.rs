@@ -124,6 +124,18 @@ fn files_are_moved_by_center_and_velocity() {
 }
 
 #[test]
+fn a_file_may_hold_too_many() {
+    let files: &[(&str, &[u8])] =
+        &[("scene.toml", &particles("file = \"bodies.csv\"")), ("bodies.csv", b"x,y,z\n1,2,3\n4,5,6\n")];
+    let most = |most_particles| report_in(files, &Options { most_particles, ..Options::default() });
+    assert_eq!(most(2).map(|scene| scene.particles.len()), Ok(2));
+    let (report, code) = most(1).err().expect("two are too many");
+    assert!(report.starts_with("error: 2 particles are too many\n"), "{report}");
+    assert!(report.contains("^^^^^^^^^^^^ there is room for 1\n"), "{report}");
+    assert_eq!(code, 4);
+}
+
+#[test]
 fn a_scene_must_be_utf8_and_not_too_long() {
     let start = |text: &[u8]| fault(&[("scene.toml", text)]).0;
     let report = start(b"[simulation]\ndt = 0.1 # \xff\n");

@@ -170,6 +170,12 @@ fn nothing_nests_or_repeats_too_much() {
         format!("a{} = 1", ".a".repeat(many)),
         format!("a{} = 1", " . \"a\" ".repeat(many)),
         format!("[a{}]", ".a".repeat(many)),
+        format!(
+            "[a{0}]\n{1}b = 1{2}",
+            ".a".repeat(78),
+            format!("a{} = {{", ".a".repeat(78)).repeat(78),
+            "}".repeat(78)
+        ),
         "=\n".repeat(many),
         "[[force]]\n".repeat(20_000),
         "[a]\n".repeat(20_000),

@@ -43,7 +43,7 @@ pub(crate) fn assert_report(text: &str, overrides: &[&str], expected: &str) {
 
 #[test]
 fn all_faults_come_at_once_and_in_order() {
-    let text = r##"
+    let text = r#"
 [simulation]
 dt = "0.1"
 steps = 0
@@ -61,7 +61,7 @@ softening = -0.1
 formats = ["png", "gif"]
 [camera]
 zoom = 2
-"##;
+"#;
     let report = report(text, &["output.every=often"]);
     let told: Vec<_> = report
         .list

@@ -40,7 +40,7 @@ fn a_scene_of_everything_reloads_as_the_same() {
     let folder = tempfile::tempdir().expect("a folder");
     std::fs::write(folder.path().join("bodies.csv"), "x,y,z\n0.1,0.2,0.3\n").expect("a file");
     std::fs::write(folder.path().join("swirl.wgsl"), "fn force() {}").expect("a file");
-    let text = r##"
+    let text = r#"
         # What one
         #   should see: "quotes" and \ and é.
 
@@ -59,12 +59,12 @@ fn a_scene_of_everything_reloads_as_the_same() {
         [[force]]
         wgsl = "swirl.wgsl"
         over = "each"
-        params = { a = 1, "b c" = [1, 2, 3], d = false }
+        params = { a = 1, "b \"c\" \\" = [1, 2, 3], d = false }
         [[force]]
         kind = "wind"
         [output]
         formats = ["png", "csv", "png"]
-    "##;
+    "#;
     let path = folder.path().join("every thing.toml");
     std::fs::write(&path, text).expect("a file");
     let overrides = ["particles.1.mass=3".to_owned(), "simulation.integrator=rk4".to_owned()];
@@ -79,6 +79,11 @@ fn a_scene_of_everything_reloads_as_the_same() {
     assert!(scene.resolved.contains("\nmass = 3.0\n") && scene.resolved.contains("\nintegrator = \"rk4\"\n"));
     assert!(scene.resolved.contains("\nseed = 9007199254740991\n"));
     assert_reloads(&scene, &folder.path().to_string_lossy());
+    // From elsewhere its files are outside.
+    let source = Source::Text { name: "a.toml".to_owned(), text: scene.resolved.clone(), folder: "src".into() };
+    assert_eq!(Scene::load(&source, &[], &Options::default()).err().map(|faults| faults.total), Some(2));
+    let again = Scene::load(&source, &[], &Options { allow_outside: true, ..Options::default() });
+    assert_eq!(again.unwrap_or_else(|faults| panic!("{faults}")).resolved, scene.resolved);
 }
 
 #[test]
@@ -116,6 +121,7 @@ fn until_gives_the_steps_that_reach_it() {
         ("0.1", "0.3", 3, false), // 0.3 / 0.1 is 2.9999999999999996 in f64
         ("0.001", "1000", 1_000_000, false),
         ("1e-9", "1e3", 1_000_000_000_000, false),
+        ("0.3", "2.1", 7, false), // 2.1 / 0.3 is 7.000000000000001
         ("0.3", "1", 4, true),
         ("10", "1", 1, true),
         ("0.007", "1", 143, true),
@@ -130,8 +136,7 @@ fn until_gives_the_steps_that_reach_it() {
 
 #[test]
 fn overrides_replace_their_rivals() {
-    let steps =
-        |overrides: &[&str]| load(SMALL, overrides).map(|s| s.steps).unwrap_or_else(|faults| panic!("{faults}"));
+    let steps = |overrides: &[&str]| load(SMALL, overrides).map_or_else(|faults| panic!("{faults}"), |s| s.steps);
     assert_eq!(steps(&["simulation.until=2"]), 20);
     assert_eq!(steps(&["simulation.steps=7", "simulation.steps = 8"]), 8);
     let scene = load(SMALL, &["particles.0.bodies.0.position.1=4", "output.formats=[]", "picture.width=64"]);
