@@ -171,7 +171,7 @@ impl State {
         };
         let mut encoder = self.found.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         if !self.paused {
-            self.simulation.encode(STEPS_PER_FRAME, &mut encoder);
+            self.simulation.encode(STEPS_PER_FRAME, &mut encoder)?;
         }
         self.draw(&mut encoder, &texture.texture.create_view(&wgpu::TextureViewDescriptor::default()));
         self.found.queue.submit([encoder.finish()]);

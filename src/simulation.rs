@@ -132,11 +132,21 @@ impl<B: Backend> Simulation<B> {
     /// # Errors
     /// When the device is lost, out of memory, or does not answer in time.
     pub fn step(&mut self, steps: u32) -> Result<(), Error> {
+        self.room(steps)?;
         if let Some(start) = self.start.take() {
             self.backend.run(&start, 1)?;
         }
         self.backend.run(&self.step, steps)?;
         self.steps += u64::from(steps);
+        Ok(())
+    }
+    /// The device counts steps in 32 bits.
+    fn room(&self, steps: u32) -> Result<(), Error> {
+        if self.steps + u64::from(steps) > u64::from(u32::MAX) {
+            let text =
+                format!("{} steps are done, and {} are the most: begin anew from a snapshot", self.steps, u32::MAX);
+            return Err(Error::Scene(text));
+        }
         Ok(())
     }
     /// Reads a field, one element per particle.
@@ -238,13 +248,19 @@ impl Simulation<Gpu> {
         Self::on(gpu, setup)
     }
     /// Encodes steps into the caller's encoder and submits nothing. The clock is on the device, so every call goes on
-    /// where the one before it ended, if the caller submits them in that order.
-    pub fn encode(&mut self, steps: u32, encoder: &mut wgpu::CommandEncoder) {
+    /// where the one before it ended, if the caller submits them in that order. How long a submission becomes is in the
+    /// caller's hand: a system ends one of some seconds.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] when the steps no longer fit the device's count of them.
+    pub fn encode(&mut self, steps: u32, encoder: &mut wgpu::CommandEncoder) -> Result<(), Error> {
+        self.room(steps)?;
         if let Some(start) = self.start.take() {
             self.backend.encode(&start, 1, encoder);
         }
         self.backend.encode(&self.step, steps, encoder);
         self.steps += u64::from(steps);
+        Ok(())
     }
     /// A field's buffer, usable as a vertex buffer: draw without a copy. It stays the same for the simulation's life.
     #[must_use]

@@ -8,8 +8,8 @@ use super::resolved::Writer;
 use super::value;
 use super::walk::{self, Table};
 
-/// More steps than this are a slip of the pen: a thousand a second would take 31 years.
-const MOST_STEPS: f64 = 1e12;
+/// The device counts steps in 32 bits.
+const MOST_STEPS: f64 = 4_294_967_295.0;
 
 pub(super) const KEYS: &[Key] = &[Key::required("dt", Kind::Positive, "the length of a step [time]")];
 pub(super) const OWN: &[&str] = &["steps", "until", "integrator"];
@@ -41,7 +41,7 @@ pub(super) fn read(table: Option<&Table<'_>>, report: &mut Report) -> Simulation
         simulation.steps = walk::whole_from_one(entry, report).unwrap_or(1);
         #[expect(clippy::cast_precision_loss, reason = "a comparison of magnitudes")]
         if simulation.steps as f64 > MOST_STEPS {
-            report.push(Fault::at(&entry.node.place, "`steps` is too large").label(format!("at most {MOST_STEPS:e}")));
+            report.push(Fault::at(&entry.node.place, "`steps` is too large").label(format!("at most {MOST_STEPS}")));
         }
     }
     if let Some(entry) = length.filter(|e| e.key == "until") {
@@ -53,7 +53,7 @@ pub(super) fn read(table: Option<&Table<'_>>, report: &mut Report) -> Simulation
                     simulation.remark = remark(until, simulation.dt, steps);
                 }
                 None => report.push(Fault::at(&entry.node.place, "`until` is too far").label(format!(
-                    "{:.3e} steps of dt = {:?}, at most {MOST_STEPS:e}",
+                    "{:.3e} steps of dt = {:?}, at most {MOST_STEPS}",
                     until / simulation.dt,
                     simulation.dt
                 ))),

@@ -219,7 +219,7 @@ bodies = [{ position = [0, 0, 0] }]
   --> a.toml:3:9
    |
  3 | steps = 2_000_000_000_000
-   |         ^^^^^^^^^^^^^^^^^ at most 1e12
+   |         ^^^^^^^^^^^^^^^^^ at most 4294967295
 
 a.toml: 1 error",
     );
@@ -259,7 +259,7 @@ bodies = [{ position = [0, 0, 0] }]
   --> a.toml:3:9
    |
  3 | until = 1e6
-   |         ^^^ 1.000e15 steps of dt = 1e-9, at most 1e12
+   |         ^^^ 1.000e15 steps of dt = 1e-9, at most 4294967295
 
 a.toml: 1 error",
     );
