@@ -125,6 +125,6 @@ pub fn large(x: f64) -> String {
         x if x >= 1e9 => format!("{:.2} G", x / 1e9),
         x if x >= 1e6 => format!("{:.2} M", x / 1e6),
         x if x >= 1e3 => format!("{:.2} k", x / 1e3),
-        x => format!("{x:.2} "),
+        x => format!("{x:.2}"),
     }
 }

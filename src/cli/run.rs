@@ -163,7 +163,7 @@ impl Run {
             say(format!("stopped at step {steps} of {}; everything up to there is written", self.scene.steps));
         }
         say(format!(
-            "{steps} steps in {}: {}steps/s, {}particle-steps/s",
+            "{steps} steps in {}: {} steps/s, {} particle-steps/s",
             duration(took),
             large(rate),
             large(rate * self.count as f64)
