@@ -155,7 +155,7 @@ fn a_users_shader_is_told_what_is_wrong_and_where() {
         }
     };
     let [strength, center] = good();
-    in_scene(&[strength.clone()], &["swirl", "`center`"]);
+    in_scene(std::slice::from_ref(&strength), &["swirl", "`center`"]);
     in_scene(
         &[strength.clone(), center.clone(), ("spin", Value::Number(2.0))],
         &["swirl", "`spin`", "`strength`", "`center`"],
