@@ -12,7 +12,7 @@ use motes::{Cpu, Gpu, Setup, Simulation};
 use support::Shared;
 use support::states::{force, integrator, vector};
 
-const COUNT: usize = 300;
+const COUNT: u32 = 300;
 const STEPS: u32 = 30;
 
 /// Everybody, everywhere, at every velocity and time.
@@ -28,7 +28,7 @@ fn forces() -> Vec<Box<dyn Force>> {
 }
 
 fn setup(name: &str) -> Setup {
-    Setup { particles: support::cloud(COUNT, 5), forces: forces(), integrator: integrator(name), dt: 0.013 }
+    Setup { particles: support::cloud(COUNT as usize, 5), forces: forces(), integrator: integrator(name), dt: 0.013 }
 }
 
 fn simulation(shared: &Shared, name: &str) -> Simulation<Gpu> {
@@ -136,7 +136,7 @@ fn a_measurement_leaves_no_trace() {
             measured.step(steps).expect("steps");
             let before = bytes(&mut measured);
             let snapshot = pollster::block_on(measured.snapshot()).expect("a snapshot");
-            assert_eq!(snapshot.particles.len(), COUNT);
+            assert_eq!(snapshot.particles.len(), COUNT as usize);
             assert!(snapshot.potential.iter().sum::<f64>() < 0.0, "gravity binds");
             assert!(bytes(&mut measured) == before, "{}: a snapshot changes the state", entry.name);
         }
@@ -147,7 +147,7 @@ fn a_measurement_leaves_no_trace() {
 #[test]
 fn the_twins_likewise() {
     for entry in INTEGRATORS {
-        let fresh = || Simulation::on(Cpu::new(COUNT as u32).expect("some"), &setup(entry.name)).expect("a simulation");
+        let fresh = || Simulation::on(Cpu::new(COUNT).expect("some"), &setup(entry.name)).expect("a simulation");
         let (mut whole, mut again, mut measured) = (fresh(), fresh(), fresh());
         whole.step(8).expect("steps");
         for _ in 0..8 {

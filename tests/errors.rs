@@ -155,7 +155,7 @@ fn a_users_shader_is_told_what_is_wrong_and_where() {
         }
     };
     let [strength, center] = good();
-    in_scene(&[strength.clone()], &["swirl", "`center`"]);
+    in_scene(std::slice::from_ref(&strength), &["swirl", "`center`"]);
     in_scene(
         &[strength.clone(), center.clone(), ("spin", Value::Number(2.0))],
         &["swirl", "`spin`", "`strength`", "`center`"],
@@ -231,4 +231,23 @@ fn a_device_that_is_gone_says_so() {
         assert_eq!(error.exit_code(), 7);
         assert!(begin.elapsed() < Duration::from_secs(10), "it waits for nothing");
     }
+}
+
+/// A shader that never ends is not tried here: some drivers cut it off, others take the whole machine with them. To the
+/// waiting side it is the same as a batch that takes longer than one is ready to wait.
+#[test]
+fn a_device_that_takes_too_long_says_so() {
+    let shared = support::device();
+    let setup = setup(support::cloud(8192, 1), vec![force("gravity", &[("softening", Value::Number(0.1))])], 0.1);
+    let mut simulation = on_gpu(&shared, &setup).expect("a simulation");
+    simulation.backend().pace(Duration::from_millis(80), Duration::ZERO);
+    let said = simulation.step(1).and_then(|()| pollster::block_on(simulation.read(POSITION)).map(|_| ()));
+    match said {
+        Err(error @ Error::Timeout { seconds: 0, .. }) => assert_eq!(error.exit_code(), 7),
+        other => panic!("an instant is not enough for 67 million meetings: {other:?}"),
+    }
+    // It was only slow, and is still there.
+    simulation.backend().pace(Duration::from_millis(80), Duration::from_mins(1));
+    assert_eq!(pollster::block_on(simulation.read(POSITION)).expect("positions").len(), 8192);
+    pollster::block_on(simulation.check()).expect("all is well");
 }

@@ -133,6 +133,7 @@ struct Row {
     ten: [f64; 2],
 }
 
+#[expect(clippy::unreadable_literal, reason = "as it was printed")]
 const TABLE: &[Row] = &[
     Row {
         eccentricity: 0.0,

@@ -28,8 +28,8 @@ fn snapshot(simulation: &mut Simulation<motes::Gpu>) -> Snapshot {
 const PERIOD: f64 = 6.325_913_982_926_21;
 
 fn figure_eight() -> Particles {
-    let (x, v) =
-        (DVec3::new(0.97000435669734, -0.24308753153583, 0.0), DVec3::new(-0.93240737144104, -0.86473146092102, 0.0));
+    let x = DVec3::new(0.970_004_356_697_34, -0.243_087_531_535_83, 0.0);
+    let v = DVec3::new(-0.932_407_371_441_04, -0.864_731_460_921_02, 0.0);
     let mut particles = Particles::default();
     particles.push(x, -v / 2.0, 1.0, 0.0);
     particles.push(-x, -v / 2.0, 1.0, 0.0);
@@ -144,7 +144,9 @@ fn rest(particles: &mut Particles) {
 fn lagrangian(particles: &Particles, share: f64) -> f64 {
     let mut radii: Vec<f64> = particles.position.iter().map(|x| x.length()).collect();
     radii.sort_by(f64::total_cmp);
-    radii[((radii.len() as f64 * share) as usize).min(radii.len() - 1)]
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a part of a small number")]
+    let place = (radii.len() as f64 * share) as usize;
+    radii[place.min(radii.len() - 1)]
 }
 
 #[test]
@@ -234,7 +236,9 @@ fn time_turned_round() {
     let mut simulation = on_gpu(&shared, &plummer(512, 5), 0.05, "leapfrog", 1.0 / 128.0);
     let turn = |simulation: &mut Simulation<motes::Gpu>| {
         let mut v = pollster::block_on(simulation.read(VELOCITY)).expect("velocities");
-        v.iter_mut().for_each(|v| *v = -*v);
+        for v in &mut v {
+            *v = -*v;
+        }
         simulation.write(VELOCITY, &v).expect("velocities");
     };
     let places =

@@ -161,7 +161,7 @@ fn dispatches_fold_over_two_dimensions() {
             let mut gpu = Gpu::new(&device, &queue, u32::try_from(count).expect("few")).expect("a GPU");
             gpu.pad(5);
             // Up to four layers.
-            gpu.pretend(Machine { invocations: machine.invocations.min(count as u32), ..machine });
+            gpu.pretend(Machine { invocations: machine.invocations.min(1000), ..machine });
             let machine = gpu.machine();
             let forces = || vec![force("gravity", &[("softening", motes::settings::Value::Number(0.17))])];
             let mut simulation = moving(gpu, count, forces(), "rk4");
@@ -189,7 +189,7 @@ fn cuts_change_no_bit() {
         let mut results = Vec::new();
         for (layers, slice) in [(1, 1024), (1, 128), (1, 256), (1, 384), (2, 128), (3, 256)] {
             let of = format!("{name}, {layers} layers of {slice}");
-            let kernel = cut(&whole, finish, 1000, layers, slice);
+            let kernel = cut(&whole, finish, count, layers, slice);
             let kernel = if slice == 1024 { whole.clone() } else { kernel };
             let mut simulation = moving(gpu(&shared, count), count, Vec::new(), "symplectic_euler");
             judge(&verdicts(simulation.backend(), &alone(kernel), count, &of), count, &of, |_| false);

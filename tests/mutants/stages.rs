@@ -103,7 +103,7 @@ fn stage(name: &str, mut simulation: Simulation<Gpu>, kernel: Kernel) -> Stage {
     let mut random = support::Random::new(23);
     let kept = [POSITION.name, VELOCITY.name, ALARM.name, "world"];
     for name in alone(kernel.clone()).fields(1).keys().filter(|n| !kept.contains(&n.as_str())) {
-        let words: Vec<f32> = (0..gpu.size(name) / 4).map(|_| random.next() as f32).collect();
+        let words: Vec<f32> = (0..gpu.size(name) / 4).map(|_| random.narrow()).collect();
         gpu.write_bytes(name, 0, bytemuck::cast_slice(&words)).expect("a field");
     }
     Stage::new(name, simulation, kernel)
@@ -131,7 +131,7 @@ fn integrators(device: &Device, stages: &mut Vec<Stage>) {
         for kernel in [plans.step, plans.measure.0, plans.measure.1].into_iter().flat_map(|p| p.kernels) {
             let pass = kernel.passes.last().expect("a pass");
             let file = &pass.shader.sources().last().expect("a file").file;
-            let telling = pass.constants.iter().all(|(_, value)| *value != 0.0 && *value != 1.0);
+            let telling = pass.constants.iter().all(|(_, value)| ![0.0, 1.0].contains(value));
             if telling && !stages.iter().any(|s: &Stage| s.uses(file)) {
                 stages.push(stage(&kernel.name.clone(), moving(device, FEW, None), kernel));
             }
@@ -211,7 +211,7 @@ fn pairs(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
     for (name, machine) in machines(shared).into_iter().filter(|(name, _)| !name.contains("layers")) {
         let whole = kernel(gravity.as_ref(), MANY, &machine);
         let layered = kernel(gravity.as_ref(), MANY, &Machine { invocations: 1 << 18, ..machine });
-        let cut = cut(&whole, layered.passes.last().expect("a finish"), MANY as u32, 3, 128);
+        let cut = cut(&whole, layered.passes.last().expect("a finish"), MANY, 3, 128);
         let curious = kernel(&Curious, MANY, &machine);
         for (case, kernel) in [("whole", whole), ("cut", cut), ("curious", curious)] {
             stages.push(stage(&format!("{name}, {case}"), moving(device, MANY, Some(machine)), kernel));

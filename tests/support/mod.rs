@@ -1,5 +1,6 @@
 //! What several tests need: a device, and particles with no round numbers.
 #![allow(dead_code, reason = "each test uses a part of it")]
+#![allow(clippy::cast_possible_truncation, reason = "numbers are rounded to what f32 holds")]
 
 pub mod choices;
 pub mod machines;
@@ -58,6 +59,10 @@ impl Random {
     pub fn next(&mut self) -> f64 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         ((self.0 >> 11) as f64 / (1u64 << 53) as f64).mul_add(2.0, -1.0)
+    }
+    /// The same, in f32.
+    pub fn narrow(&mut self) -> f32 {
+        self.next() as f32
     }
     pub fn vector(&mut self) -> DVec3 {
         DVec3::new(self.next(), self.next(), self.next())

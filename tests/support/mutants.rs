@@ -94,7 +94,7 @@ fn tokens(code: &str) -> Vec<(usize, usize)> {
             b if b.is_ascii_digit() => at += bytes[at..].iter().take_while(|b| word(**b) || **b == b'.').count(),
             b if word(b) => at += bytes[at..].iter().take_while(|b| word(**b)).count(),
             b if b"+-*/<>=!&|".contains(&b) => {
-                at += bytes[at..].iter().take_while(|b| b"+-*/<>=!&|".contains(b)).count()
+                at += bytes[at..].iter().take_while(|b| b"+-*/<>=!&|".contains(b)).count();
             }
             _ => {
                 at += code[at..].chars().next().map_or(1, char::len_utf8);
