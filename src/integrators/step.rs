@@ -86,9 +86,12 @@ impl<'a> Step<'a> {
     /// The first thing that went wrong while the step was written.
     pub fn finished(mut self) -> Result<Plan, Error> {
         // Where nothing asks for the time within a step, nothing need set it.
-        let asked =
-            |kernel: &Kernel| kernel.name != "tick" && kernel.passes.iter().any(|p| p.shader.reflection().reads_time);
-        let within: Vec<_> = self.plan.kernels.iter().map(|k| k.name.starts_with(at::NAME)).collect();
+        // By what they run, not by what they are called: a force may be called anything.
+        let runs = |kernel: &Kernel, entry| kernel.passes.iter().all(|p| p.shader.reflection().entry == entry);
+        let asked = |kernel: &Kernel| {
+            !runs(kernel, tick::NAME) && kernel.passes.iter().any(|p| p.shader.reflection().reads_time)
+        };
+        let within: Vec<_> = self.plan.kernels.iter().map(|k| runs(k, at::NAME)).collect();
         if !self.plan.kernels.iter().zip(&within).any(|(kernel, at)| !at && asked(kernel)) {
             self.plan.order.retain(|index| !within.get(*index).is_some_and(|at| *at));
         }

@@ -5,6 +5,9 @@ use std::sync::Arc;
 use crate::error::Error;
 use crate::kernel::{Clock, Kernel, Shader};
 
+/// What it is called in a plan, and in its shader.
+pub const NAME: &str = "tick";
+
 /// The kernel.
 pub fn kernel() -> Result<Kernel, Error> {
     let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("integrators/tick.wgsl")])?;
@@ -14,5 +17,5 @@ pub fn kernel() -> Result<Kernel, Error> {
         host.set_clock(Clock { step, time: f64::from(step) * clock.dt, ..clock });
         Ok(())
     };
-    Ok(Kernel::new("tick", shader, Vec::new(), 1, Arc::new(twin)))
+    Ok(Kernel::new(NAME, shader, Vec::new(), 1, Arc::new(twin)))
 }
