@@ -1,38 +1,6 @@
 //! Mutants that no test can notice, because they do the same; each with its reason.
 
-use super::Mutant;
-
-/// A change in certain lines of certain files.
-#[derive(Debug)]
-pub struct Equivalent {
-    /// What the file's path contains.
-    pub file: &'static str,
-    /// What the line contains.
-    pub line: &'static str,
-    /// The token.
-    pub old: &'static str,
-    /// What it becomes.
-    pub new: &'static str,
-    /// Why it does the same.
-    pub why: &'static str,
-}
-
-impl Equivalent {
-    pub fn is(&self, file: &str, mutant: &Mutant) -> bool {
-        let place = file.contains(self.file) && mutant.line.contains(self.line);
-        place && mutant.old == self.old && mutant.new == self.new
-    }
-}
-
-const fn same(
-    file: &'static str,
-    line: &'static str,
-    old: &'static str,
-    new: &'static str,
-    why: &'static str,
-) -> Equivalent {
-    Equivalent { file, line, old, new, why }
-}
+use crate::support::equivalents::{Equivalent, same};
 
 const ANY_SIZE: &str = "the host reads the size of a workgroup by reflection, and any will do";
 const ALWAYS_SET: &str = "the host sets every override";

@@ -123,7 +123,7 @@ fn changes(old: &str, spaced: bool) -> Vec<String> {
 /// Half as much again, or one more; nothing becomes something.
 fn number(old: &str) -> String {
     if let Some(digits) = old.strip_prefix("0x").and_then(|d| d.strip_suffix('u')) {
-        return format!("0x{:x}u", u32::from_str_radix(digits, 16).expect("hexadecimal digits") + 1);
+        return format!("0x{:x}u", u32::from_str_radix(digits, 16).expect("hexadecimal digits").wrapping_add(1));
     }
     if old.contains('.') || old.contains('e') {
         let x: f64 = old.parse().expect("a number");

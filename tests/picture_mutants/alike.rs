@@ -1,0 +1,46 @@
+//! How far a device may be from a twin.
+
+use glam::DVec4;
+use motes::kernel::Array;
+
+/// Of a place or a depth, as a part of it: 2⁻²⁴ for each of the about ten operations that lead to it, and as much again
+/// for roots and divisions.
+const PART: f64 = 2e-5;
+/// Elements for which a rounded number may have decided otherwise: the rim of a ball, the end of a line.
+const RIM: usize = 2;
+
+/// Whether a device's field is as the twin's.
+pub fn alike(name: &str, want: &Array, got: &Array) -> bool {
+    match (want, got) {
+        (Array::Vec4(want), Array::Vec4(got)) => want.len() == got.len() && want.iter().zip(got).all(near),
+        (Array::Uint(want), Array::Uint(got)) => want.len() == got.len() && counts(name, want, got),
+        _ => false,
+    }
+}
+
+fn near((want, got): (&DVec4, &DVec4)) -> bool {
+    let within = |k: usize| (want[k] - got[k]).abs() <= PART * (1.0 + want[k].abs());
+    (0..4).all(within)
+}
+
+fn counts(name: &str, want: &[u32], got: &[u32]) -> bool {
+    let pairs = || want.iter().zip(got).map(|(w, g)| (*w, *g));
+    let differ = pairs().filter(|(w, g)| w != g).count();
+    match name {
+        // A place is known to 1e-5 pixels, which moves a light of 256 units by some thousandths of one.
+        "canvas" => pairs().all(|(w, g)| w.abs_diff(g) <= 1) && differ <= RIM + want.len() / 500,
+        // A level is 2⁸ times as coarse as what is known of a colour, which decides one in some hundreds.
+        "color" | "pixels" => {
+            let level =
+                |(w, g): (u32, u32)| w.to_le_bytes().iter().zip(g.to_le_bytes()).all(|(w, g)| w.abs_diff(g) <= 1);
+            pairs().all(level) && differ <= RIM + want.len() / 100
+        }
+        // Brightness in 65 535 parts, of a distance that is known to 1e-5 pixels and a few more.
+        "streak" => {
+            let same = |(w, g): (u32, u32)| w & 0xffff == g & 0xffff && (w >> 16).abs_diff(g >> 16) <= 8;
+            pairs().filter(|pair| !same(*pair)).count() <= RIM
+        }
+        "front" | "owner" => differ <= RIM,
+        _ => differ == 0,
+    }
+}

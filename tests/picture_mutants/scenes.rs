@@ -1,0 +1,213 @@
+//! Scenes: particles and looks that bring about what the shaders of a picture tell apart.
+
+use glam::{DVec2, DVec3, DVec4, Vec4};
+use motes::Particles;
+use motes::kernel::{Array, Field, Host};
+use motes::render::{Camera, Color, Exposure, KEYS, Picture, Trail};
+use motes::settings::{Settings, Value};
+
+use crate::support::{self, Random};
+
+/// Fewer than a workgroup, so that some lanes have nothing to do.
+pub const COUNT: u32 = 60;
+/// Moments of every trail.
+const MOMENTS: usize = 3;
+
+/// A picture and its particles.
+pub struct Scene {
+    pub name: &'static str,
+    pub picture: Picture,
+    pub exposure: Exposure,
+    particles: Particles,
+}
+
+/// What is asked of a scene; the rest is the same for all.
+struct Wish {
+    name: &'static str,
+    size: (u32, u32),
+    style: &'static str,
+    projection: &'static str,
+    background: &'static str,
+    extent: f64,
+    trails: bool,
+}
+
+const PLAIN: Wish = Wish {
+    name: "",
+    // Neither is a multiple of four, and their product none of 64.
+    size: (47, 33),
+    style: "glow",
+    projection: "perspective",
+    background: "night",
+    extent: 1.2,
+    trails: false,
+};
+
+fn scene(wish: &Wish, change: impl FnOnce(&mut Picture, &mut Particles)) -> Scene {
+    let word = |text: &'static str| Value::Text(text.into());
+    let mut particles = support::cloud(COUNT as usize, 11);
+    particles.position.iter_mut().for_each(|x| *x *= wish.extent / PLAIN.extent);
+    let sizes = [("width", wish.size.0), ("height", wish.size.1)];
+    let words = [
+        ("style", wish.style),
+        ("projection", wish.projection),
+        ("background", wish.background),
+        ("color", if wish.trails { "group" } else { "speed" }),
+    ];
+    let settings = sizes.iter().fold(Settings::defaults(KEYS), |s, (key, n)| s.with(key, Value::Number((*n).into())));
+    let settings = words.iter().fold(settings, |s, (key, text)| s.with(key, word(text)));
+    let settings = settings
+        .with("auto_frame", Value::Flag(false))
+        .with("extent", Value::Number(wish.extent))
+        .with("center", Value::Vector(wish.extent * DVec3::new(0.11, -0.07, 0.05)))
+        .with("eye", Value::Vector(DVec3::new(0.3, -0.9, 0.55)));
+    let mut random = Random::new(5);
+    let mut trail = Trail::new(COUNT as usize);
+    if wish.trails {
+        for _ in 0..MOMENTS {
+            trail
+                .push(&particles.position.iter().map(|x| *x + 0.3 * wish.extent * random.vector()).collect::<Vec<_>>());
+        }
+    }
+    let mut picture = Picture::new(&settings, &particles, &[], trail).expect("a picture");
+    picture.frame.unit = 256.0;
+    picture.frame.glow = 3.7;
+    if wish.trails {
+        let bright = |k: u32| k.wrapping_mul(0x9E37_79B9) | 0xff80_8080;
+        picture.color = Color::Given((1..=COUNT).map(|k| if k % 5 == 0 { u32::MAX } else { bright(k) }).collect());
+    }
+    change(&mut picture, &mut particles);
+    Scene { name: wish.name, picture, exposure: Exposure { knee: 60.0, white: 900.0 }, particles }
+}
+
+/// A place so many pixels right and up of the middle of the picture, and so far towards the eye.
+fn at(camera: &Camera, pixels: DVec2, height: u32, back: f64) -> DVec3 {
+    let length = 2.0 * camera.extent / f64::from(height);
+    camera.center + length * (pixels.x * camera.right + pixels.y * camera.up) + back * camera.back
+}
+
+/// Particles that cannot be drawn, or hardly: behind the eye and about it, far out, not a number, two at one place.
+fn awkward(picture: &Picture, particles: &mut Particles) {
+    let camera = &picture.frame.camera;
+    let axis = |back: f64| at(camera, DVec2::new(0.4, -0.3), picture.frame.height, back);
+    let d = camera.distance.max(0.1);
+    let places = [2.0 * d, d, 0.98 * d, 0.965 * d, 0.94 * d, 0.9 * d, -3.0 * d].map(axis);
+    particles.position[10..17].copy_from_slice(&places);
+    particles.position[18].x = f64::NAN;
+    particles.position[19].z = f64::NEG_INFINITY;
+    particles.velocity[20].y = f64::INFINITY;
+    particles.mass[21] = f64::NAN;
+    particles.position[22] = particles.position[23];
+    particles.position[24] = DVec3::new(1e30, -1e30, 1e30);
+}
+
+/// The trails of some particles begin far out of the picture, to the right and above, or nowhere.
+fn far_trails(picture: &mut Picture, particles: &Particles) {
+    let (camera, height) = (picture.frame.camera, picture.frame.height);
+    let mut moments: Vec<Vec<DVec3>> =
+        picture.trail.points().collect::<Vec<_>>().chunks(COUNT as usize).map(<[_]>::to_vec).collect();
+    // Beyond a million pixels, from which on nothing is seen, but not by half as much again.
+    moments[0][0] = at(&camera, DVec2::new(1.2e6, 0.0), height, 0.0);
+    moments[0][1] = at(&camera, DVec2::new(0.0, 1.2e6), height, 0.0);
+    moments[0][2] = at(&camera, DVec2::new(-70.0, 33.0), height, 0.0);
+    moments[1][4].y = f64::NAN;
+    for moment in &mut moments {
+        // One that has not moved.
+        moment[5] = particles.position[5];
+    }
+    let mut trail = Trail::new(COUNT as usize);
+    moments.iter().for_each(|moment| trail.push(moment));
+    picture.trail = trail;
+}
+
+/// Sizes from nothing to more than what is drawn.
+fn sizes(particles: &mut Particles, largest: f64) {
+    for (i, radius) in (0..7).cycle().zip(&mut particles.radius) {
+        *radius = largest * f64::from(i) / 6.0;
+    }
+}
+
+fn masses(particles: &mut Particles) {
+    particles.mass.iter_mut().zip([1.0, 0.3, 0.02, 0.07, 2e-5].iter().cycle()).for_each(|(m, part)| *m *= part);
+}
+
+/// Scenes of 47 × 33 pixels.
+pub fn small() -> Vec<Scene> {
+    let lights = scene(&Wish { name: "lights", ..PLAIN }, |picture, particles| {
+        awkward(picture, particles);
+        picture.frame.reach = 3;
+    });
+    let parallel = Wish { name: "parallel balls", style: "balls", projection: "orthographic", trails: true, ..PLAIN };
+    let parallel = scene(&parallel, |picture, particles| {
+        awkward(picture, particles);
+        far_trails(picture, particles);
+        masses(particles);
+        sizes(particles, 0.4);
+        picture.frame.marker = 2.6;
+        picture.frame.heaviest *= 0.6;
+        picture.frame.largest = 6.0;
+        picture.frame.solid = 1.5;
+        picture.frame.line = 0.8;
+        picture.frame.reach = 2;
+    });
+    let balls = Wish { name: "balls", style: "auto", background: "black", trails: true, ..PLAIN };
+    let balls = scene(&balls, |picture, particles| {
+        awkward(picture, particles);
+        far_trails(picture, particles);
+        masses(particles);
+        sizes(particles, 0.2);
+        picture.frame.marker = 1.7;
+        picture.frame.solid = 1.1;
+        picture.frame.line = 1.3;
+    });
+    let tiny = Wish { name: "tiny", style: "balls", extent: 0.05, trails: true, ..PLAIN };
+    let tiny = scene(&tiny, |picture, particles| {
+        awkward(picture, particles);
+        particles.mass.fill(0.0);
+        picture.frame.heaviest = 0.0;
+        picture.frame.marker = 1.9;
+        picture.frame.solid = 0.5;
+    });
+    let mut dazzling = scene(&Wish { name: "dazzling", ..PLAIN }, |picture, _| {
+        picture.frame.unit = 4096.0;
+        picture.frame.glow = 6.0;
+        picture.frame.reach = 1;
+    });
+    dazzling.exposure = Exposure { knee: 20.0, white: 60.0 };
+    let faint = scene(&Wish { name: "faint", ..PLAIN }, |picture, _| picture.frame.unit = 8.0);
+    vec![lights, parallel, balls, tiny, dazzling, faint]
+}
+
+/// A picture so high that its largest ball and its lines are drawn by several layers of a dispatch.
+pub fn tall() -> Scene {
+    let wish = Wish { name: "tall", size: (5, 2500), style: "balls", trails: true, ..PLAIN };
+    scene(&wish, |picture, particles| {
+        sizes(particles, 0.5);
+        picture.frame.largest = 600.0;
+        picture.frame.marker = 0.3;
+    })
+}
+
+impl Scene {
+    /// What the host writes before a picture is drawn.
+    pub fn fields(&self) -> Vec<(&'static str, Array)> {
+        let Particles { position, velocity, mass, radius, .. } = &self.particles;
+        let join = |v: &[DVec3], w: &[f64]| Array::Vec4(v.iter().zip(w).map(|(v, w)| v.extend(*w)).collect());
+        let mut fields = vec![("position", join(position, mass)), ("velocity", join(velocity, radius))];
+        if let Color::Given(colors) = &self.picture.color {
+            fields.push(("color", Array::Uint(colors.clone())));
+        }
+        if self.picture.frame.points > 0 {
+            fields.push(("trail", Array::Vec4(self.picture.trail.points().map(|x| x.extend(0.0)).collect())));
+        }
+        fields
+    }
+    /// Puts a light exactly as deep as the front of a ball, and before its middle, where it is not to be seen.
+    pub fn touch_up(&self, host: &Host) {
+        let mut projected = host.write(Field::<Vec4>::new("projected")).expect("a field");
+        let find = |is: fn(&DVec4) -> bool| projected.iter().position(is);
+        if let (Some(ball), Some(light)) = (find(|p| p.w > 0.0), find(|p| p.w == 0.0)) {
+            projected[light] = projected[ball].truncate().extend(0.0);
+        }
+    }
+}

@@ -1,0 +1,131 @@
+//! Stages: every kernel of a scene's picture, with what it is given and what its twin makes of that.
+
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::rc::Rc;
+use std::time::Duration;
+
+use glam::Vec4;
+use motes::kernel::{Access, Array, Backend, Clock, Kernel, Shader, Source};
+use motes::{Cpu, Gpu};
+
+use crate::alike::alike;
+use crate::scenes::{COUNT, Scene};
+use crate::support::machines::alone;
+use crate::support::{Random, Shared};
+
+/// Elements behind every field, in which nothing may be written.
+const PAD: u64 = 5;
+
+/// One device's fields, for all stages whose pictures have one size: a text that comes again is not compiled again.
+pub type Canvas = Rc<RefCell<Gpu>>;
+
+pub struct Stage {
+    pub name: String,
+    pub kernel: Kernel,
+    canvas: Canvas,
+    given: BTreeMap<String, Array>,
+    wanted: BTreeMap<String, Array>,
+}
+
+impl Stage {
+    /// Runs a kernel on what this one is given. Whether it does what the twin does.
+    pub fn good(&self, kernel: &Kernel) -> bool {
+        let gpu = &mut *self.canvas.borrow_mut();
+        let Ok(program) = gpu.compile(&alone(kernel.clone())) else { return false };
+        for (name, array) in &self.given {
+            gpu.write_bytes(name, 0, &self.padded(array, gpu.size(name))).expect("a field");
+        }
+        gpu.set_clock(Clock { count: COUNT, dt: 0.37, ..Clock::default() }).expect("a clock");
+        if gpu.run(&program, 1).is_err() {
+            return false;
+        }
+        self.wanted.iter().all(|(name, want)| {
+            let Ok(bytes) = pollster::block_on(gpu.bytes(name, 0, gpu.size(name))) else { return false };
+            let (got, behind) = bytes.split_at(want.to_bytes().len());
+            let given = self.padded(&self.given[name], gpu.size(name));
+            behind == &given[got.len()..] && alike(name, want, &want.like(got))
+        })
+    }
+    /// Whether a file is part of what runs here.
+    pub fn uses(&self, file: &str) -> bool {
+        self.kernel.passes.iter().any(|p| p.shader.sources().iter().any(|s| s.file == file))
+    }
+    /// The kernel with another text in place of a file's; `None` when that does not compile.
+    pub fn mutated(&self, file: &str, text: &str) -> Option<Kernel> {
+        let mut kernel = self.kernel.clone();
+        // A stranger's text: memory is checked, and loops are bounded.
+        let theirs = |s: &Source| if s.file == file { Source::theirs(file.into(), text.into()) } else { s.clone() };
+        for pass in &mut kernel.passes {
+            if pass.shader.sources().iter().any(|s| s.file == file) {
+                let sources: Vec<_> = pass.shader.sources().iter().map(theirs).collect();
+                pass.shader = Shader::join(&sources).ok()?;
+            }
+        }
+        Some(kernel)
+    }
+    /// Bytes of a field, and behind them what a kernel that looks too far would take for a particle in the picture, near
+    /// enough to be seen: a ball for who draws balls, a light for who draws lights.
+    fn padded(&self, array: &Array, size: u64) -> Vec<u8> {
+        let mut bytes = array.to_bytes();
+        let radius = if self.kernel.name == "splat" { 0.0 } else { 3.0 };
+        let behind = Vec4::new(20.3, 12.7, 0.1, radius);
+        let words = bytemuck::bytes_of(&behind).iter().copied().cycle();
+        let missing = usize::try_from(size).expect("small") - bytes.len();
+        bytes.extend(words.take(missing));
+        bytes
+    }
+}
+
+/// Fields of a size of picture.
+pub fn canvas(shared: &Shared) -> Canvas {
+    let mut gpu = Gpu::new(&shared.found.device, &shared.found.queue, COUNT).expect("a GPU");
+    gpu.pad(PAD);
+    gpu.pace(Duration::from_millis(80), Duration::from_secs(5));
+    Rc::new(RefCell::new(gpu))
+}
+
+/// The stages of a scene: what each is given is what the twins before it have left.
+pub fn stages(scene: &Scene, canvas: &Canvas) -> Vec<Stage> {
+    let plans = [scene.picture.plan(), scene.picture.development(scene.exposure)].map(|p| p.expect("a plan"));
+    let mut cpu = Cpu::new(COUNT).expect("some particles");
+    for plan in &plans {
+        cpu.compile(plan).expect("twins");
+        canvas.borrow_mut().compile(plan).expect("a good plan");
+    }
+    let mut random = Random::new(29);
+    let names: Vec<String> = plans.iter().flat_map(|p| p.fields(COUNT)).map(|(name, _)| name).collect();
+    for name in &names {
+        let garbage = match cpu.host().get(name) {
+            // Scratch, which twins do without.
+            None => continue,
+            Some(Array::Vec4(v)) => Array::Vec4(v.iter().map(|_| random.vector().extend(random.next())).collect()),
+            Some(Array::Uint(v)) => Array::Uint(v.iter().map(|_| random.narrow().to_bits()).collect()),
+            _ => panic!("{name} is of no known kind"),
+        };
+        cpu.write(name, &garbage.like(&garbage.to_bytes())).expect("a field");
+    }
+    for (name, array) in scene.fields() {
+        cpu.write(name, &array.like(&array.to_bytes())).expect("a field");
+    }
+    let mut stages = Vec::new();
+    for kernel in plans.iter().flat_map(|p| p.steps()) {
+        let bindings = kernel.passes.iter().flat_map(|p| &p.shader.reflection().bindings);
+        let fields = bindings.filter(|b| b.access != Access::Uniform).map(|b| b.name.clone());
+        // What is left of an earlier run in a scratch field must not matter; the host has none.
+        let fields: Vec<_> = fields.filter(|n| cpu.host().contains(n)).collect();
+        let look = |cpu: &Cpu, name: &String| (name.clone(), cpu.host().get(name).expect("a field"));
+        let given = fields.iter().map(|name| look(&cpu, name)).collect();
+        kernel.twin.as_ref().expect("a twin")(cpu.host()).expect("a twin runs");
+        let wanted: BTreeMap<_, _> = kernel.writes().iter().map(|name| look(&cpu, name)).collect();
+        for (name, array) in &wanted {
+            cpu.write(name, &array.like(&array.to_bytes())).expect("a field");
+        }
+        if kernel.name == "project" {
+            scene.touch_up(cpu.host());
+        }
+        let name = format!("{}: {}", scene.name, kernel.name);
+        stages.push(Stage { name, kernel: kernel.clone(), canvas: canvas.clone(), given, wanted });
+    }
+    stages
+}
