@@ -90,8 +90,14 @@ fn tokens(code: &str) -> Vec<(usize, usize)> {
                 }
                 continue;
             }
-            // A number may have a point, and an exponent without a sign.
-            b if b.is_ascii_digit() => at += bytes[at..].iter().take_while(|b| word(**b) || **b == b'.').count(),
+            // A number may have a point, and an exponent with its sign.
+            b if b.is_ascii_digit() => {
+                let part = |at: usize| bytes[at..].iter().take_while(|b| word(**b) || **b == b'.').count();
+                at += part(at);
+                if code[from..at].ends_with('e') && !code[from..].starts_with("0x") && bytes.get(at) == Some(&b'-') {
+                    at += 1 + part(at + 1);
+                }
+            }
             b if word(b) => at += bytes[at..].iter().take_while(|b| word(**b)).count(),
             b if b"+-*/<>=!&|".contains(&b) => {
                 at += bytes[at..].iter().take_while(|b| b"+-*/<>=!&|".contains(b)).count();
