@@ -6,8 +6,8 @@ use motes::kernel::Array;
 /// Of a place or a depth, as a part of it: 2⁻²⁴ for each of the about ten operations that lead to it, and as much again
 /// for roots and divisions.
 const PART: f64 = 2e-5;
-/// Elements for which a rounded number may have decided otherwise: the rim of a ball, the end of a line.
-const RIM: usize = 2;
+/// Elements for which a rounded number may have decided otherwise, beside one in some hundreds.
+const FEW: usize = 2;
 
 /// Whether a device's field is as the twin's.
 pub fn alike(name: &str, want: &Array, got: &Array) -> bool {
@@ -28,19 +28,18 @@ fn counts(name: &str, want: &[u32], got: &[u32]) -> bool {
     let differ = pairs().filter(|(w, g)| w != g).count();
     match name {
         // A place is known to 1e-5 pixels, which moves a light of 256 units by some thousandths of one.
-        "canvas" => pairs().all(|(w, g)| w.abs_diff(g) <= 1) && differ <= RIM + want.len() / 500,
+        "canvas" => pairs().all(|(w, g)| w.abs_diff(g) <= 1) && differ <= FEW + want.len() / 500,
         // A level is 2⁸ times as coarse as what is known of a colour, which decides one in some hundreds.
         "color" | "pixels" => {
             let level =
                 |(w, g): (u32, u32)| w.to_le_bytes().iter().zip(g.to_le_bytes()).all(|(w, g)| w.abs_diff(g) <= 1);
-            pairs().all(level) && differ <= RIM + want.len() / 100
+            pairs().all(level) && differ <= FEW + want.len() / 1000
         }
         // Brightness in 65 535 parts, of a distance that is known to 1e-5 pixels and a few more.
         "streak" => {
             let same = |(w, g): (u32, u32)| w & 0xffff == g & 0xffff && (w >> 16).abs_diff(g >> 16) <= 8;
-            pairs().filter(|pair| !same(*pair)).count() <= RIM
+            pairs().all(same)
         }
-        "front" | "owner" => differ <= RIM,
         _ => differ == 0,
     }
 }

@@ -11,6 +11,7 @@ mod support;
 use std::path::Path;
 
 use equivalents::EQUIVALENT;
+use scenes::{FEW, MANY};
 use stages::Stage;
 use support::equivalents::Ledger;
 use support::mutants::{Mutant, mutants};
@@ -48,9 +49,11 @@ fn agree(stages: &[Stage]) {
 #[test]
 fn every_mutant_of_a_picture_is_noticed() {
     let shared = support::device();
-    let canvas = stages::canvas(&shared);
-    let mut stages: Vec<Stage> = scenes::small().iter().flat_map(|scene| stages::stages(scene, &canvas)).collect();
-    stages.extend(stages::stages(&scenes::tall(), &stages::canvas(&shared)));
+    let mut stages = Vec::new();
+    for (count, scenes) in [(FEW, scenes::few()), (MANY, scenes::many()), (FEW, vec![scenes::tall()])] {
+        let canvas = stages::canvas(&shared, count);
+        stages.extend(scenes.iter().flat_map(|scene| stages::stages(scene, &canvas)));
+    }
     agree(&stages);
     let mut ledger = Ledger::new(EQUIVALENT);
     for (file, text) in files() {

@@ -8,8 +8,10 @@ use motes::settings::{Settings, Value};
 
 use crate::support::{self, Random};
 
-/// Fewer than a workgroup, so that some lanes have nothing to do.
-pub const COUNT: u32 = 60;
+/// Few enough for trails, and fewer than a workgroup, so that some lanes have nothing to do.
+pub const FEW: usize = 60;
+/// More than two workgroups.
+pub const MANY: usize = 131;
 /// Moments of every trail.
 const MOMENTS: usize = 3;
 
@@ -29,6 +31,7 @@ struct Wish {
     projection: &'static str,
     background: &'static str,
     extent: f64,
+    count: usize,
     trails: bool,
 }
 
@@ -40,13 +43,15 @@ const PLAIN: Wish = Wish {
     projection: "perspective",
     background: "night",
     extent: 1.2,
+    count: FEW,
     trails: false,
 };
 
 fn scene(wish: &Wish, change: impl FnOnce(&mut Picture, &mut Particles)) -> Scene {
     let word = |text: &'static str| Value::Text(text.into());
-    let mut particles = support::cloud(COUNT as usize, 11);
-    particles.position.iter_mut().for_each(|x| *x *= wish.extent / PLAIN.extent);
+    let mut particles = support::cloud(wish.count, 11);
+    // Half as far again as the picture reaches, so that many cross its edges.
+    particles.position.iter_mut().for_each(|x| *x *= 1.5 * wish.extent / PLAIN.extent);
     let sizes = [("width", wish.size.0), ("height", wish.size.1)];
     let words = [
         ("style", wish.style),
@@ -62,7 +67,7 @@ fn scene(wish: &Wish, change: impl FnOnce(&mut Picture, &mut Particles)) -> Scen
         .with("center", Value::Vector(wish.extent * DVec3::new(0.11, -0.07, 0.05)))
         .with("eye", Value::Vector(DVec3::new(0.3, -0.9, 0.55)));
     let mut random = Random::new(5);
-    let mut trail = Trail::new(COUNT as usize);
+    let mut trail = Trail::new(FEW);
     if wish.trails {
         for _ in 0..MOMENTS {
             trail
@@ -74,7 +79,7 @@ fn scene(wish: &Wish, change: impl FnOnce(&mut Picture, &mut Particles)) -> Scen
     picture.frame.glow = 3.7;
     if wish.trails {
         let bright = |k: u32| k.wrapping_mul(0x9E37_79B9) | 0xff80_8080;
-        picture.color = Color::Given((1..=COUNT).map(|k| if k % 5 == 0 { u32::MAX } else { bright(k) }).collect());
+        picture.color = Color::Given((1..=60).map(|k| if k % 5 == 0 { u32::MAX } else { bright(k) }).collect());
     }
     change(&mut picture, &mut particles);
     Scene { name: wish.name, picture, exposure: Exposure { knee: 60.0, white: 900.0 }, particles }
@@ -93,7 +98,8 @@ fn awkward(picture: &Picture, particles: &mut Particles) {
     let d = camera.distance.max(0.1);
     let places = [2.0 * d, d, 0.98 * d, 0.965 * d, 0.94 * d, 0.9 * d, -3.0 * d].map(axis);
     particles.position[10..17].copy_from_slice(&places);
-    particles.position[18].x = f64::NAN;
+    // Not a number by its last bit too.
+    particles.position[18].x = f64::from(f32::from_bits(0x7fc0_0001));
     particles.position[19].z = f64::NEG_INFINITY;
     particles.velocity[20].y = f64::INFINITY;
     particles.mass[21] = f64::NAN;
@@ -105,7 +111,7 @@ fn awkward(picture: &Picture, particles: &mut Particles) {
 fn far_trails(picture: &mut Picture, particles: &Particles) {
     let (camera, height) = (picture.frame.camera, picture.frame.height);
     let mut moments: Vec<Vec<DVec3>> =
-        picture.trail.points().collect::<Vec<_>>().chunks(COUNT as usize).map(<[_]>::to_vec).collect();
+        picture.trail.points().collect::<Vec<_>>().chunks(FEW).map(<[_]>::to_vec).collect();
     // Beyond a million pixels, from which on nothing is seen, but not by half as much again.
     moments[0][0] = at(&camera, DVec2::new(1.2e6, 0.0), height, 0.0);
     moments[0][1] = at(&camera, DVec2::new(0.0, 1.2e6), height, 0.0);
@@ -115,7 +121,7 @@ fn far_trails(picture: &mut Picture, particles: &Particles) {
         // One that has not moved.
         moment[5] = particles.position[5];
     }
-    let mut trail = Trail::new(COUNT as usize);
+    let mut trail = Trail::new(FEW);
     moments.iter().for_each(|moment| trail.push(moment));
     picture.trail = trail;
 }
@@ -131,22 +137,21 @@ fn masses(particles: &mut Particles) {
     particles.mass.iter_mut().zip([1.0, 0.3, 0.02, 0.07, 2e-5].iter().cycle()).for_each(|(m, part)| *m *= part);
 }
 
-/// Scenes of 47 × 33 pixels.
-pub fn small() -> Vec<Scene> {
-    let lights = scene(&Wish { name: "lights", ..PLAIN }, |picture, particles| {
-        awkward(picture, particles);
-        picture.frame.reach = 3;
-    });
+/// Few particles, with trails.
+pub fn few() -> Vec<Scene> {
     let parallel = Wish { name: "parallel balls", style: "balls", projection: "orthographic", trails: true, ..PLAIN };
     let parallel = scene(&parallel, |picture, particles| {
         awkward(picture, particles);
         far_trails(picture, particles);
         masses(particles);
         sizes(particles, 0.4);
+        // Its radius is 2.75 pixels, and half a pixel more ends a little beyond the edge.
+        let beside = DVec2::new(-0.5 * f64::from(picture.frame.width) - 3.35, 4.0);
+        particles.position[3] = at(&picture.frame.camera, beside, picture.frame.height, 0.0);
         picture.frame.marker = 2.6;
         picture.frame.heaviest *= 0.6;
         picture.frame.largest = 6.0;
-        picture.frame.solid = 1.5;
+        picture.frame.solid = 2.2;
         picture.frame.line = 0.8;
         picture.frame.reach = 2;
     });
@@ -157,30 +162,48 @@ pub fn small() -> Vec<Scene> {
         masses(particles);
         sizes(particles, 0.2);
         picture.frame.marker = 1.7;
-        picture.frame.solid = 1.1;
-        picture.frame.line = 1.3;
+        picture.frame.solid = 1.6;
+        // √2 (1.267 + ½) is hardly below 2½: across a diagonal no pixel is walked in vain.
+        picture.frame.line = 1.267;
     });
     let tiny = Wish { name: "tiny", style: "balls", extent: 0.05, trails: true, ..PLAIN };
     let tiny = scene(&tiny, |picture, particles| {
         awkward(picture, particles);
         particles.mass.fill(0.0);
         picture.frame.heaviest = 0.0;
-        picture.frame.marker = 1.9;
+        picture.frame.marker = 0.8;
         picture.frame.solid = 0.5;
     });
-    let mut dazzling = scene(&Wish { name: "dazzling", ..PLAIN }, |picture, _| {
+    vec![parallel, balls, tiny]
+}
+
+/// Many particles, mostly lights.
+pub fn many() -> Vec<Scene> {
+    let many = Wish { count: MANY, ..PLAIN };
+    let lights = scene(&Wish { name: "lights", ..many }, |picture, particles| {
+        awkward(picture, particles);
+        picture.frame.reach = 3;
+    });
+    let mut dazzling = scene(&Wish { name: "dazzling", ..many }, |picture, _| {
         picture.frame.unit = 4096.0;
         picture.frame.glow = 6.0;
         picture.frame.reach = 1;
     });
     dazzling.exposure = Exposure { knee: 20.0, white: 60.0 };
-    let faint = scene(&Wish { name: "faint", ..PLAIN }, |picture, _| picture.frame.unit = 8.0);
-    vec![lights, parallel, balls, tiny, dazzling, faint]
+    let faint = scene(&Wish { name: "faint", ..many }, |picture, _| picture.frame.unit = 8.0);
+    let crowd = scene(&Wish { name: "crowd", style: "balls", ..many }, |picture, particles| {
+        masses(particles);
+        sizes(particles, 0.1);
+        picture.frame.marker = 1.4;
+        picture.frame.solid = 1.0;
+    });
+    vec![lights, dazzling, faint, crowd]
 }
 
-/// A picture so high that its largest ball and its lines are drawn by several layers of a dispatch.
+/// A picture so high that its largest ball and its lines are drawn by several layers of a dispatch, and of more than 2¹⁶
+/// pixels, whose noise differs from that of others by the upper half of their number.
 pub fn tall() -> Scene {
-    let wish = Wish { name: "tall", size: (5, 2500), style: "balls", trails: true, ..PLAIN };
+    let wish = Wish { name: "tall", size: (27, 2500), style: "balls", trails: true, ..PLAIN };
     scene(&wish, |picture, particles| {
         sizes(particles, 0.5);
         picture.frame.largest = 600.0;

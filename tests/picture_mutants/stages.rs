@@ -10,7 +10,7 @@ use motes::kernel::{Access, Array, Backend, Clock, Kernel, Shader, Source};
 use motes::{Cpu, Gpu};
 
 use crate::alike::alike;
-use crate::scenes::{COUNT, Scene};
+use crate::scenes::Scene;
 use crate::support::machines::alone;
 use crate::support::{Random, Shared};
 
@@ -24,6 +24,7 @@ pub struct Stage {
     pub name: String,
     pub kernel: Kernel,
     canvas: Canvas,
+    count: u32,
     given: BTreeMap<String, Array>,
     wanted: BTreeMap<String, Array>,
 }
@@ -34,16 +35,16 @@ impl Stage {
         let gpu = &mut *self.canvas.borrow_mut();
         let Ok(program) = gpu.compile(&alone(kernel.clone())) else { return false };
         for (name, array) in &self.given {
-            gpu.write_bytes(name, 0, &self.padded(array, gpu.size(name))).expect("a field");
+            gpu.write_bytes(name, 0, &self.padded(name, array, gpu.size(name))).expect("a field");
         }
-        gpu.set_clock(Clock { count: COUNT, dt: 0.37, ..Clock::default() }).expect("a clock");
+        gpu.set_clock(Clock { count: self.count, dt: 0.37, ..Clock::default() }).expect("a clock");
         if gpu.run(&program, 1).is_err() {
             return false;
         }
         self.wanted.iter().all(|(name, want)| {
             let Ok(bytes) = pollster::block_on(gpu.bytes(name, 0, gpu.size(name))) else { return false };
             let (got, behind) = bytes.split_at(want.to_bytes().len());
-            let given = self.padded(&self.given[name], gpu.size(name));
+            let given = self.padded(name, &self.given[name], gpu.size(name));
             behind == &given[got.len()..] && alike(name, want, &want.like(got))
         })
     }
@@ -66,11 +67,15 @@ impl Stage {
     }
     /// Bytes of a field, and behind them what a kernel that looks too far would take for a particle in the picture, near
     /// enough to be seen: a ball for who draws balls, a light for who draws lights.
-    fn padded(&self, array: &Array, size: u64) -> Vec<u8> {
+    fn padded(&self, name: &str, array: &Array, size: u64) -> Vec<u8> {
         let mut bytes = array.to_bytes();
         let radius = if self.kernel.name == "splat" { 0.0 } else { 3.0 };
         let behind = Vec4::new(20.3, 12.7, 0.1, radius);
-        let words = bytemuck::bytes_of(&behind).iter().copied().cycle();
+        // Of the pixels behind the last one nobody has yet taken any.
+        let free = [u32::MAX; 4];
+        let behind =
+            if ["front", "owner"].contains(&name) { bytemuck::bytes_of(&free) } else { bytemuck::bytes_of(&behind) };
+        let words = behind.iter().copied().cycle();
         let missing = usize::try_from(size).expect("small") - bytes.len();
         bytes.extend(words.take(missing));
         bytes
@@ -78,8 +83,9 @@ impl Stage {
 }
 
 /// Fields of a size of picture.
-pub fn canvas(shared: &Shared) -> Canvas {
-    let mut gpu = Gpu::new(&shared.found.device, &shared.found.queue, COUNT).expect("a GPU");
+pub fn canvas(shared: &Shared, count: usize) -> Canvas {
+    let count = u32::try_from(count).expect("few");
+    let mut gpu = Gpu::new(&shared.found.device, &shared.found.queue, count).expect("a GPU");
     gpu.pad(PAD);
     gpu.pace(Duration::from_millis(80), Duration::from_secs(5));
     Rc::new(RefCell::new(gpu))
@@ -88,13 +94,14 @@ pub fn canvas(shared: &Shared) -> Canvas {
 /// The stages of a scene: what each is given is what the twins before it have left.
 pub fn stages(scene: &Scene, canvas: &Canvas) -> Vec<Stage> {
     let plans = [scene.picture.plan(), scene.picture.development(scene.exposure)].map(|p| p.expect("a plan"));
-    let mut cpu = Cpu::new(COUNT).expect("some particles");
+    let count = scene.picture.frame.count;
+    let mut cpu = Cpu::new(count).expect("some particles");
     for plan in &plans {
         cpu.compile(plan).expect("twins");
         canvas.borrow_mut().compile(plan).expect("a good plan");
     }
     let mut random = Random::new(29);
-    let names: Vec<String> = plans.iter().flat_map(|p| p.fields(COUNT)).map(|(name, _)| name).collect();
+    let names: Vec<String> = plans.iter().flat_map(|p| p.fields(count)).map(|(name, _)| name).collect();
     for name in &names {
         let garbage = match cpu.host().get(name) {
             // Scratch, which twins do without.
@@ -125,7 +132,7 @@ pub fn stages(scene: &Scene, canvas: &Canvas) -> Vec<Stage> {
             scene.touch_up(cpu.host());
         }
         let name = format!("{}: {}", scene.name, kernel.name);
-        stages.push(Stage { name, kernel: kernel.clone(), canvas: canvas.clone(), given, wanted });
+        stages.push(Stage { name, kernel: kernel.clone(), canvas: canvas.clone(), count, given, wanted });
     }
     stages
 }
