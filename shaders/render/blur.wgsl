@@ -31,6 +31,10 @@ fn blur(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
                 if DOWN { sum += weight * spread[there].rgb; } else { sum += weight * halo[there].rgb; }
             }
         }
-        if DOWN { halo[i] = vec4f(sum / weights, 0.0); } else { spread[i] = vec4f(sum / weights, 0.0); }
+        if DOWN {
+            halo[i] = vec4f(sum / weights, 0.0);
+        } else {
+            spread[i] = vec4f(sum / weights, 0.0);
+        }
     }
 }

@@ -66,7 +66,8 @@ fn middle(x: i32, y: i32) -> vec2f { return vec2f(f32(x), f32(y)) + 0.5; }
 // Whole numbers in the order of depths, those below 0 too.
 fn key(depth: f32) -> u32 {
     let bits = bitcast<u32>(depth);
-    return select(bits | 0x80000000u, ~bits, bits >= 0x80000000u);
+    let negative = bits >= 0x80000000u;
+    return select(bits | 0x80000000u, ~bits, negative);
 }
 
 // NaN and infinity have every bit of the exponent set. `x != x` will not do: compilers take it for false.

@@ -11,7 +11,8 @@ fn meter(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: v
         let light = max(canvas[3u * i], max(canvas[3u * i + 1u], canvas[3u * i + 2u]));
         if light > 0u {
             let octave = firstLeadingBit(light);
-            let eighth = select(light << (3u - octave), light >> (octave - 3u), octave >= 3u) & 7u;
+            let wide = octave >= 3u;
+            let eighth = select(light << (3u - octave), light >> (octave - 3u), wide) & 7u;
             atomicAdd(&histogram[8u * octave + eighth], 1u);
         }
     }

@@ -27,9 +27,12 @@ fn draw(i: u32, layer: u32, a: Seen, b: Seen, age: f32) {
     let first_step = max(low, i32(layer * WALK));
     for (var u = first_step; u < min(high, i32((layer + 1u) * WALK)); u += 1) {
         var part = 0.0;
-        if along.x != 0.0 { part = clamp((f32(u) + 0.5 - start.x) / along.x, 0.0, 1.0); }
+        if along.x != 0.0 {
+            part = clamp((f32(u) + 0.5 - start.x) / along.x, 0.0, 1.0);
+        }
         let first = i32(floor(start.y + part * along.y)) - across;
-        for (var v = max(first, 0); v < min(first + 2 * across + 1, i32(size.y)); v += 1) {
+        let end = first + 2 * across + 1;
+        for (var v = max(first, 0); v < min(end, i32(size.y)); v += 1) {
             let x = select(u, v, steep);
             let y = select(v, u, steep);
             let off = middle(x, y) - a.place;

@@ -37,8 +37,8 @@ struct Wish {
 
 const PLAIN: Wish = Wish {
     name: "",
-    // Neither is a multiple of four, and their product none of 64.
-    size: (47, 33),
+    // Both are one more than a multiple of four, and their product is none of 64.
+    size: (45, 33),
     style: "glow",
     projection: "perspective",
     background: "night",
@@ -170,6 +170,7 @@ pub fn few() -> Vec<Scene> {
     let tiny = scene(&tiny, |picture, particles| {
         awkward(picture, particles);
         particles.mass.fill(0.0);
+        particles.radius.fill(0.0);
         picture.frame.heaviest = 0.0;
         picture.frame.marker = 0.8;
         picture.frame.solid = 0.5;
@@ -225,12 +226,16 @@ impl Scene {
         }
         fields
     }
-    /// Puts a light exactly as deep as the front of a ball, and before its middle, where it is not to be seen.
+    /// Puts a light where the nearest ball is, exactly as deep, so that it is not to be seen. Its id is lower.
     pub fn touch_up(&self, host: &Host) {
         let mut projected = host.write(Field::<Vec4>::new("projected")).expect("a field");
-        let find = |is: fn(&DVec4) -> bool| projected.iter().position(is);
-        if let (Some(ball), Some(light)) = (find(|p| p.w > 0.0), find(|p| p.w == 0.0)) {
-            projected[light] = projected[ball].truncate().extend(0.0);
+        let (width, height) = (f64::from(self.picture.frame.width), f64::from(self.picture.frame.height));
+        let inside = |p: &DVec4| (0.0..width).contains(&p.x) && (0.0..height).contains(&p.y);
+        let balls = projected.iter().enumerate().filter(|(_, p)| p.w > 0.0 && inside(p));
+        let Some((ball, p)) = balls.min_by(|(_, p), (_, q)| p.z.total_cmp(&q.z)) else { return };
+        let p = DVec4::new(p.x.floor() + 0.5, p.y.floor() + 0.5, p.z, 0.0);
+        if let Some(light) = projected[..ball].iter_mut().find(|p| p.w == 0.0) {
+            *light = p;
         }
     }
 }
