@@ -116,6 +116,9 @@ fn far_trails(picture: &mut Picture, particles: &Particles) {
     moments[0][0] = at(&camera, DVec2::new(1.2e6, 0.0), height, 0.0);
     moments[0][1] = at(&camera, DVec2::new(0.0, 1.2e6), height, 0.0);
     moments[0][2] = at(&camera, DVec2::new(-70.0, 33.0), height, 0.0);
+    // Almost a diagonal, before everything.
+    moments[0][6] = at(&camera, DVec2::new(-30.0, -19.0), height, 3.0);
+    moments[1][6] = at(&camera, DVec2::new(10.0, 18.0), height, 3.0);
     moments[1][4].y = f64::NAN;
     for moment in &mut moments {
         // One that has not moved.
@@ -152,7 +155,8 @@ pub fn few() -> Vec<Scene> {
         picture.frame.heaviest *= 0.6;
         picture.frame.largest = 6.0;
         picture.frame.solid = 2.2;
-        picture.frame.line = 0.8;
+        // √2 (1.267 + ½) is hardly below 2½: across a diagonal no pixel is walked in vain.
+        picture.frame.line = 1.267;
         picture.frame.reach = 2;
     });
     let balls = Wish { name: "balls", style: "auto", background: "black", trails: true, ..PLAIN };
@@ -163,8 +167,7 @@ pub fn few() -> Vec<Scene> {
         sizes(particles, 0.2);
         picture.frame.marker = 1.7;
         picture.frame.solid = 1.6;
-        // √2 (1.267 + ½) is hardly below 2½: across a diagonal no pixel is walked in vain.
-        picture.frame.line = 1.267;
+        picture.frame.line = 0.8;
     });
     let tiny = Wish { name: "tiny", style: "balls", extent: 0.05, trails: true, ..PLAIN };
     let tiny = scene(&tiny, |picture, particles| {
