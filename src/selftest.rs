@@ -39,9 +39,36 @@ const WORDS: usize = 8;
 /// When the device is lost or does not answer; a wrong answer is a finding.
 pub async fn run(device: &wgpu::Device, queue: &wgpu::Queue) -> Result<Vec<Finding>, Error> {
     let mut gpu = Gpu::new(device, queue, 1)?;
-    let mut findings = vec![loops(&mut gpu).await?];
-    findings.extend(arithmetic(&mut gpu).await?);
+    let mut findings = examine(&mut gpu, &Questions::default()).await?;
     findings.push(timestamps(&mut gpu).await?);
+    Ok(findings)
+}
+
+/// The shaders that ask. A test asks wrongly, to see that a wrong answer is found.
+#[derive(Debug, Clone)]
+pub struct Questions {
+    /// `shaders/selftest/long_loop.wgsl`
+    pub long_loop: Source,
+    /// `shaders/selftest/arithmetic.wgsl`
+    pub arithmetic: Source,
+}
+
+impl Default for Questions {
+    fn default() -> Self {
+        Self {
+            long_loop: crate::shader!("selftest/long_loop.wgsl"),
+            arithmetic: crate::shader!("selftest/arithmetic.wgsl"),
+        }
+    }
+}
+
+/// Tests what a device answers, and not how fast.
+///
+/// # Errors
+/// When the device is lost or does not answer; a wrong answer is a finding.
+pub async fn examine(gpu: &mut Gpu, questions: &Questions) -> Result<Vec<Finding>, Error> {
+    let mut findings = vec![loops(gpu, &questions.long_loop).await?];
+    findings.extend(arithmetic(gpu, &questions.arithmetic).await?);
     Ok(findings)
 }
 
@@ -66,10 +93,10 @@ fn question(source: Source) -> Result<Plan, Error> {
     Ok(Plan { kernels: vec![kernel], order: vec![0] })
 }
 
-async fn loops(gpu: &mut Gpu) -> Result<Finding, Error> {
+async fn loops(gpu: &mut Gpu, source: &Source) -> Result<Finding, Error> {
     let name = "loops";
     for turns in [60_000_u32, 70_000, 1_000_000] {
-        let answer = ask(gpu, crate::shader!("selftest/long_loop.wgsl"), &[turns, 7]).await?;
+        let answer = ask(gpu, source.clone(), &[turns, 7]).await?;
         let step = |x: u32, _| x.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
         if answer.first() != Some(&(0..turns).fold(7, step)) {
             return Ok(if turns <= 65_535 {
@@ -89,10 +116,11 @@ async fn loops(gpu: &mut Gpu) -> Result<Finding, Error> {
     Ok(Finding { name, outcome: Outcome::Pass, text: "a loop of 1 000 000 turns runs to its end".to_owned() })
 }
 
-async fn arithmetic(gpu: &mut Gpu) -> Result<Vec<Finding>, Error> {
+async fn arithmetic(gpu: &mut Gpu, source: &Source) -> Result<Vec<Finding>, Error> {
     let (a, b, c) = (1.234_567_8_f32, 3.456_789e-4_f32, 1.000_123_4_f32);
-    let probe = [a.to_bits(), b.to_bits(), c.to_bits(), 0, f32::NAN.to_bits()];
-    let answer = ask(gpu, crate::shader!("selftest/arithmetic.wgsl"), &probe).await?;
+    let probe =
+        [a.to_bits(), b.to_bits(), c.to_bits(), 0, f32::NAN.to_bits(), f32::INFINITY.to_bits(), f32::NAN.to_bits()];
+    let answer = ask(gpu, source.clone(), &probe).await?;
     let float = |i: usize| f32::from_bits(answer.get(i).copied().unwrap_or(u32::MAX));
     let word = |i: usize| answer.get(i).copied().unwrap_or(u32::MAX);
     let s = a + b;
@@ -110,20 +138,24 @@ async fn arithmetic(gpu: &mut Gpu) -> Result<Vec<Finding>, Error> {
         (_, false) => finding("compensated sums", Outcome::Fail, "not even a guarded sum finds its rounding error"),
     };
     let nan = match (word(3), word(4)) {
+        _ if word(7) != 0 => finding("NaN", Outcome::Fail, "infinity is taken for one"),
         (1, 1) => finding("NaN", Outcome::Pass, "found by its bits, and by x != x"),
         (1, _) => finding("NaN", Outcome::Warn, "found by its bits; x != x is taken for false"),
         _ => finding("NaN", Outcome::Fail, "not found by its bits: broken particles would go unseen"),
     };
-    let fused = c.mul_add(c, -(c * c));
-    let fma =
-        if float(2).to_bits() == fused.to_bits() { "rounds once" } else { "rounds twice; motes does not rely on it" };
+    let (fused, twice) = (c.mul_add(c, c), c * c + c);
+    let fma = match float(2) {
+        x if x.to_bits() == fused.to_bits() => finding("fma", Outcome::Pass, "rounds once"),
+        x if x.to_bits() == twice.to_bits() => finding("fma", Outcome::Pass, "rounds twice; motes does not rely on it"),
+        _ => finding("fma", Outcome::Warn, "is wrong; motes does not rely on it"),
+    };
     let ulp = |got: f32, want: f32| got.to_bits().abs_diff(want.to_bits());
     let (division, root) = (ulp(float(5), a / b), ulp(float(6), a.sqrt()));
     let outcome = if division > 3 || root > 4 { Outcome::Fail } else { Outcome::Pass };
     let text = format!(
         "a division is {division} units in the last place from the nearest, a square root {root} (WGSL allows 2.5 and about 4)"
     );
-    Ok(vec![sums, nan, finding("fma", Outcome::Pass, fma), Finding { name: "division, root", outcome, text }])
+    Ok(vec![sums, nan, fma, Finding { name: "division, root", outcome, text }])
 }
 
 async fn timestamps(gpu: &mut Gpu) -> Result<Finding, Error> {

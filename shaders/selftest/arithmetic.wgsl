@@ -1,9 +1,11 @@
 // What compilers do to numbers: the rounding error of a + b (Knuth's two-sum), plain and with its steps hidden from the
 // compiler by a zero that it cannot know; whether fma rounds once; and which tests find a NaN.
-@group(0) @binding(0) var<storage, read> probe: array<u32>;       // a, b, c as bits; 0; a NaN as bits
+@group(0) @binding(0) var<storage, read> probe: array<u32>;       // a, b, c as bits; 0; a NaN, infinity, the NaN again
 @group(0) @binding(1) var<storage, read_write> answer: array<u32>;
 
 fn hidden(x: f32) -> f32 { return bitcast<f32>(bitcast<u32>(x) ^ probe[3]); }
+
+fn broken(x: f32) -> u32 { return u32((bitcast<u32>(x) & 0x7fffffffu) > 0x7f800000u); }
 
 @compute @workgroup_size(1)
 fn arithmetic() {
@@ -18,10 +20,11 @@ fn arithmetic() {
     answer[1] = bitcast<u32>(hidden(a - hidden(hs - ht)) + hidden(b - ht));
 
     let c = bitcast<f32>(probe[2]);
-    answer[2] = bitcast<u32>(fma(c, c, -hidden(c * c)));
+    answer[2] = bitcast<u32>(fma(c, c, c));
 
     let nan = bitcast<f32>(probe[4]);
-    answer[3] = u32((bitcast<u32>(nan) & 0x7fffffffu) > 0x7f800000u);
+    answer[3] = broken(nan);
+    answer[7] = broken(bitcast<f32>(probe[5]));
     answer[4] = u32(nan != nan);
     answer[5] = bitcast<u32>(a / b);
     answer[6] = bitcast<u32>(sqrt(a));
