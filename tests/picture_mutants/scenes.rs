@@ -125,7 +125,9 @@ fn far_trails(picture: &mut Picture, particles: &Particles) {
         moment[5] = particles.position[5];
     }
     let mut trail = Trail::new(FEW);
-    moments.iter().for_each(|moment| trail.push(moment));
+    for moment in &moments {
+        trail.push(moment);
+    }
     picture.trail = trail;
 }
 

@@ -6,7 +6,7 @@ use std::rc::Rc;
 use std::time::Duration;
 
 use glam::Vec4;
-use motes::kernel::{Access, Array, Backend, Clock, Kernel, Shader, Source};
+use motes::kernel::{Access, Array, Backend, Clock, Kernel, Plan, Shader, Source};
 use motes::{Cpu, Gpu};
 
 use crate::alike::alike;
@@ -116,7 +116,7 @@ pub fn stages(scene: &Scene, canvas: &Canvas) -> Vec<Stage> {
         cpu.write(name, &array.like(&array.to_bytes())).expect("a field");
     }
     let mut stages = Vec::new();
-    for kernel in plans.iter().flat_map(|p| p.steps()) {
+    for kernel in plans.iter().flat_map(Plan::steps) {
         let bindings = kernel.passes.iter().flat_map(|p| &p.shader.reflection().bindings);
         let fields = bindings.filter(|b| b.access != Access::Uniform).map(|b| b.name.clone());
         // What is left of an earlier run in a scratch field must not matter; the host has none.
