@@ -121,6 +121,29 @@ fn a_users_shader_works() {
     assert!((velocity.truncate() - want).length() < 1e-6, "{velocity} is not {want}");
 }
 
+/// What a user's file is called is nobody's business: not that of a verb, nor of the clock.
+#[test]
+fn a_force_may_be_called_anything() {
+    let shared = support::device();
+    let wgsl = "fn force(me: Particle) -> vec4f { return vec4f(1.0 + world.time, 0.0, 0.0, 0.0); }";
+    for name in ["clear", "drift", "at", "attic", "tick", "watch", "each", "rk_save"] {
+        let custom = Custom {
+            name: name.to_owned(),
+            over: Over::Each,
+            wgsl: wgsl.to_owned(),
+            file: format!("{name}.wgsl"),
+            params: Vec::new(),
+        };
+        let mut setup = setup(one(DVec3::ZERO, DVec3::ZERO), vec![Box::new(custom)], 0.5);
+        setup.integrator = integrator("rk4");
+        let mut simulation = on_gpu(&shared, &setup).expect("a simulation");
+        simulation.step(2).expect("steps");
+        let velocity = pollster::block_on(simulation.read(motes::VELOCITY)).expect("velocities")[0];
+        // ∫ 1 + t from 0 to 1, which Simpson's rule has exactly.
+        assert!((velocity.x - 1.5).abs() < 1e-6, "{name}: {velocity} under {}", simulation.plan());
+    }
+}
+
 #[test]
 fn a_users_shader_is_told_what_is_wrong_and_where() {
     let shared = support::device();

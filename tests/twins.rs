@@ -58,8 +58,8 @@ fn every_law_alone() {
             let pairs = pick().1.laws().iter().any(|law| law.over == forces::Over::Pairs);
             let plain = [("as it is", gpu(&shared, 1).machine())].to_vec();
             for (machine_name, machine) in if pairs { machines::machines(&shared) } else { plain } {
-                // Three blocks of sources, and a half: layers of unequal length.
-                for count in SIZES.into_iter().chain(pairs.then_some(333)) {
+                // Three blocks of sources, and a half: layers of unequal length; or one more than 65 536.
+                for count in SIZES.into_iter().chain([if pairs { 333 } else { 65_537 }]) {
                     let (name, law) = pick();
                     let of = format!("{name}, {machine_name}");
                     let mut gpu = gpu(&shared, count);

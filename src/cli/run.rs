@@ -83,6 +83,11 @@ impl Run {
     }
 
     async fn drive<B: Backend>(&mut self, mut simulation: Simulation<B>, precision: Precision) -> Result<(), Failure> {
+        if self.folder.join("energy.csv").exists() {
+            let text = "the folder holds an earlier run: files of the same names are replaced, others stay";
+            self.progress.say(&format!("note: {text}"));
+            self.progress.event("remark", json!({ "text": text }));
+        }
         let mut output = Output::new(&self.folder, &self.scene, self.count, precision, &self.device)?;
         let (steps, every) = (self.scene.steps, self.scene.output.every);
         self.write(&mut simulation, &mut output).await?;

@@ -82,6 +82,14 @@ impl Kernel {
         }
         names
     }
+    /// Whether its dispatches are those of another.
+    fn runs_as(&self, other: &Self) -> bool {
+        let same = |(a, b): (&Pass, &Pass)| {
+            let content = a.shader.text() == b.shader.text() && a.constants == b.constants && a.uniforms == b.uniforms;
+            content && a.threads == b.threads
+        };
+        self.passes.len() == other.passes.len() && self.passes.iter().zip(&other.passes).all(same)
+    }
     /// Whether any of its shaders names this field.
     #[must_use]
     pub fn names(&self, field: &str) -> bool {
@@ -111,23 +119,20 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// Adds a kernel at the end; one of the same name that is there already is used again.
+    /// Adds a kernel at the end, under a name.
     ///
     /// # Errors
     /// What `make` says.
     pub fn push(&mut self, name: &str, make: impl FnOnce() -> Result<Kernel, Error>) -> Result<(), Error> {
-        let known = self.kernels.iter().position(|k| k.name == name);
-        self.order.push(known.unwrap_or(self.kernels.len()));
-        if known.is_none() {
-            let mut kernel = make()?;
-            name.clone_into(&mut kernel.name);
-            self.kernels.push(kernel);
-        }
+        let mut kernel = make()?;
+        name.clone_into(&mut kernel.name);
+        self.add(kernel);
         Ok(())
     }
-    /// Adds a kernel that names itself.
+    /// Adds a kernel at the end; the same one that is there already is used again. A name alone does not make it the
+    /// same: a user's force may be called `drift`.
     pub fn add(&mut self, kernel: Kernel) {
-        let known = self.kernels.iter().position(|k| k.name == kernel.name);
+        let known = self.kernels.iter().position(|k| k.name == kernel.name && k.runs_as(&kernel));
         let index = known.unwrap_or(self.kernels.len());
         if known.is_none() {
             self.kernels.push(kernel);

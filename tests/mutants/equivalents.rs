@@ -4,7 +4,7 @@ use crate::support::equivalents::{Equivalent, same};
 
 const ANY_SIZE: &str = "the host reads the size of a workgroup by reflection, and any will do";
 const ALWAYS_SET: &str = "the host sets every override";
-const SLOW_WAY: &str = "it takes the way for blocks that are not apart, which is slower and gives the same sum";
+const SLOW_WAY: &str = "it takes the way for blocks that are not apart, or not full: slower, and the same sum";
 const STORES_NOTHING: &str = "lanes behind the last particle store nothing of theirs";
 const APART: &str = "let apart = start + BLOCK <= mine || start >= mine + WORKGROUP * TARGETS;";
 
@@ -51,6 +51,7 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("visit/pairs_", APART, "||", "&&", SLOW_WAY),
     same("visit/pairs_", APART, ">=", ">", SLOW_WAY),
     same("visit/pairs_", "if apart && start + BLOCK <= end {", "<=", "<", SLOW_WAY),
+    same("pairs_subgroup.wgsl", "let full = start + BLOCK <= end;", "<=", "<", SLOW_WAY),
     same(
         "pairs_subgroup.wgsl",
         APART,

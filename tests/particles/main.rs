@@ -49,6 +49,7 @@ fn the_bits_never_change() {
         ("disk", 0x6c6c_7862_37bc_89f1),
         ("lattice", 0x138f_3cc1_8be2_c72b),
         ("box", 0x7947_fcef_4d33_1765),
+        ("spray", 0x75af_c8eb_4624_d16b),
     ];
     assert_eq!(stored.map(|(name, _)| name).as_slice(), SHAPES.iter().map(|s| s.name).collect::<Vec<_>>());
     let values = [("count", 100.0), ("seed", 7.0), ("virial", 0.3), ("jitter", 0.2), ("speed", 0.5)];

@@ -25,7 +25,8 @@ fn every_one_loads_and_says_what_to_see() {
 fn every_one_has_its_file_in_the_folder() {
     let mut files: Vec<_> = std::fs::read_dir("scenes")
         .expect("the folder of the scenes")
-        .filter_map(|e| e.ok()?.path().file_stem().map(|s| s.to_string_lossy().into_owned()))
+        .filter_map(|e| Some(e.ok()?.path()).filter(|p| p.extension().is_some_and(|e| e == "toml")))
+        .filter_map(|p| p.file_stem().map(|s| s.to_string_lossy().into_owned()))
         .collect();
     let mut names: Vec<_> = SCENES.iter().map(|s| s.name.to_owned()).collect();
     files.sort();
