@@ -96,7 +96,7 @@ fn awkward(picture: &Picture, particles: &mut Particles) {
     let camera = &picture.frame.camera;
     let axis = |back: f64| at(camera, DVec2::new(0.4, -0.3), picture.frame.height, back);
     let d = camera.distance.max(0.1);
-    let places = [2.0 * d, d, 0.98 * d, 0.965 * d, 0.94 * d, 0.9 * d, -3.0 * d].map(axis);
+    let places = [2.0 * d, d, 0.98 * d, 0.951 * d, 0.949 * d, 0.9 * d, -3.0 * d].map(axis);
     particles.position[10..17].copy_from_slice(&places);
     // Not a number by its last bit too.
     particles.position[18].x = f64::from(f32::from_bits(0x7fc0_0001));
