@@ -12,7 +12,7 @@ use stages::Stage;
 use support::equivalents::Ledger;
 use support::mutants::{Mutant, mutants};
 
-/// Pictures have mutants of their own in `tests/picture_mutants`, and `selftest` is a test.
+/// These have mutants of their own, in `tests/picture_mutants` and `tests/questions.rs`.
 const WITHOUT_TWINS: [&str; 2] = ["render", "selftest"];
 
 /// The shaders that have twins, by their names in messages.

@@ -27,7 +27,7 @@ fn counts(name: &str, want: &[u32], got: &[u32]) -> bool {
     let pairs = || want.iter().zip(got).map(|(w, g)| (*w, *g));
     let differ = pairs().filter(|(w, g)| w != g).count();
     match name {
-        // A place is known to 1e-5 pixels, which moves a light of 256 units by some thousandths of one.
+        // A place is known to 1e-5 pixels, which moves a light of 256 units, or of 4096, by some hundredths of one at most.
         "canvas" => pairs().all(|(w, g)| w.abs_diff(g) <= 1) && differ <= FEW + want.len() / 500,
         // A level is 2⁸ times as coarse as what is known of a colour, which decides one in some hundreds.
         "color" | "pixels" => {
