@@ -74,8 +74,7 @@ impl Backend for Cpu {
         Ok(())
     }
     fn write(&mut self, name: &str, array: &Array) -> Result<(), Error> {
-        self.host.insert(name, array.clone());
-        Ok(())
+        self.host.fill(name, array)
     }
     fn forget(&mut self, name: &str) {
         self.host.remove(name);

@@ -1,7 +1,5 @@
 //! A simulation: particles, forces and an integrator on a backend.
 
-use glam::DVec3;
-
 use crate::error::Error;
 use crate::forces::Force;
 use crate::gpu::Gpu;
@@ -38,7 +36,9 @@ pub struct Snapshot {
 /// Particles that move.
 pub struct Simulation<B: Backend> {
     backend: B,
-    start: Option<B::Program>,
+    start: B::Program,
+    /// Whether the start has run for the state that is there.
+    begun: bool,
     step: B::Program,
     measure: (B::Program, B::Program),
     plan: String,
@@ -84,18 +84,22 @@ impl Setup {
                 "{count} positions come with {lengths:?} velocities, masses and radii: give each particle one of each"
             )));
         }
-        if !(self.dt.is_finite() && self.dt > 0.0) {
-            return Err(Error::Scene(format!("dt is {}: it must be a number above 0", self.dt)));
+        let single = f64::from(f32::MIN_POSITIVE)..=f64::from(f32::MAX);
+        if !single.contains(&self.dt) {
+            let text =
+                format!("dt is {}: it must be above 0, and no smaller or larger than single precision holds", self.dt);
+            return Err(Error::Scene(text));
         }
-        let good = |v: &DVec3| v.is_finite();
+        let fits = |x: f64| x.abs() <= f64::from(f32::MAX);
         let bad = (0..count).find(|i| {
+            let vectors = [self.particles.position[*i], self.particles.velocity[*i]];
             let (mass, radius) = (self.particles.mass[*i], self.particles.radius[*i]);
-            let vectors = good(&self.particles.position[*i]) && good(&self.particles.velocity[*i]);
-            !(vectors && mass >= 0.0 && mass.is_finite() && radius.is_finite())
+            let good = vectors.iter().all(|v| v.to_array().into_iter().all(fits)) && fits(mass) && fits(radius);
+            !(good && mass >= 0.0 && radius >= 0.0)
         });
         if let Some(bad) = bad {
             return Err(Error::Scene(format!(
-                "particle {bad} has a number that is NaN or infinite, or a negative mass"
+                "particle {bad} has a number that is NaN, infinite or beyond single precision, or a negative mass or radius"
             )));
         }
         u32::try_from(count)
@@ -114,7 +118,7 @@ impl<B: Backend> Simulation<B> {
         let count = setup.check()?;
         let plans = setup.plans(backend.machine())?;
         let plan = plans.step.to_string();
-        let start = Some(backend.compile(&plans.start)?);
+        let start = backend.compile(&plans.start)?;
         let step = backend.compile(&plans.step)?;
         let measure = (backend.compile(&plans.measure.0)?, backend.compile(&plans.measure.1)?);
         backend.set_clock(Clock { time: 0.0, dt: setup.dt, step: 0, count })?;
@@ -125,7 +129,7 @@ impl<B: Backend> Simulation<B> {
         backend.write(VELOCITY.name, &Array::Vec4(velocity))?;
         backend.write(ACCELERATION.name, &Array::Vec4(Vec::new()).zeros(count as usize))?;
         backend.write(ALARM.name, &Array::Uint(vec![u32::MAX; 2]))?;
-        Ok(Self { backend, start, step, measure, plan, count, dt: setup.dt, steps: 0 })
+        Ok(Self { backend, start, begun: false, step, measure, plan, count, dt: setup.dt, steps: 0 })
     }
     /// Advances. May return before the device is done; reading waits.
     ///
@@ -133,8 +137,9 @@ impl<B: Backend> Simulation<B> {
     /// When the device is lost, out of memory, or does not answer in time.
     pub fn step(&mut self, steps: u32) -> Result<(), Error> {
         self.room(steps)?;
-        if let Some(start) = self.start.take() {
-            self.backend.run(&start, 1)?;
+        if !self.begun {
+            self.backend.run(&self.start, 1)?;
+            self.begun = true;
         }
         self.backend.run(&self.step, steps)?;
         self.steps += u64::from(steps);
@@ -157,11 +162,13 @@ impl<B: Backend> Simulation<B> {
         let array = self.backend.read(field.name, &T::array(Vec::new()), self.count as usize).await?;
         Ok(T::view(&array).map_or_else(Vec::new, |values| values.iter().map(|v| T::narrow(*v)).collect()))
     }
-    /// Writes a field from its first element on: a renderer's pull, a kinematic target.
+    /// Writes a field from its first element on: a renderer's pull, a kinematic target. Where positions or velocities
+    /// change, the next step begins with the forces that are felt there.
     ///
     /// # Errors
     /// When there is no such field, it is shorter, or the device is lost.
     pub fn write<T: Element>(&mut self, field: Field<T>, values: &[T]) -> Result<(), Error> {
+        self.begun &= field.name != POSITION.name && field.name != VELOCITY.name;
         self.backend.write(field.name, &T::array(values.iter().map(|v| v.widen()).collect()))
     }
     /// Looks whether any number has stopped being one.
@@ -255,8 +262,9 @@ impl Simulation<Gpu> {
     /// [`Error::Scene`] when the steps no longer fit the device's count of them.
     pub fn encode(&mut self, steps: u32, encoder: &mut wgpu::CommandEncoder) -> Result<(), Error> {
         self.room(steps)?;
-        if let Some(start) = self.start.take() {
-            self.backend.encode(&start, 1, encoder);
+        if !self.begun {
+            self.backend.encode(&self.start, 1, encoder);
+            self.begun = true;
         }
         self.backend.encode(&self.step, steps, encoder);
         self.steps += u64::from(steps);

@@ -1,17 +1,60 @@
 //! What one should know of a scene before it runs.
 
+use glam::DVec4;
 use motes::forces::{Law, Over};
-use motes::kernel::Machine;
+use motes::kernel::{ACCELERATION, Access, Array, Clock, Host, Kernel, Machine, POSITION, Pass, Twin, VELOCITY};
 use motes::scene::Scene;
 use motes::{Error, Setup};
+
+/// Whether a law does something else at another time: its twin says so for a particle at rest.
+fn depends_on_time(twin: &Twin) -> Result<bool, Error> {
+    let at = |time: f64| {
+        let mut host = Host::default();
+        host.insert(POSITION.name, Array::Vec4(vec![DVec4::new(0.31, -0.23, 0.17, 1.3)]));
+        host.insert(VELOCITY.name, Array::Vec4(vec![DVec4::ZERO]));
+        host.insert(ACCELERATION.name, Array::Vec4(vec![DVec4::ZERO]));
+        host.set_clock(Clock { time, dt: 1.0, step: 0, count: 1 });
+        twin(&host).map(|()| host.get(ACCELERATION.name))
+    };
+    Ok(at(0.0)? != at(0.7)?)
+}
+
+/// Fields that a shader of a user may read: what a simulation has, and what the file itself writes.
+const FIELDS: &[&str] = &["position", "velocity", "acceleration", "alarm"];
+
+/// A name in a user's file that nobody fills is a slip of the pen.
+fn strangers(kernel: &Kernel) -> Result<(), Error> {
+    let theirs = |pass: &&Pass| !pass.shader.trusted();
+    for pass in kernel.passes.iter().filter(theirs) {
+        let file = pass.shader.sources().iter().find(|s| !s.ours).map_or("", |s| &s.file);
+        for binding in pass.shader.reflection().bindings.iter().filter(|b| b.access == Access::Read) {
+            let name = binding.name.as_str();
+            let written = kernel.passes.iter().flat_map(|p| &p.shader.reflection().bindings);
+            if FIELDS.contains(&name) || written.filter(|b| b.access == Access::Write).any(|b| b.name == name) {
+                continue;
+            }
+            let near =
+                FIELDS.iter().min_by_key(|field| strsim::damerau_levenshtein(field, name)).unwrap_or(&"position");
+            let message = format!(
+                "{file}: nobody fills the field `{name}`; did you mean `{near}`? There are {}",
+                FIELDS.join(", ")
+            );
+            return Err(Error::Shader { message });
+        }
+    }
+    Ok(())
+}
 
 /// Whether every force keeps the energy, and whether every force keeps the momentum.
 pub fn conserved(setup: &Setup) -> Result<(bool, bool), Error> {
     let (mut energy, mut momentum) = (true, true);
     for law in setup.forces.iter().flat_map(|force| force.laws()) {
         momentum &= law.over == Over::Pairs && law.twin.is_some();
-        let untwinned = law.twin.is_none();
-        energy &= !untwinned && !law.kernel(1, &MACHINE)?.names("velocity");
+        energy &= match &law.twin {
+            Some(twin) => !depends_on_time(twin)?,
+            None => false,
+        };
+        energy &= !law.kernel(1, &MACHINE)?.names("velocity");
     }
     Ok((energy, momentum))
 }
@@ -27,6 +70,7 @@ pub fn advice(scene: &Scene, setup: &Setup) -> Result<Vec<String>, Error> {
         let name = law.name.clone();
         let untwinned = law.twin.is_none();
         let kernel = law.kernel(1, &MACHINE)?;
+        strangers(&kernel)?;
         if kernel.names("velocity") && reduced < order {
             remarks.push(format!(
                 "`{name}` depends on velocity: {} is of order {order} for other forces, and of order {reduced} with it; \

@@ -109,7 +109,7 @@ pub struct CompareArgs {
     /// A scene file, or the name of a scene that `motes scenes` lists
     pub scene: String,
     /// Steps that device and twins run side by side
-    #[arg(long, value_name = "N", default_value_t = 10)]
+    #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..))]
     pub steps: u32,
     /// Set a value of the scene; may be given again
     #[arg(long = "set", value_name = "KEY=VALUE")]
@@ -127,8 +127,11 @@ pub struct CompareArgs {
 
 #[derive(Debug, ClapArgs)]
 pub struct ScenesArgs {
-    /// Print the text of this one
+    /// Print the text of this one; with --keys, the keys of this force, shape or section
     pub name: Option<String>,
+    /// Print what a scene may say: every key of forces, shapes and pictures, with its unit and default
+    #[arg(long)]
+    pub keys: bool,
 }
 
 #[derive(Debug, ClapArgs)]

@@ -19,6 +19,10 @@ impl Engine {
     /// Chooses by the arguments.
     pub async fn choose(args: &DeviceArgs) -> Result<Self, Error> {
         if args.backend == BackendChoice::Cpu {
+            if args.adapter.is_some() {
+                let text = "--adapter names an adapter, and --backend cpu uses none: leave one of them out";
+                return Err(Error::NoAdapter(text.to_owned()));
+            }
             return Ok(Self::Cpu(None));
         }
         let adapters = gpu::adapters(&gpu::instance()).await;

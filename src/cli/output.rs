@@ -51,7 +51,8 @@ impl Output {
             groups: scene.groups.clone(),
             energy,
             rows: Vec::new(),
-            trail: Trail::new(count),
+            // A trail is for pictures.
+            trail: Trail::new(if scene.output.formats.contains(&Format::Png) { count } else { 0 }),
         })
     }
     /// Adds a row to the table of energies, and writes it out.

@@ -87,14 +87,22 @@ impl Progress {
     /// A state was measured.
     pub fn measured(&self, row: &Measure, first: &Measure) {
         let error = row.drift_from(first);
-        if let Kind::Bar(bar) = &self.kind {
-            bar.set_message(format!("energy error {error:.1e}"));
-        }
+        self.energy(row, first);
         self.event(
             "progress",
             json!({ "step": row.step, "time": row.time, "kinetic": row.kinetic, "potential": row.potential,
                 "total": row.total(), "energy_error": error }),
         );
+    }
+    /// Whether somebody looks at a bar.
+    pub fn watched(&self) -> bool {
+        matches!(self.kind, Kind::Bar(_))
+    }
+    /// Shows how far the energy is off.
+    pub fn energy(&self, row: &Measure, first: &Measure) {
+        if let Kind::Bar(bar) = &self.kind {
+            bar.set_message(format!("energy error {:.1e}", row.drift_from(first)));
+        }
     }
     /// The run is over; how long it took.
     pub fn finish(&self) -> Duration {

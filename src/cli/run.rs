@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 
 use motes::io::Precision;
 use motes::kernel::Backend;
+use motes::render::{Picture, Trail};
 use motes::scene::Scene;
 use motes::{Cpu, Error, Measure, POSITION, Setup, Simulation};
 use serde_json::json;
@@ -19,6 +20,8 @@ use super::stop::Stop;
 
 /// How long one batch of steps should take: Ctrl-C is heard between two.
 const BATCH: Duration = Duration::from_millis(250);
+/// Between two looks at the energy, at least.
+const LOOK: Duration = Duration::from_secs(1);
 /// How many points a trail gets, about.
 const TRAIL: u64 = 1000;
 
@@ -40,6 +43,9 @@ pub async fn run(args: &RunArgs) -> Result<(), Failure> {
         }
         Engine::Cpu(_) => run.drive(Simulation::on(Cpu::new(count)?, &setup)?, Precision::Double).await,
     };
+    if let Err(Failure::Error(error)) = &result {
+        run.progress.event("error", json!({ "code": error.exit_code(), "text": error.to_string() }));
+    }
     if let (Err(Failure::Error(Error::Timeout { .. })), Engine::Gpu(_)) = (&result, &engine) {
         // A device that hangs hangs whoever drops it.
         let code = result.err().map(Failure::report);
@@ -62,6 +68,7 @@ struct Run {
 impl Run {
     fn new(args: &RunArgs, scene: Scene, setup: &Setup, engine: &Engine) -> Result<Self, Failure> {
         let progress = Progress::new(args, scene.steps);
+        Picture::new(&scene.picture, &setup.particles, &[], Trail::new(0))?;
         let device = engine.describe();
         let count = setup.particles.len();
         let folder = args.output.clone().unwrap_or_else(|| PathBuf::from("out").join(&scene.name));
@@ -91,7 +98,8 @@ impl Run {
         let mut output = Output::new(&self.folder, &self.scene, self.count, precision, &self.device)?;
         let (steps, every) = (self.scene.steps, self.scene.output.every);
         self.write(&mut simulation, &mut output).await?;
-        let mut batch = 1;
+        let (mut batch, mut stepping) = (1, Duration::ZERO);
+        let (mut looked, mut look) = (Instant::now(), Duration::ZERO);
         while simulation.steps() < steps && !self.stop.asked() {
             let done = simulation.steps();
             let next = ((done / every + 1) * every).min(steps);
@@ -101,6 +109,7 @@ impl Run {
             simulation.step(some)?;
             // Looking waits for the batch, and finds what broke in it.
             simulation.check().await?;
+            stepping += start.elapsed();
             let factor = (BATCH.as_secs_f64() / start.elapsed().as_secs_f64().max(1e-6)).clamp(0.5, 4.0);
             #[expect(
                 clippy::cast_possible_truncation,
@@ -118,9 +127,15 @@ impl Run {
             self.progress.at(simulation.steps());
             if simulation.steps() == next || self.stop.asked() {
                 self.write(&mut simulation, &mut output).await?;
+            } else if self.progress.watched() && looked.elapsed() > LOOK.max(look * 20) {
+                // The energy between two outputs, for whoever looks, and for a twentieth of the time at most.
+                let start = Instant::now();
+                let row = Measure::of(&simulation.snapshot().await?);
+                self.progress.energy(&row, &output.first());
+                (looked, look) = (Instant::now(), start.elapsed());
             }
         }
-        self.conclude(simulation, &output).await
+        self.conclude(simulation, &output, stepping).await
     }
 
     /// Measures and writes the present state.
@@ -141,7 +156,12 @@ impl Run {
         Ok(())
     }
 
-    async fn conclude<B: Backend>(&mut self, mut simulation: Simulation<B>, output: &Output) -> Result<(), Failure> {
+    async fn conclude<B: Backend>(
+        &mut self,
+        mut simulation: Simulation<B>,
+        output: &Output,
+        stepping: Duration,
+    ) -> Result<(), Failure> {
         let took = self.progress.finish();
         output.plot()?;
         if output.pictures() {
@@ -154,12 +174,12 @@ impl Run {
             }
         }
         let (steps, stopped) = (simulation.steps(), simulation.steps() < self.scene.steps);
-        let rate = steps as f64 / took.as_secs_f64().max(1e-9);
+        let rate = steps as f64 / stepping.as_secs_f64().max(1e-9);
         let (first, last) = (output.first(), output.rows().last().copied().unwrap_or_default());
         let worst = output.rows().iter().map(|row| row.drift_from(&first).abs()).fold(0.0, f64::max);
         self.progress.event(
             "finish",
-            json!({ "steps": steps, "stopped": stopped, "seconds": took.as_secs_f64(), "steps_per_second": rate,
+            json!({ "steps": steps, "stopped": stopped, "seconds": took.as_secs_f64(), "stepping_seconds": stepping.as_secs_f64(), "steps_per_second": rate,
                 "energy": last.total(), "energy_error": last.drift_from(&first), "worst_energy_error": worst,
                 "output": output.folder() }),
         );
@@ -168,7 +188,8 @@ impl Run {
             say(format!("stopped at step {steps} of {}; everything up to there is written", self.scene.steps));
         }
         say(format!(
-            "{steps} steps in {}: {} steps/s, {} particle-steps/s",
+            "{steps} steps in {} ({} with measurements and files): {} steps/s, {} particle-steps/s",
+            duration(stepping),
             duration(took),
             large(rate),
             large(rate * self.count as f64)

@@ -10,12 +10,13 @@ use crate::settings::{Key, Kind, Settings, Value};
 /// What a scene may say.
 pub const KEYS: &[Key] = &[
     Key::new("g", Kind::Number, Value::Number(1.0), "the gravitational constant [length³ / mass / time²]"),
-    Key::new("softening", Kind::NotNegative, Value::Number(0.0), "the Plummer softening length ε, or its equivalent for the spline [length]"),
+    Key::new("softening", Kind::NotNegative, Value::Number(0.0), "the Plummer softening ε; the spline ends at 2.8 ε, so for PKDGRAV's own ε (which ends at 2 ε) say 2/2.8 of it [length]"),
     Key::new("kernel", Kind::Choice(&["plummer", "spline"]), Value::Text(Cow::Borrowed("plummer")), "how close encounters are softened"),
     Key::new("over", Kind::Choice(&["pairs"]), Value::Text(Cow::Borrowed("pairs")), "who meets whom: everybody"),
 ];
 
-/// `gravity`: a = G m r / (r² + ε²)^(3/2), or the spline of GADGET and PKDGRAV, which is exact beyond 2.8 ε.
+/// `gravity`: a = G m r / (r² + ε²)^(3/2), or the spline of GADGET, which is exact beyond 2.8 ε
+/// (PKDGRAV has the same spline, and calls half of its support ε).
 pub struct Gravity(Settings);
 
 impl Gravity {

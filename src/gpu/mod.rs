@@ -156,7 +156,7 @@ impl Backend for Gpu {
                 self.buffers.require(&name, bytes)?;
             }
         }
-        Program::new(&self.device, &mut self.pipelines, &self.buffers, plan)
+        Program::new(&mut self.queue, &mut self.pipelines, &self.buffers, plan)
     }
     fn run(&mut self, program: &Program, times: u32) -> Result<(), Error> {
         self.queue.run(program, times)

@@ -34,7 +34,8 @@ impl Pipelines {
             return Ok(known.clone());
         }
         self.check(&pass.shader)?;
-        let pipeline = fault::scoped(&self.device, || make(&self.device, pass))?;
+        let made = fault::scoped(&self.device, || make(&self.device, pass));
+        let pipeline = made.map_err(|error| blame(error, &pass.shader))?;
         self.made.insert(key, pipeline.clone());
         Ok(pipeline)
     }
@@ -57,6 +58,14 @@ impl Pipelines {
             limits.max_compute_invocations_per_workgroup.into(),
         )?;
         over("bytes of workgroup memory", reflection.workgroup_bytes, limits.max_compute_workgroup_storage_size.into())
+    }
+}
+
+/// What the device refuses of a user's file is the file's fault.
+fn blame(error: Error, shader: &Shader) -> Error {
+    match (error, shader.sources().iter().find(|s| !s.ours)) {
+        (Error::Device(message), Some(theirs)) => Error::Shader { message: format!("{}: {message}", theirs.file) },
+        (error, _) => error,
     }
 }
 

@@ -3,6 +3,7 @@
 use super::buffers::{Buffers, missing};
 use super::fault;
 use super::pipeline::{Pipeline, Pipelines};
+use super::submit::Queue;
 use crate::error::Error;
 use crate::kernel::{Access, Pass, Plan};
 
@@ -32,7 +33,7 @@ impl Dispatch {
 
 impl Program {
     pub(super) fn new(
-        device: &wgpu::Device,
+        queue: &mut Queue,
         pipelines: &mut Pipelines,
         buffers: &Buffers,
         plan: &Plan,
@@ -40,7 +41,7 @@ impl Program {
         let mut kernels = Vec::new();
         for kernel in &plan.kernels {
             let ready: Result<Vec<_>, _> =
-                kernel.passes.iter().map(|p| dispatch(device, pipelines, buffers, p)).collect();
+                kernel.passes.iter().map(|p| dispatch(queue, pipelines, buffers, p)).collect();
             kernels.push(ready?);
         }
         let dispatches = plan.order.iter().filter_map(|i| kernels.get(*i)).flatten().cloned().collect();
@@ -48,15 +49,11 @@ impl Program {
     }
 }
 
-fn dispatch(
-    device: &wgpu::Device,
-    pipelines: &mut Pipelines,
-    buffers: &Buffers,
-    pass: &Pass,
-) -> Result<Dispatch, Error> {
+fn dispatch(queue: &mut Queue, pipelines: &mut Pipelines, buffers: &Buffers, pass: &Pass) -> Result<Dispatch, Error> {
     let pipeline = pipelines.get(pass)?;
-    let grid = grid(device, pass)?;
-    let groups = fault::scoped(device, || groups(device, buffers, pass, &pipeline))??;
+    let device = queue.device().clone();
+    let grid = grid(&device, pass)?;
+    let groups = fault::scoped(&device, || groups(queue, buffers, pass, &pipeline))??;
     Ok(Dispatch { pipeline: pipeline.pipeline, groups, grid, work: pass.work })
 }
 
@@ -76,7 +73,7 @@ fn grid(device: &wgpu::Device, pass: &Pass) -> Result<[u32; 3], Error> {
 }
 
 fn groups(
-    device: &wgpu::Device,
+    queue: &mut Queue,
     buffers: &Buffers,
     pass: &Pass,
     pipeline: &Pipeline,
@@ -88,7 +85,7 @@ fn groups(
         for binding in bindings {
             let own = pass.uniforms.iter().find(|(name, _)| *name == binding.name);
             let buffer = match own {
-                Some((name, bytes)) => uniform(device, name, bytes),
+                Some((name, bytes)) => queue.uniform(name, bytes)?,
                 None => buffers.get(&binding.name).ok_or_else(|| missing(&binding.name))?.clone(),
             };
             if binding.access == Access::Uniform && !buffer.usage().contains(wgpu::BufferUsages::UNIFORM) {
@@ -100,14 +97,9 @@ fn groups(
             .iter()
             .map(|(binding, buffer)| wgpu::BindGroupEntry { binding: *binding, resource: buffer.as_entire_binding() })
             .collect();
-        let group = device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout, entries: &entries });
+        let group =
+            queue.device().create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout, entries: &entries });
         groups.push((*index, group));
     }
     Ok(groups)
-}
-
-fn uniform(device: &wgpu::Device, name: &str, bytes: &[u8]) -> wgpu::Buffer {
-    let usage = wgpu::BufferUsages::UNIFORM;
-    let descriptor = wgpu::util::BufferInitDescriptor { label: Some(name), contents: bytes, usage };
-    wgpu::util::DeviceExt::create_buffer_init(device, &descriptor)
 }

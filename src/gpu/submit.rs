@@ -141,6 +141,21 @@ impl Queue {
     pub fn submit_commands(&mut self, commands: wgpu::CommandBuffer) -> Result<wgpu::SubmissionIndex, Error> {
         fault::scoped(&self.device, || self.inner.submit([commands]))
     }
+    /// The device behind it.
+    pub fn device(&self) -> &wgpu::Device {
+        &self.device
+    }
+    /// Makes a uniform block. It is not mapped at its creation: on a device that is lost, that would be a panic.
+    pub fn uniform(&mut self, name: &str, bytes: &[u8]) -> Result<wgpu::Buffer, Error> {
+        let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
+        let size = (bytes.len() as u64).next_multiple_of(16);
+        let descriptor = wgpu::BufferDescriptor { label: Some(name), size, usage, mapped_at_creation: false };
+        fault::scoped(&self.device, || {
+            let buffer = self.device.create_buffer(&descriptor);
+            self.inner.write_buffer(&buffer, 0, bytes);
+            buffer
+        })
+    }
     /// Writes into a buffer, behind all that was submitted.
     pub fn write(&mut self, buffer: &wgpu::Buffer, from: u64, bytes: &[u8]) -> Result<(), Error> {
         fault::scoped(&self.device, || {

@@ -1,5 +1,6 @@
 //! Position-extended Forest–Ruth-like, symplectic, order 4 (Omelyan, Mryglod & Folk 2002, eq. 22): one evaluation more
-//! than Forest–Ruth, an error about a thousand times smaller.
+//! than Forest–Ruth. On an oscillator its error of phase is about a thousand times smaller, on an orbit of eccentricity ½
+//! the error of position at least ten times.
 
 use super::{Integrator, Step};
 

@@ -47,6 +47,28 @@ impl Host {
     pub fn remove(&mut self, name: &str) {
         self.arrays.remove(name);
     }
+    /// Fills an array from its first element on.
+    ///
+    /// # Errors
+    /// When there is none of that name and kind, or it is shorter.
+    pub fn fill(&mut self, name: &str, values: &Array) -> Result<(), Error> {
+        let array = self.arrays.get_mut(name).ok_or_else(|| missing(name))?;
+        let array = array.get_mut().map_err(|_| aliased(name))?;
+        if array.len() < values.len() {
+            return Err(Error::Device(format!(
+                "the field `{name}` has {} elements, not {}",
+                array.len(),
+                values.len()
+            )));
+        }
+        match (array, values) {
+            (Array::Vec4(to), Array::Vec4(from)) => to[..from.len()].copy_from_slice(from),
+            (Array::Float(to), Array::Float(from)) => to[..from.len()].copy_from_slice(from),
+            (Array::Uint(to), Array::Uint(from)) => to[..from.len()].copy_from_slice(from),
+            _ => return Err(missing(name)),
+        }
+        Ok(())
+    }
     /// A copy of an array.
     #[must_use]
     pub fn get(&self, name: &str) -> Option<Array> {

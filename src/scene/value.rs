@@ -83,7 +83,7 @@ pub(super) fn number(node: &Node, key: &str, kind: Kind, wanted: &str, report: &
         let end =
             if whole { format!("it may be at most {largest}") } else { "single precision ends at 3.4e38".to_owned() };
         report.push(Fault::at(&node.place, format!("`{key}` is too large")).label(end));
-    } else if is_lost(value) && kind == Kind::Positive {
+    } else if is_lost(value) && (kind == Kind::Positive || value != 0.0) {
         report.push(Fault::at(&node.place, format!("`{key}` is too small")).label("it is zero in single precision"));
     } else {
         return Some(value);

@@ -9,8 +9,8 @@ use super::{Body, Law, bodies};
 use crate::error::Error;
 use crate::kernel::{ACCELERATION, Kernel, Machine, Pass, Scalar, Shader, Source, Threads, Twin};
 
-/// Meetings in one dispatch, at most. At 20 billion a second (a small GPU) that is 0.1 s; a large one needs a millisecond.
-const MEETINGS: u64 = 1 << 31;
+/// Meetings in one dispatch, at most. At 10 billion a second (a small GPU) that is 0.1 s; a large one needs half a millisecond.
+const MEETINGS: u64 = 1 << 30;
 /// Sources that one invocation meets in one dispatch, at most: half of the 65 535 loop trips that lavapipe allows.
 const SOURCES: u32 = 1 << 15;
 /// Layers, at most: more cost more to add than they gain.
