@@ -1,7 +1,7 @@
 //! The backend that runs the twins: f64 on the host, over all cores, with no driver at all.
 
 use crate::error::Error;
-use crate::kernel::{Access, Array, Backend, Clock, Host, Machine, Plan};
+use crate::kernel::{Access, Array, Backend, Clock, Host, Machine, POSITION, Plan, VELOCITY};
 
 /// Runs plans by their twins.
 pub struct Cpu {
@@ -18,7 +18,12 @@ impl Cpu {
         if count == 0 {
             return Err(Error::Scene("there are no particles: a simulation needs one or more".to_owned()));
         }
-        Ok(Self { host: Host::default(), count: count as usize })
+        let mut host = Host::default();
+        // A twin may look at more of a particle than its shader does.
+        for always in [POSITION.name, VELOCITY.name] {
+            host.insert(always, Array::Vec4(Vec::new()).zeros(count as usize));
+        }
+        Ok(Self { host, count: count as usize })
     }
     /// The arrays, as the twins see them.
     #[must_use]

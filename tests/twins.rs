@@ -202,7 +202,7 @@ fn cuts_change_no_bit() {
     }
 }
 
-/// So many that a dispatch may not meet all of them: 65 537 sources are three dispatches.
+/// So many that a dispatch may not meet all of them: of 65 537 sources it meets 127 blocks.
 #[test]
 fn more_than_one_dispatch_can_meet() {
     let shared = support::device();
@@ -214,7 +214,7 @@ fn more_than_one_dispatch_can_meet() {
     let softening = 0.171_875; // held by f32
     let law = || force("gravity", &[("softening", motes::settings::Value::Number(softening))]);
     let kernel = machines::kernel(law().as_ref(), count, &machine);
-    assert_eq!(kernel.passes.len(), 4, "three dispatches, and one that adds them up");
+    assert_eq!(kernel.passes.len(), 6, "five dispatches, and one that adds them up");
     let setup = Setup { particles, forces: Vec::new(), integrator: integrator("symplectic_euler"), dt: DT };
     let mut simulation = Simulation::on(gpu, &setup).expect("a simulation");
     let program = simulation.backend().compile(&alone(kernel)).expect("a program");
