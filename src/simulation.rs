@@ -256,7 +256,8 @@ impl Simulation<Gpu> {
     }
     /// Encodes steps into the caller's encoder and submits nothing. The clock is on the device, so every call goes on
     /// where the one before it ended, if the caller submits them in that order. How long a submission becomes is in the
-    /// caller's hand: a system ends one of some seconds.
+    /// caller's hand: a system ends one of some seconds. An encoder that is dropped takes its steps with it, and the
+    /// simulation no longer knows its own time: make a new one then.
     ///
     /// # Errors
     /// [`Error::Scene`] when the steps no longer fit the device's count of them.
