@@ -22,11 +22,7 @@ pub async fn check(args: &SceneArgs) -> Result<(), Failure> {
     out!("{}: {count} particles, {} steps of {} by {}", scene.name, scene.steps, scene.dt, scene.integrator.name);
     out!("on {}", engine.describe());
 
-    let machine = match &engine {
-        Engine::Gpu(found) => Gpu::new(&found.device, &found.queue, count)?.machine(),
-        Engine::Cpu(_) => Cpu::new(count)?.machine(),
-    };
-    let plans = setup.plans(machine)?;
+    let plans = setup.plans(engine.machine(count)?)?;
     out!("\nmemory on the device");
     let mut fields = plans.step.fields(count);
     for plan in [&plans.start, &plans.measure.0, &plans.measure.1] {

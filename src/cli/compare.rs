@@ -1,7 +1,7 @@
 //! `motes compare`
 
 use glam::DVec3;
-use motes::kernel::Plan;
+use motes::kernel::Backend;
 use motes::lockstep::{self, Verdict};
 use motes::{Cpu, Gpu, Measure, Setup, Simulation, Snapshot, gpu};
 use serde_json::json;
@@ -63,10 +63,10 @@ async fn kernels(found: &gpu::Found, setup: &Setup) -> Result<Vec<Verdict>, Fail
     gpu.pad(16);
     let mut simulation = Simulation::on(gpu, setup)?;
     let mut worst: Vec<Verdict> = Vec::new();
+    let plan = setup.plans(simulation.backend().machine())?.step;
     for _ in 0..ROUNDS {
         simulation.step(1)?;
-        let plans = setup.plans(motes::kernel::Backend::machine(simulation.backend()))?;
-        let round = lockstep::compare(simulation.backend(), &plans.step, count).await?;
+        let round = lockstep::compare(simulation.backend(), &plan, count).await?;
         for verdict in round {
             match worst.iter_mut().find(|w| w.kernel == verdict.kernel && w.field == verdict.field) {
                 Some(known) if known.worst >= verdict.worst => known.changed |= verdict.changed,
@@ -75,8 +75,7 @@ async fn kernels(found: &gpu::Found, setup: &Setup) -> Result<Vec<Verdict>, Fail
             }
         }
     }
-    let unchecked: Plan = setup.plans(motes::kernel::Backend::machine(simulation.backend()))?.step;
-    for kernel in unchecked.kernels.iter().filter(|k| k.twin.is_none()) {
+    for kernel in plan.kernels.iter().filter(|k| k.twin.is_none()) {
         note!("note: `{}` has no twin, so nothing is said of it", kernel.name);
     }
     Ok(worst)

@@ -1,8 +1,9 @@
 //! Where a scene runs: an adapter of this machine, or the twins when there is none.
 
 use motes::gpu::{self, Choice, Found};
+use motes::kernel::{Backend, Machine};
 use motes::scene::{Options, Scene, Source};
-use motes::{Error, Setup};
+use motes::{Cpu, Error, Gpu, Setup};
 
 use super::args::{BackendChoice, DeviceArgs, SceneArgs};
 use super::failure::Failure;
@@ -37,6 +38,13 @@ impl Engine {
             Self::Gpu(found) => found.describe(),
             Self::Cpu(_) => format!("f64 twins on {} cores of the processor", rayon::current_num_threads()),
         }
+    }
+    /// What plans are written for.
+    pub fn machine(&self, count: u32) -> Result<Machine, Error> {
+        Ok(match self {
+            Self::Gpu(found) => Gpu::new(&found.device, &found.queue, count)?.machine(),
+            Self::Cpu(_) => Cpu::new(count)?.machine(),
+        })
     }
     /// What a user should know of it.
     pub fn remark(&self) -> Option<String> {

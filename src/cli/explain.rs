@@ -2,8 +2,7 @@
 
 use std::fmt::Write as _;
 
-use motes::kernel::{Access, Backend, Kernel};
-use motes::{Cpu, Gpu};
+use motes::kernel::{Access, Kernel};
 
 use super::args::SceneArgs;
 use super::engine::{self, Engine};
@@ -15,11 +14,7 @@ pub async fn explain(args: &SceneArgs) -> Result<(), Failure> {
     let setup = engine::setup(&mut scene);
     let count = setup.check()?;
     let engine = Engine::choose(&args.device).await?;
-    let machine = match &engine {
-        Engine::Gpu(found) => Gpu::new(&found.device, &found.queue, count)?.machine(),
-        Engine::Cpu(_) => Cpu::new(count)?.machine(),
-    };
-    let plans = setup.plans(machine)?;
+    let plans = setup.plans(engine.machine(count)?)?;
     out!("{}: {count} particles, {} steps of {} by {}", scene.name, scene.steps, scene.dt, scene.integrator.name);
     out!("on {}\n", engine.describe());
     if !plans.start.order.is_empty() {

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use motes::io::Precision;
 use motes::kernel::Backend;
-use motes::render::{Picture, Trail};
+use motes::render::{Image, Picture, Trail};
 use motes::scene::Scene;
 use motes::{Cpu, Error, Measure, POSITION, Setup, Simulation};
 use serde_json::json;
@@ -97,7 +97,7 @@ impl Run {
         }
         let mut output = Output::new(&self.folder, &self.scene, self.count, precision, &self.device)?;
         let (steps, every) = (self.scene.steps, self.scene.output.every);
-        self.write(&mut simulation, &mut output).await?;
+        let mut image = self.write(&mut simulation, &mut output).await?;
         let (mut batch, mut stepping) = (1, Duration::ZERO);
         let (mut looked, mut look) = (Instant::now(), Duration::ZERO);
         while simulation.steps() < steps && !self.stop.asked() {
@@ -125,8 +125,8 @@ impl Run {
                 output.trail.push(&positions);
             }
             self.progress.at(simulation.steps());
-            if simulation.steps() == next || self.stop.asked() {
-                self.write(&mut simulation, &mut output).await?;
+            if simulation.steps() == next {
+                image = self.write(&mut simulation, &mut output).await?;
             } else if self.progress.watched() && looked.elapsed() > LOOK.max(look * 20) {
                 // The energy between two outputs, for whoever looks, and for a twentieth of the time at most.
                 let start = Instant::now();
@@ -135,45 +135,54 @@ impl Run {
                 (looked, look) = (Instant::now(), start.elapsed());
             }
         }
-        self.conclude(simulation, &output, stepping).await
+        // Ctrl-C may come at any time: what is written last is what was done last.
+        if output.rows().last().is_none_or(|row| row.step != simulation.steps()) {
+            image = self.write(&mut simulation, &mut output).await?;
+        }
+        self.conclude(simulation.steps(), &output, stepping, image.as_ref())
     }
 
-    /// Measures and writes the present state.
-    async fn write<B: Backend>(&mut self, simulation: &mut Simulation<B>, output: &mut Output) -> Result<(), Failure> {
+    /// Measures and writes the present state. Gives the picture, where pictures are wanted.
+    async fn write<B: Backend>(
+        &mut self,
+        simulation: &mut Simulation<B>,
+        output: &mut Output,
+    ) -> Result<Option<Image>, Failure> {
         let snapshot = simulation.snapshot().await?;
         output.measure(Measure::of(&snapshot))?;
         output.snapshot(&snapshot)?;
         if snapshot.step == 0 {
             output.trail.push(&snapshot.particles.position);
         }
+        let mut image = None;
         if output.pictures() {
-            let image = simulation.draw(&output.picture(&snapshot)?).await?;
-            image.save(&output.frame(snapshot.step))?;
+            let drawn = simulation.draw(&output.picture(&snapshot)?).await?;
+            drawn.save(&output.frame(snapshot.step))?;
+            image = Some(drawn);
         }
         if let Some(row) = output.rows().last() {
             self.progress.measured(row, &output.first());
         }
-        Ok(())
+        Ok(image)
     }
 
-    async fn conclude<B: Backend>(
+    fn conclude(
         &mut self,
-        mut simulation: Simulation<B>,
+        steps: u64,
         output: &Output,
         stepping: Duration,
+        image: Option<&Image>,
     ) -> Result<(), Failure> {
         let took = self.progress.finish();
         output.plot()?;
-        if output.pictures() {
-            let snapshot = simulation.snapshot().await?;
-            let image = simulation.draw(&output.picture(&snapshot)?).await?;
+        if let Some(image) = image {
             image.save(&output.portrait())?;
             if image.outside > 0 {
                 let (few, all) = (image.outside, self.count);
                 self.progress.say(&format!("note: {few} of {all} particles are outside of the last picture"));
             }
         }
-        let (steps, stopped) = (simulation.steps(), simulation.steps() < self.scene.steps);
+        let stopped = steps < self.scene.steps;
         let rate = steps as f64 / stepping.as_secs_f64().max(1e-9);
         let (first, last) = (output.first(), output.rows().last().copied().unwrap_or_default());
         let worst = output.rows().iter().map(|row| row.drift_from(&first).abs()).fold(0.0, f64::max);

@@ -1,11 +1,11 @@
 //! Images as PNG files.
 
-use std::fs::File;
-use std::io::BufWriter;
+use std::io::Write;
 use std::path::Path;
 
 use super::Image;
 use crate::error::Error;
+use crate::io::atomically;
 
 impl Image {
     /// Writes a PNG. The file is there whole or not at all.
@@ -13,16 +13,11 @@ impl Image {
     /// # Errors
     /// [`Error::Output`] when the disk refuses.
     pub fn save(&self, path: &Path) -> Result<(), Error> {
-        let part = path.with_extension("png.part");
-        let written = self.encode(&part).and_then(|()| Ok(std::fs::rename(&part, path)?));
-        written.map_err(|error| {
-            let _ = std::fs::remove_file(&part);
-            Error::Output { file: path.to_owned(), message: error.to_string() }
-        })
+        atomically(path, |out| Ok(self.encode(out)?))
     }
 
-    fn encode(&self, path: &Path) -> Result<(), png::EncodingError> {
-        let mut encoder = png::Encoder::new(BufWriter::new(File::create(path)?), self.width, self.height);
+    fn encode(&self, out: impl Write) -> Result<(), png::EncodingError> {
+        let mut encoder = png::Encoder::new(out, self.width, self.height);
         encoder.set_color(png::ColorType::Rgb);
         encoder.set_depth(png::BitDepth::Eight);
         encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
