@@ -3,6 +3,15 @@
 @group(1) @binding(0) var<storage, read> position: array<vec4f>; // xyz, mass
 @group(1) @binding(1) var<storage, read> velocity: array<vec4f>; // xyz, radius
 
+// Whether any axis is periodic.
+override PERIODIC: bool = false;
+
+// The shortest way to any image of where r leads (the minimum image).
+fn shortest(r: vec3f) -> vec3f {
+    if PERIODIC { return r - world.period * round(r * world.frequency); }
+    return r;
+}
+
 struct Particle { index: u32, position: vec3f, mass: f32 }
 
 // Lanes behind the last particle repeat it; nothing of theirs is stored.

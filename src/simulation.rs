@@ -1,10 +1,10 @@
 //! A simulation: particles, forces and an integrator on a backend.
 
 use crate::error::Error;
-use crate::forces::Force;
+use crate::forces::{Force, Problem};
 use crate::gpu::Gpu;
 use crate::integrators::{Integrator, Step};
-use crate::kernel::{ACCELERATION, ALARM, Array, Backend, Clock, Element, Field, POSITION, Plan, VELOCITY};
+use crate::kernel::{ACCELERATION, ALARM, Array, Backend, Bounds, Element, Field, POSITION, Plan, VELOCITY, World};
 use crate::particles::Particles;
 use crate::render::{self, Image, Picture};
 
@@ -18,6 +18,8 @@ pub struct Setup {
     pub integrator: Box<dyn Integrator>,
     /// The step size \[time\].
     pub dt: f64,
+    /// Where particles may be.
+    pub bounds: Bounds,
 }
 
 /// The state at the end of a step.
@@ -63,12 +65,12 @@ impl Setup {
     /// # Errors
     /// When the setup makes no sense, or a shader does not compile.
     pub fn plans(&self, machine: crate::kernel::Machine) -> Result<Plans, Error> {
-        let count = self.check()?;
-        let mut start = Step::new(&self.forces, count, machine);
+        let problem = Problem::new(self.check()?, machine).at(&self.particles.position, self.bounds);
+        let mut start = Step::new(&self.forces, problem);
         self.integrator.start(&mut start);
-        let mut step = Step::new(&self.forces, count, machine);
+        let mut step = Step::new(&self.forces, problem);
         self.integrator.step(&mut step);
-        let measure = Step::measurement(&self.forces, count, machine)?;
+        let measure = Step::measurement(&self.forces, problem)?;
         Ok(Plans { start: start.begun()?, step: step.done()?, measure })
     }
     /// The number of particles, if all is well.
@@ -121,7 +123,7 @@ impl<B: Backend> Simulation<B> {
         let start = backend.compile(&plans.start)?;
         let step = backend.compile(&plans.step)?;
         let measure = (backend.compile(&plans.measure.0)?, backend.compile(&plans.measure.1)?);
-        backend.set_clock(Clock { time: 0.0, dt: setup.dt, step: 0, count })?;
+        backend.set_world(World { time: 0.0, dt: setup.dt, step: 0, count, bounds: setup.bounds })?;
         let particles = &setup.particles;
         let position = particles.position.iter().zip(&particles.mass).map(|(x, m)| x.extend(*m)).collect();
         let velocity = particles.velocity.iter().zip(&particles.radius).map(|(v, r)| v.extend(*r)).collect();

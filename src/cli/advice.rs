@@ -1,10 +1,10 @@
 //! What one should know of a scene before it runs.
 
 use glam::DVec4;
-use motes::forces::{Law, Over};
-use motes::kernel::{ACCELERATION, Access, Array, Clock, Host, Kernel, Machine, POSITION, Pass, Twin, VELOCITY};
+use motes::forces::{Law, Over, Problem};
+use motes::kernel::{ACCELERATION, Access, Array, Host, Kernel, Machine, POSITION, Pass, Twin, VELOCITY, World};
 use motes::scene::Scene;
-use motes::{Error, Setup};
+use motes::{Bounds, Error, Setup};
 
 /// Whether a law does something else at another time: its twin says so for a particle at rest.
 fn depends_on_time(twin: &Twin) -> Result<bool, Error> {
@@ -13,24 +13,23 @@ fn depends_on_time(twin: &Twin) -> Result<bool, Error> {
         host.insert(POSITION.name, Array::Vec4(vec![DVec4::new(0.31, -0.23, 0.17, 1.3)]));
         host.insert(VELOCITY.name, Array::Vec4(vec![DVec4::ZERO]));
         host.insert(ACCELERATION.name, Array::Vec4(vec![DVec4::ZERO]));
-        host.set_clock(Clock { time, dt: 1.0, step: 0, count: 1 });
+        host.set_world(World { time, dt: 1.0, step: 0, count: 1, bounds: Bounds::default() });
         twin(&host).map(|()| host.get(ACCELERATION.name))
     };
     Ok(at(0.0)? != at(0.7)?)
 }
 
 /// Fields that a shader of a user may read: what a simulation has, and what the file itself writes.
-const FIELDS: &[&str] = &["position", "velocity", "acceleration", "alarm"];
+const FIELDS: &[&str] = &["position", "velocity", "acceleration", "species", "alarm"];
 
 /// A name in a user's file that nobody fills is a slip of the pen.
 fn strangers(kernel: &Kernel) -> Result<(), Error> {
     let theirs = |pass: &&Pass| !pass.shader.trusted();
     for pass in kernel.passes.iter().filter(theirs) {
         let file = pass.shader.sources().iter().find(|s| !s.ours).map_or("", |s| &s.file);
-        for binding in pass.shader.reflection().bindings.iter().filter(|b| b.access == Access::Read) {
-            let name = binding.name.as_str();
-            let written = kernel.passes.iter().flat_map(|p| &p.shader.reflection().bindings);
-            if FIELDS.contains(&name) || written.filter(|b| b.access == Access::Write).any(|b| b.name == name) {
+        for (name, _) in pass.bindings().filter(|(_, b)| b.access == Access::Read) {
+            let written = kernel.bindings().any(|(field, b)| b.access == Access::Write && field == name);
+            if FIELDS.contains(&name) || written {
                 continue;
             }
             let near =
@@ -54,7 +53,7 @@ pub fn conserved(setup: &Setup) -> Result<(bool, bool), Error> {
             Some(twin) => !depends_on_time(twin)?,
             None => false,
         };
-        energy &= !law.kernel(1, &MACHINE)?.names("velocity");
+        energy &= !law.kernel(&Problem::new(1, MACHINE))?.names("velocity");
     }
     Ok((energy, momentum))
 }
@@ -69,7 +68,7 @@ pub fn advice(scene: &Scene, setup: &Setup) -> Result<Vec<String>, Error> {
     for law in laws {
         let name = law.name.clone();
         let untwinned = law.twin.is_none();
-        let kernel = law.kernel(1, &MACHINE)?;
+        let kernel = law.kernel(&Problem::new(1, MACHINE))?;
         strangers(&kernel)?;
         if kernel.names("velocity") && reduced < order {
             remarks.push(format!(

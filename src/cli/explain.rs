@@ -30,9 +30,9 @@ pub async fn explain(args: &SceneArgs) -> Result<(), Failure> {
 fn describe(kernel: &Kernel) -> String {
     let name = |access: Access| {
         let mut names: Vec<&str> = Vec::new();
-        for binding in kernel.passes.iter().flat_map(|p| &p.shader.reflection().bindings) {
-            if binding.access == access && !names.contains(&binding.name.as_str()) {
-                names.push(&binding.name);
+        for (field, _) in kernel.bindings().filter(|(_, b)| b.access == access) {
+            if !names.contains(&field) {
+                names.push(field);
             }
         }
         names.join(", ")

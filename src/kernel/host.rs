@@ -5,14 +5,14 @@ use std::collections::BTreeMap;
 use std::marker::PhantomData;
 use std::sync::{RwLock, RwLockReadGuard, RwLockWriteGuard};
 
-use super::{Array, Clock, Element, Field};
+use super::{Array, Element, Field, World};
 use crate::error::Error;
 
-/// Named arrays and the clock.
+/// Named arrays, and what every kernel knows.
 #[derive(Debug, Default)]
 pub struct Host {
     arrays: BTreeMap<String, RwLock<Array>>,
-    clock: RwLock<Clock>,
+    world: RwLock<World>,
 }
 
 /// An array that is being read.
@@ -103,16 +103,16 @@ impl Host {
         }
         Ok(Writing(guard, PhantomData))
     }
-    /// The clock.
+    /// What every kernel knows.
     #[must_use]
-    pub fn clock(&self) -> Clock {
-        self.clock.read().map_or_else(|e| **e.get_ref(), |c| *c)
+    pub fn world(&self) -> World {
+        self.world.read().map_or_else(|e| **e.get_ref(), |c| *c)
     }
-    /// Sets the clock.
-    pub fn set_clock(&self, clock: Clock) {
-        match self.clock.write() {
-            Ok(mut c) => *c = clock,
-            Err(mut e) => **e.get_mut() = clock,
+    /// Sets it.
+    pub fn set_world(&self, world: World) {
+        match self.world.write() {
+            Ok(mut c) => *c = world,
+            Err(mut e) => **e.get_mut() = world,
         }
     }
 }

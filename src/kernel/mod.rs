@@ -1,7 +1,7 @@
 //! What runs, as data only: fields, shaders as naga sees them, kernels with their twins, plans. No device here.
 
 mod backend;
-mod clock;
+mod bounds;
 mod field;
 mod host;
 mod message;
@@ -9,12 +9,14 @@ mod pack;
 mod plan;
 mod reflect;
 mod shader;
+mod world;
 
 pub use backend::{Backend, Machine};
-pub use clock::Clock;
-pub use field::{ACCELERATION, ALARM, Array, Element, Field, POSITION, VELOCITY};
+pub use bounds::{Bounds, Side};
+pub use field::{ACCELERATION, ALARM, Array, Element, Field, POSITION, SPECIES, VELOCITY};
 pub use host::Host;
 pub use pack::{Member, Packed, Scalar};
-pub use plan::{Kernel, Pass, Plan, Threads, Twin};
+pub use plan::{Kernel, Name, Pass, Plan, Threads, Twin};
 pub use reflect::{Access, Binding, Reflection};
 pub use shader::{Shader, Source};
+pub use world::World;

@@ -2,11 +2,14 @@
 
 mod each;
 mod pairs;
+mod problem;
+
+pub use problem::Problem;
 
 use glam::{DVec3, DVec4};
 
 use crate::error::Error;
-use crate::kernel::{Kernel, Machine, POSITION, Scalar, Source, Twin, VELOCITY};
+use crate::kernel::{Kernel, POSITION, Scalar, Source, Twin, VELOCITY};
 
 /// The visits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -90,10 +93,10 @@ impl Law {
     ///
     /// # Errors
     /// [`Error::Shader`] when the WGSL does not compile, [`Error::Scene`] when a parameter is missing or unknown.
-    pub fn kernel(self, count: u32, machine: &Machine) -> Result<Kernel, Error> {
+    pub fn kernel(self, problem: &Problem) -> Result<Kernel, Error> {
         match self.over {
-            Over::Each => each::kernel(self, count),
-            Over::Pairs => pairs::kernel(self, count, machine),
+            Over::Each => each::kernel(self, problem),
+            Over::Pairs => pairs::kernel(self, problem),
         }
     }
     fn uniforms(&self, shader: &crate::kernel::Shader) -> Result<Vec<(&'static str, Vec<u8>)>, Error> {
@@ -134,7 +137,7 @@ impl Over {
 }
 
 fn bodies(host: &crate::kernel::Host) -> Result<Vec<Body>, Error> {
-    let count = host.clock().count as usize;
+    let count = host.world().count as usize;
     let (position, velocity) = (host.read(POSITION)?, host.read(VELOCITY)?);
     Ok((0..count.min(position.len())).map(|i| Body::new(i, position[i], velocity[i])).collect())
 }

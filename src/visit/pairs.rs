@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DVec3, DVec4};
 use rayon::prelude::*;
 
-use super::{Body, Law, bodies};
+use super::{Body, Law, Problem, bodies};
 use crate::error::Error;
 use crate::kernel::{ACCELERATION, Kernel, Machine, Pass, Scalar, Shader, Source, Threads, Twin};
 
@@ -63,7 +63,8 @@ fn join(visit: Source, law: &Law) -> Result<Arc<Shader>, Error> {
     Shader::join(&files)
 }
 
-pub fn kernel(law: Law, count: u32, machine: &Machine) -> Result<Kernel, Error> {
+pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
+    let (count, machine) = (problem.count, &problem.machine);
     law.requires(&[
         ("gather", "fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>)"),
         ("finish", "fn finish(me: Particle, sum: Sum) -> vec4f"),
@@ -84,11 +85,11 @@ pub fn kernel(law: Law, count: u32, machine: &Machine) -> Result<Kernel, Error> 
         let mut uniforms = params.clone();
         uniforms.push(("span", span));
         passes.push(Pass {
-            shader: shader.clone(),
             constants: vec![("WHOLE", f64::from(u8::from(whole)))],
             uniforms,
             threads: Threads { count: count.div_ceil(targets), layers: cut.layers },
             work: u64::from(count) * u64::from(end - first),
+            ..Pass::new(shader.clone(), count)
         });
         first = end;
     }
@@ -97,10 +98,16 @@ pub fn kernel(law: Law, count: u32, machine: &Machine) -> Result<Kernel, Error> 
         let constants = vec![("LAYERS", f64::from(cut.layers))];
         let uniforms = law.uniforms(&shader)?;
         let work = u64::from(count) * u64::from(cut.layers);
-        passes.push(Pass { shader, constants, uniforms, threads: Threads::new(count), work });
+        passes.push(Pass { constants, uniforms, work, ..Pass::new(shader, count) });
     }
     let parts = if whole { 1 } else { u64::from(cut.layers) * u64::from(count) };
-    Ok(Kernel { name: law.name, passes, twin: law.twin, sizes: vec![("parts", parts)], scratch: &["parts"] })
+    Ok(Kernel {
+        name: law.name,
+        passes,
+        twin: law.twin,
+        sizes: vec![("parts".into(), parts)],
+        scratch: vec!["parts".into()],
+    })
 }
 
 /// The twin meets everybody in the order of their ids.

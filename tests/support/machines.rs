@@ -1,6 +1,6 @@
 //! The variants of `pairs`: machines to pretend to be, and cuts that only very many particles would bring about.
 
-use motes::forces::Force;
+use motes::forces::{Force, Problem};
 use motes::gpu::Gpu;
 use motes::kernel::{Kernel, Machine, Pass, Plan, Scalar};
 
@@ -39,7 +39,7 @@ pub fn gpu(shared: &Shared, count: usize) -> Gpu {
 /// The kernels of a force's first law on a machine.
 pub fn kernel(force: &dyn Force, count: usize, machine: &Machine) -> Kernel {
     let law = force.laws().into_iter().next().expect("a law");
-    law.kernel(u32::try_from(count).expect("few"), machine).expect("a kernel")
+    law.kernel(&Problem::new(u32::try_from(count).expect("few"), *machine)).expect("a kernel")
 }
 
 /// A plan of one kernel.
@@ -67,5 +67,5 @@ pub fn cut(kernel: &Kernel, finish: &Pass, count: usize, layers: u32, slice: u32
     let mut last = finish.clone();
     last.constants = vec![("LAYERS", f64::from(layers))];
     passes.push(last);
-    Kernel { passes, sizes: vec![("parts", u64::from(layers * count))], ..kernel.clone() }
+    Kernel { passes, sizes: vec![("parts".into(), u64::from(layers * count))], ..kernel.clone() }
 }

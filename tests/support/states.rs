@@ -3,7 +3,7 @@
 use glam::{DVec3, DVec4};
 use motes::forces::{self, Force};
 use motes::integrators::{self, Integrator, Step};
-use motes::kernel::{ACCELERATION, Array, Backend, Clock, POSITION, VELOCITY};
+use motes::kernel::{ACCELERATION, Array, Backend, POSITION, VELOCITY, World};
 use motes::settings::{Settings, Value};
 use motes::{Cpu, Particles, Setup, Simulation};
 
@@ -39,7 +39,13 @@ pub fn one(position: DVec3, velocity: DVec3) -> Particles {
 /// A simulation by the twins.
 pub fn cpu(particles: &Particles, forces: Vec<Box<dyn Force>>, name: &str, dt: f64) -> Simulation<Cpu> {
     let count = u32::try_from(particles.len()).expect("few");
-    let setup = Setup { particles: particles.clone(), forces, integrator: integrator(name), dt };
+    let setup = Setup {
+        particles: particles.clone(),
+        forces,
+        integrator: integrator(name),
+        dt,
+        bounds: motes::Bounds::default(),
+    };
     Simulation::on(Cpu::new(count).expect("some"), &setup).expect("a simulation")
 }
 
@@ -56,14 +62,14 @@ pub fn phase(simulation: &mut Simulation<Cpu>) -> (Vec<DVec4>, Vec<DVec4>) {
 pub fn accelerations(forces: &[Box<dyn Force>], particles: &Particles, time: f64) -> Vec<DVec4> {
     let count = u32::try_from(particles.len()).expect("few");
     let mut cpu = Cpu::new(count).expect("some");
-    let mut step = Step::new(forces, count, cpu.machine());
+    let mut step = Step::new(forces, motes::forces::Problem::new(count, cpu.machine()));
     step.evaluate();
     let plan = step.finished().expect("a plan");
     let program = cpu.compile(&plan).expect("twins");
     let join = |v: &[DVec3], w: &[f64]| Array::Vec4(v.iter().zip(w).map(|(v, w)| v.extend(*w)).collect());
     cpu.write(POSITION.name, &join(&particles.position, &particles.mass)).expect("position");
     cpu.write(VELOCITY.name, &join(&particles.velocity, &particles.radius)).expect("velocity");
-    cpu.set_clock(Clock { time, dt: 0.01, step: 0, count }).expect("clock");
+    cpu.set_world(World { time, dt: 0.01, step: 0, count, bounds: motes::Bounds::default() }).expect("clock");
     cpu.run(&program, 1).expect("twins run");
     match cpu.host().get(ACCELERATION.name) {
         Some(Array::Vec4(a)) => a,

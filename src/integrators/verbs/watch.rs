@@ -9,7 +9,7 @@ use crate::kernel::{ACCELERATION, ALARM, Kernel, POSITION, Shader, VELOCITY};
 pub fn kernel(count: u32) -> Result<Kernel, Error> {
     let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("integrators/watch.wgsl")])?;
     let twin = |host: &crate::kernel::Host| {
-        let done = host.clock().step;
+        let done = host.world().step;
         let (position, velocity, acceleration) = (host.read(POSITION)?, host.read(VELOCITY)?, host.read(ACCELERATION)?);
         let well = |i: &usize| position[*i].is_finite() && velocity[*i].is_finite() && acceleration[*i].is_finite();
         let broken = (0..position.len()).find(|i| !well(i));
@@ -23,5 +23,5 @@ pub fn kernel(count: u32) -> Result<Kernel, Error> {
         Ok(())
     };
     let kernel = Kernel::new("watch", shader, Vec::new(), count, Arc::new(twin));
-    Ok(Kernel { sizes: vec![(ALARM.name, 2)], ..kernel })
+    Ok(Kernel { sizes: vec![(ALARM.name.into(), 2)], ..kernel })
 }

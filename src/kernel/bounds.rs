@@ -1,0 +1,105 @@
+//! The box: where particles may be, and what is at its sides.
+
+use glam::{DVec3, Vec3};
+
+/// What happens at two opposite sides of the box.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Side {
+    /// Nothing: there is no box along this axis.
+    #[default]
+    Open = 0,
+    /// Who leaves at one side comes in at the other, and everybody sees the nearest image of everybody (the minimum
+    /// image; Metropolis et al. 1953).
+    Periodic = 1,
+    /// A mirror: who would leave is thrown back without loss.
+    Reflecting = 2,
+}
+
+impl Side {
+    /// The scene's words for them.
+    pub const NAMES: &'static [&'static str] = &["open", "periodic", "reflecting"];
+
+    /// The side of a scene's word.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        [Self::Open, Self::Periodic, Self::Reflecting].into_iter().find(|side| side.name() == name)
+    }
+    /// The scene's word for it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        Self::NAMES[self as usize]
+    }
+}
+
+/// The box.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bounds {
+    /// Its lowest corner \[length\].
+    pub low: DVec3,
+    /// Its highest corner \[length\]; along an open axis neither means anything.
+    pub high: DVec3,
+    /// What is at its sides, axis by axis.
+    pub sides: [Side; 3],
+    /// 3, or 2 when everything happens in the plane z = 0.
+    pub dimensions: u32,
+}
+
+impl Default for Bounds {
+    /// Open space.
+    fn default() -> Self {
+        Self { low: DVec3::ZERO, high: DVec3::ZERO, sides: [Side::Open; 3], dimensions: 3 }
+    }
+}
+
+impl Bounds {
+    /// A box with the same at all sides; flat when its two corners have the same z.
+    #[must_use]
+    pub fn new(low: DVec3, high: DVec3, side: Side) -> Self {
+        if low.z.to_bits() == high.z.to_bits() {
+            return Self { low, high, sides: [side, side, Side::Open], dimensions: 2 };
+        }
+        Self { low, high, sides: [side; 3], dimensions: 3 }
+    }
+    /// The axes with such sides: 1 where they are, else 0.
+    #[must_use]
+    pub fn axes(&self, side: Side) -> DVec3 {
+        DVec3::from_array(self.sides.map(|s| f64::from(u8::from(s == side))))
+    }
+    /// Whether any side is of this kind.
+    #[must_use]
+    pub fn has(&self, side: Side) -> bool {
+        self.sides.contains(&side)
+    }
+    /// The period of each axis \[length\]; 0 where it has none.
+    #[must_use]
+    pub fn period(&self) -> DVec3 {
+        (self.high - self.low) * self.axes(Side::Periodic)
+    }
+    /// One over the period; 0 where there is none.
+    #[must_use]
+    pub fn frequency(&self) -> DVec3 {
+        let of = |axis: usize| {
+            let period = self.period()[axis];
+            if period > 0.0 { 1.0 / period } else { 0.0 }
+        };
+        DVec3::new(of(0), of(1), of(2))
+    }
+    /// The shortest way to any image.
+    #[must_use]
+    pub fn shortest(&self, r: DVec3) -> DVec3 {
+        let turns = r * self.frequency();
+        r - self.period() * DVec3::new(turns.x.round_ties_even(), turns.y.round_ties_even(), turns.z.round_ties_even())
+    }
+    /// Whether an image is within a range, by the device's own arithmetic, operation by operation in single precision:
+    /// who stands at the very edge is to be in for both or out for both.
+    #[must_use]
+    pub fn within(&self, r: DVec3, range: f64) -> bool {
+        #[expect(clippy::cast_possible_truncation, reason = "as the device holds it")]
+        let range = range as f32;
+        let (r, period) = (r.as_vec3(), self.period().as_vec3());
+        let turns = r * self.frequency().as_vec3();
+        let turns = Vec3::new(turns.x.round_ties_even(), turns.y.round_ties_even(), turns.z.round_ties_even());
+        let r = r - period * turns;
+        r.x * r.x + r.y * r.y + r.z * r.z < range * range
+    }
+}
