@@ -96,10 +96,15 @@ impl Bounds {
     pub fn within(&self, r: DVec3, range: f64) -> bool {
         #[expect(clippy::cast_possible_truncation, reason = "as the device holds it")]
         let range = range as f32;
+        let r = self.shortest_single(r);
+        r.x * r.x + r.y * r.y + r.z * r.z < range * range
+    }
+    /// The shortest way to any image, in single precision.
+    #[must_use]
+    pub fn shortest_single(&self, r: DVec3) -> Vec3 {
         let (r, period) = (r.as_vec3(), self.period().as_vec3());
         let turns = r * self.frequency().as_vec3();
         let turns = Vec3::new(turns.x.round_ties_even(), turns.y.round_ties_even(), turns.z.round_ties_even());
-        let r = r - period * turns;
-        r.x * r.x + r.y * r.y + r.z * r.z < range * range
+        r - period * turns
     }
 }

@@ -7,6 +7,7 @@ mod host;
 mod message;
 mod pack;
 mod plan;
+mod problem;
 mod reflect;
 mod shader;
 mod world;
@@ -17,6 +18,7 @@ pub use field::{ACCELERATION, ALARM, Array, Element, Field, POSITION, SPECIES, V
 pub use host::Host;
 pub use pack::{Member, Packed, Scalar};
 pub use plan::{Kernel, Name, Pass, Plan, Threads, Twin};
+pub use problem::Problem;
 pub use reflect::{Access, Binding, Reflection};
 pub use shader::{Shader, Source};
 pub use world::World;
