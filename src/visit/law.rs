@@ -2,9 +2,10 @@
 
 use glam::{DVec3, DVec4};
 
-use super::{Body, Over, each, pairs, twin};
+use super::{Body, Over, each, near, pairs, twin};
 use crate::error::Error;
 use crate::kernel::{Kernel, Problem, Scalar, Shader, Source, Twin, World};
+use crate::neighbors::Grid;
 
 /// A law: what happens between `me` and `you`, or to `me` alone.
 pub struct Law {
@@ -72,8 +73,16 @@ impl Law {
         match self.over {
             Over::Each => each::kernel(self, problem),
             Over::Pairs | Over::Within { .. } => pairs::kernel(self, problem),
-            Over::Near { .. } | Over::Nearest { .. } => Err(Error::Scene("no grid yet".to_owned())),
+            Over::Near { .. } => near::kernel(self, problem),
+            Over::Nearest { .. } => Err(Error::Scene("no grid yet".to_owned())),
         }
+    }
+    /// The grid that it searches, if it searches one, and whether it asks there for velocities.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] when its range is none.
+    pub fn grid(&self, problem: &Problem) -> Result<Option<(Grid, bool)>, Error> {
+        near::grid(self, problem)
     }
     pub(super) fn uniforms(&self, shader: &Shader) -> Result<Vec<(&'static str, Vec<u8>)>, Error> {
         let values: Vec<_> = self.params.iter().map(|(name, value)| (name.as_str(), *value)).collect();
