@@ -11,6 +11,7 @@ pub mod kernel;
 pub mod lockstep;
 pub mod measure;
 pub mod particles;
+pub mod primitives;
 pub mod render;
 #[cfg(feature = "scene")]
 pub mod scene;
