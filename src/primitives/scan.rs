@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use super::{bounded, pass};
+use super::{bounded, pass, workgroups};
 use crate::error::Error;
 use crate::kernel::{Host, Kernel, Machine, Name, Pass};
 
@@ -45,10 +45,11 @@ pub fn scratch(field: &Name) -> Name {
     format!("{field}_sums").into()
 }
 
-/// The elements of that field.
+/// The elements of that field, at least: no fewer for more elements of the scanned one.
 #[must_use]
 pub fn blocks(elements: u32, machine: &Machine) -> u64 {
-    u64::from(if machine.software { elements.div_ceil(chunk(elements)) } else { elements.div_ceil(TILE) }.max(1))
+    let blocks = if machine.software { elements.div_ceil(CHUNK).min(CHUNKS) } else { elements.div_ceil(TILE) };
+    blocks.max(1).into()
 }
 
 /// The dispatches alone, for a larger kernel: it lists `sums` among its scratch, with [`blocks`] elements.
@@ -90,12 +91,6 @@ pub fn passes(field: &Name, sums: &Name, elements: u32, machine: &Machine) -> Re
 /// Elements of a chunk of the processor's variant: an invocation's loop stays far below 65 535 turns.
 fn chunk(elements: u32) -> u32 {
     elements.div_ceil(CHUNKS).max(CHUNK)
-}
-
-/// The same pass in so many workgroups.
-fn workgroups(pass: Pass, groups: u32) -> Pass {
-    let threads = crate::kernel::Threads::new(groups * pass.shader.reflection().workgroup);
-    Pass { threads, ..pass }
 }
 
 /// The twin.

@@ -1,9 +1,12 @@
-//! Fill, scan and their like against their twins: both variants, at sizes around every seam, for inputs that are awkward.
+//! The primitives against their twins: both variants, at sizes around every seam, for inputs that are awkward.
 
 #[path = "../support/mod.rs"]
 mod support;
 
+mod reductions;
 mod scans;
+mod sorts;
+mod speed;
 
 use motes::Gpu;
 use motes::kernel::{Backend, Kernel, Machine};
