@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::kernel::{Host, Kernel, Machine, Name};
 
 /// Elements in one bin, at most, whose order is made to ascend; `LARGEST` in `sort_settle.wgsl`.
-pub const LARGEST: u32 = 1 << 16;
+pub const LARGEST: u32 = 1 << 14;
 
 /// The fields of a counting sort.
 #[derive(Debug, Clone)]

@@ -66,9 +66,7 @@ fn a_bin_that_is_too_full_is_told() {
     assert!(order.iter().copied().eq(0..elements), "not everybody is there once");
 }
 
-/// Four billion looks, some seconds of a processor: `cargo test --test primitives -- --ignored fullest`
 #[test]
-#[ignore = "some seconds"]
 fn the_fullest_bin_that_may_be_still_ascends() {
     let shared = support::device();
     let elements = counting_sort::LARGEST;
