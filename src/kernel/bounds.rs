@@ -44,6 +44,20 @@ pub struct Bounds {
     pub dimensions: u32,
 }
 
+/// For people: `x periodic from 0 to 1, y periodic from 0 to 1, z open`.
+impl std::fmt::Display for Bounds {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
+            let comma = if axis == 0 { "" } else { ", " };
+            write!(f, "{comma}{name} {}", self.sides[axis].name())?;
+            if self.sides[axis] != Side::Open {
+                write!(f, " from {} to {}", self.low[axis], self.high[axis])?;
+            }
+        }
+        if self.dimensions == 2 { write!(f, "; in the plane z = 0") } else { Ok(()) }
+    }
+}
+
 impl Default for Bounds {
     /// Open space.
     fn default() -> Self {
@@ -84,11 +98,11 @@ impl Bounds {
         };
         DVec3::new(of(0), of(1), of(2))
     }
-    /// The shortest way to any image.
+    /// The shortest way to any image. Which one that is, is found in single precision as the device finds it: half way
+    /// between two that are as near, both are to choose the same.
     #[must_use]
     pub fn shortest(&self, r: DVec3) -> DVec3 {
-        let turns = r * self.frequency();
-        r - self.period() * DVec3::new(turns.x.round_ties_even(), turns.y.round_ties_even(), turns.z.round_ties_even())
+        r - self.period() * self.turns(r.as_vec3()).as_dvec3()
     }
     /// Whether an image is within a range, by the device's own arithmetic, operation by operation in single precision:
     /// who stands at the very edge is to be in for both or out for both.
@@ -97,9 +111,12 @@ impl Bounds {
         #[expect(clippy::cast_possible_truncation, reason = "as the device holds it")]
         let range = range as f32;
         let (r, period) = (r.as_vec3(), self.period().as_vec3());
-        let turns = r * self.frequency().as_vec3();
-        let turns = Vec3::new(turns.x.round_ties_even(), turns.y.round_ties_even(), turns.z.round_ties_even());
-        let r = r - period * turns;
+        let r = r - period * self.turns(r);
         r.x * r.x + r.y * r.y + r.z * r.z < range * range
+    }
+    /// The whole periods in a way.
+    fn turns(&self, r: Vec3) -> Vec3 {
+        let turns = r * self.frequency().as_vec3();
+        Vec3::new(turns.x.round_ties_even(), turns.y.round_ties_even(), turns.z.round_ties_even())
     }
 }
