@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::{Body, Law, Problem, bodies};
 use crate::error::Error;
-use crate::kernel::{ACCELERATION, Kernel, Pass, Shader, Twin};
+use crate::kernel::{ACCELERATION, Kernel, Pass, Shader, Twin, World};
 
 pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
     law.requires(&[("force", "fn force(me: Particle) -> vec4f")])?;
@@ -18,16 +18,16 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
         law.wgsl.clone(),
     ])?;
     let uniforms = law.uniforms(&shader)?;
-    let pass = Pass { uniforms, ..Pass::new(shader, problem.count) };
+    let pass = Pass { constants: problem.constants(), uniforms, ..Pass::new(shader, problem.count) };
     Ok(Kernel { name: law.name, passes: vec![pass], twin: law.twin, sizes: Vec::new(), scratch: Vec::new() })
 }
 
-pub fn twin(rule: impl Fn(&Body, f64) -> DVec4 + Send + Sync + 'static) -> Twin {
+pub fn twin(rule: impl Fn(&Body, &World) -> DVec4 + Send + Sync + 'static) -> Twin {
     Arc::new(move |host| {
         let bodies = bodies(host)?;
-        let time = host.world().time;
+        let world = host.world();
         let mut acceleration = host.write(ACCELERATION)?;
-        acceleration.par_iter_mut().zip(&bodies).for_each(|(a, me)| *a += rule(me, time));
+        acceleration.par_iter_mut().zip(&bodies).for_each(|(a, me)| *a += rule(me, &world));
         Ok(())
     })
 }

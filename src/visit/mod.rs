@@ -9,7 +9,7 @@ pub use problem::Problem;
 use glam::{DVec3, DVec4};
 
 use crate::error::Error;
-use crate::kernel::{Kernel, POSITION, Scalar, Source, Twin, VELOCITY};
+use crate::kernel::{Kernel, POSITION, Scalar, Source, Twin, VELOCITY, World};
 
 /// The visits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -77,9 +77,18 @@ impl Law {
         params: Vec<(String, Scalar)>,
         rule: impl Fn(&Body, f64) -> DVec4 + Send + Sync + 'static,
     ) -> Self {
+        Self::each_in(name, wgsl, params, move |me, world| rule(me, world.time))
+    }
+    /// The same for a law that asks for more than the time: `rule(me, world)` knows the box too.
+    pub fn each_in(
+        name: &str,
+        wgsl: Source,
+        params: Vec<(String, Scalar)>,
+        rule: impl Fn(&Body, &World) -> DVec4 + Send + Sync + 'static,
+    ) -> Self {
         Self { name: name.to_owned(), over: Over::Each, wgsl, params, twin: Some(each::twin(rule)) }
     }
-    /// A law of pairs; `rule(me, you, r)`, with r from me to you, gives what you add to my acceleration and potential
+    /// A law of pairs; `rule(me, you, r)`, with r from me to your nearest image, gives what you add to my acceleration and potential
     /// per unit mass.
     pub fn pairs(
         name: &str,

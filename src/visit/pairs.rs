@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::{Body, Law, Problem, bodies};
 use crate::error::Error;
-use crate::kernel::{ACCELERATION, Kernel, Machine, Pass, Scalar, Shader, Source, Threads, Twin};
+use crate::kernel::{ACCELERATION, Kernel, Machine, Pass, Scalar, Shader, Side, Source, Threads, Twin};
 
 /// Meetings in one dispatch, at most. At 10 billion a second (a small GPU) that is 0.1 s; a large one needs half a millisecond.
 const MEETINGS: u64 = 1 << 30;
@@ -85,7 +85,7 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
         let mut uniforms = params.clone();
         uniforms.push(("span", span));
         passes.push(Pass {
-            constants: vec![("WHOLE", f64::from(u8::from(whole)))],
+            constants: [problem.constants(), vec![("WHOLE", f64::from(u8::from(whole)))]].concat(),
             uniforms,
             threads: Threads { count: count.div_ceil(targets), layers: cut.layers },
             work: u64::from(count) * u64::from(end - first),
@@ -95,7 +95,7 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
     }
     if !whole {
         let shader = join(crate::shader!("visit/pairs_finish.wgsl"), &law)?;
-        let constants = vec![("LAYERS", f64::from(cut.layers))];
+        let constants = [problem.constants(), vec![("LAYERS", f64::from(cut.layers))]].concat();
         let uniforms = law.uniforms(&shader)?;
         let work = u64::from(count) * u64::from(cut.layers);
         passes.push(Pass { constants, uniforms, work, ..Pass::new(shader, count) });
@@ -114,11 +114,14 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
 pub fn twin(rule: impl Fn(&Body, &Body, DVec3) -> DVec4 + Send + Sync + 'static) -> Twin {
     Arc::new(move |host| {
         let bodies = bodies(host)?;
+        let bounds = host.world().bounds;
+        let periodic = bounds.has(Side::Periodic);
+        let shortest = |r| if periodic { bounds.shortest(r) } else { r };
         let mut acceleration = host.write(ACCELERATION)?;
         acceleration.par_iter_mut().zip(&bodies).for_each(|(a, me)| {
             let mut sum = DVec4::ZERO;
             for you in bodies.iter().filter(|you| you.index != me.index) {
-                sum += rule(me, you, you.position - me.position);
+                sum += rule(me, you, shortest(you.position - me.position));
             }
             *a += sum * DVec4::new(1.0, 1.0, 1.0, 0.5);
         });

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::kernel::{Bounds, Machine};
+use crate::kernel::{Bounds, Machine, Side};
 
 /// The machine, the particles' number and place at the start, and their box. What a plan makes of the place are
 /// guesses of speed alone: particles may go anywhere.
@@ -30,5 +30,10 @@ impl Problem {
         let low = positions.iter().copied().reduce(DVec3::min).unwrap_or_default();
         let high = positions.iter().copied().reduce(DVec3::max).unwrap_or_default();
         Self { bounds, extent: (low, high), ..self }
+    }
+    /// What `shaders/particle.wgsl` must be told.
+    #[must_use]
+    pub fn constants(&self) -> Vec<(&'static str, f64)> {
+        vec![("PERIODIC", f64::from(u8::from(self.bounds.has(Side::Periodic))))]
     }
 }
