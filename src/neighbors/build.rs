@@ -53,11 +53,8 @@ impl Grid {
     }
 
     fn pass(&self, problem: &Problem, files: &[Source]) -> Result<Pass, Error> {
-        let mut all = vec![
-            crate::shader!("world.wgsl"),
-            crate::shader!("fields.wgsl"),
-            crate::shader!("neighbors/cell.wgsl"),
-        ];
+        let mut all =
+            vec![crate::shader!("world.wgsl"), crate::shader!("fields.wgsl"), crate::shader!("neighbors/cell.wgsl")];
         all.extend_from_slice(files);
         let shader = Shader::join(&all)?;
         let block = shader.reflection().binding("grid").map(|b| self.uniform(b, 0, problem.count)).transpose()?;
@@ -110,4 +107,3 @@ impl Grid {
         fold(0) + nx * (fold(1) + ny * fold(2))
     }
 }
-

@@ -152,8 +152,8 @@ fn low(problem: &Problem) -> DVec3 {
 
 fn size(problem: &Problem) -> DVec3 {
     let open = problem.bounds.axes(Side::Open);
-    let size = open * (problem.extent.1 - problem.extent.0)
-        + (DVec3::ONE - open) * (problem.bounds.high - problem.bounds.low);
+    let size =
+        open * (problem.extent.1 - problem.extent.0) + (DVec3::ONE - open) * (problem.bounds.high - problem.bounds.low);
     if problem.bounds.dimensions == 2 { size.with_z(0.0) } else { size }
 }
 
