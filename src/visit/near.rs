@@ -41,7 +41,10 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
     files.extend(variant(&problem.machine));
     files.extend(law.files());
     let shader = Shader::join(&files)?;
-    let (params, constants) = (law.uniforms(&shader)?, problem.constants(&shader));
+    let (params, mut constants) = (law.uniforms(&shader)?, problem.constants(&shader));
+    if grid.narrow(problem) {
+        constants.push(("NARROW", 1.0));
+    }
     let fields = [STARTS, SORTED_ID, SORTED_POSITION, SORTED_VELOCITY].map(|name| grid.field(name));
     let mut passes = Vec::new();
     let mut first = 0;
