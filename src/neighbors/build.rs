@@ -88,7 +88,8 @@ impl Grid {
         for i in (0..count).filter(chosen) {
             let slot = next[cells[i]] as usize;
             next[cells[i]] += 1;
-            (ids[slot], positions[slot]) = (u32::try_from(i).unwrap_or(u32::MAX), homes[i].as_dvec3().extend(position[i].w));
+            (ids[slot], positions[slot]) =
+                (u32::try_from(i).unwrap_or(u32::MAX), homes[i].as_dvec3().extend(position[i].w));
             if let Some(velocities) = &mut velocities {
                 velocities[slot] = velocity[i];
             }
