@@ -42,7 +42,7 @@ pub enum Command {
     Compare(CompareArgs),
     /// List the scenes that come with motes, or print one
     Scenes(ScenesArgs),
-    /// Measure interactions per second, beside a plain Rust loop on this processor
+    /// Measure steps of gravity and of searches for neighbours, beside plain Rust on this processor
     Bench(BenchArgs),
     /// List adapters and test what simulations rely on
     Doctor(DoctorArgs),
@@ -134,8 +134,20 @@ pub struct ScenesArgs {
     pub keys: bool,
 }
 
+/// What is measured.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Topic {
+    /// All pairs, and the integrators
+    Gravity,
+    /// Searches for neighbours
+    Neighbors,
+}
+
 #[derive(Debug, ClapArgs)]
 pub struct BenchArgs {
+    /// What to measure; all, if it is left out
+    #[arg(value_enum)]
+    pub topic: Option<Topic>,
     /// The smallest number of bodies
     #[arg(long, value_name = "N", default_value_t = 1024)]
     pub from: u32,

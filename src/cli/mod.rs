@@ -17,7 +17,6 @@ macro_rules! note {
 
 mod advice;
 mod args;
-mod baseline;
 mod bench;
 mod check;
 mod compare;
