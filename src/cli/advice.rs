@@ -67,8 +67,7 @@ pub struct Conserved {
 /// side and come in at the other, momentum stays, and the angular momentum is about nothing.
 pub fn conserved(setup: &Setup) -> Result<Conserved, Error> {
     let (periodic, reflecting) = (setup.bounds.has(Side::Periodic), setup.bounds.has(Side::Reflecting));
-    let mut conserved =
-        Conserved { energy: true, momentum: !reflecting, angular_momentum: !reflecting && !periodic };
+    let mut conserved = Conserved { energy: true, momentum: !reflecting, angular_momentum: !reflecting && !periodic };
     for law in setup.forces.iter().flat_map(|force| force.laws()) {
         let mutual = law.over == Over::Pairs && law.twin.is_some();
         conserved.momentum &= mutual;

@@ -38,7 +38,12 @@ fn keys(wanted: Option<&str>) -> Result<(), Failure> {
     let forces = motes::forces::FORCES.iter().map(|e| ("[[force]] kind", e.name, e.about, e.keys));
     let shapes = motes::particles::SHAPES.iter().map(|e| ("[[particles]] shape", e.name, e.about, e.keys));
     let sections = [
-        ("section", "box", "where particles may be; x, y and z say otherwise for single axes, dimensions 2 or 3", BOX_KEYS),
+        (
+            "section",
+            "box",
+            "where particles may be; x, y and z say otherwise for single axes, dimensions 2 or 3",
+            BOX_KEYS,
+        ),
         ("section", "particles", "what every [[particles]] may say", PARTICLES_KEYS),
         ("section", "picture", "how pictures are made", motes::render::KEYS),
     ];

@@ -83,7 +83,8 @@ fn sizes(table: &Table<'_>, size: DVec3, sides: [Side; 3], report: &mut Report) 
         if length > 0.0 || length == 0.0 && side == Side::Open {
             continue;
         }
-        let fault = Fault::at(place(axis), format!("the box is {length} long along {name}, where it is {}", side.name()));
+        let fault =
+            Fault::at(place(axis), format!("the box is {length} long along {name}, where it is {}", side.name()));
         report.push(match side {
             Side::Open => fault.label("a length is zero or above"),
             _ => fault.label(format!("a length above zero; or say {name} = \"open\"")),

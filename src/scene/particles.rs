@@ -160,7 +160,8 @@ fn wanted_count(settings: &Settings) -> (&'static str, f64) {
 }
 
 fn from_bodies(table: &Table<'_>, entry: &Entry, out: &mut Writer, report: &mut Report) -> Option<Particles> {
-    let offsets = table.named(format!("{} bodies", table.name)).settings(OFFSETS, &["bodies", "color", "species"], report);
+    let offsets =
+        table.named(format!("{} bodies", table.name)).settings(OFFSETS, &["bodies", "color", "species"], report);
     let Data::List(list) = &entry.node.data else {
         return value::refuse(&entry.node, "bodies", "a list of tables, as in [{ position = [1, 0, 0] }]", report);
     };

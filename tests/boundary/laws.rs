@@ -30,8 +30,7 @@ fn every_law_in_a_periodic_box() {
                     simulation.step(2).expect("steps");
                     // Unwrapped, as within a Runge-Kutta step.
                     let far = scattered(count, &bounds, 9);
-                    let far: Vec<_> =
-                        far.position.iter().zip(&far.mass).map(|(x, m)| x.extend(*m).as_vec4()).collect();
+                    let far: Vec<_> = far.position.iter().zip(&far.mass).map(|(x, m)| x.extend(*m).as_vec4()).collect();
                     simulation.write(motes::POSITION, &far).expect("places");
                     let problem = Problem::new(333, machine).at(&[], bounds);
                     let mut plan = Plan::default();
@@ -62,9 +61,16 @@ fn across_a_seam() {
         two
     };
     let bounds = cube(10.0);
-    let near = accelerations_in(&bounds, &gravity(), &two(DVec3::new(5.25, 4.0, 4.75), DVec3::new(4.75, 4.0, 5.5)), 0.0);
-    let across = accelerations_in(&bounds, &gravity(), &two(DVec3::new(0.25, 4.0, 9.75), DVec3::new(9.75, 4.0, 0.5)), 0.0);
-    let open = accelerations_in(&Bounds::default(), &gravity(), &two(DVec3::new(0.25, 4.0, 9.75), DVec3::new(9.75, 4.0, 0.5)), 0.0);
+    let near =
+        accelerations_in(&bounds, &gravity(), &two(DVec3::new(5.25, 4.0, 4.75), DVec3::new(4.75, 4.0, 5.5)), 0.0);
+    let across =
+        accelerations_in(&bounds, &gravity(), &two(DVec3::new(0.25, 4.0, 9.75), DVec3::new(9.75, 4.0, 0.5)), 0.0);
+    let open = accelerations_in(
+        &Bounds::default(),
+        &gravity(),
+        &two(DVec3::new(0.25, 4.0, 9.75), DVec3::new(9.75, 4.0, 0.5)),
+        0.0,
+    );
     assert_eq!(near, across);
     assert!(near[0].truncate().length() > 100.0 * open[0].truncate().length(), "without a box they are far apart");
     // The nearest image of a centre pulls too.

@@ -27,8 +27,7 @@ fn anywhere(shared: &Shared, count: usize, bounds: Bounds, name: &str) -> Simula
     let mut simulation = Simulation::on(gpu(shared, count), &setup).expect("a simulation");
     simulation.step(2).expect("two steps");
     let places = scattered(count, &bounds, 9);
-    let places: Vec<Vec4> =
-        places.position.iter().zip(&places.mass).map(|(x, m)| x.extend(*m).as_vec4()).collect();
+    let places: Vec<Vec4> = places.position.iter().zip(&places.mass).map(|(x, m)| x.extend(*m).as_vec4()).collect();
     simulation.write(POSITION, &places).expect("places");
     simulation
 }
@@ -37,7 +36,9 @@ fn anywhere(shared: &Shared, count: usize, bounds: Bounds, name: &str) -> Simula
 fn enclose(count: usize, bounds: &Bounds) -> Plan {
     let mut plan = Plan::default();
     let kernels = motes::boundary::kernels(u32::try_from(count).expect("few"), bounds).expect("kernels");
-    kernels.into_iter().for_each(|kernel| plan.add(kernel));
+    for kernel in kernels {
+        plan.add(kernel);
+    }
     plan
 }
 
@@ -71,7 +72,8 @@ fn integrators_in_a_box() {
         for name in ["leapfrog", "rk4", "symplectic_euler", "pefrl"] {
             let count = 300;
             let mut simulation = anywhere(&shared, count, bounds, name);
-            let forces = || vec![force("gravity", &[("softening", motes::settings::Value::Number(0.17))]), force("vortex", &[])];
+            let forces =
+                || vec![force("gravity", &[("softening", motes::settings::Value::Number(0.17))]), force("vortex", &[])];
             let setup = setup(crate::inside(count, &bounds, 5), forces(), name, 0.37, bounds);
             let machine = simulation.backend().machine();
             let plans = setup.plans(machine).expect("plans");
@@ -91,7 +93,7 @@ fn integrators_in_a_box() {
 /// the bit.
 #[test]
 fn at_the_very_sides() {
-    let (low, high) = (glam::DVec3::new(-0.75, 3.0, -2.5), glam::DVec3::new(0.75, 3.75, 0.5));
+    let (low, high) = (glam::DVec3::new(0.125, 3.0, -2.5), glam::DVec3::new(1.625, 3.75, 0.5));
     let shared = support::device();
     for side in [Periodic, Reflecting] {
         let bounds = Bounds::new(low, high, side);

@@ -39,7 +39,10 @@ fn follows(snapshot: &Snapshot, from: &motes::Particles, bounds: &Bounds, time: 
             assert!(off <= allowed, "{side:?}: particle {id}, axis {axis}: {} is not {want}", x[axis]);
             // Next to a mirror rounding may decide whether it has been reached.
             let near = (want - low).min(high - want) <= allowed;
-            assert!(v[axis].to_bits() == direction.to_bits() || near && v[axis].abs() == speed.abs(), "{side:?}: {v}");
+            assert!(
+                v[axis].to_bits() == direction.to_bits() || near && v[axis].abs().to_bits() == speed.abs().to_bits(),
+                "{side:?}: {v}"
+            );
             let rounding = 1e-7 * low.abs().max(high.abs());
             let within = x[axis] >= low - rounding && x[axis] <= high + rounding;
             assert!(within || side == Side::Open, "{side:?}: particle {id} is outside: {x}");
@@ -112,8 +115,7 @@ fn who_is_put_outside_comes_in() {
         let mut simulation = Simulation::on(gpu(&shared, 100), &setup).expect("a simulation");
         let snapshot = pollster::block_on(simulation.snapshot()).expect("a snapshot");
         follows(&snapshot, &setup.particles, &bounds, 0.0, 1e-5);
-        let places: Vec<_> =
-            outside.position.iter().zip(&outside.mass).map(|(x, m)| x.extend(*m).as_vec4()).collect();
+        let places: Vec<_> = outside.position.iter().zip(&outside.mass).map(|(x, m)| x.extend(*m).as_vec4()).collect();
         simulation.write(POSITION, &places).expect("places");
         simulation.step(1).expect("a step");
         let snapshot = pollster::block_on(simulation.snapshot()).expect("a snapshot");

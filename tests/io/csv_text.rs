@@ -58,7 +58,8 @@ fn a_csv_may_leave_out_much_and_come_in_any_order() {
     assert_eq!(p.position, [DVec3::new(1.0, 2.0, 3.0), DVec3::new(4.0, 5.0, -0.6)]);
     assert_eq!((p.velocity, p.mass, p.radius), (vec![DVec3::ZERO; 2], vec![2.0, 0.0], vec![0.0; 2]));
     assert_eq!(p.species, [0, 0]);
-    let p = read(&put(&folder, "b.txt", "radius,z,y,x,id,species\n0.5,3,2,1,1,4\n0.25,6,5,4,0,4294967295\n")).expect("csv");
+    let p =
+        read(&put(&folder, "b.txt", "radius,z,y,x,id,species\n0.5,3,2,1,1,4\n0.25,6,5,4,0,4294967295\n")).expect("csv");
     assert_eq!(p.position, [DVec3::new(4.0, 5.0, 6.0), DVec3::new(1.0, 2.0, 3.0)]);
     assert_eq!((p.mass, p.radius), (vec![1.0; 2], vec![0.25, 0.5]));
     assert_eq!(p.species, [u32::MAX, 4]);

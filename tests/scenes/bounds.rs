@@ -208,8 +208,7 @@ a.toml: 3 errors",
     std::fs::write(folder.path().join("a.csv"), "x,y,z,species\n1,2,3,5\n4,5,6,0\n").expect("a file");
     let file = |entry: &str| {
         let text = format!("[simulation]\ndt = 0.1\nsteps = 10\n[[particles]]\nfile = \"a.csv\"\n{entry}");
-        let source =
-            motes::scene::Source::Text { name: "a.toml".to_owned(), text, folder: folder.path().to_owned() };
+        let source = motes::scene::Source::Text { name: "a.toml".to_owned(), text, folder: folder.path().to_owned() };
         let options = motes::scene::Options { allow_outside: true, ..Default::default() };
         motes::scene::Scene::load(&source, &[], &options).unwrap_or_else(|faults| panic!("{faults}"))
     };

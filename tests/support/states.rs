@@ -39,13 +39,8 @@ pub fn one(position: DVec3, velocity: DVec3) -> Particles {
 /// A simulation by the twins.
 pub fn cpu(particles: &Particles, forces: Vec<Box<dyn Force>>, name: &str, dt: f64) -> Simulation<Cpu> {
     let count = u32::try_from(particles.len()).expect("few");
-    let setup = Setup {
-        particles: particles.clone(),
-        forces,
-        integrator: integrator(name),
-        dt,
-        bounds: Bounds::default(),
-    };
+    let setup =
+        Setup { particles: particles.clone(), forces, integrator: integrator(name), dt, bounds: Bounds::default() };
     Simulation::on(Cpu::new(count).expect("some"), &setup).expect("a simulation")
 }
 
@@ -64,12 +59,7 @@ pub fn accelerations(forces: &[Box<dyn Force>], particles: &Particles, time: f64
 }
 
 /// The same in a box.
-pub fn accelerations_in(
-    bounds: &Bounds,
-    forces: &[Box<dyn Force>],
-    particles: &Particles,
-    time: f64,
-) -> Vec<DVec4> {
+pub fn accelerations_in(bounds: &Bounds, forces: &[Box<dyn Force>], particles: &Particles, time: f64) -> Vec<DVec4> {
     let count = u32::try_from(particles.len()).expect("few");
     let mut cpu = Cpu::new(count).expect("some");
     let mut step = Step::new(forces, motes::forces::Problem::new(count, cpu.machine()).at(&[], *bounds));
