@@ -11,7 +11,9 @@ pub mod io;
 pub mod kernel;
 pub mod lockstep;
 pub mod measure;
+pub mod neighbors;
 pub mod particles;
+pub mod primitives;
 pub mod render;
 #[cfg(feature = "scene")]
 pub mod scene;

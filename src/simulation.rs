@@ -7,7 +7,9 @@ pub use setup::{Plans, Setup};
 use crate::boundary;
 use crate::error::Error;
 use crate::gpu::Gpu;
-use crate::kernel::{ACCELERATION, ALARM, Array, Backend, Element, Field, POSITION, SPECIES, VELOCITY, World};
+use crate::kernel::{
+    ACCELERATION, ALARM, ALARM_WORDS, Array, Backend, Element, Field, POSITION, SPECIES, VELOCITY, World,
+};
 use crate::particles::Particles;
 use crate::render::{self, Image, Picture};
 
@@ -60,7 +62,7 @@ impl<B: Backend> Simulation<B> {
         backend.write(POSITION.name, &Array::Vec4(position))?;
         backend.write(VELOCITY.name, &Array::Vec4(velocity))?;
         backend.write(ACCELERATION.name, &Array::Vec4(Vec::new()).zeros(count as usize))?;
-        backend.write(ALARM.name, &Array::Uint(vec![u32::MAX; 2]))?;
+        backend.write(ALARM.name, &Array::Uint(vec![u32::MAX; ALARM_WORDS as usize]))?;
         let species = particles.species.clone();
         if plans.all().any(|plan| plan.fields(count).contains_key(SPECIES.name)) {
             backend.write(SPECIES.name, &Array::Uint(species.clone()))?;
@@ -110,14 +112,15 @@ impl<B: Backend> Simulation<B> {
     /// Looks whether any number has stopped being one.
     ///
     /// # Errors
-    /// [`Error::NotFinite`] with the first particle and step, or what reading says.
+    /// [`Error::NotFinite`] with the first particle and step, [`Error::Crowded`], or what reading says.
     pub async fn check(&mut self) -> Result<(), Error> {
-        let alarm = self.backend.read(ALARM.name, &Array::Uint(Vec::new()), 2).await?;
+        let alarm = self.backend.read(ALARM.name, &Array::Uint(Vec::new()), ALARM_WORDS as usize).await?;
         match u32::view(&alarm).map(Vec::as_slice) {
             // The first look comes before the first step, every other one after a step that is done.
-            Some([done, particle]) if *done != u32::MAX => {
+            Some([done, particle, _]) if *done != u32::MAX => {
                 Err(Error::NotFinite { particle: *particle, step: u64::from(done.saturating_sub(1)) })
             }
+            Some([.., particle]) if *particle != u32::MAX => Err(Error::Crowded { particle: *particle }),
             _ => Ok(()),
         }
     }

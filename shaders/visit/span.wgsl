@@ -1,5 +1,5 @@
-// What the `pairs` visits share. A law says: fn gather(me, you, r: vec3f, sum: ptr<function, Sum>), with r from me to
-// your nearest image, and fn finish(me, sum: Sum) -> vec4f, acceleration and potential per unit mass.
+// What the `pairs` visits share. A law says: fn gather(me, you, r: vec3f, sum: ptr<function, Sum>), with r from me to you,
+// and fn finish(me, sum: Sum) -> vec4f, acceleration and potential per unit mass.
 //
 // Sources are met in blocks, each with a sum of its own, so that rounding grows with √(number of blocks), not √(sources).
 // One dispatch sees the sources first ≤ j < end; its layer l those from first + l · slice on. Sums over what a dispatch
@@ -35,7 +35,7 @@ fn add(i: u32, sum: Sum) {
 // Nobody meets itself. Both ways are computed and one is kept: a branch would cost more.
 fn meet_other(me: Particle, you: Particle, sum: ptr<function, Sum>) {
     var met = *sum;
-    gather(me, you, shortest(you.position - me.position), &met);
+    meets(me, you, shortest(you.position - me.position), &met);
     if you.index != me.index { *sum = met; }
 }
 
@@ -51,8 +51,8 @@ fn meet_others(you: Particle, a: Particle, b: Particle, c: Particle, d: Particle
 // You and four targets that are known to be others.
 fn meet(you: Particle, a: Particle, b: Particle, c: Particle, d: Particle,
         sum_a: ptr<function, Sum>, sum_b: ptr<function, Sum>, sum_c: ptr<function, Sum>, sum_d: ptr<function, Sum>) {
-    gather(a, you, shortest(you.position - a.position), sum_a);
-    gather(b, you, shortest(you.position - b.position), sum_b);
-    gather(c, you, shortest(you.position - c.position), sum_c);
-    gather(d, you, shortest(you.position - d.position), sum_d);
+    meets(a, you, shortest(you.position - a.position), sum_a);
+    meets(b, you, shortest(you.position - b.position), sum_b);
+    meets(c, you, shortest(you.position - c.position), sum_c);
+    meets(d, you, shortest(you.position - d.position), sum_d);
 }

@@ -5,9 +5,10 @@ mod custom;
 pub use custom::Custom;
 
 use crate::error::Error;
+pub use crate::kernel::Problem;
 use crate::kernel::{Plan, Scalar};
 use crate::settings::{Key, Settings, Value};
-pub use crate::visit::{Body, Law, Over, Problem};
+pub use crate::visit::{Body, Law, Over};
 
 /// What pushes particles.
 pub trait Force: Send + Sync {

@@ -5,6 +5,7 @@ use crate::boundary;
 use crate::error::Error;
 use crate::forces::{Force, Problem};
 use crate::kernel::{Kernel, Plan};
+use crate::neighbors::Grid;
 
 /// Writes a plan in verbs. The first error is kept and given at the end, so that an integrator reads like its textbook.
 pub struct Step<'a> {
@@ -25,6 +26,7 @@ impl<'a> Step<'a> {
     /// a ← forces(x, v, t), with all laws in the order of the scene.
     pub fn evaluate(&mut self) {
         self.evaluated = true;
+        self.neighbors();
         self.add(clear::kernel(self.problem.count));
         let name = |force: &dyn Force| force.laws().first().map(|law| law.name.clone());
         for (place, force) in self.forces.iter().enumerate() {
@@ -34,6 +36,25 @@ impl<'a> Step<'a> {
             if self.error.is_none() {
                 self.error = force.evaluate(&mut self.plan, earlier, &self.problem).err();
             }
+        }
+    }
+    /// The grids that laws search: each once, however many laws do.
+    fn neighbors(&mut self) {
+        let mut grids: Vec<(Grid, bool)> = Vec::new();
+        for law in self.forces.iter().flat_map(|force| force.laws()) {
+            match law.grid(&self.problem) {
+                Ok(Some((grid, moving))) => match grids.iter_mut().find(|(known, _)| *known == grid) {
+                    Some((_, also)) => *also |= moving,
+                    None => grids.push((grid, moving)),
+                },
+                Ok(None) => {}
+                Err(error) => {
+                    self.error.get_or_insert(error);
+                }
+            }
+        }
+        for (grid, moving) in grids {
+            self.add(grid.kernel(&self.problem, moving));
         }
     }
     /// v ← v + c a dt

@@ -69,7 +69,7 @@ impl Bounds {
     /// A box with the same at all sides; flat when its two corners have the same z.
     #[must_use]
     pub fn new(low: DVec3, high: DVec3, side: Side) -> Self {
-        if low.z.to_bits() == high.z.to_bits() {
+        if (high.z - low.z).abs() <= 0.0 {
             return Self { low, high, sides: [side, side, Side::Open], dimensions: 2 };
         }
         Self { low, high, sides: [side; 3], dimensions: 3 }
@@ -110,9 +110,14 @@ impl Bounds {
     pub fn within(&self, r: DVec3, range: f64) -> bool {
         #[expect(clippy::cast_possible_truncation, reason = "as the device holds it")]
         let range = range as f32;
-        let (r, period) = (r.as_vec3(), self.period().as_vec3());
-        let r = r - period * self.turns(r);
+        let r = self.shortest_single(r);
         r.x * r.x + r.y * r.y + r.z * r.z < range * range
+    }
+    /// The shortest way to any image, in single precision.
+    #[must_use]
+    pub fn shortest_single(&self, r: DVec3) -> Vec3 {
+        let (r, period) = (r.as_vec3(), self.period().as_vec3());
+        r - period * self.turns(r)
     }
     /// The whole periods in a way.
     fn turns(&self, r: Vec3) -> Vec3 {

@@ -2,12 +2,9 @@
 
 use std::sync::Arc;
 
-use glam::{DVec3, DVec4};
-use rayon::prelude::*;
-
-use super::{Body, Law, Problem, bodies};
+use super::Law;
 use crate::error::Error;
-use crate::kernel::{ACCELERATION, Kernel, Machine, Pass, Scalar, Shader, Side, Source, Threads, Twin};
+use crate::kernel::{Kernel, Machine, Pass, Problem, Scalar, Shader, Source, Threads};
 
 /// Meetings in one dispatch, at most. At 10 billion a second (a small GPU) that is 0.1 s; a large one needs half a millisecond.
 const MEETINGS: u64 = 1 << 30;
@@ -54,26 +51,28 @@ fn variant(machine: &Machine) -> Source {
 }
 
 fn join(visit: Source, law: &Law) -> Result<Arc<Shader>, Error> {
-    let mut files =
-        vec![crate::shader!("world.wgsl"), crate::shader!("particle.wgsl"), crate::shader!("visit/span.wgsl"), visit];
-    if !law.wgsl.says(&["struct", "Sum", "{"]) {
-        files.push(crate::shader!("visit/sum.wgsl"));
-    }
-    files.push(law.wgsl.clone());
+    let mut files = vec![
+        crate::shader!("world.wgsl"),
+        crate::shader!("fields.wgsl"),
+        crate::shader!("particle.wgsl"),
+        crate::shader!("visit/span.wgsl"),
+        if law.over.range().is_some() { crate::shader!("visit/within.wgsl") } else { crate::shader!("visit/all.wgsl") },
+        visit,
+    ];
+    files.extend(law.files());
     Shader::join(&files)
 }
 
 pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
     let (count, machine) = (problem.count, &problem.machine);
-    law.requires(&[
-        ("gather", "fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>)"),
-        ("finish", "fn finish(me: Particle, sum: Sum) -> vec4f"),
-    ])?;
+    law.requires_meetings()?;
     let shader = join(variant(machine), &law)?;
     let reflection = shader.reflection();
     let (targets, block) = (reflection.constant("TARGETS"), reflection.constant("BLOCK"));
     let cut = Cut::new(count, targets, block, machine);
     let params = law.uniforms(&shader)?;
+    let mut common = problem.constants(&shader);
+    common.extend(law.over.range().map(|range| ("RANGE", range)));
     let whole = cut.sources() >= u64::from(count) && cut.layers == 1;
 
     let mut passes = Vec::new();
@@ -85,7 +84,7 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
         let mut uniforms = params.clone();
         uniforms.push(("span", span));
         passes.push(Pass {
-            constants: [problem.constants(), vec![("WHOLE", f64::from(u8::from(whole)))]].concat(),
+            constants: [common.clone(), vec![("WHOLE", f64::from(u8::from(whole)))]].concat(),
             uniforms,
             threads: Threads { count: count.div_ceil(targets), layers: cut.layers },
             work: u64::from(count) * u64::from(end - first),
@@ -95,7 +94,7 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
     }
     if !whole {
         let shader = join(crate::shader!("visit/pairs_finish.wgsl"), &law)?;
-        let constants = [problem.constants(), vec![("LAYERS", f64::from(cut.layers))]].concat();
+        let constants = vec![("LAYERS", f64::from(cut.layers))];
         let uniforms = law.uniforms(&shader)?;
         let work = u64::from(count) * u64::from(cut.layers);
         passes.push(Pass { constants, uniforms, work, ..Pass::new(shader, count) });
@@ -107,25 +106,6 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
         twin: law.twin,
         sizes: vec![("parts".into(), parts)],
         scratch: vec!["parts".into()],
-    })
-}
-
-/// The twin meets everybody in the order of their ids.
-pub fn twin(rule: impl Fn(&Body, &Body, DVec3) -> DVec4 + Send + Sync + 'static) -> Twin {
-    Arc::new(move |host| {
-        let bodies = bodies(host)?;
-        let bounds = host.world().bounds;
-        let periodic = bounds.has(Side::Periodic);
-        let shortest = |r| if periodic { bounds.shortest(r) } else { r };
-        let mut acceleration = host.write(ACCELERATION)?;
-        acceleration.par_iter_mut().zip(&bodies).for_each(|(a, me)| {
-            let mut sum = DVec4::ZERO;
-            for you in bodies.iter().filter(|you| you.index != me.index) {
-                sum += rule(me, you, shortest(you.position - me.position));
-            }
-            *a += sum * DVec4::new(1.0, 1.0, 1.0, 0.5);
-        });
-        Ok(())
     })
 }
 

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::error::Error;
-use crate::kernel::{ACCELERATION, ALARM, Kernel, POSITION, Shader, VELOCITY};
+use crate::kernel::{ACCELERATION, ALARM, ALARM_WORDS, Kernel, POSITION, Shader, VELOCITY};
 
 /// The kernel.
 pub fn kernel(count: u32) -> Result<Kernel, Error> {
@@ -27,5 +27,5 @@ pub fn kernel(count: u32) -> Result<Kernel, Error> {
         Ok(())
     };
     let kernel = Kernel::new("watch", shader, Vec::new(), count, Arc::new(twin));
-    Ok(Kernel { sizes: vec![(ALARM.name.into(), 2)], ..kernel })
+    Ok(Kernel { sizes: vec![(ALARM.name.into(), ALARM_WORDS)], ..kernel })
 }

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::kernel::{Bounds, Machine, Side};
+use super::{Bounds, Machine, Shader, Side};
 
 /// The machine, the particles' number and place at the start, and their box. What a plan makes of the place are
 /// guesses of speed alone: particles may go anywhere.
@@ -31,9 +31,10 @@ impl Problem {
         let high = positions.iter().copied().reduce(DVec3::max).unwrap_or_default();
         Self { bounds, extent: (low, high), ..self }
     }
-    /// What `shaders/particle.wgsl` must be told.
+    /// The `override`s of a shader that the problem decides.
     #[must_use]
-    pub fn constants(&self) -> Vec<(&'static str, f64)> {
-        vec![("PERIODIC", f64::from(u8::from(self.bounds.has(Side::Periodic))))]
+    pub fn constants(&self, shader: &Shader) -> Vec<(&'static str, f64)> {
+        let periodic = shader.reflection().overrides.contains_key("PERIODIC") && self.bounds.has(Side::Periodic);
+        if periodic { vec![("PERIODIC", 1.0)] } else { Vec::new() }
     }
 }
