@@ -15,8 +15,7 @@ struct Sorting;
 
 impl Force for Sorting {
     fn laws(&self) -> Vec<Law> {
-        let wgsl = "@group(1) @binding(3) var<storage, read> species: array<u32>;
-        fn force(me: Particle) -> vec4f { return vec4f(f32(species[me.index]), 0.0, 0.0, 0.0); }";
+        let wgsl = "fn force(me: Particle) -> vec4f { return vec4f(f32(species[me.index]), 0.0, 0.0, 0.0); }";
         let twin = |host: &Host| {
             let species = host.read(SPECIES)?;
             for (a, of) in host.write(ACCELERATION)?.iter_mut().zip(species.iter()) {
