@@ -15,7 +15,7 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("", "override WEIGHT: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
     same("at.wgsl", "override FACTOR: f32 = 0.0;", "0.0", "1.0", ALWAYS_SET),
     same("pairs_finish.wgsl", "override LAYERS: u32 = 1u;", "1u", "2u", ALWAYS_SET),
-    same("particle.wgsl", "override PERIODIC: bool = false;", "false", "true", ALWAYS_SET),
+    same("fields.wgsl", "override PERIODIC: bool = false;", "false", "true", ALWAYS_SET),
     same("span.wgsl", "override WHOLE: bool = true;", "true", "false", ALWAYS_SET),
     same("gravity_spline.wgsl", "if distance2 >= h * h {", ">=", ">", "at u = 1 both formulas are the same number"),
     same("gravity_spline.wgsl", "if u < 0.5 {", "<", "<=", "at u = 1/2 both formulas are the same number"),
