@@ -123,6 +123,24 @@ impl Bounds {
         let (r, period) = (r.as_vec3(), self.period().as_vec3());
         r - period * self.turns(r)
     }
+    /// The image in the box of a place, by the device's own arithmetic: see `shaders/neighbors/cell.wgsl`.
+    #[must_use]
+    pub fn home(&self, x: DVec3) -> Vec3 {
+        let (low, high, period) = (self.low.as_vec3(), self.high.as_vec3(), self.period().as_vec3());
+        let x = x.as_vec3();
+        let y = x - period * ((x - low) * self.frequency().as_vec3()).floor();
+        let home = |axis: usize| {
+            let (x, y, low, high) = (x[axis], y[axis], low[axis], high[axis]);
+            if period[axis] <= 0.0 || x >= low && x < high {
+                x
+            } else if y < low || y >= high {
+                low
+            } else {
+                y
+            }
+        };
+        Vec3::new(home(0), home(1), home(2))
+    }
     /// The whole periods in a way.
     fn turns(&self, r: Vec3) -> Vec3 {
         let turns = r * self.frequency().as_vec3();

@@ -59,7 +59,9 @@ pub fn all() -> Vec<Place> {
         ),
     ];
     let plane = Bounds::new(-4.0 * flat, 4.0 * flat, Side::Periodic);
-    list.push(place("a periodic plane", random(2000, -4.0 * flat, 4.0 * flat), plane, 0.5));
+    let mut planar = random(2000, -4.0 * flat, 4.0 * flat);
+    planar.velocity.iter_mut().for_each(|v| v.z = 0.0);
+    list.push(place("a periodic plane", planar, plane, 0.5));
     let strip = Bounds { sides: [Side::Periodic, Side::Open, Side::Open], ..cube(3.0) };
     list.push(place("periodic along one axis", in_cube(1000, 3.0), strip, 0.9));
     // A lattice of distances that f32 holds, some of them just the range, and cells whose sides it touches.
