@@ -17,7 +17,7 @@ use crate::support::{self, Shared, choices};
 /// Large, and not a round number: what is wrong in a step shows.
 const DT: f64 = 0.37;
 /// Eight workgroups of 64, the last not full: on a device of four in a row two rows, and none too many.
-const FEW: usize = 500;
+pub const FEW: usize = 500;
 /// Twelve workgroups in three rows; sources in six blocks, of which some lie apart from the targets of each workgroup,
 /// and the last is not full.
 const MANY: usize = 740;
@@ -79,10 +79,10 @@ impl Stage {
     }
 }
 
-type Device = (wgpu::Device, wgpu::Queue);
+pub type Device = (wgpu::Device, wgpu::Queue);
 
 /// Particles three steps on their way, under a force that is not the one on stage.
-fn moving(device: &Device, count: usize, machine: Option<Machine>) -> Simulation<Gpu> {
+pub fn moving(device: &Device, count: usize, machine: Option<Machine>) -> Simulation<Gpu> {
     let mut gpu = Gpu::new(&device.0, &device.1, u32::try_from(count).expect("few")).expect("a GPU");
     gpu.pad(5);
     if let Some(machine) = machine {
@@ -98,7 +98,7 @@ fn moving(device: &Device, count: usize, machine: Option<Machine>) -> Simulation
 }
 
 /// A stage where every field but position, velocity and alarm holds numbers that differ from element to element.
-fn stage(name: &str, mut simulation: Simulation<Gpu>, kernel: Kernel) -> Stage {
+pub fn stage(name: &str, mut simulation: Simulation<Gpu>, kernel: Kernel) -> Stage {
     let gpu = simulation.backend();
     gpu.compile(&alone(kernel.clone())).expect("a good kernel");
     let mut random = support::Random::new(23);
@@ -117,6 +117,7 @@ pub fn all(shared: &Shared) -> Vec<Stage> {
     let mut stages = Vec::new();
     integrators(&device, &mut stages);
     watches(&device, &mut stages);
+    crate::boundary::boundary(&device, &mut stages);
     laws(&device, &mut stages);
     pairs(shared, &device, &mut stages);
     stages
