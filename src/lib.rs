@@ -1,5 +1,6 @@
 //! Particles moved by forces, on any GPU, checked against a second opinion in f64.
 
+pub mod boundary;
 pub mod cpu;
 pub mod error;
 pub mod forces;

@@ -17,9 +17,18 @@ fn fold(c: i32, cells: u32) -> u32 {
     return (bitcast<u32>(c) + whole) % cells;
 }
 
-// The cell of a place, folded. It is some cell even where the place is no number: who looks will see that.
+// Its image in the box, for who is on the way outside of it: on my side of the seam nobody is then nearer elsewhere.
+fn home(x: vec3f) -> vec3f {
+    if !PERIODIC { return x; }
+    let inside = ((x >= world.low) & (x < world.high)) | (world.period <= vec3f());
+    let y = select(x - world.period * floor((x - world.low) * world.frequency), x, inside);
+    return select(y, world.low, !inside & ((y < world.low) | (y >= world.high)));
+}
+
+// The cell of a place at home, folded. It is some cell even where the place is no number: who looks will see that.
 fn cell(x: vec3f) -> vec3u {
-    let c = vec3i(clamp(floor(away(x)), vec3f(-FARTHEST), vec3f(FARTHEST)));
+    let last = select(vec3f(FARTHEST), vec3f(grid.cells) - 1.0, world.period > vec3f());
+    let c = vec3i(clamp(floor(away(x)), vec3f(-FARTHEST), last));
     return vec3u(fold(c.x, grid.cells.x), fold(c.y, grid.cells.y), fold(c.z, grid.cells.z));
 }
 

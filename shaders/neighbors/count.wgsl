@@ -12,7 +12,7 @@ fn count(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: v
     if i < world.count {
         var k = NOWHERE;
         if chosen(i) {
-            k = key(cell(position[i].xyz));
+            k = key(cell(home(position[i].xyz)));
             arrivals[i] = atomicAdd(&starts[k], 1u);
         }
         keys[i] = k;

@@ -1,14 +1,16 @@
-// What the `near` visits share: the rows of cells around me. A row is contiguous in the grid; at the seam of the fold it
-// is in two parts: cells below the seam, and above it.
+// What the `near` visits share: the rows of cells around me. A row is contiguous in the grid, but for the seam of the
+// fold: there it is in parts, of which the middle one is on my side.
 @group(1) @binding(2) var<storage, read_write> acceleration: array<vec4f>;
 @group(1) @binding(4) var<storage, read_write> alarm: array<atomic<u32>>; // steps done, id, id of one with too many around
 @group(2) @binding(1) var<storage, read> starts: array<u32>;
 
-// Candidates of one target, at most: four in a turn of a loop, and lavapipe ends an invocation's loops after 65 535.
+// Candidates of one search, at most: lavapipe ends an invocation's loops after 65 535 turns, without a word.
 const MOST: u32 = 240000u;
-const PARTS: u32 = 3u;
 
-struct Around { cell: vec3u, reach: vec3u, first: vec3u, span: vec3u }
+// My cell, how far I look, and how many rows and cells that is.
+struct Around { cell: vec3u, reach: vec3u, span: vec3u }
+// Some neighbouring slots, and what to add to the way to whoever is there: a period, where they lie behind the seam.
+struct Stretch { start: u32, end: u32, shift: vec3f }
 
 // A cell is a little wider than the range, so that rounding does not move a neighbour two cells away. Far from the
 // corner rounding is more than that little, and two cells are looked at, or four.
@@ -17,37 +19,44 @@ fn reach(x: vec3f) -> vec3u {
     return select(select(vec3u(1u), vec3u(2u), d > vec3f(8192.0)), vec3u(4u), d > vec3f(2097152.0));
 }
 
-// Where an axis has fewer cells than that, each is looked at once.
+// Where an axis has fewer cells than I look at, each is looked at once.
 fn around(x: vec3f) -> Around {
     let r = reach(x);
-    let c = cell(x);
-    let span = min(2u * r + 1u, grid.cells);
-    return Around(c, r, (c + grid.cells - min(r, grid.cells)) % grid.cells, span);
+    return Around(cell(x), r, min(2u * r + 1u, grid.cells));
 }
 
-// The slots of one part of a row: before the seam, in the middle, behind the seam.
-fn slots_of(a: Around, z: u32, y: u32, part: u32) -> vec2u {
-    let n = grid.cells.x;
-    let row = n * ((a.first.y + y) % grid.cells.y + grid.cells.y * ((a.first.z + z) % grid.cells.z));
-    let low = i32(a.cell.x) - i32(a.reach.x);
-    let high = i32(a.cell.x) + i32(a.reach.x) + 1;
-    var lower = 0u;
-    var upper = n;
-    if a.span.x < n {
-        lower = u32(max(low, 0));
-        upper = u32(min(high, i32(n)));
-        if part == 0u { lower = u32(min(low, 0) + i32(n)); upper = n; }
-        if part == 2u { lower = 0u; upper = u32(max(high, i32(n)) - i32(n)); }
-    } else if part != 1u {
-        upper = 0u;
-    }
-    return vec2u(starts[row + lower], starts[row + upper]);
+// Part 0, 1 or 2 of the row y, z among those around me, for who stands in a cell from `low` to `high`, which is mine or close to it.
+fn stretch(a: Around, low: u32, high: u32, z: u32, y: u32, part: u32) -> Stretch {
+    let n = vec3i(grid.cells);
+    let r = vec3i(a.reach);
+    let c = vec3i(i32(low), i32(a.cell.y + y), i32(a.cell.z + z)) - r;
+    let row = n.x * (wrap(c.y, n.y) + n.y * wrap(c.z, n.z));
+    // Where the whole row is looked at there is one part.
+    let whole = a.span.x == grid.cells.x && 2 * r.x >= n.x;
+    let top = i32(high) + r.x + 1;
+    var first = select(max(c.x, 0), 0, whole);
+    var last = select(min(top, n.x), n.x, whole);
+    if part == 0u { first = min(c.x, 0) + n.x; last = select(n.x, 0, whole); }
+    if part == 2u { first = 0; last = select(max(top, n.x) - n.x, 0, whole); }
+    let turns = vec3i(i32(part) - 1, turn(c.y, n.y), turn(c.z, n.z));
+    if first >= last { return Stretch(0u, 0u, vec3f()); }
+    return Stretch(starts[row + first], starts[row + last], vec3f(turns) * world.period);
 }
 
-// Whether a row has a part before or behind the seam.
-fn parts(a: Around) -> vec2u {
-    if a.span.x == grid.cells.x { return vec2u(1u, 2u); }
-    return vec2u(select(1u, 0u, a.cell.x < a.reach.x), select(2u, 3u, a.cell.x + a.reach.x >= grid.cells.x));
+// Looks go no further than once round.
+fn wrap(c: i32, n: i32) -> i32 { return (c + 4 * n) % n; }
+fn turn(c: i32, n: i32) -> i32 { return i32(c >= n) - i32(c < 0); }
+
+// Whether a row reaches over the seam.
+fn seam(a: Around) -> bool { return a.cell.x < a.reach.x || a.cell.x + a.reach.x >= grid.cells.x; }
+
+// The way to somebody. Where a period has so few cells that both sides of the seam are one, any image may be the nearest.
+override NARROW: bool = false;
+
+fn way(me: vec3f, you: vec3f, shift: vec3f) -> vec3f {
+    if NARROW { return shortest(you - me); }
+    if PERIODIC { return you - me + shift; }
+    return you - me;
 }
 
 fn in_range(r: vec3f) -> bool { return r.x * r.x + r.y * r.y + r.z * r.z < grid.range * grid.range; }

@@ -1,24 +1,25 @@
 // One target walks the rows around it, and meets who is in range.
-fn consider(k: u32, slot: u32, end: u32, me: Particle, you: Particle, sum: ptr<function, Sum>) {
-    let r = shortest(you.position - me.position);
-    if slot < end && in_range(r) && !same(k, slot, me) { gather(me, you, r, sum); }
+fn consider(k: u32, slot: u32, s: Stretch, me: Particle, sum: ptr<function, Sum>) {
+    let you = candidate(slot);
+    let r = way(me.position, you.position, s.shift);
+    if slot < s.end && in_range(r) && !same(k, slot, me) { gather(me, you, r, sum); }
 }
 
 fn walk(k: u32, me: Particle, sum: ptr<function, Sum>) {
     let a = around(me.position);
-    let part = parts(a);
+    let parts = select(vec2u(1u, 2u), vec2u(0u, 3u), seam(a));
     var seen = 0u;
     for (var z = 0u; z < a.span.z; z += 1u) {
         for (var y = 0u; y < a.span.y; y += 1u) {
-            for (var p = part.x; p < part.y; p += 1u) {
-                let s = slots_of(a, z, y, p);
-                seen += s.y - s.x;
-                let end = select(s.x, s.y, seen <= MOST);
-                for (var slot = s.x; slot < end; slot += 4u) {
-                    consider(k, slot, end, me, candidate(slot), sum);
-                    consider(k, slot + 1u, end, me, candidate(slot + 1u), sum);
-                    consider(k, slot + 2u, end, me, candidate(slot + 2u), sum);
-                    consider(k, slot + 3u, end, me, candidate(slot + 3u), sum);
+            for (var part = parts.x; part < parts.y; part += 1u) {
+                let s = stretch(a, a.cell.x, a.cell.x, z, y, part);
+                seen += s.end - s.start;
+                let end = select(s.start, s.end, seen <= MOST);
+                for (var slot = s.start; slot < end; slot += 4u) {
+                    consider(k, slot, s, me, sum);
+                    consider(k, slot + 1u, s, me, sum);
+                    consider(k, slot + 2u, s, me, sum);
+                    consider(k, slot + 3u, s, me, sum);
                 }
             }
         }

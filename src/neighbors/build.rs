@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
-use glam::{DVec3, Vec3, Vec4};
+use glam::{Vec3, Vec4};
 
 use super::{ARRIVALS, Grid, KEYS, SLOTS, SORTED_ID, SORTED_POSITION, SORTED_VELOCITY, STARTS};
 use crate::error::Error;
-use crate::kernel::{Host, Kernel, Name, POSITION, Pass, Problem, SPECIES, Shader, Source, VELOCITY};
+use crate::kernel::{Bounds, Host, Kernel, Name, POSITION, Pass, Problem, SPECIES, Shader, Side, Source, VELOCITY};
 use crate::primitives::{fill, scan};
 
 impl Grid {
@@ -53,11 +53,8 @@ impl Grid {
     }
 
     fn pass(&self, problem: &Problem, files: &[Source]) -> Result<Pass, Error> {
-        let mut all = vec![
-            crate::shader!("world.wgsl"),
-            crate::shader!("fields.wgsl"),
-            crate::shader!("neighbors/cell.wgsl"),
-        ];
+        let mut all =
+            vec![crate::shader!("world.wgsl"), crate::shader!("fields.wgsl"), crate::shader!("neighbors/cell.wgsl")];
         all.extend_from_slice(files);
         let shader = Shader::join(&all)?;
         let block = shader.reflection().binding("grid").map(|b| self.uniform(b, 0, problem.count)).transpose()?;
@@ -71,7 +68,9 @@ impl Grid {
         let (position, velocity) = (host.read(POSITION)?, host.read(VELOCITY)?);
         let count = (host.world().count as usize).min(position.len());
         let species = if self.of.is_some() { host.read(SPECIES)?.to_vec() } else { Vec::new() };
-        let cells: Vec<usize> = (0..count).map(|i| self.key(position[i].truncate())).collect();
+        let bounds = host.world().bounds;
+        let homes: Vec<Vec3> = (0..count).map(|i| bounds.home(position[i].truncate())).collect();
+        let cells: Vec<usize> = homes.iter().map(|x| self.key(*x, &bounds)).collect();
         let chosen = |i: &usize| self.of.is_none_or(|of| species.get(*i) == Some(&of));
 
         let mut starts = host.writing::<u32>(&self.field(STARTS).1)?;
@@ -89,7 +88,7 @@ impl Grid {
         for i in (0..count).filter(chosen) {
             let slot = next[cells[i]] as usize;
             next[cells[i]] += 1;
-            (ids[slot], positions[slot]) = (u32::try_from(i).unwrap_or(u32::MAX), position[i]);
+            (ids[slot], positions[slot]) = (u32::try_from(i).unwrap_or(u32::MAX), homes[i].as_dvec3().extend(position[i].w));
             if let Some(velocities) = &mut velocities {
                 velocities[slot] = velocity[i];
             }
@@ -98,16 +97,16 @@ impl Grid {
     }
 
     /// The cell of a place, folded; see `shaders/neighbors/cell.wgsl`.
-    fn key(&self, x: DVec3) -> usize {
+    fn key(&self, x: Vec3, bounds: &Bounds) -> usize {
         const FARTHEST: f32 = 536_870_912.0;
-        let c: Vec3 = ((x.as_vec3() - self.low.as_vec3()) * self.per_cell.as_vec3()).floor();
+        let c: Vec3 = ((x - self.low.as_vec3()) * self.per_cell.as_vec3()).floor();
         let fold = |axis: usize| {
             #[expect(clippy::cast_possible_truncation, reason = "clamped; a number that is none becomes 0")]
-            let c = i64::from(c[axis].clamp(-FARTHEST, FARTHEST) as i32);
+            let last = if bounds.sides[axis] == Side::Periodic { self.cells[axis] as f32 - 1.0 } else { FARTHEST };
+            let c = i64::from(c[axis].clamp(-FARTHEST, last) as i32);
             usize::try_from(c.rem_euclid(i64::from(self.cells[axis]))).unwrap_or(0)
         };
         let [nx, ny, _] = self.cells.map(|n| n as usize);
         fold(0) + nx * (fold(1) + ny * fold(2))
     }
 }
-

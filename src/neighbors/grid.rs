@@ -115,6 +115,11 @@ impl Grid {
     pub fn count(&self) -> u32 {
         self.cells.iter().product()
     }
+    /// Whether a period has so few cells that those on both sides of me are the same.
+    #[must_use]
+    pub fn narrow(&self, problem: &Problem) -> bool {
+        (0..3).any(|axis| problem.bounds.sides[axis] == Side::Periodic && self.cells[axis] < 3)
+    }
     /// About how many particles a search looks at, when they are spread evenly.
     #[must_use]
     pub fn candidates(&self, problem: &Problem) -> f64 {
@@ -152,8 +157,8 @@ fn low(problem: &Problem) -> DVec3 {
 
 fn size(problem: &Problem) -> DVec3 {
     let open = problem.bounds.axes(Side::Open);
-    let size = open * (problem.extent.1 - problem.extent.0)
-        + (DVec3::ONE - open) * (problem.bounds.high - problem.bounds.low);
+    let size =
+        open * (problem.extent.1 - problem.extent.0) + (DVec3::ONE - open) * (problem.bounds.high - problem.bounds.low);
     if problem.bounds.dimensions == 2 { size.with_z(0.0) } else { size }
 }
 

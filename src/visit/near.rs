@@ -18,10 +18,10 @@ fn moving(law: &Law) -> bool {
     law.wgsl.says(&["velocity_of", "("])
 }
 
-fn variant(machine: &Machine) -> Source {
+fn variant(machine: &Machine) -> Vec<Source> {
     match (machine.software, machine.subgroup) {
-        (true, 8) => crate::shader!("visit/near_subgroup.wgsl"),
-        _ => crate::shader!("visit/near_lanes.wgsl"),
+        (true, 8) => vec![crate::shader!("visit/near_subgroup.wgsl")],
+        _ => vec![crate::shader!("visit/near_walk.wgsl"), crate::shader!("visit/near_lanes.wgsl")],
     }
 }
 
@@ -37,12 +37,14 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
         if moving { crate::shader!("visit/near_moving.wgsl") } else { crate::shader!("visit/near_still.wgsl") },
         if grid.of.is_some() { crate::shader!("visit/near_ids.wgsl") } else { crate::shader!("visit/near_slots.wgsl") },
         crate::shader!("visit/near_rows.wgsl"),
-        crate::shader!("visit/near_walk.wgsl"),
-        variant(&problem.machine),
     ];
+    files.extend(variant(&problem.machine));
     files.extend(law.files());
     let shader = Shader::join(&files)?;
-    let (params, constants) = (law.uniforms(&shader)?, problem.constants(&shader));
+    let (params, mut constants) = (law.uniforms(&shader)?, problem.constants(&shader));
+    if grid.narrow(problem) {
+        constants.push(("NARROW", 1.0));
+    }
     let fields = [STARTS, SORTED_ID, SORTED_POSITION, SORTED_VELOCITY].map(|name| grid.field(name));
     let mut passes = Vec::new();
     let mut first = 0;

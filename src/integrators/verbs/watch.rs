@@ -7,7 +7,11 @@ use crate::kernel::{ACCELERATION, ALARM, ALARM_WORDS, Kernel, POSITION, Shader, 
 
 /// The kernel.
 pub fn kernel(count: u32) -> Result<Kernel, Error> {
-    let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("integrators/watch.wgsl")])?;
+    let shader = Shader::join(&[
+        crate::shader!("world.wgsl"),
+        crate::shader!("broken.wgsl"),
+        crate::shader!("integrators/watch.wgsl"),
+    ])?;
     let twin = |host: &crate::kernel::Host| {
         let done = host.world().step;
         let (position, velocity, acceleration) = (host.read(POSITION)?, host.read(VELOCITY)?, host.read(ACCELERATION)?);
