@@ -21,6 +21,7 @@ struct Frame {
     line: f32,     // half the width of a trail [pixels]
     bloom: f32,    // brightness of the halo
     reach: u32,    // of the halo [pixels of it]
+    tail: f32,     // how long ago a stroke of light begins [time]
 }
 @group(3) @binding(0) var<uniform> frame: Frame;
 

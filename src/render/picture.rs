@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::camera::FEW;
 use super::meter::Exposure;
 use super::{Camera, Color, Frame, Trail};
-use super::{blank, cover, halo, meter, paint, project, splat, streak, tone};
+use super::{blank, cover, halo, heading, meter, paint, project, splat, streak, stroke, tone};
 use crate::error::Error;
 use crate::kernel::Plan;
 use crate::particles::Particles;
@@ -50,9 +50,15 @@ pub const KEYS: &[Key] = &[
     ),
     Key::new(
         "color",
-        Kind::Choice(&["auto", "group", "speed"]),
+        Kind::Choice(&["auto", "group", "speed", "heading"]),
         word("auto"),
-        "by group of particles, by speed, or by speed where many are one group",
+        "by group of particles, by speed, by heading (hue round the z axis, lighter upwards); auto: by speed where many are one group",
+    ),
+    Key::new(
+        "tail",
+        Kind::NotNegative,
+        Value::Number(0.0),
+        "draw each particle as a stroke of light from where it was so long ago [time]",
     ),
     Key::new(
         "exposure",
@@ -124,13 +130,19 @@ impl Picture {
             glow: (0.4 * (width * height / f64::from(count)).sqrt()).clamp(1.5, (short / 150.0).max(1.5)),
             unit: unit(count),
             speeds: if let Color::Speed { slow, fast } = color { (slow, fast) } else { (0.0, 1.0) },
-            points: u32::try_from(trail.points().count()).unwrap_or(0),
+            points: points(&trail),
             sky: if settings.text("background") == "black" { 0.0 } else { 1.0 },
             line: (short / 800.0).max(0.5),
             bloom: 1.8,
             reach: super::frame::whole(short / 48.0).max(1),
+            tail: settings.number("tail"),
         };
         Ok(Self { frame, color, trail, exposure: settings.number("exposure") })
+    }
+    /// The same picture with other trails.
+    pub fn retrace(&mut self, trail: Trail) {
+        self.frame.points = points(&trail);
+        self.trail = trail;
     }
     /// From particles to light: what runs before the exposure is known.
     ///
@@ -140,13 +152,16 @@ impl Picture {
         let mut plan = Plan::default();
         plan.add(blank::kernel(&self.frame)?);
         plan.add(project::kernel(&self.frame)?);
-        if let Color::Speed { .. } = self.color {
-            plan.add(paint::kernel(&self.frame)?);
+        match self.color {
+            Color::Speed { .. } => plan.add(paint::kernel(&self.frame)?),
+            Color::Heading => plan.add(heading::kernel(&self.frame)?),
+            Color::Given(_) => {}
         }
         if self.frame.solid < NEVER {
             plan.add(cover::kernel(&self.frame)?);
         }
-        plan.add(splat::kernel(&self.frame)?);
+        let lights = if self.frame.tail > 0.0 { stroke::kernel } else { splat::kernel };
+        plan.add(lights(&self.frame)?);
         if self.frame.points > 0 {
             plan.add(streak::kernel(&self.frame)?);
         }
@@ -163,6 +178,10 @@ impl Picture {
         plan.add(tone::kernel(&self.frame, exposure)?);
         Ok(plan)
     }
+}
+
+fn points(trail: &Trail) -> u32 {
+    u32::try_from(trail.points().count()).unwrap_or(0)
 }
 
 /// A power of two, so that it is the same on the device, and small enough that the lights of all particles on one pixel
