@@ -1,4 +1,4 @@
-// Strokes of light on the canvas, from x − v·tail to x:  w = (1 − s)² q² (¼ + ¾ q⁴),  q = 1 − d²/R², in whole parts of `unit`.
+// Strokes of light on the canvas, from x − v·tail to x:  w = (1 − s) q² (¼ + ¾ q⁴),  q = 1 − d²/R²,  R = (1 − ⅗ s) glow, in whole parts of `unit`.
 // s is 0 at the particle and 1 at the far end, d the distance from the line: at rest it is the light that `splat` draws.
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read> position: array<vec4f>; // xyz, mass
@@ -11,6 +11,8 @@
 override WALK: i32 = 64;
 
 const WORKGROUP: u32 = 64u;
+// How much narrower it is at its far end.
+const TAPER: f32 = 0.6;
 
 fn draw(light: vec3f, layer: i32, head: Seen, end: Seen) {
     let way = end.place - head.place;
@@ -29,19 +31,20 @@ fn draw(light: vec3f, layer: i32, head: Seen, end: Seen) {
         if along.x != 0.0 {
             part = clamp((f32(u) + 0.5 - start.x) / along.x, 0.0, 1.0);
         }
-        let first = i32(clamp(floor(start.y + part * along.y - across), 0.0, size.y));
-        let last = i32(clamp(ceil(start.y + part * along.y + across), 0.0, size.y));
+        // Of the pixel whose middle is there.
+        let row = start.y + part * along.y - 0.5;
+        let first = i32(clamp(floor(row - across), 0.0, size.y));
+        let last = i32(clamp(ceil(row + across), 0.0, size.y));
         for (var v = first; v < last; v += 1) {
             let x = select(u, v, steep);
             let y = select(v, u, steep);
             let off = middle(x, y) - head.place;
             let s = clamp(dot(off, way) / squared, 0.0, 1.0);
-            let d = (off - s * way) / frame.glow;
+            let d = (off - s * way) / (frame.glow * (1.0 - TAPER * s));
             let q = 1.0 - dot(d, d);
             let at = pixel(x, y);
             if q > 0.0 && key(mix(head.depth, end.depth, s)) < front[at] {
-                let fade = (1.0 - s) * (1.0 - s);
-                let add = vec3u(light * (fade * q * q * (0.25 + 0.75 * q * q * q * q)) + 0.5);
+                let add = vec3u(light * ((1.0 - s) * q * q * (0.25 + 0.75 * q * q * q * q)) + 0.5);
                 atomicAdd(&canvas[3u * at], add.r);
                 atomicAdd(&canvas[3u * at + 1u], add.g);
                 atomicAdd(&canvas[3u * at + 2u], add.b);

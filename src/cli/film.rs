@@ -123,7 +123,8 @@ impl Film {
         };
         // Nobody takes what ffmpeg has begun for a video.
         let _ = std::fs::remove_file(self.folder.join(&part));
-        let by_hand = format!("ffmpeg {}", self.arguments(&format!("../{name}")).join(" "));
+        let words = self.arguments(&format!("../{name}"));
+        let by_hand = words.iter().fold("ffmpeg".to_owned(), |line, word| line + " " + &quoted(word));
         progress.event("video", json!({ "file": null, "reason": reason, "command": by_hand }));
         let place = self.folder.join("frames");
         format!("no video: {reason}; to make one, in {}: {by_hand}", place.display())
@@ -141,6 +142,12 @@ impl Film {
     fn digits(&self) -> usize {
         (self.frames - 1).to_string().len().max(4)
     }
+}
+
+/// A word for a shell.
+fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./%+:".contains(c);
+    if word.chars().all(plain) { word.to_owned() } else { format!("'{}'", word.replace('\'', "'\\''")) }
 }
 
 /// After how many steps frame `k` of `frames` is taken: the first before any, the last after all, and an only one too.

@@ -19,6 +19,7 @@ mod picture;
 #[cfg(feature = "scene")]
 mod png;
 mod project;
+mod sky;
 mod splat;
 mod streak;
 mod stroke;

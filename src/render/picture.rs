@@ -66,7 +66,12 @@ pub const KEYS: &[Key] = &[
         Value::Number(1.0),
         "brightness of lights, as a multiple of the automatic one",
     ),
-    Key::new("background", Kind::Choice(&["night", "black"]), word("night"), "a dark blue sky, or nothing"),
+    Key::new(
+        "background",
+        Kind::Choice(&["night", "black", "dusk"]),
+        word("night"),
+        "a dark blue sky; nothing; or a bright sky at dusk, with lights and trails as ink",
+    ),
 ];
 
 /// A picture of so many particles, from one place. It can be drawn again and again as they move.
@@ -107,6 +112,8 @@ impl Picture {
         let count = u32::try_from(particles.len()).ok().filter(|n| *n > 0);
         let count = count.ok_or_else(|| Error::Scene("a picture needs one or more particles".to_owned()))?;
         let (few, style) = (particles.len() <= FEW, settings.text("style"));
+        let background = settings.text("background");
+        let dusk = background == "dusk";
         let color = Color::choose(settings, particles, groups);
         let camera = Camera::fit(particles, &trail, settings);
         let short = width.min(height);
@@ -127,15 +134,23 @@ impl Picture {
                 "balls" => 0.0,
                 _ => solid(particles, 0.5 * height / camera.extent, few),
             },
-            glow: (0.4 * (width * height / f64::from(count)).sqrt()).clamp(1.5, (short / 150.0).max(1.5)),
+            glow: {
+                // A stroke has more pixels than a point, and would run into the next one.
+                let part = if settings.number("tail") > 0.0 { 0.28 } else { 0.4 };
+                (part * (width * height / f64::from(count)).sqrt()).clamp(1.5, (short / 150.0).max(1.5))
+            },
             unit: unit(count),
             speeds: if let Color::Speed { slow, fast } = color { (slow, fast) } else { (0.0, 1.0) },
             points: points(&trail),
-            sky: if settings.text("background") == "black" { 0.0 } else { 1.0 },
+            sky: if background == "black" { 0.0 } else { 1.0 },
             line: (short / 800.0).max(0.5),
-            bloom: 1.8,
+            // A bright sky outshines every halo.
+            bloom: if dusk { 0.0 } else { 1.8 },
             reach: super::frame::whole(short / 48.0).max(1),
             tail: settings.number("tail"),
+            // White has no hue to say where it is heading.
+            bleach: if color == Color::Heading { 0.2 } else { 0.6 },
+            ink: if dusk { 0.94 } else { 0.0 },
         };
         Ok(Self { frame, color, trail, exposure: settings.number("exposure") })
     }

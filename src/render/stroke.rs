@@ -9,6 +9,8 @@ const TURNS: u32 = 1 << 15;
 /// Pixels across a diagonal, for each straight across.
 const DIAGONAL: f64 = 1.4143;
 
+const TAPER: f64 = 0.6;
+
 /// The kernel.
 pub fn kernel(frame: &Frame) -> Result<Kernel, Error> {
     let across = whole(2.0 * DIAGONAL * frame.glow) + 3;
@@ -51,9 +53,9 @@ fn stroke(frame: &Frame, head: &Seen, end: &Seen, mut draw: impl FnMut(usize, f6
     for (x, y) in rows.flat_map(|y| columns.clone().map(move |x| (x, y))) {
         let off = middle(x, y) - head.place;
         let s = (off.dot(way) / way.length_squared().max(1e-12)).clamp(0.0, 1.0);
-        let q = 1.0 - ((off - s * way) / frame.glow).length_squared();
+        let q = 1.0 - ((off - s * way) / (frame.glow * (1.0 - TAPER * s))).length_squared();
         if q > 0.0 {
-            let bright = (1.0 - s).powi(2) * q * q * (0.25 + 0.75 * q.powi(4));
+            let bright = (1.0 - s) * q * q * (0.25 + 0.75 * q.powi(4));
             draw(frame.pixel(x, y), head.depth + (end.depth - head.depth) * s, bright);
         }
     }

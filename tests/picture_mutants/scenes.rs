@@ -33,6 +33,7 @@ struct Wish {
     extent: f64,
     count: usize,
     trails: bool,
+    color: &'static str,
 }
 
 const PLAIN: Wish = Wish {
@@ -45,6 +46,7 @@ const PLAIN: Wish = Wish {
     extent: 1.2,
     count: FEW,
     trails: false,
+    color: "speed",
 };
 
 fn scene(wish: &Wish, change: impl FnOnce(&mut Picture, &mut Particles)) -> Scene {
@@ -57,7 +59,7 @@ fn scene(wish: &Wish, change: impl FnOnce(&mut Picture, &mut Particles)) -> Scen
         ("style", wish.style),
         ("projection", wish.projection),
         ("background", wish.background),
-        ("color", if wish.trails { "group" } else { "speed" }),
+        ("color", if wish.trails { "group" } else { wish.color }),
     ];
     let settings = sizes.iter().fold(Settings::defaults(KEYS), |s, (key, n)| s.with(key, Value::Number((*n).into())));
     let settings = words.iter().fold(settings, |s, (key, text)| s.with(key, word(text)));
@@ -180,7 +182,15 @@ pub fn few() -> Vec<Scene> {
         picture.frame.marker = 0.8;
         picture.frame.solid = 0.5;
     });
-    vec![parallel, balls, tiny]
+    let dusk = Wish { name: "dusk with trails", style: "auto", background: "dusk", trails: true, ..PLAIN };
+    let dusk = scene(&dusk, |picture, particles| {
+        sizes(particles, 0.2);
+        picture.frame.marker = 1.7;
+        picture.frame.solid = 1.6;
+        picture.frame.line = 0.8;
+        picture.frame.ink = 0.7;
+    });
+    vec![parallel, balls, tiny, dusk]
 }
 
 /// Many particles, mostly lights.
@@ -203,7 +213,46 @@ pub fn many() -> Vec<Scene> {
         picture.frame.marker = 1.4;
         picture.frame.solid = 1.0;
     });
-    vec![lights, dazzling, faint, crowd]
+    let headings = scene(&Wish { name: "headings", color: "heading", ..many }, |picture, particles| {
+        awkward(picture, particles);
+        // At rest, hardly not, neither, and as fast as can be.
+        let speeds = [0.0, 4e-31, 1.3e-30, 3e-24, 1e15, 2e36];
+        for (v, speed) in particles.velocity[30..].iter_mut().zip(speeds) {
+            *v = speed * v.normalize();
+        }
+        particles.velocity[40] = DVec3::Z;
+        particles.velocity[41] = DVec3::NEG_Z;
+        // Whatever is divided by anything but the largest number does not fit.
+        particles.velocity[42] = DVec3::new(3e30, -1e-9, 1e-9);
+        particles.velocity[43] = DVec3::new(1e-9, 3e30, -1e-9);
+        particles.velocity[44] = DVec3::new(-1e-9, 1e-9, 3e30);
+    });
+    let strokes = scene(&Wish { name: "strokes", style: "auto", ..many }, |picture, particles| {
+        awkward(picture, particles);
+        sizes(particles, 0.1);
+        picture.frame.solid = 2.2;
+        picture.frame.tail = 0.9;
+        // So broad and bright that its faint rim is to be seen.
+        picture.frame.unit = 1024.0;
+        picture.frame.glow = 6.0;
+        // Straight across, and straight up; at rest; from behind the eye; from where numbers end.
+        let back = picture.frame.camera.back;
+        let [right, up] = [picture.frame.camera.right, picture.frame.camera.up];
+        for (v, way) in particles.velocity[40..].iter_mut().zip([right, up, DVec3::ZERO, -40.0 * back, 1e38 * right]) {
+            *v = way;
+        }
+        // Diagonals, on which a stroke has the most pixels across; so long that it is hardly narrower in the picture.
+        for (i, sign) in (50..90).zip([1.0, -1.0].into_iter().cycle()) {
+            particles.position[i] *= 0.4;
+            particles.velocity[i] = 60.0 * (right + sign * up);
+        }
+    });
+    let mut dusk = scene(&Wish { name: "dusk", background: "dusk", ..many }, |picture, _| {
+        picture.frame.tail = 0.4;
+        picture.frame.ink = 0.8;
+    });
+    dusk.exposure = Exposure { knee: 60.0, white: 300.0 };
+    vec![lights, dazzling, faint, crowd, headings, strokes, dusk]
 }
 
 /// A picture so high that its largest ball and its lines are drawn by several layers of a dispatch, and of more than 2¹⁶
@@ -214,6 +263,14 @@ pub fn tall() -> Scene {
         sizes(particles, 0.5);
         picture.frame.largest = 600.0;
         picture.frame.marker = 0.3;
+        // Strokes from below to above, longer than one layer walks.
+        picture.frame.tail = 1.3;
+        picture.frame.glow = 9.0;
+        let camera = picture.frame.camera;
+        for (i, height) in [(31, 1200.0), (32, 1100.0), (33, 900.0)] {
+            particles.position[i] = at(&camera, DVec2::new(0.02 * height - 21.0, height), 2500, 1.0);
+            particles.velocity[i] = 1.6 * camera.up;
+        }
     })
 }
 
