@@ -25,7 +25,7 @@ pub struct Film {
     name: String,
     /// Whether the camera looks by itself.
     auto_frame: bool,
-    film: Option<render::Film>,
+    reel: Option<render::Film>,
     done: Vec<PathBuf>,
     /// Particles out of the last frame.
     outside: u32,
@@ -41,7 +41,7 @@ impl Film {
             folder: folder.to_owned(),
             name: scene.name.clone(),
             auto_frame: scene.picture.flag("auto_frame"),
-            film: None,
+            reel: None,
             done: Vec::new(),
             outside: 0,
         })
@@ -57,14 +57,14 @@ impl Film {
         output: &Output,
         progress: &Progress,
     ) -> Result<(), Failure> {
-        if self.film.is_none() {
+        if self.reel.is_none() {
             let picture = output.picture(&simulation.snapshot().await?)?;
-            self.film = Some(render::Film::new(picture, self.auto_frame));
+            self.reel = Some(render::Film::new(picture, self.auto_frame));
             let folder = self.folder.join("frames");
             let failed = |error: io::Error| Error::Output { file: folder.clone(), message: error.to_string() };
             std::fs::create_dir_all(&folder).map_err(failed)?;
         }
-        let Some(film) = &mut self.film else { return Ok(()) };
+        let Some(film) = &mut self.reel else { return Ok(()) };
         film.retrace(output.trail.clone());
         let image = simulation.shoot(film).await?;
         let file = self.folder.join("frames").join(format!("frame_{:0w$}.png", self.done.len(), w = self.digits()));
@@ -81,7 +81,7 @@ impl Film {
         if frames == 0 {
             return Ok(vec!["no film: the run was stopped before its first frame".to_owned()]);
         }
-        let count = self.film.as_ref().map_or(0, |film| film.picture().frame.count);
+        let count = self.reel.as_ref().map_or(0, |film| film.picture().frame.count);
         if self.auto_frame && u64::from(self.outside) * 10 > u64::from(count) {
             progress.say(&format!(
                 "note: {} of {count} particles have left the film, which is framed at its first picture: set \

@@ -20,8 +20,9 @@ fn line(velocities: &[DVec3]) -> (Particles, Settings) {
 }
 
 /// Brightness of the pixel so far right and up of the middle, in lengths.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a place in the picture")]
 fn bright(image: &Image, x: f64, y: f64) -> u8 {
-    let at = [150.0 + 100.0 * x, 100.0 - 100.0 * y].map(|x| usize::try_from(x as i64).unwrap());
+    let at = [150.0 + 100.0 * x, 100.0 - 100.0 * y].map(|x| x as usize);
     image.rgba[4 * (at[1] * 300 + at[0])..][..3].iter().copied().max().unwrap_or(0)
 }
 

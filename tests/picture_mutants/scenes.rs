@@ -24,19 +24,19 @@ pub struct Scene {
 }
 
 /// What is asked of a scene; the rest is the same for all.
-struct Wish {
-    name: &'static str,
-    size: (u32, u32),
-    style: &'static str,
-    projection: &'static str,
-    background: &'static str,
-    extent: f64,
-    count: usize,
-    trails: bool,
-    color: &'static str,
+pub struct Wish {
+    pub name: &'static str,
+    pub size: (u32, u32),
+    pub style: &'static str,
+    pub projection: &'static str,
+    pub background: &'static str,
+    pub extent: f64,
+    pub count: usize,
+    pub trails: bool,
+    pub color: &'static str,
 }
 
-const PLAIN: Wish = Wish {
+pub const PLAIN: Wish = Wish {
     name: "",
     // Both are one more than a multiple of four, and their product is none of 64.
     size: (45, 33),
@@ -49,7 +49,7 @@ const PLAIN: Wish = Wish {
     color: "speed",
 };
 
-fn scene(wish: &Wish, change: impl FnOnce(&mut Picture, &mut Particles)) -> Scene {
+pub fn scene(wish: &Wish, change: impl FnOnce(&mut Picture, &mut Particles)) -> Scene {
     let word = |text: &'static str| Value::Text(text.into());
     let mut particles = support::cloud(wish.count, 11);
     // Half as far again as the picture reaches, so that many cross its edges.
@@ -94,7 +94,7 @@ fn at(camera: &Camera, pixels: DVec2, height: u32, back: f64) -> DVec3 {
 }
 
 /// Particles that cannot be drawn, or hardly: behind the eye and about it, far out, not a number, two at one place.
-fn awkward(picture: &Picture, particles: &mut Particles) {
+pub fn awkward(picture: &Picture, particles: &mut Particles) {
     let camera = &picture.frame.camera;
     let axis = |back: f64| at(camera, DVec2::new(0.4, -0.3), picture.frame.height, back);
     let d = camera.distance.max(0.1);
@@ -134,7 +134,7 @@ fn far_trails(picture: &mut Picture, particles: &Particles) {
 }
 
 /// Sizes from nothing to more than what is drawn.
-fn sizes(particles: &mut Particles, largest: f64) {
+pub fn sizes(particles: &mut Particles, largest: f64) {
     for (i, radius) in (0..7).cycle().zip(&mut particles.radius) {
         *radius = largest * f64::from(i) / 6.0;
     }
@@ -213,46 +213,7 @@ pub fn many() -> Vec<Scene> {
         picture.frame.marker = 1.4;
         picture.frame.solid = 1.0;
     });
-    let headings = scene(&Wish { name: "headings", color: "heading", ..many }, |picture, particles| {
-        awkward(picture, particles);
-        // At rest, hardly not, neither, and as fast as can be.
-        let speeds = [0.0, 4e-31, 1.3e-30, 3e-24, 1e15, 2e36];
-        for (v, speed) in particles.velocity[30..].iter_mut().zip(speeds) {
-            *v = speed * v.normalize();
-        }
-        particles.velocity[40] = DVec3::Z;
-        particles.velocity[41] = DVec3::NEG_Z;
-        // Whatever is divided by anything but the largest number does not fit.
-        particles.velocity[42] = DVec3::new(3e30, -1e-9, 1e-9);
-        particles.velocity[43] = DVec3::new(1e-9, 3e30, -1e-9);
-        particles.velocity[44] = DVec3::new(-1e-9, 1e-9, 3e30);
-    });
-    let strokes = scene(&Wish { name: "strokes", style: "auto", ..many }, |picture, particles| {
-        awkward(picture, particles);
-        sizes(particles, 0.1);
-        picture.frame.solid = 2.2;
-        picture.frame.tail = 0.9;
-        // So broad and bright that its faint rim is to be seen.
-        picture.frame.unit = 1024.0;
-        picture.frame.glow = 6.0;
-        // Straight across, and straight up; at rest; from behind the eye; from where numbers end.
-        let back = picture.frame.camera.back;
-        let [right, up] = [picture.frame.camera.right, picture.frame.camera.up];
-        for (v, way) in particles.velocity[40..].iter_mut().zip([right, up, DVec3::ZERO, -40.0 * back, 1e38 * right]) {
-            *v = way;
-        }
-        // Diagonals, on which a stroke has the most pixels across; so long that it is hardly narrower in the picture.
-        for (i, sign) in (50..90).zip([1.0, -1.0].into_iter().cycle()) {
-            particles.position[i] *= 0.4;
-            particles.velocity[i] = 60.0 * (right + sign * up);
-        }
-    });
-    let mut dusk = scene(&Wish { name: "dusk", background: "dusk", ..many }, |picture, _| {
-        picture.frame.tail = 0.4;
-        picture.frame.ink = 0.8;
-    });
-    dusk.exposure = Exposure { knee: 60.0, white: 300.0 };
-    vec![lights, dazzling, faint, crowd, headings, strokes, dusk]
+    vec![lights, dazzling, faint, crowd]
 }
 
 /// A picture so high that its largest ball and its lines are drawn by several layers of a dispatch, and of more than 2¹⁶
