@@ -4,16 +4,26 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
+use glam::Vec4;
 use motes::io::apng;
 use motes::kernel::Backend;
-use motes::render;
+use motes::render::{self, Trail};
 use motes::scene::Scene;
-use motes::{Error, Simulation};
+use motes::{Error, POSITION, Simulation, VELOCITY};
 use serde_json::json;
 
 use super::failure::Failure;
 use super::output::Output;
 use super::progress::Progress;
+
+/// A state, until it is drawn.
+struct Kept {
+    step: u64,
+    /// Pushes of the trail until then.
+    pushes: u64,
+    position: Vec<Vec4>,
+    velocity: Vec<Vec4>,
+}
 
 /// The pictures of a run.
 pub struct Film {
@@ -26,6 +36,8 @@ pub struct Film {
     /// Whether the camera looks by itself.
     auto_frame: bool,
     reel: Option<render::Film>,
+    /// States of a few particles, to be drawn when it is known where they go.
+    kept: Vec<Kept>,
     done: Vec<PathBuf>,
     /// Particles out of the last frame.
     outside: u32,
@@ -42,35 +54,78 @@ impl Film {
             name: scene.name.clone(),
             auto_frame: scene.picture.flag("auto_frame"),
             reel: None,
+            kept: Vec::new(),
             done: Vec::new(),
             outside: 0,
         })
     }
     /// After how many steps the next frame is taken; `None` after the last.
     pub fn next(&self) -> Option<u64> {
-        step(self.done.len() as u64, self.frames, self.steps)
+        step((self.done.len() + self.kept.len()) as u64, self.frames, self.steps)
     }
-    /// Takes the next frame. The first one decides where the camera stands and what colours mean.
+    /// Takes the next frame. The first one decides where the camera stands and what colours mean; a few particles, whose
+    /// states are small, are only drawn in the end, by a camera that has all of their trails in view.
     pub async fn shoot<B: Backend>(
         &mut self,
         simulation: &mut Simulation<B>,
         output: &Output,
         progress: &Progress,
     ) -> Result<(), Failure> {
-        if self.reel.is_none() {
-            let picture = output.picture(&simulation.snapshot().await?)?;
-            self.reel = Some(render::Film::new(picture, self.auto_frame));
-            let folder = self.folder.join("frames");
-            let failed = |error: io::Error| Error::Output { file: folder.clone(), message: error.to_string() };
-            std::fs::create_dir_all(&folder).map_err(failed)?;
+        if self.auto_frame && output.trail.wanted() {
+            let (position, velocity) = (simulation.read(POSITION).await?, simulation.read(VELOCITY).await?);
+            let (step, pushes) = (simulation.steps(), output.trail.pushes());
+            self.kept.push(Kept { step, pushes, position, velocity });
+            return Ok(());
         }
-        let Some(film) = &mut self.reel else { return Ok(()) };
-        film.retrace(output.trail.clone());
-        let image = simulation.shoot(film).await?;
+        let step = simulation.steps();
+        self.draw(simulation, output, output.trail.clone(), step, progress).await
+    }
+    /// Draws the states that are kept. The simulation is at its end: it is left with one of them.
+    pub async fn develop<B: Backend>(
+        &mut self,
+        simulation: &mut Simulation<B>,
+        output: &Output,
+        progress: &Progress,
+    ) -> Result<(), Failure> {
+        if !self.kept.is_empty() {
+            self.begin(simulation, output, false).await?;
+        }
+        for Kept { step, pushes, position, velocity } in std::mem::take(&mut self.kept) {
+            simulation.write(POSITION, &position)?;
+            simulation.write(VELOCITY, &velocity)?;
+            self.draw(simulation, output, output.trail.until(pushes), step, progress).await?;
+        }
+        Ok(())
+    }
+    async fn begin<B: Backend>(
+        &mut self,
+        simulation: &mut Simulation<B>,
+        output: &Output,
+        room: bool,
+    ) -> Result<(), Failure> {
+        let picture = output.picture(&simulation.snapshot().await?)?;
+        self.reel = Some(render::Film::new(picture, self.frames, room));
+        let folder = self.folder.join("frames");
+        let failed = |error: io::Error| Error::Output { file: folder.clone(), message: error.to_string() };
+        Ok(std::fs::create_dir_all(&folder).map_err(failed)?)
+    }
+    async fn draw<B: Backend>(
+        &mut self,
+        simulation: &mut Simulation<B>,
+        output: &Output,
+        trail: Trail,
+        step: u64,
+        progress: &Progress,
+    ) -> Result<(), Failure> {
+        if self.reel.is_none() {
+            self.begin(simulation, output, self.auto_frame).await?;
+        }
+        let Some(reel) = &mut self.reel else { return Ok(()) };
+        reel.retrace(trail);
+        let image = simulation.shoot(reel).await?;
         let file = self.folder.join("frames").join(format!("frame_{:0w$}.png", self.done.len(), w = self.digits()));
         image.save(&file)?;
-        let (frame, step) = (self.done.len(), simulation.steps());
-        progress.event("frame", json!({ "frame": frame, "step": step, "file": file }));
+        progress.event("frame", json!({ "frame": self.done.len(), "step": step, "file": file }));
         self.done.push(file);
         self.outside = image.outside;
         Ok(())

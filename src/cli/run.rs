@@ -145,7 +145,11 @@ impl Run {
         if output.rows().last().is_none_or(|row| row.step != simulation.steps()) {
             image = self.write(&mut simulation, &mut output).await?;
         }
-        self.conclude(simulation.steps(), &output, stepping, image.as_ref())
+        let steps = simulation.steps();
+        if let Some(film) = &mut self.film {
+            film.develop(&mut simulation, &output, &self.progress).await?;
+        }
+        self.conclude(steps, &output, stepping, image.as_ref())
     }
 
     /// Takes the present state for the film, if it is one of its frames.

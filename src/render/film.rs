@@ -10,22 +10,25 @@ use crate::kernel::Backend;
 pub struct Film {
     picture: Picture,
     exposure: Option<Exposure>,
+    /// What each picture does of the way to the exposure that would be its own.
+    follow: f64,
 }
 
 /// How much more than the first state a film shows each way, where the camera has framed that by itself: room to move.
 const ROOM: f64 = 1.25;
-/// What each picture does of the way to the exposure that would be its own: half of it in eight pictures. The meter
-/// counts in eighths of an f-stop, so that none of its jumps is more than 1 % of the brightness.
-const FOLLOW: f64 = 0.08;
+/// Half of the way to an exposure that would be a picture's own is gone in such a part of the film. The meter counts in eighths
+/// of an f-stop: of 240 pictures, none of its jumps makes one brighter than the last by more than 1 %.
+const HALF_WAY: f64 = 1.0 / 30.0;
 
 impl Film {
-    /// A film that begins with this picture. With `room` its camera sees a quarter more, each way.
+    /// A film of so many pictures that begins with this one. With `room` its camera sees a quarter more, each way.
     #[must_use]
-    pub fn new(mut picture: Picture, room: bool) -> Self {
+    pub fn new(mut picture: Picture, frames: u64, room: bool) -> Self {
         if room {
             picture.frame.camera = picture.frame.camera.wider(ROOM);
         }
-        Self { picture, exposure: None }
+        let follow = 1.0 - (-1.0 / (HALF_WAY * frames.max(1) as f64)).exp2();
+        Self { picture, exposure: None, follow }
     }
     /// What every picture of it looks like.
     #[must_use]
@@ -38,7 +41,7 @@ impl Film {
     }
     /// The exposure of the next picture, whose own would be this one.
     fn follow(&mut self, metered: Exposure) -> Exposure {
-        let next = self.exposure.map_or(metered, |last| last.toward(metered, FOLLOW));
+        let next = self.exposure.map_or(metered, |last| last.toward(metered, self.follow));
         self.exposure = Some(next);
         next
     }
@@ -66,17 +69,22 @@ mod tests {
         particles.push(glam::DVec3::ONE, glam::DVec3::ZERO, 1.0, 0.0);
         let picture = Picture::new(&Settings::defaults(KEYS), &particles, &[], Trail::new(1)).unwrap();
         let extent = picture.frame.camera.extent;
-        let mut film = Film::new(picture, true);
+        let mut film = Film::new(picture.clone(), 240, true);
         assert!((film.picture.frame.camera.extent / extent - 1.25).abs() < 1e-12);
         let (dark, light) = (Exposure { knee: 2.0, white: 10.0 }, Exposure { knee: 4.0, white: 160.0 });
         assert_eq!(film.follow(dark), dark);
         let mut last = dark;
-        for _ in 0..100 {
+        for _ in 0..120 {
             let next = film.follow(light);
-            // Four f-stops in all, of which a picture does 8 %: a factor of 2^0.32.
+            // Four f-stops in all, of which a picture of 240 does 8 %: a factor of 2^0.33.
             assert!(next.white > last.white && next.white / last.white < 1.25 && next.knee > last.knee);
             last = next;
         }
+        // 1.4e-4 of the way is left, half of it fifteen times.
         assert!((last.white / light.white - 1.0).abs() < 1e-3 && (last.knee / light.knee - 1.0).abs() < 1e-3);
+        // Of three pictures each has its own, nearly.
+        let mut few = Film::new(picture, 3, false);
+        few.follow(dark);
+        assert!((few.follow(light).white / light.white - 1.0).abs() < 0.01);
     }
 }

@@ -189,7 +189,10 @@ impl Picture {
     /// When a shader does not compile.
     pub fn development(&self, exposure: Exposure) -> Result<Plan, Error> {
         let mut plan = Plan::default();
-        plan.add(halo::kernel(&self.frame, exposure)?);
+        // Without light there is none to spread: what a device has not written is zero.
+        if self.frame.bloom > 0.0 {
+            plan.add(halo::kernel(&self.frame, exposure)?);
+        }
         plan.add(tone::kernel(&self.frame, exposure)?);
         Ok(plan)
     }
