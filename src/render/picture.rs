@@ -33,7 +33,7 @@ pub const KEYS: &[Key] = &[
         "auto_frame",
         Kind::Flag,
         Value::Flag(true),
-        "look at all particles but the outermost, and at their trails; each picture by itself",
+        "look at all particles but the outermost, and at their trails; each picture by itself, a film once",
     ),
     Key::new("center", Kind::Vector, Value::Vector(DVec3::ZERO), "what to look at, without auto_frame [length]"),
     Key::new(
