@@ -13,7 +13,7 @@ use glam::Vec3;
 use glam::camera::rh::{proj, view};
 use motes::gpu::{self, Found};
 use motes::settings::{Settings, Value};
-use motes::{Error, Gpu, POSITION, Setup, Simulation, forces, integrators, particles, wgpu};
+use motes::{Bounds, Error, Gpu, POSITION, Setup, Simulation, forces, integrators, particles, wgpu};
 use winit::application::ApplicationHandler;
 use winit::event::{ElementState, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, EventLoop};
@@ -228,6 +228,7 @@ fn setup(count: u32) -> Result<Setup, Error> {
         forces: vec![(gravity.build)(&softened)],
         integrator: Box::new(integrators::Leapfrog),
         dt: 0.05,
+        bounds: Bounds::default(),
     })
 }
 

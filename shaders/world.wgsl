@@ -1,5 +1,12 @@
-// What every kernel knows: the time at which forces are evaluated, the step size, the steps done, the particles.
-struct World { time: f32, dt: f32, step: u32, count: u32 }
+// What every kernel knows: the time at which forces are evaluated, the step size, the steps done, the particles, and
+// their box. `sides` has a byte for each axis: 0 open, 1 periodic, 2 reflecting. `period` is 0 along axes that have none,
+// and so is `frequency`, one over it.
+struct World {
+    time: f32, dt: f32, step: u32, count: u32,
+    low: vec3f, dimensions: u32,
+    high: vec3f, sides: u32,
+    period: vec3f, frequency: vec3f,
+}
 
 // A dispatch of more than 65 535 workgroups is folded over two dimensions; this is the workgroup's place in line.
 fn folded(group: vec3u, groups: vec3u) -> u32 { return group.y * groups.x + group.x; }

@@ -1,7 +1,7 @@
 //! The backend that runs the twins: f64 on the host, over all cores, with no driver at all.
 
 use crate::error::Error;
-use crate::kernel::{Access, Array, Backend, Clock, Host, Machine, POSITION, Plan, VELOCITY};
+use crate::kernel::{Access, Array, Backend, Host, Machine, POSITION, Plan, VELOCITY, World};
 
 /// Runs plans by their twins.
 pub struct Cpu {
@@ -47,21 +47,12 @@ impl Backend for Cpu {
                 );
                 return Err(Error::Scene(text));
             }
-            for pass in &kernel.passes {
-                for binding in pass.shader.reflection().bindings.iter().filter(|b| b.access != Access::Uniform) {
-                    let known = self.host.contains(&binding.name) || kernel.scratch.contains(&binding.name.as_str());
-                    if known || binding.name == "world" {
-                        continue;
-                    }
-                    let own = kernel.sizes.iter().find(|(name, _)| *name == binding.name);
-                    let len = own.map_or(self.count, |(_, n)| usize::try_from(*n).unwrap_or(usize::MAX));
-                    let array = if binding.array && binding.stride == 16 {
-                        Array::Vec4(Vec::new()).zeros(len)
-                    } else {
-                        Array::Uint(vec![0; len])
-                    };
-                    self.host.insert(&binding.name, array);
+            for (field, binding) in kernel.bindings().filter(|(_, b)| b.access != Access::Uniform) {
+                if self.host.contains(field) || kernel.is_scratch(field) || field == "world" {
+                    continue;
                 }
+                let elements = kernel.size(field).map_or(self.count, |n| usize::try_from(n).unwrap_or(usize::MAX));
+                self.host.insert(field, binding.zeros(elements));
             }
         }
         Ok(plan.clone())
@@ -74,8 +65,8 @@ impl Backend for Cpu {
         }
         Ok(())
     }
-    fn set_clock(&mut self, clock: Clock) -> Result<(), Error> {
-        self.host.set_clock(clock);
+    fn set_world(&mut self, world: World) -> Result<(), Error> {
+        self.host.set_world(world);
         Ok(())
     }
     fn write(&mut self, name: &str, array: &Array) -> Result<(), Error> {

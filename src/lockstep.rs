@@ -5,7 +5,7 @@ use glam::DVec4;
 
 use crate::error::Error;
 use crate::gpu::Gpu;
-use crate::kernel::{Access, Array, Backend, Clock, Host, Kernel, POSITION, Plan, VELOCITY};
+use crate::kernel::{Access, Array, Backend, Host, Kernel, Name, POSITION, Plan, VELOCITY, World};
 
 /// What a kernel may be wrong by, in parts of what it changed: a sum of n terms of one magnitude rounds by about √n ulp,
 /// and blocks keep √n below 100; with 6e-8 for an ulp that is 6e-6. The worst seen on lavapipe is 2e-6.
@@ -70,7 +70,7 @@ pub async fn compare(gpu: &mut Gpu, plan: &Plan, count: u32) -> Result<Vec<Verdi
             behind(gpu, name, *bytes, sentinel(place))?;
         }
         // What is left of an earlier run must not matter.
-        let scratch = |name: &&&str| gpu.size(name) > 0;
+        let scratch = |name: &&Name| gpu.size(name) > 0;
         let scratch: Vec<_> = kernel.scratch.iter().filter(scratch).collect();
         for name in &scratch {
             behind(gpu, name, 0, sentinel(fields.len()))?;
@@ -79,20 +79,20 @@ pub async fn compare(gpu: &mut Gpu, plan: &Plan, count: u32) -> Result<Vec<Verdi
         for (name, bytes, kind) in &fields {
             host.insert(name, kind.like(&gpu.bytes(name, 0, *bytes).await?));
         }
-        let clock = gpu.clock().await?;
-        host.set_clock(clock);
+        let world = gpu.world().await?;
+        host.set_world(world);
         gpu.run(&program, 1)?;
         let before: Vec<_> = fields.iter().map(|(name, _, _)| host.get(name)).collect();
         twin(&host)?;
         if kernel.writes().iter().any(|name| name == "world") {
-            verdicts.push(clocks(&kernel.name, clock, gpu.clock().await?, host.clock()));
+            verdicts.push(worlds(&kernel.name, world, gpu.world().await?, host.world()));
         }
         for name in &scratch {
             let used = used(kernel, name, count);
             let tail = gpu.bytes(name, used, gpu.size(name).saturating_sub(used)).await?;
             let spilled = tail.chunks_exact(4).any(|word| word != sentinel(fields.len()));
             if spilled {
-                let field = (**name).to_owned();
+                let field = (*name).to_string();
                 verdicts.push(Verdict {
                     kernel: kernel.name.clone(),
                     field,
@@ -126,29 +126,29 @@ fn behind(gpu: &mut Gpu, name: &str, from: u64, word: [u8; 4]) -> Result<(), Err
 
 /// The bytes of a field that a kernel has a use for.
 fn used(kernel: &Kernel, name: &str, count: u32) -> u64 {
-    let own = kernel.sizes.iter().find(|(field, _)| *field == name);
-    let bindings = kernel.passes.iter().flat_map(|p| &p.shader.reflection().bindings);
-    let stride = bindings.filter(|b| b.name == name).map(|b| b.stride).max().unwrap_or(0);
-    stride * own.map_or(u64::from(count), |(_, n)| *n)
+    let stride = kernel.bindings().filter(|(field, _)| *field == name).map(|(_, b)| b.stride).max().unwrap_or(0);
+    stride * kernel.size(name).unwrap_or(u64::from(count))
 }
 
 /// The fields that a kernel names, their bytes, and an empty array of their kind.
 fn fields(kernel: &Kernel, count: u32) -> Vec<(String, u64, Array)> {
     let mut list: Vec<(String, u64, Array)> = Vec::new();
-    for binding in kernel.passes.iter().flat_map(|p| &p.shader.reflection().bindings) {
-        let known = list.iter().any(|(name, _, _)| *name == binding.name);
-        let scratch = kernel.scratch.contains(&binding.name.as_str());
-        if binding.access == Access::Uniform || !binding.array || known || scratch {
+    for (field, binding) in kernel.bindings() {
+        let known = list.iter().any(|(name, _, _)| name == field);
+        if binding.access == Access::Uniform || !binding.array || known || kernel.is_scratch(field) {
             continue;
         }
-        let kind = if binding.stride == 16 { Array::Vec4(Vec::new()) } else { Array::Uint(Vec::new()) };
-        list.push((binding.name.clone(), used(kernel, &binding.name, count), kind));
+        list.push((field.to_owned(), used(kernel, field, count), binding.zeros(0)));
     }
     list
 }
 
 fn judge(before: &Array, want: &Array, got: &Array) -> Verdict {
-    let (Array::Vec4(before), Array::Vec4(want), Array::Vec4(got)) = (before, want, got) else {
+    let wide = |a: &Array| match a {
+        Array::Float(a) => Array::Vec4(a.iter().map(|x| DVec4::X * *x).collect()),
+        other => other.clone(),
+    };
+    let (Array::Vec4(before), Array::Vec4(want), Array::Vec4(got)) = (&wide(before), &wide(want), &wide(got)) else {
         let wrong = match (want, got) {
             (Array::Uint(want), Array::Uint(got)) => want.iter().zip(got).position(|(w, g)| w != g),
             _ => Some(0),
@@ -189,7 +189,7 @@ fn parts(v: DVec4) -> [f64; 2] {
     [v.truncate().length(), v.w.abs()]
 }
 
-fn clocks(kernel: &str, before: Clock, got: Clock, want: Clock) -> Verdict {
+fn worlds(kernel: &str, before: World, got: World, want: World) -> Verdict {
     let allowed = 4.0 * f64::from(f32::EPSILON) * want.time.abs().max(want.dt);
     let same = got.step == want.step && got.count == want.count;
     let worst = if same { (got.time - want.time).abs() / allowed } else { f64::INFINITY };

@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use crate::error::Error;
 use crate::gpu::Gpu;
-use crate::kernel::{Array, Backend, Element, Field, Kernel, Pass, Plan, Shader, Source, Threads};
+use crate::kernel::{Array, Backend, Element, Field, Kernel, Pass, Plan, Shader, Source};
 
 /// How a test ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -87,9 +87,8 @@ async fn ask(gpu: &mut Gpu, source: Source, probe: &[u32]) -> Result<Vec<u32>, E
 fn question(source: Source) -> Result<Plan, Error> {
     let name = source.file.to_string();
     let shader = Shader::join(&[source])?;
-    let pass = Pass { shader, constants: Vec::new(), uniforms: Vec::new(), threads: Threads::new(1), work: 1 };
-    let sizes = vec![(PROBE, WORDS as u64), (ANSWER.name, WORDS as u64)];
-    let kernel = Kernel { name, passes: vec![pass], twin: None, sizes, scratch: &[] };
+    let sizes = vec![(PROBE.into(), WORDS as u64), (ANSWER.name.into(), WORDS as u64)];
+    let kernel = Kernel { name, passes: vec![Pass::new(shader, 1)], twin: None, sizes, scratch: Vec::new() };
     Ok(Plan { kernels: vec![kernel], order: vec![0] })
 }
 

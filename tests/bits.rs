@@ -28,7 +28,13 @@ fn forces() -> Vec<Box<dyn Force>> {
 }
 
 fn setup(name: &str) -> Setup {
-    Setup { particles: support::cloud(COUNT as usize, 5), forces: forces(), integrator: integrator(name), dt: 0.013 }
+    Setup {
+        particles: support::cloud(COUNT as usize, 5),
+        forces: forces(),
+        integrator: integrator(name),
+        dt: 0.013,
+        bounds: motes::Bounds::default(),
+    }
 }
 
 fn simulation(shared: &Shared, name: &str) -> Simulation<Gpu> {
@@ -118,7 +124,7 @@ fn the_same_in_a_callers_encoder() {
         }
         assert_eq!(encoded.steps(), u64::from(STEPS));
         assert!(bytes(&mut encoded) == want, "{}: steps in a caller's encoder differ", entry.name);
-        let clock = pollster::block_on(encoded.backend().clock()).expect("a clock");
+        let clock = pollster::block_on(encoded.backend().world()).expect("a clock");
         assert_eq!(clock.step, STEPS, "{}: the clock is on the device", entry.name);
     }
 }

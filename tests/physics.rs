@@ -16,7 +16,13 @@ fn gravity(softening: f64) -> Vec<Box<dyn Force>> {
 }
 
 fn on_gpu(shared: &Shared, particles: &Particles, softening: f64, name: &str, dt: f64) -> Simulation<motes::Gpu> {
-    let setup = Setup { particles: particles.clone(), forces: gravity(softening), integrator: integrator(name), dt };
+    let setup = Setup {
+        particles: particles.clone(),
+        forces: gravity(softening),
+        integrator: integrator(name),
+        dt,
+        bounds: motes::Bounds::default(),
+    };
     Simulation::new(&shared.found.device, &shared.found.queue, &setup).expect("a simulation")
 }
 
@@ -96,7 +102,13 @@ fn an_ellipse_in_f32() {
     let shared = support::device();
     let start = one(DVec3::new(0.5, 0.0, 0.0), DVec3::new(0.0, 3f64.sqrt(), 0.0));
     let forces = vec![force("attractor", &[])];
-    let setup = Setup { particles: start, forces, integrator: integrator("leapfrog"), dt: TAU / 1000.0 };
+    let setup = Setup {
+        particles: start,
+        forces,
+        integrator: integrator("leapfrog"),
+        dt: TAU / 1000.0,
+        bounds: motes::Bounds::default(),
+    };
     let mut simulation = Simulation::new(&shared.found.device, &shared.found.queue, &setup).expect("a simulation");
     simulation.step(1000).expect("steps");
     let error = snapshot(&mut simulation).particles.position[0].distance(DVec3::new(0.5, 0.0, 0.0));

@@ -12,7 +12,13 @@ use motes::{Cpu, POSITION, Setup, Simulation, VELOCITY, forces, gpu, integrators
 fn pair() -> Setup {
     let gravity = forces::entry("gravity").expect("gravity");
     let forces = vec![(gravity.build)(&Settings::defaults(gravity.keys))];
-    Setup { particles: support::cloud(2, 1), forces, integrator: Box::new(integrators::Leapfrog), dt: 0.1 }
+    Setup {
+        particles: support::cloud(2, 1),
+        forces,
+        integrator: Box::new(integrators::Leapfrog),
+        dt: 0.1,
+        bounds: motes::Bounds::default(),
+    }
 }
 
 /// The speed that a body has after a step from rest, 200 from the other, to which it was moved between two steps.

@@ -19,7 +19,13 @@ const DT: f64 = 0.37;
 
 /// A cloud a few steps on its way, so that the clock and all fields hold something.
 fn moving(gpu: Gpu, count: usize, forces: Vec<Box<dyn forces::Force>>, name: &str) -> Simulation<Gpu> {
-    let setup = Setup { particles: support::cloud(count, 7), forces, integrator: integrator(name), dt: DT };
+    let setup = Setup {
+        particles: support::cloud(count, 7),
+        forces,
+        integrator: integrator(name),
+        dt: DT,
+        bounds: motes::Bounds::default(),
+    };
     let mut simulation = Simulation::on(gpu, &setup).expect("a simulation");
     simulation.step(3).expect("three steps");
     simulation
@@ -67,7 +73,7 @@ fn every_law_alone() {
                     // The integrator that needs the fewest pipelines.
                     let mut simulation = moving(gpu, count, vec![law], "symplectic_euler");
                     let law = [pick().1];
-                    let mut step = Step::new(&law, simulation.count(), machine);
+                    let mut step = Step::new(&law, forces::Problem::new(simulation.count(), machine));
                     step.evaluate();
                     let plan = step.finished().expect("a plan");
                     // Alone in the world, nobody attracts.
@@ -88,8 +94,13 @@ fn every_integrator_whole() {
             let gpu = gpu(&shared, count);
             let machine = gpu.machine();
             let mut simulation = moving(gpu, count, forces(), entry.name);
-            let setup =
-                Setup { particles: support::cloud(count, 7), forces: forces(), integrator: (entry.build)(), dt: DT };
+            let setup = Setup {
+                particles: support::cloud(count, 7),
+                forces: forces(),
+                integrator: (entry.build)(),
+                dt: DT,
+                bounds: motes::Bounds::default(),
+            };
             let plans = setup.plans(machine).expect("plans");
             fill(simulation.backend(), &plans.step, count);
             // Nothing is broken here, so the watch raises no alarm: it has a test of its own. And the midpoint rule's
@@ -109,8 +120,13 @@ fn what_surrounds_a_measurement() {
         let gpu = gpu(&shared, count);
         let machine = gpu.machine();
         let mut simulation = moving(gpu, count, forces(), "leapfrog");
-        let setup =
-            Setup { particles: support::cloud(count, 7), forces: forces(), integrator: integrator("leapfrog"), dt: DT };
+        let setup = Setup {
+            particles: support::cloud(count, 7),
+            forces: forces(),
+            integrator: integrator("leapfrog"),
+            dt: DT,
+            bounds: motes::Bounds::default(),
+        };
         let (before, after) = setup.plans(machine).expect("plans").measure;
         judge(&verdicts(simulation.backend(), &before, count, &"before"), count, &"before", |_| false);
         simulation.write(ACCELERATION, &vec![glam::Vec4::splat(0.7); count]).expect("another acceleration");
@@ -130,6 +146,7 @@ fn the_watch_sees_what_is_broken() {
                 forces: vec![force("uniform", &[])],
                 integrator: integrator("symplectic_euler"),
                 dt: DT,
+                bounds: motes::Bounds::default(),
             };
             let machine = simulation.backend().machine();
             let plan = setup.plans(machine).expect("plans").step;
@@ -165,8 +182,13 @@ fn dispatches_fold_over_two_dimensions() {
             let machine = gpu.machine();
             let forces = || vec![force("gravity", &[("softening", motes::settings::Value::Number(0.17))])];
             let mut simulation = moving(gpu, count, forces(), "rk4");
-            let setup =
-                Setup { particles: support::cloud(count, 7), forces: forces(), integrator: integrator("rk4"), dt: DT };
+            let setup = Setup {
+                particles: support::cloud(count, 7),
+                forces: forces(),
+                integrator: integrator("rk4"),
+                dt: DT,
+                bounds: motes::Bounds::default(),
+            };
             let plan = setup.plans(machine).expect("plans").step;
             judge(&verdicts(simulation.backend(), &plan, count, &name), count, &name, |v| v.field == "alarm");
         }
@@ -215,7 +237,13 @@ fn more_than_one_dispatch_can_meet() {
     let law = || force("gravity", &[("softening", motes::settings::Value::Number(softening))]);
     let kernel = machines::kernel(law().as_ref(), count, &machine);
     assert_eq!(kernel.passes.len(), 6, "five dispatches, and one that adds them up");
-    let setup = Setup { particles, forces: Vec::new(), integrator: integrator("symplectic_euler"), dt: DT };
+    let setup = Setup {
+        particles,
+        forces: Vec::new(),
+        integrator: integrator("symplectic_euler"),
+        dt: DT,
+        bounds: motes::Bounds::default(),
+    };
     let mut simulation = Simulation::on(gpu, &setup).expect("a simulation");
     let program = simulation.backend().compile(&alone(kernel)).expect("a program");
     simulation.backend().run(&program, 1).expect("a run");

@@ -35,7 +35,7 @@ fn add(i: u32, sum: Sum) {
 // Nobody meets itself. Both ways are computed and one is kept: a branch would cost more.
 fn meet_other(me: Particle, you: Particle, sum: ptr<function, Sum>) {
     var met = *sum;
-    gather(me, you, you.position - me.position, &met);
+    meets(me, you, shortest(you.position - me.position), &met);
     if you.index != me.index { *sum = met; }
 }
 
@@ -51,8 +51,8 @@ fn meet_others(you: Particle, a: Particle, b: Particle, c: Particle, d: Particle
 // You and four targets that are known to be others.
 fn meet(you: Particle, a: Particle, b: Particle, c: Particle, d: Particle,
         sum_a: ptr<function, Sum>, sum_b: ptr<function, Sum>, sum_c: ptr<function, Sum>, sum_d: ptr<function, Sum>) {
-    gather(a, you, you.position - a.position, sum_a);
-    gather(b, you, you.position - b.position, sum_b);
-    gather(c, you, you.position - c.position, sum_c);
-    gather(d, you, you.position - d.position, sum_d);
+    meets(a, you, shortest(you.position - a.position), sum_a);
+    meets(b, you, shortest(you.position - b.position), sum_b);
+    meets(c, you, shortest(you.position - c.position), sum_c);
+    meets(d, you, shortest(you.position - d.position), sum_d);
 }

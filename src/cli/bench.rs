@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use motes::kernel::Backend;
 use motes::settings::{Settings, Value};
-use motes::{Error, Particles, Setup, Simulation, forces, gpu, integrators, lockstep, particles};
+use motes::{Bounds, Error, Particles, Setup, Simulation, forces, gpu, integrators, lockstep, particles};
 use serde_json::json;
 
 use super::args::BenchArgs;
@@ -180,7 +180,13 @@ fn setup(count: u32, integrator: &str) -> Result<Setup, Error> {
     let particles: Particles =
         (plummer.build)(&Settings::defaults(plummer.keys).with("count", Value::Number(f64::from(count))))?;
     let integrator = integrators::entry(integrator).ok_or_else(|| absent(integrator))?;
-    Ok(Setup { particles, forces: vec![(gravity.build)(&settings)], integrator: (integrator.build)(), dt: 1e-3 })
+    Ok(Setup {
+        particles,
+        forces: vec![(gravity.build)(&settings)],
+        integrator: (integrator.build)(),
+        dt: 1e-3,
+        bounds: Bounds::default(),
+    })
 }
 
 fn median(values: &[f64]) -> f64 {

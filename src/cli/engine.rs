@@ -88,5 +88,6 @@ pub fn setup(scene: &mut Scene) -> Setup {
         forces: std::mem::take(&mut scene.forces),
         integrator: (scene.integrator.build)(),
         dt: scene.dt,
+        bounds: scene.bounds,
     }
 }

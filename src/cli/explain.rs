@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use motes::Bounds;
 use motes::kernel::{Access, Kernel};
 
 use super::args::SceneArgs;
@@ -16,7 +17,11 @@ pub async fn explain(args: &SceneArgs) -> Result<(), Failure> {
     let engine = Engine::choose(&args.device).await?;
     let plans = setup.plans(engine.machine(count)?)?;
     out!("{}: {count} particles, {} steps of {} by {}", scene.name, scene.steps, scene.dt, scene.integrator.name);
-    out!("on {}\n", engine.describe());
+    out!("on {}", engine.describe());
+    if scene.bounds != Bounds::default() {
+        out!("box: {}", scene.bounds);
+    }
+    out!("");
     if !plans.start.order.is_empty() {
         out!("once:  {}", plans.start);
     }
@@ -30,9 +35,9 @@ pub async fn explain(args: &SceneArgs) -> Result<(), Failure> {
 fn describe(kernel: &Kernel) -> String {
     let name = |access: Access| {
         let mut names: Vec<&str> = Vec::new();
-        for binding in kernel.passes.iter().flat_map(|p| &p.shader.reflection().bindings) {
-            if binding.access == access && !names.contains(&binding.name.as_str()) {
-                names.push(&binding.name);
+        for (field, _) in kernel.bindings().filter(|(_, b)| b.access == access) {
+            if !names.contains(&field) {
+                names.push(field);
             }
         }
         names.join(", ")

@@ -5,7 +5,8 @@ mod custom;
 pub use custom::Custom;
 
 use crate::error::Error;
-use crate::kernel::{Machine, Plan, Scalar};
+pub use crate::kernel::Problem;
+use crate::kernel::{Plan, Scalar};
 use crate::settings::{Key, Settings, Value};
 pub use crate::visit::{Body, Law, Over};
 
@@ -19,10 +20,10 @@ pub trait Force: Send + Sync {
     ///
     /// # Errors
     /// When a law does not compile or lacks a parameter.
-    fn evaluate(&self, plan: &mut Plan, earlier: usize, count: u32, machine: &Machine) -> Result<(), Error> {
+    fn evaluate(&self, plan: &mut Plan, earlier: usize, problem: &Problem) -> Result<(), Error> {
         for law in self.laws() {
             let name = if earlier == 0 { law.name.clone() } else { format!("{} {}", law.name, earlier + 1) };
-            plan.push(&name, || law.kernel(count, machine))?;
+            plan.push(&name, || law.kernel(problem))?;
         }
         Ok(())
     }

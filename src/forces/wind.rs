@@ -31,9 +31,9 @@ impl Force for Wind {
         let (wind, rate, gust) = (self.0.vector("velocity"), self.0.number("rate"), self.0.number("gust"));
         let (period, wavelength) = (self.0.number("period"), self.0.number("wavelength"));
         let values = params(&self.0, &["velocity", "rate", "gust", "period", "wavelength"]);
-        vec![Law::each("wind", crate::shader!("forces/wind.wgsl"), values, move |me, time| {
+        vec![Law::each("wind", crate::shader!("forces/wind.wgsl"), values, move |me, world| {
             let along = me.position.dot(wind.normalize_or_zero());
-            let phase = std::f64::consts::TAU * (time / period - along / wavelength).fract();
+            let phase = std::f64::consts::TAU * (world.time / period - along / wavelength).fract();
             ((wind * (1.0 + gust * phase.sin()) - me.velocity) * rate).extend(0.0)
         })]
     }

@@ -20,7 +20,7 @@ pub use program::Program;
 use submit::Queue;
 
 use crate::error::Error;
-use crate::kernel::{Array, Backend, Clock, Machine, Packed, Plan, Shader};
+use crate::kernel::{Array, Backend, Machine, Packed, Plan, Shader, World};
 
 /// A device that is borrowed from whoever owns it, with the fields and pipelines made on it.
 pub struct Gpu {
@@ -30,7 +30,8 @@ pub struct Gpu {
     pipelines: Pipelines,
     machine: Machine,
     count: u32,
-    clock: Packed,
+    packed: Packed,
+    world: World,
 }
 
 impl Gpu {
@@ -44,9 +45,9 @@ impl Gpu {
         }
         // The layout of `World` is read out of the WGSL, like every other.
         let world = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("integrators/tick.wgsl")])?;
-        let clock = world.reflection().binding("world").map(|b| b.packed.clone()).unwrap_or_default();
+        let packed = world.reflection().binding("world").map(|b| b.packed.clone()).unwrap_or_default();
         let mut buffers = Buffers::new(device.clone(), count);
-        buffers.require("world", clock.size as u64)?;
+        buffers.require("world", packed.size as u64)?;
         Ok(Self {
             queue: Queue::new(device.clone(), queue.clone()),
             buffers,
@@ -54,7 +55,8 @@ impl Gpu {
             machine: adapter::machine(device),
             device: device.clone(),
             count,
-            clock,
+            packed,
+            world: World::default(),
         })
     }
     /// Pretends to be another machine, so that a test can run the variants that this one would not choose.
@@ -109,13 +111,13 @@ impl Gpu {
     pub async fn timed(&mut self, program: &Program, times: u32) -> Result<Option<f64>, Error> {
         timing::timed(&self.device, &mut self.queue, program, times).await
     }
-    /// Reads the clock.
+    /// Reads what every kernel knows: the clock, and the rest as it was set.
     ///
     /// # Errors
     /// When the device is lost or does not answer in time.
-    pub async fn clock(&mut self) -> Result<Clock, Error> {
-        let bytes = self.bytes("world", 0, self.clock.size as u64).await?;
-        Ok(Clock::from_packed(&self.clock, &bytes))
+    pub async fn world(&mut self) -> Result<World, Error> {
+        let bytes = self.bytes("world", 0, self.packed.size as u64).await?;
+        Ok(self.world.updated(&self.packed, &bytes))
     }
     /// Reads the bytes of a field.
     ///
@@ -161,8 +163,9 @@ impl Backend for Gpu {
     fn run(&mut self, program: &Program, times: u32) -> Result<(), Error> {
         self.queue.run(program, times)
     }
-    fn set_clock(&mut self, clock: Clock) -> Result<(), Error> {
-        let bytes = self.clock.pack("World", &clock.members())?;
+    fn set_world(&mut self, world: World) -> Result<(), Error> {
+        self.world = world;
+        let bytes = self.packed.pack("World", &world.members())?;
         self.write_bytes("world", 0, &bytes)
     }
     fn write(&mut self, name: &str, array: &Array) -> Result<(), Error> {

@@ -80,16 +80,15 @@ fn groups(
 ) -> Result<Vec<(u32, wgpu::BindGroup)>, Error> {
     let mut groups = Vec::new();
     for (index, layout) in &pipeline.groups {
-        let bindings: Vec<_> = pass.shader.reflection().bindings.iter().filter(|b| b.group == *index).collect();
         let mut bound = Vec::new();
-        for binding in bindings {
+        for (field, binding) in pass.bindings().filter(|(_, b)| b.group == *index) {
             let own = pass.uniforms.iter().find(|(name, _)| *name == binding.name);
             let buffer = match own {
                 Some((name, bytes)) => queue.uniform(name, bytes)?,
-                None => buffers.get(&binding.name).ok_or_else(|| missing(&binding.name))?.clone(),
+                None => buffers.get(field).ok_or_else(|| missing(field))?.clone(),
             };
             if binding.access == Access::Uniform && !buffer.usage().contains(wgpu::BufferUsages::UNIFORM) {
-                return Err(missing(&binding.name));
+                return Err(missing(field));
             }
             bound.push((binding.binding, buffer));
         }

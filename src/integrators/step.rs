@@ -1,46 +1,79 @@
 //! A step as it is being written: each verb adds kernels to a plan.
 
 use super::verbs::{at, clear, drift, keep, kick, runge_kutta, tick, watch};
+use crate::boundary;
 use crate::error::Error;
-use crate::forces::Force;
-use crate::kernel::{Kernel, Machine, Plan};
+use crate::forces::{Force, Problem};
+use crate::kernel::{Kernel, Plan};
+use crate::neighbors::Grid;
 
 /// Writes a plan in verbs. The first error is kept and given at the end, so that an integrator reads like its textbook.
 pub struct Step<'a> {
     forces: &'a [Box<dyn Force>],
-    machine: Machine,
-    count: u32,
+    problem: Problem,
     plan: Plan,
+    evaluated: bool,
     error: Option<Error>,
 }
 
 impl<'a> Step<'a> {
-    /// An empty step of `count` particles under some forces.
+    /// An empty step of particles under some forces.
     #[must_use]
-    pub fn new(forces: &'a [Box<dyn Force>], count: u32, machine: Machine) -> Self {
-        Self { forces, machine, count, plan: Plan::default(), error: None }
+    pub fn new(forces: &'a [Box<dyn Force>], problem: Problem) -> Self {
+        Self { forces, problem, plan: Plan::default(), evaluated: false, error: None }
     }
 
     /// a ← forces(x, v, t), with all laws in the order of the scene.
     pub fn evaluate(&mut self) {
-        self.add(clear::kernel(self.count));
+        self.evaluated = true;
+        self.neighbors();
+        self.add(clear::kernel(self.problem.count));
         let name = |force: &dyn Force| force.laws().first().map(|law| law.name.clone());
         for (place, force) in self.forces.iter().enumerate() {
             // Two forces of one kind are two kernels.
             let earlier =
                 self.forces[..place].iter().filter(|other| name(other.as_ref()) == name(force.as_ref())).count();
             if self.error.is_none() {
-                self.error = force.evaluate(&mut self.plan, earlier, self.count, &self.machine).err();
+                self.error = force.evaluate(&mut self.plan, earlier, &self.problem).err();
             }
+        }
+    }
+    /// The grids that laws search: each once, however many laws do.
+    fn neighbors(&mut self) {
+        let mut grids: Vec<(Grid, bool)> = Vec::new();
+        for law in self.forces.iter().flat_map(|force| force.laws()) {
+            match law.grid(&self.problem) {
+                Ok(Some((grid, moving))) => match grids.iter_mut().find(|(known, _)| *known == grid) {
+                    Some((_, also)) => *also |= moving,
+                    None => grids.push((grid, moving)),
+                },
+                Ok(None) => {}
+                Err(error) => {
+                    self.error.get_or_insert(error);
+                }
+            }
+        }
+        for (grid, moving) in grids {
+            self.add(grid.kernel(&self.problem, moving));
         }
     }
     /// v ← v + c a dt
     pub fn kick(&mut self, factor: f64) {
-        self.add(kick::kernel(self.count, factor));
+        self.add(kick::kernel(self.problem.count, factor));
     }
-    /// x ← x + c v dt
+    /// x ← x + c v dt, and back into the box
     pub fn drift(&mut self, factor: f64) {
-        self.add(drift::kernel(self.count, factor));
+        self.add(drift::kernel(self.problem.count, factor));
+        self.enclose();
+    }
+    /// Whoever has left the box by a closed side comes in again.
+    pub fn enclose(&mut self) {
+        match boundary::kernels(self.problem.count, &self.problem.bounds) {
+            Ok(kernels) => kernels.into_iter().for_each(|kernel| self.plan.add(kernel)),
+            Err(error) => {
+                self.error.get_or_insert(error);
+            }
+        }
     }
     /// Forces are evaluated at t + c dt from here on, until the end of the step.
     pub fn at(&mut self, factor: f64) {
@@ -48,15 +81,17 @@ impl<'a> Step<'a> {
     }
     /// Keeps where the step starts, x₀ and v₀.
     pub fn save(&mut self) {
-        self.add(runge_kutta::save(self.count));
+        self.add(runge_kutta::save(self.problem.count));
     }
     /// Adds `weight` times the slopes (v, a) to their sum, and goes on to x₀ + c v dt, v₀ + c a dt.
     pub fn stage(&mut self, weight: f64, factor: f64) {
-        self.add(runge_kutta::stage(self.count, weight, factor));
+        self.add(runge_kutta::stage(self.problem.count, weight, factor));
     }
-    /// Adds the last slopes with `weight`, and goes from x₀, v₀ the whole step with the weighted sum.
+    /// Adds the last slopes with `weight`, and goes from x₀, v₀ the whole step with the weighted sum, and back into the
+    /// box. Stages may leave it: forces see the nearest images from there too.
     pub fn finish(&mut self, weight: f64) {
-        self.add(runge_kutta::finish(self.count, weight));
+        self.add(runge_kutta::finish(self.problem.count, weight));
+        self.enclose();
     }
 
     /// The plan of what is done once: what the integrator wrote, and a look for numbers that are broken from the start,
@@ -65,10 +100,10 @@ impl<'a> Step<'a> {
     /// # Errors
     /// The first thing that went wrong while it was written.
     pub fn begun(mut self) -> Result<Plan, Error> {
-        if self.plan.order.is_empty() {
+        if !self.evaluated {
             self.evaluate();
         }
-        self.add(watch::kernel(self.count));
+        self.add(watch::kernel(self.problem.count));
         self.finished()
     }
     /// The plan of one step: what the integrator wrote, the clock's tick, and a look for broken numbers.
@@ -77,7 +112,7 @@ impl<'a> Step<'a> {
     /// The first thing that went wrong while the step was written.
     pub fn done(mut self) -> Result<Plan, Error> {
         self.add(tick::kernel());
-        self.add(watch::kernel(self.count));
+        self.add(watch::kernel(self.problem.count));
         self.finished()
     }
     /// The plan without tick and watch.
@@ -102,12 +137,12 @@ impl<'a> Step<'a> {
     ///
     /// # Errors
     /// The first thing that went wrong while they were written.
-    pub fn measurement(forces: &'a [Box<dyn Force>], count: u32, machine: Machine) -> Result<(Plan, Plan), Error> {
-        let mut before = Self::new(forces, count, machine);
-        before.add(keep::keep(count));
+    pub fn measurement(forces: &'a [Box<dyn Force>], problem: Problem) -> Result<(Plan, Plan), Error> {
+        let mut before = Self::new(forces, problem);
+        before.add(keep::keep(problem.count));
         before.evaluate();
-        let mut after = Self::new(forces, count, machine);
-        after.add(keep::restore(count));
+        let mut after = Self::new(forces, problem);
+        after.add(keep::restore(problem.count));
         Ok((before.finished()?, after.finished()?))
     }
 

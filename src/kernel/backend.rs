@@ -1,6 +1,6 @@
 //! What a backend does: hold fields by name, and run plans.
 
-use super::{Array, Clock, Plan};
+use super::{Array, Plan, World};
 use crate::error::Error;
 
 /// What a plan may want to know of the machine it will run on.
@@ -31,11 +31,11 @@ pub trait Backend {
     /// # Errors
     /// When the device is lost, out of memory or does not answer in time.
     fn run(&mut self, program: &Self::Program, times: u32) -> Result<(), Error>;
-    /// Sets the clock.
+    /// Sets what every kernel knows.
     ///
     /// # Errors
     /// When the device is lost.
-    fn set_clock(&mut self, clock: Clock) -> Result<(), Error>;
+    fn set_world(&mut self, world: World) -> Result<(), Error>;
     /// Fills a field from its first element on.
     ///
     /// # Errors

@@ -5,14 +5,14 @@ use std::collections::BTreeMap;
 use std::marker::PhantomData;
 use std::sync::{RwLock, RwLockReadGuard, RwLockWriteGuard};
 
-use super::{Array, Clock, Element, Field};
+use super::{Array, Element, Field, World};
 use crate::error::Error;
 
-/// Named arrays and the clock.
+/// Named arrays, and what every kernel knows.
 #[derive(Debug, Default)]
 pub struct Host {
     arrays: BTreeMap<String, RwLock<Array>>,
-    clock: RwLock<Clock>,
+    world: RwLock<World>,
 }
 
 /// An array that is being read.
@@ -84,10 +84,17 @@ impl Host {
     /// # Errors
     /// When there is none of that name and kind, or when it is being written.
     pub fn read<T: Element>(&self, field: Field<T>) -> Result<Reading<'_, T>, Error> {
-        let lock = self.arrays.get(field.name).ok_or_else(|| missing(field.name))?;
-        let guard = lock.try_read().map_err(|_| aliased(field.name))?;
+        self.reading(field.name)
+    }
+    /// Opens an array for reading, by a name that is known only when the plan is written.
+    ///
+    /// # Errors
+    /// When there is none of that name and kind, or when it is being written.
+    pub fn reading<T: Element>(&self, name: &str) -> Result<Reading<'_, T>, Error> {
+        let lock = self.arrays.get(name).ok_or_else(|| missing(name))?;
+        let guard = lock.try_read().map_err(|_| aliased(name))?;
         if T::view(&guard).is_none() {
-            return Err(missing(field.name));
+            return Err(missing(name));
         }
         Ok(Reading(guard, PhantomData))
     }
@@ -96,23 +103,30 @@ impl Host {
     /// # Errors
     /// When there is none of that name and kind, or when it is open already.
     pub fn write<T: Element>(&self, field: Field<T>) -> Result<Writing<'_, T>, Error> {
-        let lock = self.arrays.get(field.name).ok_or_else(|| missing(field.name))?;
-        let mut guard = lock.try_write().map_err(|_| aliased(field.name))?;
+        self.writing(field.name)
+    }
+    /// Opens an array for writing, by a name that is known only when the plan is written.
+    ///
+    /// # Errors
+    /// When there is none of that name and kind, or when it is open already.
+    pub fn writing<T: Element>(&self, name: &str) -> Result<Writing<'_, T>, Error> {
+        let lock = self.arrays.get(name).ok_or_else(|| missing(name))?;
+        let mut guard = lock.try_write().map_err(|_| aliased(name))?;
         if T::view_mut(&mut guard).is_none() {
-            return Err(missing(field.name));
+            return Err(missing(name));
         }
         Ok(Writing(guard, PhantomData))
     }
-    /// The clock.
+    /// What every kernel knows.
     #[must_use]
-    pub fn clock(&self) -> Clock {
-        self.clock.read().map_or_else(|e| **e.get_ref(), |c| *c)
+    pub fn world(&self) -> World {
+        self.world.read().map_or_else(|e| **e.get_ref(), |c| *c)
     }
-    /// Sets the clock.
-    pub fn set_clock(&self, clock: Clock) {
-        match self.clock.write() {
-            Ok(mut c) => *c = clock,
-            Err(mut e) => **e.get_mut() = clock,
+    /// Sets it.
+    pub fn set_world(&self, world: World) {
+        match self.world.write() {
+            Ok(mut c) => *c = world,
+            Err(mut e) => **e.get_mut() = world,
         }
     }
 }

@@ -1,20 +1,24 @@
 //! What runs, as data only: fields, shaders as naga sees them, kernels with their twins, plans. No device here.
 
 mod backend;
-mod clock;
+mod bounds;
 mod field;
 mod host;
 mod message;
 mod pack;
 mod plan;
+mod problem;
 mod reflect;
 mod shader;
+mod world;
 
 pub use backend::{Backend, Machine};
-pub use clock::Clock;
-pub use field::{ACCELERATION, ALARM, Array, Element, Field, POSITION, VELOCITY};
+pub use bounds::{Bounds, Side};
+pub use field::{ACCELERATION, ALARM, ALARM_WORDS, Array, Element, Field, POSITION, SPECIES, VELOCITY};
 pub use host::Host;
 pub use pack::{Member, Packed, Scalar};
-pub use plan::{Kernel, Pass, Plan, Threads, Twin};
+pub use plan::{Kernel, Name, Pass, Plan, Threads, Twin};
+pub use problem::Problem;
 pub use reflect::{Access, Binding, Reflection};
 pub use shader::{Shader, Source};
+pub use world::World;

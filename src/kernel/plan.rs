@@ -1,14 +1,18 @@
 //! Kernels and plans: a step as data.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::sync::Arc;
 
-use super::{Access, Host, Shader};
+use super::{Access, Binding, Host, Shader};
 use crate::error::Error;
 
 /// The second opinion: the same operation in f64 on the host's arrays.
 pub type Twin = Arc<dyn Fn(&Host) -> Result<(), Error> + Send + Sync>;
+
+/// The name of a field.
+pub type Name = Cow<'static, str>;
 
 /// How many invocations a pass needs: `count` in the plane, times `layers`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -36,10 +40,37 @@ pub struct Pass {
     pub constants: Vec<(&'static str, f64)>,
     /// Contents of its uniform blocks other than `world`, by name.
     pub uniforms: Vec<(&'static str, Vec<u8>)>,
+    /// Names in the shader that stand for another field: the name there, and the field. One shader may so serve many
+    /// fields: a scan scans whatever it is given.
+    pub fields: Vec<(&'static str, Name)>,
     /// How wide.
     pub threads: Threads,
     /// About how much it does: meetings of two particles, or one per particle. Submissions are cut by it.
     pub work: u64,
+}
+
+impl Pass {
+    /// A dispatch of one layer.
+    #[must_use]
+    pub fn new(shader: Arc<Shader>, count: u32) -> Self {
+        let (constants, uniforms, fields) = (Vec::new(), Vec::new(), Vec::new());
+        Self { shader, constants, uniforms, fields, threads: Threads::new(count), work: u64::from(count) }
+    }
+    /// The same with fields in place of names of the shader.
+    #[must_use]
+    pub fn on(mut self, fields: &[(&'static str, Name)]) -> Self {
+        self.fields.extend_from_slice(fields);
+        self
+    }
+    /// The field that a name of the shader stands for.
+    #[must_use]
+    pub fn field<'a>(&'a self, name: &'a str) -> &'a str {
+        self.fields.iter().find(|(inside, _)| *inside == name).map_or(name, |(_, field)| field)
+    }
+    /// What is bound, with the field that each binding stands for.
+    pub fn bindings(&self) -> impl Iterator<Item = (&str, &Binding)> {
+        self.shader.reflection().bindings.iter().map(|binding| (self.field(&binding.name), binding))
+    }
 }
 
 /// One operation with a name: its dispatches, in order, and its twin.
@@ -52,9 +83,9 @@ pub struct Kernel {
     /// The same in f64. `None` only for a user's shader.
     pub twin: Option<Twin>,
     /// Elements of fields that do not have one element per particle.
-    pub sizes: Vec<(&'static str, u64)>,
+    pub sizes: Vec<(Name, u64)>,
     /// Fields that hold nothing of worth after the last dispatch; the twin does without them.
-    pub scratch: &'static [&'static str],
+    pub scratch: Vec<Name>,
 }
 
 impl Kernel {
@@ -66,34 +97,47 @@ impl Kernel {
         for (key, value) in constants.iter().filter(|(key, value)| default(key) != Some(*value)) {
             let _ = write!(label, " {key}={}", short(*value));
         }
-        let pass =
-            Pass { shader, constants, uniforms: Vec::new(), threads: Threads::new(count), work: u64::from(count) };
-        Self { name: label, passes: vec![pass], twin: Some(twin), sizes: Vec::new(), scratch: &[] }
+        let pass = Pass { constants, ..Pass::new(shader, count) };
+        Self { name: label, passes: vec![pass], twin: Some(twin), sizes: Vec::new(), scratch: Vec::new() }
     }
     /// The fields that it writes, by name, without its scratch.
     #[must_use]
     pub fn writes(&self) -> Vec<String> {
         let mut names: Vec<String> = Vec::new();
-        for binding in self.passes.iter().flat_map(|p| &p.shader.reflection().bindings) {
-            let scratch = self.scratch.contains(&binding.name.as_str());
-            if binding.access == Access::Write && !scratch && !names.contains(&binding.name) {
-                names.push(binding.name.clone());
+        for (field, binding) in self.bindings() {
+            let known = names.iter().any(|name| name == field);
+            if binding.access == Access::Write && !self.is_scratch(field) && !known {
+                names.push(field.to_owned());
             }
         }
         names
+    }
+    /// What its dispatches bind, with the field that each binding stands for.
+    pub fn bindings(&self) -> impl Iterator<Item = (&str, &Binding)> {
+        self.passes.iter().flat_map(Pass::bindings)
+    }
+    /// Whether a field holds nothing of worth after the last dispatch.
+    #[must_use]
+    pub fn is_scratch(&self, field: &str) -> bool {
+        self.scratch.iter().any(|name| name == field)
+    }
+    /// The elements of a field, when it does not have one per particle.
+    #[must_use]
+    pub fn size(&self, field: &str) -> Option<u64> {
+        self.sizes.iter().find(|(name, _)| name == field).map(|(_, elements)| *elements)
     }
     /// Whether its dispatches are those of another.
     fn runs_as(&self, other: &Self) -> bool {
         let same = |(a, b): (&Pass, &Pass)| {
             let content = a.shader.text() == b.shader.text() && a.constants == b.constants && a.uniforms == b.uniforms;
-            content && a.threads == b.threads
+            content && a.threads == b.threads && a.fields == b.fields
         };
         self.passes.len() == other.passes.len() && self.passes.iter().zip(&other.passes).all(same)
     }
     /// Whether any of its shaders names this field.
     #[must_use]
     pub fn names(&self, field: &str) -> bool {
-        self.passes.iter().any(|p| p.shader.reflection().bindings.iter().any(|b| b.name == field))
+        self.bindings().any(|(name, _)| name == field)
     }
 }
 
@@ -158,14 +202,10 @@ impl Plan {
     pub fn fields(&self, count: u32) -> BTreeMap<String, u64> {
         let mut fields = BTreeMap::new();
         for kernel in &self.kernels {
-            for binding in kernel.passes.iter().flat_map(|p| &p.shader.reflection().bindings) {
-                if binding.access == Access::Uniform {
-                    continue;
-                }
-                let own = kernel.sizes.iter().find(|(name, _)| *name == binding.name);
-                let elements = own.map_or(u64::from(count), |(_, n)| *n);
+            for (field, binding) in kernel.bindings().filter(|(_, b)| b.access != Access::Uniform) {
+                let elements = kernel.size(field).unwrap_or(u64::from(count));
                 let bytes = if binding.array { binding.stride * elements } else { binding.stride };
-                let entry = fields.entry(binding.name.clone()).or_insert(0);
+                let entry = fields.entry(field.to_owned()).or_insert(0);
                 *entry = bytes.max(*entry);
             }
         }

@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 use naga::valid::{GlobalUse, ModuleInfo};
 use naga::{AddressSpace, Expression, Literal, Module, StorageAccess, TypeInner};
 
+use super::Array;
 use super::pack::{Member, Packed};
 
 /// How a shader uses a name.
@@ -34,6 +35,8 @@ pub struct Binding {
     pub stride: u64,
     /// Whether it is an array that grows with the particles.
     pub array: bool,
+    /// Whether its numbers are `f32`; else they are `u32`, atomic or not.
+    pub float: bool,
     /// The members, when it is a struct.
     pub packed: Packed,
 }
@@ -55,6 +58,20 @@ pub struct Reflection {
     pub constants: BTreeMap<String, u32>,
     /// Whether it reads `world.time`.
     pub reads_time: bool,
+}
+
+impl Binding {
+    /// An array of its kind on the host, with so many zeros.
+    #[must_use]
+    pub fn zeros(&self, len: usize) -> Array {
+        let kind = match (self.float, self.stride) {
+            (true, 16) => Array::Vec4(Vec::new()),
+            (true, 4) => Array::Float(Vec::new()),
+            _ => Array::Uint(Vec::new()),
+        };
+        let words = if matches!(kind, Array::Uint(_)) { usize::try_from(self.stride / 4).unwrap_or(1) } else { 1 };
+        kind.zeros(len * words)
+    }
 }
 
 impl Reflection {
@@ -135,6 +152,11 @@ fn binding(module: &Module, variable: &naga::GlobalVariable) -> Option<Binding> 
         TypeInner::Array { stride, size: naga::ArraySize::Dynamic, .. } => (u64::from(*stride), true),
         other => (u64::from(other.size(module.to_ctx())), false),
     };
+    let element = match inner {
+        TypeInner::Array { base, .. } => &module.types[*base].inner,
+        other => other,
+    };
+    let float = element.scalar_kind() == Some(naga::ScalarKind::Float);
     let packed = match inner {
         TypeInner::Struct { members, span } => {
             Packed { size: *span as usize, members: members.iter().filter_map(|m| member(module, m)).collect() }
@@ -142,7 +164,7 @@ fn binding(module: &Module, variable: &naga::GlobalVariable) -> Option<Binding> 
         _ => Packed::default(),
     };
     let name = variable.name.clone()?;
-    Some(Binding { name, group: place.group, binding: place.binding, access, stride, array, packed })
+    Some(Binding { name, group: place.group, binding: place.binding, access, stride, array, float, packed })
 }
 
 fn member(module: &Module, member: &naga::StructMember) -> Option<Member> {

@@ -187,7 +187,7 @@ impl Frame {
         let packed = shader.reflection().binding("frame").map(|b| b.packed.pack("frame", &self.values()));
         let uniforms = packed.transpose()?.map(|bytes| ("frame", bytes)).into_iter().collect();
         let work = u64::from(threads.count) * u64::from(threads.layers) * each;
-        Ok(Pass { shader, constants: Vec::new(), uniforms, threads, work })
+        Ok(Pass { uniforms, threads, work, ..Pass::new(shader, threads.count) })
     }
     /// Passes and their twin.
     pub(super) fn kernel(
@@ -196,7 +196,8 @@ impl Frame {
         passes: Vec<Pass>,
         twin: impl Fn(&Host) -> Result<(), Error> + Send + Sync + 'static,
     ) -> Kernel {
-        Kernel { name: name.to_owned(), passes, twin: Some(Arc::new(twin)), sizes: self.sizes(), scratch: &[] }
+        let sizes = self.sizes().into_iter().map(|(name, elements)| (name.into(), elements)).collect();
+        Kernel { name: name.to_owned(), passes, twin: Some(Arc::new(twin)), sizes, scratch: Vec::new() }
     }
 }
 

@@ -30,7 +30,7 @@ pub fn kernel(frame: &Frame, exposure: Exposure) -> Result<Kernel, Error> {
         Ok(())
     };
     let kernel = frame.kernel("halo", vec![shrink, across, down], twin);
-    Ok(Kernel { scratch: &[SPREAD.name], ..kernel })
+    Ok(Kernel { scratch: vec![SPREAD.name.into()], ..kernel })
 }
 
 fn shrunk(frame: &Frame, look: &Look) -> Vec<DVec3> {

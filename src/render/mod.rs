@@ -26,7 +26,7 @@ mod stroke;
 mod tone;
 mod trail;
 
-pub use camera::Camera;
+pub use camera::{Camera, framed};
 pub use draw::{Image, draw};
 pub use film::{Film, shoot};
 pub use frame::Frame;

@@ -1,33 +1,20 @@
 //! Each particle alone.
 
-use std::sync::Arc;
-
-use glam::DVec4;
-use rayon::prelude::*;
-
-use super::{Body, Law, bodies};
+use super::Law;
 use crate::error::Error;
-use crate::kernel::{ACCELERATION, Kernel, Pass, Shader, Threads, Twin};
+use crate::kernel::{Kernel, Pass, Problem, Shader};
 
-pub fn kernel(law: Law, count: u32) -> Result<Kernel, Error> {
+pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
     law.requires(&[("force", "fn force(me: Particle) -> vec4f")])?;
     let shader = Shader::join(&[
         crate::shader!("world.wgsl"),
+        crate::shader!("fields.wgsl"),
         crate::shader!("particle.wgsl"),
         crate::shader!("visit/each.wgsl"),
         law.wgsl.clone(),
     ])?;
     let uniforms = law.uniforms(&shader)?;
-    let pass = Pass { shader, constants: Vec::new(), uniforms, threads: Threads::new(count), work: u64::from(count) };
-    Ok(Kernel { name: law.name, passes: vec![pass], twin: law.twin, sizes: Vec::new(), scratch: &[] })
-}
-
-pub fn twin(rule: impl Fn(&Body, f64) -> DVec4 + Send + Sync + 'static) -> Twin {
-    Arc::new(move |host| {
-        let bodies = bodies(host)?;
-        let time = host.clock().time;
-        let mut acceleration = host.write(ACCELERATION)?;
-        acceleration.par_iter_mut().zip(&bodies).for_each(|(a, me)| *a += rule(me, time));
-        Ok(())
-    })
+    let constants = problem.constants(&shader);
+    let pass = Pass { constants, uniforms, ..Pass::new(shader, problem.count) };
+    Ok(Kernel { name: law.name, passes: vec![pass], twin: law.twin, sizes: Vec::new(), scratch: Vec::new() })
 }

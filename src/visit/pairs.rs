@@ -2,12 +2,9 @@
 
 use std::sync::Arc;
 
-use glam::{DVec3, DVec4};
-use rayon::prelude::*;
-
-use super::{Body, Law, bodies};
+use super::Law;
 use crate::error::Error;
-use crate::kernel::{ACCELERATION, Kernel, Machine, Pass, Scalar, Shader, Source, Threads, Twin};
+use crate::kernel::{Kernel, Machine, Pass, Problem, Scalar, Shader, Source, Threads};
 
 /// Meetings in one dispatch, at most. At 10 billion a second (a small GPU) that is 0.1 s; a large one needs half a millisecond.
 const MEETINGS: u64 = 1 << 30;
@@ -54,25 +51,28 @@ fn variant(machine: &Machine) -> Source {
 }
 
 fn join(visit: Source, law: &Law) -> Result<Arc<Shader>, Error> {
-    let mut files =
-        vec![crate::shader!("world.wgsl"), crate::shader!("particle.wgsl"), crate::shader!("visit/span.wgsl"), visit];
-    if !law.wgsl.says(&["struct", "Sum", "{"]) {
-        files.push(crate::shader!("visit/sum.wgsl"));
-    }
-    files.push(law.wgsl.clone());
+    let mut files = vec![
+        crate::shader!("world.wgsl"),
+        crate::shader!("fields.wgsl"),
+        crate::shader!("particle.wgsl"),
+        crate::shader!("visit/span.wgsl"),
+        if law.over.range().is_some() { crate::shader!("visit/within.wgsl") } else { crate::shader!("visit/all.wgsl") },
+        visit,
+    ];
+    files.extend(law.files());
     Shader::join(&files)
 }
 
-pub fn kernel(law: Law, count: u32, machine: &Machine) -> Result<Kernel, Error> {
-    law.requires(&[
-        ("gather", "fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>)"),
-        ("finish", "fn finish(me: Particle, sum: Sum) -> vec4f"),
-    ])?;
+pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
+    let (count, machine) = (problem.count, &problem.machine);
+    law.requires_meetings()?;
     let shader = join(variant(machine), &law)?;
     let reflection = shader.reflection();
     let (targets, block) = (reflection.constant("TARGETS"), reflection.constant("BLOCK"));
     let cut = Cut::new(count, targets, block, machine);
     let params = law.uniforms(&shader)?;
+    let mut common = problem.constants(&shader);
+    common.extend(law.over.range().map(|range| ("RANGE", range)));
     let whole = cut.sources() >= u64::from(count) && cut.layers == 1;
 
     let mut passes = Vec::new();
@@ -84,11 +84,11 @@ pub fn kernel(law: Law, count: u32, machine: &Machine) -> Result<Kernel, Error> 
         let mut uniforms = params.clone();
         uniforms.push(("span", span));
         passes.push(Pass {
-            shader: shader.clone(),
-            constants: vec![("WHOLE", f64::from(u8::from(whole)))],
+            constants: [common.clone(), vec![("WHOLE", f64::from(u8::from(whole)))]].concat(),
             uniforms,
             threads: Threads { count: count.div_ceil(targets), layers: cut.layers },
             work: u64::from(count) * u64::from(end - first),
+            ..Pass::new(shader.clone(), count)
         });
         first = end;
     }
@@ -97,25 +97,15 @@ pub fn kernel(law: Law, count: u32, machine: &Machine) -> Result<Kernel, Error> 
         let constants = vec![("LAYERS", f64::from(cut.layers))];
         let uniforms = law.uniforms(&shader)?;
         let work = u64::from(count) * u64::from(cut.layers);
-        passes.push(Pass { shader, constants, uniforms, threads: Threads::new(count), work });
+        passes.push(Pass { constants, uniforms, work, ..Pass::new(shader, count) });
     }
     let parts = if whole { 1 } else { u64::from(cut.layers) * u64::from(count) };
-    Ok(Kernel { name: law.name, passes, twin: law.twin, sizes: vec![("parts", parts)], scratch: &["parts"] })
-}
-
-/// The twin meets everybody in the order of their ids.
-pub fn twin(rule: impl Fn(&Body, &Body, DVec3) -> DVec4 + Send + Sync + 'static) -> Twin {
-    Arc::new(move |host| {
-        let bodies = bodies(host)?;
-        let mut acceleration = host.write(ACCELERATION)?;
-        acceleration.par_iter_mut().zip(&bodies).for_each(|(a, me)| {
-            let mut sum = DVec4::ZERO;
-            for you in bodies.iter().filter(|you| you.index != me.index) {
-                sum += rule(me, you, you.position - me.position);
-            }
-            *a += sum * DVec4::new(1.0, 1.0, 1.0, 0.5);
-        });
-        Ok(())
+    Ok(Kernel {
+        name: law.name,
+        passes,
+        twin: law.twin,
+        sizes: vec![("parts".into(), parts)],
+        scratch: vec!["parts".into()],
     })
 }
 

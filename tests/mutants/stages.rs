@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use motes::forces::{self, Force, Law};
 use motes::integrators::INTEGRATORS;
-use motes::kernel::{ACCELERATION, ALARM, Backend, Clock, Kernel, Machine, POSITION, Plan, Shader, Source, VELOCITY};
+use motes::kernel::{ACCELERATION, ALARM, Backend, Kernel, Machine, POSITION, Plan, Shader, Source, VELOCITY, World};
 use motes::lockstep::{Verdict, compare};
 use motes::settings::{Kind, Value};
 use motes::{Gpu, Setup, Simulation, wgpu};
@@ -28,7 +28,7 @@ pub struct Stage {
     pub plan: Plan,
     simulation: Simulation<Gpu>,
     fields: BTreeMap<String, Vec<u8>>,
-    clock: Clock,
+    clock: World,
 }
 
 impl Stage {
@@ -39,7 +39,7 @@ impl Stage {
         let gpu = simulation.backend();
         gpu.pace(Duration::from_millis(80), Duration::from_secs(5));
         gpu.compile(&plan).expect("a good plan");
-        let clock = pollster::block_on(gpu.clock()).expect("a clock");
+        let clock = pollster::block_on(gpu.world()).expect("a clock");
         let names = plan.fields(count).into_keys().chain([POSITION.name.into(), VELOCITY.name.into()]);
         let read = |name: String| {
             let bytes = pollster::block_on(gpu.bytes(&name, 0, gpu.size(&name))).expect("a field");
@@ -55,7 +55,7 @@ impl Stage {
         for (name, bytes) in &self.fields {
             gpu.write_bytes(name, 0, bytes).expect("a field");
         }
-        gpu.set_clock(self.clock).expect("a clock");
+        gpu.set_world(self.clock).expect("a clock");
         let verdicts = pollster::block_on(compare(gpu, plan, count));
         verdicts.is_ok_and(|all| !all.is_empty() && all.iter().all(Verdict::good))
     }
@@ -90,7 +90,8 @@ fn moving(device: &Device, count: usize, machine: Option<Machine>) -> Simulation
     }
     let integrator = integrator("symplectic_euler");
     let forces = vec![force("uniform", &[])];
-    let setup = Setup { particles: support::cloud(count, 11), forces, integrator, dt: DT };
+    let setup =
+        Setup { particles: support::cloud(count, 11), forces, integrator, dt: DT, bounds: motes::Bounds::default() };
     let mut simulation = Simulation::on(gpu, &setup).expect("a simulation");
     simulation.step(3).expect("three steps");
     simulation
@@ -125,8 +126,13 @@ pub fn all(shared: &Shared) -> Vec<Stage> {
 fn integrators(device: &Device, stages: &mut Vec<Stage>) {
     let machine = moving(device, 1, None).backend().machine();
     for entry in INTEGRATORS {
-        let setup =
-            Setup { particles: support::cloud(FEW, 11), forces: Vec::new(), integrator: (entry.build)(), dt: DT };
+        let setup = Setup {
+            particles: support::cloud(FEW, 11),
+            forces: Vec::new(),
+            integrator: (entry.build)(),
+            dt: DT,
+            bounds: motes::Bounds::default(),
+        };
         let plans = setup.plans(machine).expect("plans");
         for kernel in [plans.step, plans.measure.0, plans.measure.1].into_iter().flat_map(|p| p.kernels) {
             let pass = kernel.passes.last().expect("a pass");

@@ -1,7 +1,7 @@
 //! What must not overflow, and what must not be written.
 
 use glam::DVec3;
-use motes::kernel::{Array, Backend, Clock};
+use motes::kernel::{Array, Backend, World};
 use motes::render::{Picture, Trail};
 use motes::settings::Value;
 use motes::*;
@@ -23,7 +23,7 @@ fn all_lights_on_one_pixel_do_not_overflow() {
     let device = support::device();
     let mut gpu = Gpu::new(&device.found.device, &device.found.queue, count).unwrap();
     let program = gpu.compile(&picture.plan().unwrap()).unwrap();
-    gpu.set_clock(Clock { count, dt: 0.1, ..Clock::default() }).unwrap();
+    gpu.set_world(World { count, dt: 0.1, ..World::default() }).unwrap();
     let array = |v: &[DVec3]| Array::Vec4(v.iter().map(|x| x.extend(1.0)).collect());
     gpu.write("position", &array(&particles.position)).unwrap();
     gpu.write("velocity", &Array::Vec4(vec![glam::DVec4::ZERO; many])).unwrap();
@@ -55,7 +55,7 @@ fn nothing_is_written_behind_the_end() {
         let plans =
             [picture.plan().unwrap(), picture.development(render::Exposure { knee: 900.0, white: 9e4 }).unwrap()];
         let programs = plans.each_ref().map(|plan| gpu.compile(plan).unwrap());
-        gpu.set_clock(Clock { count, dt: 0.1, ..Clock::default() }).unwrap();
+        gpu.set_world(World { count, dt: 0.1, ..World::default() }).unwrap();
         let fields: Vec<(String, u64)> =
             plans.iter().flat_map(|plan| plan.fields(count)).filter(|(name, _)| name != "world").collect();
         for (name, _) in &fields {

@@ -6,7 +6,7 @@ use std::rc::Rc;
 use std::time::Duration;
 
 use glam::Vec4;
-use motes::kernel::{Access, Array, Backend, Clock, Kernel, Plan, Shader, Source};
+use motes::kernel::{Access, Array, Backend, Kernel, Plan, Shader, Source, World};
 use motes::{Cpu, Gpu};
 
 use crate::alike::alike;
@@ -37,7 +37,7 @@ impl Stage {
         for (name, array) in &self.given {
             gpu.write_bytes(name, 0, &self.padded(name, array, gpu.size(name))).expect("a field");
         }
-        gpu.set_clock(Clock { count: self.count, dt: 0.37, ..Clock::default() }).expect("a clock");
+        gpu.set_world(World { count: self.count, dt: 0.37, ..World::default() }).expect("a clock");
         if gpu.run(&program, 1).is_err() {
             return false;
         }
@@ -119,8 +119,7 @@ pub fn stages(scene: &Scene, canvas: &Canvas) -> Vec<Stage> {
     }
     let mut stages = Vec::new();
     for kernel in plans.iter().flat_map(Plan::steps) {
-        let bindings = kernel.passes.iter().flat_map(|p| &p.shader.reflection().bindings);
-        let fields = bindings.filter(|b| b.access != Access::Uniform).map(|b| b.name.clone());
+        let fields = kernel.bindings().filter(|(_, b)| b.access != Access::Uniform).map(|(field, _)| field.to_owned());
         // What is left of an earlier run in a scratch field must not matter; the host has none.
         let fields: Vec<_> = fields.filter(|n| cpu.host().contains(n)).collect();
         let look = |cpu: &Cpu, name: &String| (name.clone(), cpu.host().get(name).expect("a field"));

@@ -97,7 +97,13 @@ fn groups_and_colours_cover_all_particles() {
 fn after(scene: Scene, steps: u32) -> Vec<DVec3> {
     let count = u32::try_from(scene.particles.len()).expect("few particles");
     let integrator = (scene.integrator.build)();
-    let setup = Setup { particles: scene.particles, forces: scene.forces, integrator, dt: scene.dt };
+    let setup = Setup {
+        particles: scene.particles,
+        forces: scene.forces,
+        integrator,
+        dt: scene.dt,
+        bounds: motes::Bounds::default(),
+    };
     let mut simulation =
         Simulation::on(Cpu::new(count).expect("a backend"), &setup).unwrap_or_else(|why| panic!("{why}"));
     simulation.step(steps).unwrap_or_else(|why| panic!("{why}"));

@@ -1,8 +1,8 @@
 //! The variants of `pairs`: machines to pretend to be, and cuts that only very many particles would bring about.
 
-use motes::forces::Force;
+use motes::forces::{Force, Problem};
 use motes::gpu::Gpu;
-use motes::kernel::{Kernel, Machine, Pass, Plan, Scalar};
+use motes::kernel::{Bounds, Kernel, Machine, Pass, Plan, Scalar};
 
 use super::Shared;
 
@@ -39,7 +39,14 @@ pub fn gpu(shared: &Shared, count: usize) -> Gpu {
 /// The kernels of a force's first law on a machine.
 pub fn kernel(force: &dyn Force, count: usize, machine: &Machine) -> Kernel {
     let law = force.laws().into_iter().next().expect("a law");
-    law.kernel(u32::try_from(count).expect("few"), machine).expect("a kernel")
+    law.kernel(&Problem::new(u32::try_from(count).expect("few"), *machine)).expect("a kernel")
+}
+
+/// The same in a box.
+pub fn kernel_in(bounds: Bounds, force: &dyn Force, count: usize, machine: &Machine) -> Kernel {
+    let law = force.laws().into_iter().next().expect("a law");
+    let problem = Problem::new(u32::try_from(count).expect("few"), *machine).at(&[], bounds);
+    law.kernel(&problem).expect("a kernel")
 }
 
 /// A plan of one kernel.
@@ -57,7 +64,8 @@ pub fn cut(kernel: &Kernel, finish: &Pass, count: usize, layers: u32, slice: u32
         let end = (first + layers * slice).min(count);
         let values = [("first", first), ("end", end), ("slice", slice)].map(|(name, n)| (name, Scalar::Uint(n)));
         let mut pass = whole.clone();
-        pass.constants = vec![("WHOLE", 0.0)];
+        pass.constants.retain(|(name, _)| *name != "WHOLE");
+        pass.constants.push(("WHOLE", 0.0));
         pass.uniforms.retain(|(name, _)| *name != "span");
         pass.uniforms.push(("span", span.pack("span", &values).expect("three numbers")));
         pass.threads.layers = layers;
@@ -65,7 +73,8 @@ pub fn cut(kernel: &Kernel, finish: &Pass, count: usize, layers: u32, slice: u32
     };
     let mut passes: Vec<_> = (0..count).step_by((layers * slice) as usize).map(dispatch).collect();
     let mut last = finish.clone();
-    last.constants = vec![("LAYERS", f64::from(layers))];
+    last.constants.retain(|(name, _)| *name != "LAYERS");
+    last.constants.push(("LAYERS", f64::from(layers)));
     passes.push(last);
-    Kernel { passes, sizes: vec![("parts", u64::from(layers * count))], ..kernel.clone() }
+    Kernel { passes, sizes: vec![("parts".into(), u64::from(layers * count))], ..kernel.clone() }
 }

@@ -3,9 +3,9 @@
 use glam::{DVec3, DVec4};
 use motes::forces::{self, Force};
 use motes::integrators::{self, Integrator, Step};
-use motes::kernel::{ACCELERATION, Array, Backend, Clock, POSITION, VELOCITY};
+use motes::kernel::{ACCELERATION, Array, Backend, POSITION, VELOCITY, World};
 use motes::settings::{Settings, Value};
-use motes::{Cpu, Particles, Setup, Simulation};
+use motes::{Bounds, Cpu, Particles, Setup, Simulation};
 
 /// A force by its name, its defaults changed by some settings.
 pub fn force(name: &str, settings: &[(&'static str, Value)]) -> Box<dyn Force> {
@@ -39,7 +39,8 @@ pub fn one(position: DVec3, velocity: DVec3) -> Particles {
 /// A simulation by the twins.
 pub fn cpu(particles: &Particles, forces: Vec<Box<dyn Force>>, name: &str, dt: f64) -> Simulation<Cpu> {
     let count = u32::try_from(particles.len()).expect("few");
-    let setup = Setup { particles: particles.clone(), forces, integrator: integrator(name), dt };
+    let setup =
+        Setup { particles: particles.clone(), forces, integrator: integrator(name), dt, bounds: Bounds::default() };
     Simulation::on(Cpu::new(count).expect("some"), &setup).expect("a simulation")
 }
 
@@ -54,16 +55,21 @@ pub fn phase(simulation: &mut Simulation<Cpu>) -> (Vec<DVec4>, Vec<DVec4>) {
 
 /// What the twins of some forces say at a state: acceleration, and potential per unit mass.
 pub fn accelerations(forces: &[Box<dyn Force>], particles: &Particles, time: f64) -> Vec<DVec4> {
+    accelerations_in(&Bounds::default(), forces, particles, time)
+}
+
+/// The same in a box.
+pub fn accelerations_in(bounds: &Bounds, forces: &[Box<dyn Force>], particles: &Particles, time: f64) -> Vec<DVec4> {
     let count = u32::try_from(particles.len()).expect("few");
     let mut cpu = Cpu::new(count).expect("some");
-    let mut step = Step::new(forces, count, cpu.machine());
+    let mut step = Step::new(forces, motes::forces::Problem::new(count, cpu.machine()).at(&[], *bounds));
     step.evaluate();
     let plan = step.finished().expect("a plan");
     let program = cpu.compile(&plan).expect("twins");
     let join = |v: &[DVec3], w: &[f64]| Array::Vec4(v.iter().zip(w).map(|(v, w)| v.extend(*w)).collect());
     cpu.write(POSITION.name, &join(&particles.position, &particles.mass)).expect("position");
     cpu.write(VELOCITY.name, &join(&particles.velocity, &particles.radius)).expect("velocity");
-    cpu.set_clock(Clock { time, dt: 0.01, step: 0, count }).expect("clock");
+    cpu.set_world(World { time, dt: 0.01, step: 0, count, bounds: *bounds }).expect("clock");
     cpu.run(&program, 1).expect("twins run");
     match cpu.host().get(ACCELERATION.name) {
         Some(Array::Vec4(a)) => a,

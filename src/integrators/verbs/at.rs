@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::error::Error;
-use crate::kernel::{Clock, Kernel, Shader};
+use crate::kernel::{Kernel, Shader, World};
 
 /// What it is called in a plan, and in its shader.
 pub const NAME: &str = "at";
@@ -12,8 +12,8 @@ pub const NAME: &str = "at";
 pub fn kernel(factor: f64) -> Result<Kernel, Error> {
     let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("integrators/at.wgsl")])?;
     let twin = move |host: &crate::kernel::Host| {
-        let clock = host.clock();
-        host.set_clock(Clock { time: (f64::from(clock.step) + factor) * clock.dt, ..clock });
+        let clock = host.world();
+        host.set_world(World { time: (f64::from(clock.step) + factor) * clock.dt, ..clock });
         Ok(())
     };
     Ok(Kernel::new(NAME, shader, vec![("FACTOR", factor)], 1, Arc::new(twin)))

@@ -9,7 +9,7 @@ use crate::kernel::{Kernel, POSITION, Shader, VELOCITY};
 pub fn kernel(count: u32, factor: f64) -> Result<Kernel, Error> {
     let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("integrators/drift.wgsl")])?;
     let twin = move |host: &crate::kernel::Host| {
-        let dt = factor * host.clock().dt;
+        let dt = factor * host.world().dt;
         let (mut position, velocity) = (host.write(POSITION)?, host.read(VELOCITY)?);
         for (x, v) in position.iter_mut().zip(velocity.iter()) {
             *x += (v.truncate() * dt).extend(0.0);

@@ -9,7 +9,7 @@ use crate::kernel::{ACCELERATION, Kernel, Shader, VELOCITY};
 pub fn kernel(count: u32, factor: f64) -> Result<Kernel, Error> {
     let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("integrators/kick.wgsl")])?;
     let twin = move |host: &crate::kernel::Host| {
-        let dt = factor * host.clock().dt;
+        let dt = factor * host.world().dt;
         let (mut velocity, acceleration) = (host.write(VELOCITY)?, host.read(ACCELERATION)?);
         for (v, a) in velocity.iter_mut().zip(acceleration.iter()) {
             *v += (a.truncate() * dt).extend(0.0);

@@ -35,7 +35,7 @@ pub fn save(count: u32) -> Result<Kernel, Error> {
 /// A stage: `weight` times its slopes go into the sum, and the next slopes are wanted `factor` of the step from the start.
 pub fn stage(count: u32, weight: f64, factor: f64) -> Result<Kernel, Error> {
     let twin = move |host: &Host| {
-        let dt = factor * host.clock().dt;
+        let dt = factor * host.world().dt;
         let (x0, v0) = (host.read(START_POSITION)?, host.read(START_VELOCITY)?);
         let (mut x, mut v, a) = (host.write(POSITION)?, host.write(VELOCITY)?, host.read(ACCELERATION)?);
         let (mut sum_x, mut sum_v) = (host.write(SLOPE_POSITION)?, host.write(SLOPE_VELOCITY)?);
@@ -55,7 +55,7 @@ pub fn stage(count: u32, weight: f64, factor: f64) -> Result<Kernel, Error> {
 /// The end of the step, with the weight of the last slopes.
 pub fn finish(count: u32, weight: f64) -> Result<Kernel, Error> {
     let twin = move |host: &Host| {
-        let dt = host.clock().dt;
+        let dt = host.world().dt;
         let (x0, v0) = (host.read(START_POSITION)?, host.read(START_VELOCITY)?);
         let (mut x, mut v, a) = (host.write(POSITION)?, host.write(VELOCITY)?, host.read(ACCELERATION)?);
         let (sum_x, sum_v) = (host.read(SLOPE_POSITION)?, host.read(SLOPE_VELOCITY)?);

@@ -1,0 +1,2 @@
+// Everybody meets everybody.
+fn meets(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) { gather(me, you, r, sum); }

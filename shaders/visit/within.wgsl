@@ -1,0 +1,6 @@
+// Everybody looks at everybody, and meets who is nearer than a range.
+override RANGE: f32 = 1.0;
+
+fn meets(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
+    if r.x * r.x + r.y * r.y + r.z * r.z < RANGE * RANGE { gather(me, you, r, sum); }
+}

@@ -1,0 +1,50 @@
+//! What every kernel knows: `World` in `shaders/world.wgsl`, in f64.
+
+use super::Bounds;
+use super::pack::{Packed, Scalar};
+
+/// Time, step size, count and the box, as every kernel sees them.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct World {
+    /// The time at which forces are evaluated \[time\]: `step × dt` between steps.
+    pub time: f64,
+    /// The step size \[time\].
+    pub dt: f64,
+    /// Steps done.
+    pub step: u32,
+    /// Particles.
+    pub count: u32,
+    /// Where they may be.
+    pub bounds: Bounds,
+}
+
+impl World {
+    /// The members of `World`, by name.
+    #[must_use]
+    pub fn members(&self) -> [(&'static str, Scalar); 10] {
+        let sides = self.bounds.sides.map(|side| side as u32);
+        [
+            ("time", Scalar::Float(self.time)),
+            ("dt", Scalar::Float(self.dt)),
+            ("step", Scalar::Uint(self.step)),
+            ("count", Scalar::Uint(self.count)),
+            ("low", Scalar::Vector(self.bounds.low)),
+            ("dimensions", Scalar::Uint(self.bounds.dimensions)),
+            ("high", Scalar::Vector(self.bounds.high)),
+            ("sides", Scalar::Uint(sides[0] | sides[1] << 8 | sides[2] << 16)),
+            ("period", Scalar::Vector(self.bounds.period())),
+            ("frequency", Scalar::Vector(self.bounds.frequency())),
+        ]
+    }
+    /// What of it changes as a device runs, read back; the rest is as it was.
+    #[must_use]
+    pub fn updated(self, packed: &Packed, bytes: &[u8]) -> Self {
+        Self {
+            time: packed.float(bytes, "time"),
+            dt: packed.float(bytes, "dt"),
+            step: packed.uint(bytes, "step"),
+            count: packed.uint(bytes, "count"),
+            ..self
+        }
+    }
+}

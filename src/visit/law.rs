@@ -1,0 +1,130 @@
+//! What happens.
+
+use glam::{DVec3, DVec4};
+
+use super::{Body, Over, each, near, pairs, twin};
+use crate::error::Error;
+use crate::kernel::{Kernel, Problem, Scalar, Shader, Source, Twin, World};
+use crate::neighbors::Grid;
+
+/// A law: what happens between `me` and `you`, or to `me` alone.
+pub struct Law {
+    /// Its name, for `motes explain` and messages.
+    pub name: String,
+    /// Who meets whom.
+    pub over: Over,
+    /// Its WGSL. Over `each` it has `fn force(me: Particle) -> vec4f`; over all others it has `fn gather` and `fn finish`,
+    /// see `shaders/visit/span.wgsl`, and may have `fn acts_on(me: Particle) -> bool` to be left out of a search.
+    pub wgsl: Source,
+    /// The members of its `Params`, by name.
+    pub params: Vec<(String, Scalar)>,
+    /// The visit's twin around the law's; `None` only for a user's law.
+    pub twin: Option<Twin>,
+}
+
+impl Law {
+    /// A law of each particle alone; `rule(me, world)` gives acceleration and potential per unit mass.
+    pub fn each(
+        name: &str,
+        wgsl: Source,
+        params: Vec<(String, Scalar)>,
+        rule: impl Fn(&Body, &World) -> DVec4 + Send + Sync + 'static,
+    ) -> Self {
+        Self { name: name.to_owned(), over: Over::Each, wgsl, params, twin: Some(twin::each(rule)) }
+    }
+    /// A law of all pairs that adds up: [`Law::between`] over [`Over::Pairs`].
+    pub fn pairs(
+        name: &str,
+        wgsl: Source,
+        params: Vec<(String, Scalar)>,
+        rule: impl Fn(&Body, &Body, DVec3) -> DVec4 + Send + Sync + 'static,
+    ) -> Self {
+        Self::between(name, Over::Pairs, wgsl, params, rule)
+    }
+    /// A law that adds up; `rule(me, you, r)`, with r from me to you, gives what you add to my acceleration and
+    /// potential per unit mass.
+    pub fn between(
+        name: &str,
+        over: Over,
+        wgsl: Source,
+        params: Vec<(String, Scalar)>,
+        rule: impl Fn(&Body, &Body, DVec3) -> DVec4 + Send + Sync + 'static,
+    ) -> Self {
+        let gather = move |me: &Body, you: &Body, r, sum: &mut DVec4| *sum += rule(me, you, r);
+        Self::gathering(name, over, wgsl, params, gather, |_, sum, _| *sum)
+    }
+    /// A law that makes something else of its neighbours than a sum of accelerations; `gather(me, you, r, sum)` takes
+    /// them in, in any order, and `finish(me, sum, world)` gives acceleration and potential per unit mass.
+    pub fn gathering<S: Default>(
+        name: &str,
+        over: Over,
+        wgsl: Source,
+        params: Vec<(String, Scalar)>,
+        gather: impl Fn(&Body, &Body, DVec3, &mut S) + Send + Sync + 'static,
+        finish: impl Fn(&Body, &S, &World) -> DVec4 + Send + Sync + 'static,
+    ) -> Self {
+        Self { name: name.to_owned(), over, wgsl, params, twin: Some(twin::meetings(over, gather, finish)) }
+    }
+    /// Joins the law with its visit, for such a problem.
+    ///
+    /// # Errors
+    /// [`Error::Shader`] when the WGSL does not compile, [`Error::Scene`] when a parameter is missing or unknown.
+    pub fn kernel(self, problem: &Problem) -> Result<Kernel, Error> {
+        match self.over {
+            Over::Each => each::kernel(self, problem),
+            Over::Pairs | Over::Within { .. } => pairs::kernel(self, problem),
+            Over::Near { .. } => near::kernel(self, problem),
+            Over::Nearest { .. } => Err(Error::Scene("no grid yet".to_owned())),
+        }
+    }
+    /// The grid that it searches, if it searches one, and whether it asks there for velocities.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] when its range is none.
+    pub fn grid(&self, problem: &Problem) -> Result<Option<(Grid, bool)>, Error> {
+        near::grid(self, problem)
+    }
+    pub(super) fn uniforms(&self, shader: &Shader) -> Result<Vec<(&'static str, Vec<u8>)>, Error> {
+        let values: Vec<_> = self.params.iter().map(|(name, value)| (name.as_str(), *value)).collect();
+        match shader.reflection().binding("params") {
+            Some(binding) => Ok(vec![("params", binding.packed.pack(&self.name, &values)?)]),
+            None if values.is_empty() => Ok(Vec::new()),
+            None => Err(Error::Scene(format!(
+                "`{}` is given parameters, but {} uses no `@group(3) @binding(0) var<uniform> params: Params`",
+                self.name, self.wgsl.file
+            ))),
+        }
+    }
+    /// The functions of a law over any visit but `each`.
+    pub(super) fn requires_meetings(&self) -> Result<(), Error> {
+        self.requires(&[
+            ("gather", "fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>)"),
+            ("finish", "fn finish(me: Particle, sum: Sum) -> vec4f"),
+        ])
+    }
+    pub(super) fn requires(&self, functions: &[(&str, &str)]) -> Result<(), Error> {
+        for (name, signature) in functions {
+            if !self.wgsl.says(&["fn", name, "("]) {
+                let message = format!(
+                    "{}: a law over \"{}\" has `{signature}`, and this file has none",
+                    self.wgsl.file,
+                    self.over.name()
+                );
+                return Err(Error::Shader { message });
+            }
+        }
+        Ok(())
+    }
+    /// What the law leaves to the usual: a sum of accelerations, and that it acts on everybody.
+    pub(super) fn files(&self) -> Vec<Source> {
+        let mut files = Vec::new();
+        if self.over != Over::Each && !self.wgsl.says(&["struct", "Sum", "{"]) {
+            files.push(crate::shader!("visit/sum.wgsl"));
+        }
+        if self.over != Over::Each && !self.wgsl.says(&["fn", "acts_on", "("]) {
+            files.push(crate::shader!("visit/everybody.wgsl"));
+        }
+        files.push(self.wgsl.clone());
+        files
+    }
+}

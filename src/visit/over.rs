@@ -1,0 +1,53 @@
+//! Who meets whom.
+
+/// The visits.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Over {
+    /// Each particle alone.
+    Each,
+    /// Everybody meets everybody else, at its nearest image.
+    Pairs,
+    /// Everybody looks at everybody else and meets who is nearer than a range: what [`Near`](Over::Near) does, by force.
+    Within {
+        /// The range \[length\].
+        range: f64,
+    },
+    /// Everybody meets everybody else that is nearer than a range, found through a grid.
+    Near {
+        /// The range \[length\].
+        range: f64,
+        /// Only particles of this species are put into the grid. The law must leave out the others by itself: this only
+        /// says that it is no use to look at them.
+        of: Option<u32>,
+    },
+    /// Everybody meets the so many that are nearest to it, the lower id first where two are equally near.
+    Nearest {
+        /// How many.
+        count: u32,
+    },
+}
+
+impl Over {
+    /// The scene's words for the visits.
+    pub const NAMES: &'static [&'static str] = &["each", "pairs", "within", "near", "nearest"];
+
+    /// The scene's word for it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Each => "each",
+            Self::Pairs => "pairs",
+            Self::Within { .. } => "within",
+            Self::Near { .. } => "near",
+            Self::Nearest { .. } => "nearest",
+        }
+    }
+    /// How far it looks \[length\]; `None` without an end.
+    #[must_use]
+    pub fn range(self) -> Option<f64> {
+        match self {
+            Self::Within { range } | Self::Near { range, .. } => Some(range),
+            Self::Each | Self::Pairs | Self::Nearest { .. } => None,
+        }
+    }
+}
