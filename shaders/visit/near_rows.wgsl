@@ -6,12 +6,11 @@
 
 // Candidates of one search, at most: lavapipe ends an invocation's loops after 65 535 turns, without a word.
 const MOST: u32 = 240000u;
-const PARTS: u32 = 3u;
-const MIDDLE: u32 = 1u;
 
-// My cell, how far I look, the first row (y and z) and how many rows and cells; and for each part of a row its cells
-// lower ≤ x < upper: those below the seam, the middle, those above the seam.
-struct Around { cell: vec3u, reach: vec3u, first: vec3u, span: vec3u, lower: vec3u, upper: vec3u }
+// My cell, how far I look, and how many rows and cells that is.
+struct Around { cell: vec3u, reach: vec3u, span: vec3u }
+// Some neighbouring slots, and what to add to the way to whoever is there: a period, where they lie behind the seam.
+struct Stretch { start: u32, end: u32, shift: vec3f }
 
 // A cell is a little wider than the range, so that rounding does not move a neighbour two cells away. Far from the
 // corner rounding is more than that little, and two cells are looked at, or four.
@@ -22,34 +21,43 @@ fn reach(x: vec3f) -> vec3u {
 
 // Where an axis has fewer cells than I look at, each is looked at once.
 fn around(x: vec3f) -> Around {
-    let n = grid.cells;
     let r = reach(x);
-    let c = cell(x);
-    let span = min(2u * r + 1u, n);
-    let first = select(c + n - min(r, n), c - r, c >= r) % n;
-    if span.x == n.x { return Around(c, r, first, span, vec3u(0u), vec3u(0u, n.x, 0u)); }
-    let low = i32(c.x) - i32(r.x);
-    let high = c.x + r.x + 1u;
-    let lower = vec3u(u32(min(low, 0) + i32(n.x)), u32(max(low, 0)), 0u);
-    return Around(c, r, first, span, lower, vec3u(n.x, min(high, n.x), max(high, n.x) - n.x));
+    return Around(cell(x), r, min(2u * r + 1u, grid.cells));
 }
 
-// The first cell of a row.
-fn row(first: vec3u, z: u32, y: u32) -> u32 {
-    let n = grid.cells;
-    let c = first + vec3u(0u, y, z);
-    let f = select(c, c - n, c >= n);
-    return n.x * (f.y + n.y * f.z);
+// Part 0, 1 or 2 of the row y, z among those around me, for who stands in a cell from `low` to `high`, which is mine or close to it.
+fn stretch(a: Around, low: u32, high: u32, z: u32, y: u32, part: u32) -> Stretch {
+    let n = vec3i(grid.cells);
+    let r = vec3i(a.reach);
+    let c = vec3i(i32(low), i32(a.cell.y + y), i32(a.cell.z + z)) - r;
+    let row = n.x * (wrap(c.y, n.y) + n.y * wrap(c.z, n.z));
+    // Where the whole row is looked at there is one part.
+    let whole = a.span.x == grid.cells.x && 2 * r.x >= n.x;
+    let top = i32(high) + r.x + 1;
+    var first = select(max(c.x, 0), 0, whole);
+    var last = select(min(top, n.x), n.x, whole);
+    if part == 0u { first = min(c.x, 0) + n.x; last = select(n.x, 0, whole); }
+    if part == 2u { first = 0; last = select(max(top, n.x) - n.x, 0, whole); }
+    let turns = vec3i(i32(part) - 1, turn(c.y, n.y), turn(c.z, n.z));
+    if first >= last { return Stretch(0u, 0u, vec3f()); }
+    return Stretch(starts[row + first], starts[row + last], vec3f(turns) * world.period);
 }
 
-// Whether a row lies behind the seam: only there can another image be nearer.
-fn behind(a: Around, z: u32, y: u32) -> bool {
-    let other = (a.first > a.cell) != (a.first + vec3u(0u, y, z) >= grid.cells);
-    return other.y || other.z;
-}
+// Looks go no further than once round.
+fn wrap(c: i32, n: i32) -> i32 { return (c + 4 * n) % n; }
+fn turn(c: i32, n: i32) -> i32 { return i32(c >= n) - i32(c < 0); }
 
-// Whether a period has so few cells that both sides of the seam are in one part.
-fn few(span: vec3u) -> bool { return any((span == grid.cells) & (world.period > vec3f())); }
+// Whether a row reaches over the seam.
+fn seam(a: Around) -> bool { return a.cell.x < a.reach.x || a.cell.x + a.reach.x >= grid.cells.x; }
+
+// The way to somebody. Where a period has so few cells that both sides of the seam are one, any image may be the nearest.
+override NARROW: bool = false;
+
+fn way(me: vec3f, you: vec3f, shift: vec3f) -> vec3f {
+    if NARROW { return shortest(you - me); }
+    if PERIODIC { return you - me + shift; }
+    return you - me;
+}
 
 fn in_range(r: vec3f) -> bool { return r.x * r.x + r.y * r.y + r.z * r.z < grid.range * grid.range; }
 

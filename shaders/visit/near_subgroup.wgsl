@@ -18,24 +18,9 @@ fn told5(q: Particle) -> Particle { return Particle(subgroupBroadcast(q.index, 5
 fn told6(q: Particle) -> Particle { return Particle(subgroupBroadcast(q.index, 6u), subgroupBroadcast(q.position, 6u), subgroupBroadcast(q.mass, 6u), subgroupBroadcast(q.velocity, 6u)); }
 fn told7(q: Particle) -> Particle { return Particle(subgroupBroadcast(q.index, 7u), subgroupBroadcast(q.position, 7u), subgroupBroadcast(q.mass, 7u), subgroupBroadcast(q.velocity, 7u)); }
 
-fn consider(k: u32, slot: u32, end: u32, me: Particle, you: Particle, image: bool, mine: bool, sum: ptr<function, Sum>) {
-    var r = you.position - me.position;
-    if image { r = shortest(r); }
-    if mine && slot < end && in_range(r) && !same(k, slot, me) { gather(me, you, r, sum); }
-}
-
-fn stretch(k: u32, me: Particle, place: u32, start: u32, end: u32, image: bool, with_me: bool, sum: ptr<function, Sum>) {
-    for (var slot = start; slot < end; slot += LANES) {
-        let q = candidate(min(slot + place, end - 1u));
-        consider(k, slot, end, me, told0(q), image, with_me, sum);
-        consider(k, slot + 1u, end, me, told1(q), image, with_me, sum);
-        consider(k, slot + 2u, end, me, told2(q), image, with_me, sum);
-        consider(k, slot + 3u, end, me, told3(q), image, with_me, sum);
-        consider(k, slot + 4u, end, me, told4(q), image, with_me, sum);
-        consider(k, slot + 5u, end, me, told5(q), image, with_me, sum);
-        consider(k, slot + 6u, end, me, told6(q), image, with_me, sum);
-        consider(k, slot + 7u, end, me, told7(q), image, with_me, sum);
-    }
+fn consider(k: u32, slot: u32, end: u32, shift: vec3f, me: Particle, you: Particle, with_me: bool, sum: ptr<function, Sum>) {
+    let r = way(me.position, you.position, shift);
+    if with_me && slot < end && in_range(r) && !same(k, slot, me) { gather(me, you, r, sum); }
 }
 
 // Whether I look at the rows of another, at parts of them that do not reach round the seam into each other.
@@ -43,8 +28,7 @@ fn beside(a: Around, lane: u32) -> bool {
     let cell = subgroupShuffle(a.cell, lane);
     let rows = all(a.cell.yz == cell.yz) && all(a.reach == subgroupShuffle(a.reach, lane));
     let apart = max(a.cell.x, cell.x) - min(a.cell.x, cell.x);
-    let wide = grid.cells.x >= a.span.x + 2u * APART;
-    return rows && (apart == 0u || a.span.x == grid.cells.x || (apart <= APART && wide));
+    return rows && (apart == 0u || (apart <= APART && grid.cells.x >= 2u * (a.reach.x + APART)));
 }
 
 @compute @workgroup_size(WORKGROUP)
@@ -56,7 +40,6 @@ fn near(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
     let me = target_of(k);
     let awake = mine < grid.end && acts_on(me);
     let a = around(me.position);
-    let narrow = few(a.span);
     var sum = Sum();
     var waits = awake;
     var seen = 0u;
@@ -64,27 +47,42 @@ fn near(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
         // The first who waits, and all who can go along.
         let leader = subgroupMin(select(NOBODY, place, waits));
         let with_me = waits && beside(a, leader);
-        let lower = subgroupMin(select(vec3u(NOBODY), a.lower, vec3<bool>(with_me) & (a.lower < a.upper)));
-        let upper = subgroupMax(select(vec3u(0u), a.upper, vec3<bool>(with_me) & (a.lower < a.upper)));
-        let first = subgroupShuffle(a.first, leader);
-        let span = subgroupShuffle(a.span, leader);
-        for (var z = 0u; z < span.z; z += 1u) {
-            for (var y = 0u; y < span.y; y += 1u) {
-                let r = row(first, z, y);
-                let seam = subgroupAny(with_me && (narrow || behind(a, z, y)));
-                for (var p = 0u; p < PARTS; p += 1u) {
-                    if lower[p] < upper[p] {
-                        let start = starts[r + lower[p]];
-                        let end = starts[r + upper[p]];
-                        seen += end - start;
-                        if seen <= MOST {
-                            // One of the two loops has nothing to do.
-                            let image = PERIODIC && (seam || p != MIDDLE);
-                            stretch(k, me, place, start, select(end, start, image), false, with_me, &sum);
-                            stretch(k, me, place, start, select(start, end, image), true, with_me, &sum);
-                        }
-                    }
+        let low = subgroupMin(select(NOBODY, a.cell.x, with_me));
+        let high = subgroupMax(select(0u, a.cell.x, with_me));
+        let led = Around(subgroupShuffle(a.cell, leader), subgroupShuffle(a.reach, leader), subgroupShuffle(a.span, leader));
+        let parts = select(1u, 3u, subgroupAny(with_me && seam(a)));
+        let rows = led.span.y * led.span.z * parts;
+        // Every lane looks up one stretch; then all walk the eight. One loop over them all: on these adapters a loop costs
+        // one turn more than it has, and a branch is never skipped.
+        for (var base = 0u; base < rows; base += LANES) {
+            let i = base + place;
+            let line = i / parts;
+            var own = stretch(led, low, high, line / led.span.y, line % led.span.y, select(i % parts, 1u, parts == 1u));
+            if i >= rows { own.end = own.start; }
+            seen += subgroupAdd(own.end - own.start);
+            var left = subgroupBallot(own.end > own.start && seen <= MOST).x;
+            var slot = 0u;
+            var end = 0u;
+            var shift = vec3f();
+            loop {
+                if slot >= end {
+                    if left == 0u { break; }
+                    let next = firstTrailingBit(left);
+                    left &= left - 1u;
+                    slot = subgroupShuffle(own.start, next);
+                    end = subgroupShuffle(own.end, next);
+                    if PERIODIC { shift = subgroupShuffle(own.shift, next); }
                 }
+                let q = candidate(min(slot + place, end - 1u));
+                consider(k, slot, end, shift, me, told0(q), with_me, &sum);
+                consider(k, slot + 1u, end, shift, me, told1(q), with_me, &sum);
+                consider(k, slot + 2u, end, shift, me, told2(q), with_me, &sum);
+                consider(k, slot + 3u, end, shift, me, told3(q), with_me, &sum);
+                consider(k, slot + 4u, end, shift, me, told4(q), with_me, &sum);
+                consider(k, slot + 5u, end, shift, me, told5(q), with_me, &sum);
+                consider(k, slot + 6u, end, shift, me, told6(q), with_me, &sum);
+                consider(k, slot + 7u, end, shift, me, told7(q), with_me, &sum);
+                slot += LANES;
             }
         }
         if with_me && seen > MOST { atomicMin(&alarm[2], me.index); }

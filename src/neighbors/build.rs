@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
-use glam::{Vec3, Vec4};
+use glam::Vec4;
 
-use super::{ARRIVALS, Grid, KEYS, SLOTS, SORTED_ID, SORTED_POSITION, SORTED_VELOCITY, STARTS};
+use super::{ARRIVALS, Cells, Grid, KEYS, SLOTS, SORTED_ID, SORTED_POSITION, SORTED_VELOCITY, STARTS};
 use crate::error::Error;
-use crate::kernel::{Bounds, Host, Kernel, Name, POSITION, Pass, Problem, SPECIES, Shader, Side, Source, VELOCITY};
+use crate::kernel::{Host, Kernel, Name, POSITION, Pass, Problem, SPECIES, Shader, Source, VELOCITY};
 use crate::primitives::{fill, scan};
 
 impl Grid {
@@ -63,50 +63,28 @@ impl Grid {
         Ok(Pass { uniforms, ..Pass::new(shader, problem.count) }.on(&fields))
     }
 
-    /// The twin. A cell is found by the device's own arithmetic, so that who stands at its edge is on one side for both.
+    /// The twin.
     fn sort(&self, host: &Host, moving: bool) -> Result<(), Error> {
         let (position, velocity) = (host.read(POSITION)?, host.read(VELOCITY)?);
         let count = (host.world().count as usize).min(position.len());
         let species = if self.of.is_some() { host.read(SPECIES)?.to_vec() } else { Vec::new() };
-        let bounds = host.world().bounds;
-        let homes: Vec<Vec3> = (0..count).map(|i| bounds.home(position[i].truncate())).collect();
-        let cells: Vec<usize> = homes.iter().map(|x| self.key(*x, &bounds)).collect();
-        let chosen = |i: &usize| self.of.is_none_or(|of| species.get(*i) == Some(&of));
+        let chosen = |i: usize| self.of.is_none_or(|of| species.get(i) == Some(&of));
+        let places = position[..count].iter().map(|x| x.truncate());
+        let cells = Cells::sort(self, host.world().bounds, places, chosen);
 
-        let mut starts = host.writing::<u32>(&self.field(STARTS).1)?;
-        starts.fill(0);
-        for i in (0..count).filter(chosen) {
-            starts[cells[i] + 1] += 1;
-        }
-        for c in 1..starts.len() {
-            starts[c] += starts[c - 1];
-        }
+        host.writing::<u32>(&self.field(STARTS).1)?.copy_from_slice(&cells.starts);
         let mut ids = host.writing::<u32>(&self.field(SORTED_ID).1)?;
         let mut positions = host.writing::<Vec4>(&self.field(SORTED_POSITION).1)?;
-        let mut next: Vec<u32> = starts.to_vec();
-        let mut velocities = if moving { Some(host.writing::<Vec4>(&self.field(SORTED_VELOCITY).1)?) } else { None };
-        for i in (0..count).filter(chosen) {
-            let slot = next[cells[i]] as usize;
-            next[cells[i]] += 1;
-            (ids[slot], positions[slot]) = (u32::try_from(i).unwrap_or(u32::MAX), homes[i].as_dvec3().extend(position[i].w));
-            if let Some(velocities) = &mut velocities {
-                velocities[slot] = velocity[i];
+        for (slot, id) in cells.ids.iter().enumerate() {
+            let i = *id as usize;
+            (ids[slot], positions[slot]) = (*id, cells.homes[i].as_dvec3().extend(position[i].w));
+        }
+        if moving {
+            let mut velocities = host.writing::<Vec4>(&self.field(SORTED_VELOCITY).1)?;
+            for (to, id) in velocities.iter_mut().zip(&cells.ids) {
+                *to = velocity[*id as usize];
             }
         }
         Ok(())
-    }
-
-    /// The cell of a place, folded; see `shaders/neighbors/cell.wgsl`.
-    fn key(&self, x: Vec3, bounds: &Bounds) -> usize {
-        const FARTHEST: f32 = 536_870_912.0;
-        let c: Vec3 = ((x - self.low.as_vec3()) * self.per_cell.as_vec3()).floor();
-        let fold = |axis: usize| {
-            #[expect(clippy::cast_possible_truncation, reason = "clamped; a number that is none becomes 0")]
-            let last = if bounds.sides[axis] == Side::Periodic { self.cells[axis] as f32 - 1.0 } else { FARTHEST };
-            let c = i64::from(c[axis].clamp(-FARTHEST, last) as i32);
-            usize::try_from(c.rem_euclid(i64::from(self.cells[axis]))).unwrap_or(0)
-        };
-        let [nx, ny, _] = self.cells.map(|n| n as usize);
-        fold(0) + nx * (fold(1) + ny * fold(2))
     }
 }

@@ -115,6 +115,11 @@ impl Grid {
     pub fn count(&self) -> u32 {
         self.cells.iter().product()
     }
+    /// Whether a period has so few cells that those on both sides of me are the same.
+    #[must_use]
+    pub fn narrow(&self, problem: &Problem) -> bool {
+        (0..3).any(|axis| problem.bounds.sides[axis] == Side::Periodic && self.cells[axis] < 3)
+    }
     /// About how many particles a search looks at, when they are spread evenly.
     #[must_use]
     pub fn candidates(&self, problem: &Problem) -> f64 {

@@ -1,8 +1,10 @@
 //! Who is near: a uniform grid, built on the device at each evaluation. It knows nothing of laws.
 
 mod build;
+mod cells;
 mod grid;
 
+pub use cells::Cells;
 pub use grid::Grid;
 
 use crate::kernel::{Field, Name};

@@ -73,8 +73,7 @@ impl Law {
         match self.over {
             Over::Each => each::kernel(self, problem),
             Over::Pairs | Over::Within { .. } => pairs::kernel(self, problem),
-            Over::Near { .. } => near::kernel(self, problem),
-            Over::Nearest { .. } => Err(Error::Scene("no grid yet".to_owned())),
+            Over::Near { .. } | Over::Nearest { .. } => near::kernel(self, problem),
         }
     }
     /// The grid that it searches, if it searches one, and whether it asks there for velocities.

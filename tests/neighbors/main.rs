@@ -7,7 +7,7 @@ mod places;
 
 use motes::forces::{Force, Law, Over};
 use motes::integrators::Step;
-use motes::kernel::{Machine, Problem, Source};
+use motes::kernel::{Backend, Machine, Problem, Source};
 use motes::lockstep::compare;
 use motes::{Gpu, Setup, Simulation};
 use places::Place;
@@ -58,22 +58,38 @@ fn simulation(gpu: Gpu, place: &Place, force: Box<dyn Force>) -> Simulation<Gpu>
 fn the_grid_and_the_search_agree_with_those_who_visit_everybody() {
     let shared = support::device();
     for place in places::all() {
-        let count = u32::try_from(place.particles.len()).expect("few");
         for (name, machine) in variants(&shared) {
             let mut gpu = machines::gpu(&shared, place.particles.len());
             gpu.pretend(machine);
-            let over = Over::Near { range: place.range, of: None };
-            let mut simulation = simulation(gpu, &place, Box::new(Curious(over)));
-            let problem = Problem::new(count, machine).at(&place.particles.position, place.bounds);
-            let forces: [Box<dyn Force>; 1] = [Box::new(Curious(over))];
-            let mut step = Step::new(&forces, problem);
-            step.evaluate();
-            let plan = step.finished().expect("a plan");
-            let verdicts = pollster::block_on(compare(simulation.backend(), &plan, count)).expect("a comparison");
-            assert!(verdicts.iter().any(|v| v.kernel.starts_with("grid")), "{}: {plan}", place.name);
-            for verdict in verdicts {
-                assert!(verdict.good(), "{}, {name}: {plan}: {verdict:?}", place.name);
-            }
+            check(gpu, &place, Over::Near { range: place.range, of: None }, &format!("{}, {name}", place.name));
         }
+    }
+}
+
+#[test]
+fn the_nearest_are_those_that_a_sort_finds() {
+    let shared = support::device();
+    for place in places::all() {
+        for neighbors in [1, 4, 7, 16] {
+            let gpu = machines::gpu(&shared, place.particles.len());
+            check(gpu, &place, Over::Nearest { count: neighbors }, &format!("{}, {neighbors} nearest", place.name));
+        }
+    }
+}
+
+/// Compares one evaluation of the curious law with its twins.
+fn check(gpu: Gpu, place: &Place, over: Over, of: &str) {
+    let count = u32::try_from(place.particles.len()).expect("few");
+    let machine = gpu.machine();
+    let mut simulation = simulation(gpu, place, Box::new(Curious(over)));
+    let problem = Problem::new(count, machine).at(&place.particles.position, place.bounds);
+    let forces: [Box<dyn Force>; 1] = [Box::new(Curious(over))];
+    let mut step = Step::new(&forces, problem);
+    step.evaluate();
+    let plan = step.finished().expect("a plan");
+    let verdicts = pollster::block_on(compare(simulation.backend(), &plan, count)).expect("a comparison");
+    assert!(verdicts.iter().any(|v| v.kernel.starts_with("grid")), "{of}: {plan}");
+    for verdict in verdicts {
+        assert!(verdict.good(), "{of}: {plan}: {verdict:?}");
     }
 }
