@@ -24,6 +24,7 @@ mod doctor;
 mod engine;
 mod explain;
 mod failure;
+mod film;
 mod output;
 mod plot;
 mod progress;

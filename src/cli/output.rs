@@ -52,7 +52,11 @@ impl Output {
             energy,
             rows: Vec::new(),
             // A trail is for pictures.
-            trail: Trail::new(if scene.output.formats.contains(&Format::Png) { count } else { 0 }),
+            trail: Trail::new(if scene.output.formats.contains(&Format::Png) || scene.output.frames > 0 {
+                count
+            } else {
+                0
+            }),
         })
     }
     /// Adds a row to the table of energies, and writes it out.
@@ -99,8 +103,9 @@ impl Output {
         };
         let groups: Vec<u32> = (0..snapshot.particles.len()).map(of).collect();
         let mut picture = Picture::new(&self.picture, &snapshot.particles, &groups, self.trail.clone())?;
-        // Colours that the scene gives count before those of the palette, unless speed was asked for.
-        if self.picture.text("color") != "speed" && self.groups.iter().any(|g| g.color.is_some()) {
+        // Colours that the scene gives count before those of the palette, unless another was asked for.
+        if !["speed", "heading"].contains(&self.picture.text("color")) && self.groups.iter().any(|g| g.color.is_some())
+        {
             let color = |group: &u32| {
                 let own = self.groups.get(*group as usize).and_then(|g| g.color);
                 pack(own.unwrap_or_else(|| group_color(*group)))

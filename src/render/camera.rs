@@ -54,6 +54,11 @@ impl Camera {
         camera
     }
 
+    /// The same view of so many times as much.
+    #[must_use]
+    pub fn wider(self, factor: f64) -> Self {
+        Self { extent: self.extent * factor, distance: self.distance * factor, ..self }
+    }
     fn reach(&mut self, extent: f64, perspective: bool) {
         self.extent = extent;
         self.distance = if perspective { extent / HALF_VIEW } else { 0.0 };
