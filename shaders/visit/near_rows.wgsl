@@ -5,7 +5,7 @@
 @group(2) @binding(1) var<storage, read> starts: array<u32>;
 
 // Candidates of one search, at most: lavapipe ends an invocation's loops after 65 535 turns, without a word.
-const MOST: u32 = 240000u;
+override MOST: u32 = 240000u;
 
 // My cell, how far I look, and how many rows and cells that is.
 struct Around { cell: vec3u, reach: vec3u, span: vec3u }
