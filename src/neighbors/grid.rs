@@ -16,6 +16,9 @@ const FINEST: f64 = 8192.0;
 const CELLS_PER_PARTICLE: f64 = 2.0;
 /// Cells, at most: 64 MiB, half of what every device binds.
 const MOST: f64 = 16_777_216.0;
+/// Cells between the origin and the corner of an axis without a period, at most. A place there has digits for its
+/// distance from the origin; further from the corner than this, fewer would be left of it than tell cells apart.
+const NEAREST_CORNER: f64 = 1_048_576.0;
 
 /// A uniform grid of cells no narrower than a range.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,10 +45,7 @@ impl Grid {
     /// # Errors
     /// [`Error::Scene`] when the range is not a positive number.
     pub fn new(range: f64, of: Option<u32>, problem: &Problem) -> Result<Self, Error> {
-        if !(range > 0.0 && range <= f64::from(f32::MAX) / 4.0) {
-            let text = format!("a search for neighbours has a range of {range}: it must be above 0, and finite");
-            return Err(Error::Scene(text));
-        }
+        checked(range)?;
         let mut name = format!("{range:?}");
         if let Some(species) = of {
             name = format!("{name} species {species}");
@@ -62,7 +62,8 @@ impl Grid {
             (volume, axes) = (volume * side, axes + 1);
         }
         let width = (volume * occupancy / f64::from(problem.count)).powf(1.0 / f64::from(axes.max(1)));
-        let width = if width.is_finite() && width > 0.0 { width } else { 1.0 };
+        // One over it is to be a number too.
+        let width = if width.is_finite() && width > 0.0 { width.clamp(1e-37, 1e37) } else { 1.0 };
         Self::of_cells(format!("cells of {occupancy:?}"), width, None, width, problem)
     }
 
@@ -71,11 +72,10 @@ impl Grid {
         let size = size(problem);
         let fine = size / width;
         // A period is cut into whole cells; elsewhere the last cell may stick out.
-        let wish = DVec3::select(periodic.cmpgt(DVec3::ZERO), fine.floor(), fine.ceil());
-        let wish = wish.clamp(DVec3::ONE, DVec3::splat(FINEST));
+        let wish = DVec3::select(periodic.cmpgt(DVec3::ZERO), fine.floor(), fine.ceil()).max(DVec3::ONE);
         let flat = problem.bounds.dimensions == 2;
         let room = (CELLS_PER_PARTICLE * f64::from(problem.count)).clamp(64.0, MOST);
-        let mut cells = wish;
+        let mut cells = wish.min(DVec3::splat(FINEST));
         while cells.element_product() > room {
             // The longest axis first, and no more than is needed.
             let longest = cells.max_position();
@@ -103,7 +103,7 @@ impl Grid {
             name,
             range,
             of,
-            low: low(problem),
+            low: low(problem, width),
             per_cell: DVec3::new(per_cell(0), per_cell(1), per_cell(2)),
             cells: [count(0), count(1), count(2)],
             fitted,
@@ -149,16 +149,38 @@ impl Grid {
     }
 }
 
-/// Where the grid begins: a box says so, and elsewhere it is where the first particles are.
-fn low(problem: &Problem) -> DVec3 {
-    let open = problem.bounds.axes(Side::Open);
-    open * problem.extent.0 + (DVec3::ONE - open) * problem.bounds.low
+/// A range that can be searched: single precision must hold its square.
+///
+/// # Errors
+/// [`Error::Scene`] when it is another.
+pub fn checked(range: f64) -> Result<(), Error> {
+    if range > 0.0 && (f64::from(f32::MIN_POSITIVE)..=f64::from(f32::MAX)).contains(&(range * range)) {
+        return Ok(());
+    }
+    Err(Error::Scene(format!(
+        "a search for neighbours has a range of {range}: it must be above 0, and between 1.1e-19 and 1.8e19, so that \
+         single precision holds its square"
+    )))
 }
 
+/// Where the grid begins: a box says so, and elsewhere it is where the first particles are.
+fn low(problem: &Problem, width: f64) -> DVec3 {
+    let corner = |axis: usize| match problem.bounds.sides[axis] {
+        Side::Periodic => problem.bounds.low[axis],
+        side => {
+            let low = if side == Side::Open { problem.extent.0[axis] } else { problem.bounds.low[axis] };
+            if low.abs() <= NEAREST_CORNER * width { low } else { 0.0 }
+        }
+    };
+    DVec3::new(corner(0), corner(1), corner(2))
+}
+
+/// How far particles are spread, or the box; 0 along an axis where that is no number.
 fn size(problem: &Problem) -> DVec3 {
-    let open = problem.bounds.axes(Side::Open);
-    let size =
-        open * (problem.extent.1 - problem.extent.0) + (DVec3::ONE - open) * (problem.bounds.high - problem.bounds.low);
+    let open = problem.bounds.axes(Side::Open).cmpgt(DVec3::ZERO);
+    let (low, high) = (problem.bounds.low, problem.bounds.high);
+    let size = DVec3::select(open, problem.extent.1 - problem.extent.0, high - low);
+    let size = DVec3::from_array(size.to_array().map(|side| if side.is_finite() { side } else { 0.0 }));
     if problem.bounds.dimensions == 2 { size.with_z(0.0) } else { size }
 }
 
