@@ -1,11 +1,11 @@
 //! Stages of the grid and of the searches through it: small boxes in which every seam, fold and reach is met.
 
 use glam::{DVec3, DVec4, Vec4};
-use motes::forces::{Law, Over, Problem};
-use motes::kernel::{Backend, Kernel, Machine, Plan, Source, World};
-use motes::{ALARM, Bounds, POSITION, SPECIES, Side};
+use motes::forces::{Body, Law, Over, Problem};
+use motes::kernel::{ALARM, Backend, Machine, Plan, Source, World};
+use motes::{Bounds, POSITION, SPECIES, Side};
 
-use crate::stages::{Device, Stage, filled, moving};
+use crate::stages::{Device, FEW, Stage, fill, moving};
 use crate::support::machines::subgroups_of_eight;
 use crate::support::{Random, Shared};
 
@@ -36,32 +36,28 @@ fn finish(me: Particle, sum: Sum) -> vec4f { return vec4f(sum.acceleration, sum.
 const CHOOSY: &str = "fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
     if species[you.index] == 2u {
         let near = you.mass / (1.0 + dot(r, r));
-        (*sum).acceleration += near * f32(you.index % 7u + 1u) * (r + velocity_of(you));
+        (*sum).acceleration += near * f32(you.index % 7u + 1u) * r;
         (*sum).potential += me.mass * near;
     }
 }
 fn finish(me: Particle, sum: Sum) -> vec4f { return vec4f(sum.acceleration, sum.potential); }";
 
+/// In a grid of one species, `MOVING` meets nobody else.
 fn law(text: &'static str, over: Over) -> Law {
-    Law::gathering(
-        "curious",
-        over,
-        Source::ours("curious", text),
-        Vec::new(),
-        move |me, you, r, sum: &mut DVec4| {
-            let near = you.mass / (1.0 + r.length_squared());
-            let weight = (you.index % 7) as f64;
-            *sum += match text {
-                MOVING => (near * (you.velocity - me.velocity + weight * r)).extend(me.mass * near),
-                STILL => (near * (weight + 1.0) * r).extend(me.mass * near),
-                _ if you.species == OTHERS + 1 => {
-                    (near * (weight + 1.0) * (r + you.velocity)).extend(me.mass * near)
-                }
-                _ => DVec4::ZERO,
-            };
-        },
-        move |me, sum, _| if text == STILL && me.index % 5 == 2 { DVec4::ZERO } else { *sum },
-    )
+    let gather = move |me: &Body, you: &Body, r: DVec3, sum: &mut DVec4| {
+        let near = you.mass / (1.0 + r.length_squared());
+        let weight = (you.index % 7) as f64;
+        let met = match over {
+            Over::Near { of: Some(of), .. } => you.species == of,
+            _ => true,
+        };
+        let part = if text == MOVING { you.velocity - me.velocity + weight * r } else { (weight + 1.0) * r };
+        *sum += f64::from(u8::from(met)) * (near * part).extend(me.mass * near);
+    };
+    let finish = move |me: &Body, sum: &DVec4, _: &World| {
+        if text == STILL && me.index % 5 == 2 { DVec4::ZERO } else { *sum }
+    };
+    Law::gathering("curious", over, Source::ours("curious", text), Vec::new(), gather, finish)
 }
 
 /// The grid of a law, and the law.
@@ -92,11 +88,71 @@ impl Place<'_> {
             self.positions.iter().enumerate().map(|(i, x)| x.extend(0.2 + 0.1 * (i % 3) as f64).as_vec4()).collect();
         simulation.write(POSITION, &places).expect("places");
         simulation.write(ALARM, &[u32::MAX; 3]).expect("an alarm");
-        filled(&mut simulation, &plan);
+        fill(&mut simulation, &plan);
         if plan.fields(1).contains_key(SPECIES.name) {
             let species: Vec<u32> = (0..count).map(|i| if i % 3 == 0 { OTHERS + 1 } else { OTHERS }).collect();
             simulation.write(SPECIES, &species).expect("species");
         }
         Stage::of(name, simulation, plan)
+    }
+}
+
+/// Places in a box, and some on the way outside of it, at its sides, and next to them.
+fn scattered(count: usize, bounds: &Bounds, out: f64) -> Vec<DVec3> {
+    let mut random = Random::new(5);
+    let (low, size) = (bounds.low, bounds.high - bounds.low);
+    let mut place = |i: usize, axis: usize| {
+        let inside = (low[axis] + size[axis] * (0.5 + 0.5 * random.next())) as f32;
+        let x = match (i + 3 * axis) % 31 {
+            0 => low[axis] as f32,
+            1 => bounds.high[axis] as f32,
+            2 => (low[axis] as f32).next_down(),
+            3 => (bounds.high[axis] as f32).next_down(),
+            4..7 => (low[axis] + size[axis] * (0.5 + out * random.next())) as f32,
+            _ => inside,
+        };
+        f64::from(if bounds.sides[axis] == Periodic { x } else { inside })
+    };
+    (0..count).map(|i| DVec3::new(place(i, 0), place(i, 1), place(i, 2))).collect()
+}
+
+fn near(range: f64) -> Over {
+    Over::Near { range, of: None }
+}
+
+fn nothing(_: &mut Plan, _: &Problem) {}
+
+/// A grid of unit cells, about.
+const UNIT: f64 = 0.996;
+
+pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
+    let eight = subgroups_of_eight(shared);
+    let machines: Vec<_> = [LANES, EIGHT].into_iter().filter(|m| eight || !m.software).collect();
+
+    // Three, four and twelve cells, with seams everywhere; eight workgroups in two rows.
+    let sides = |sides, size| Bounds { low: DVec3::new(0.125, 3.0, -2.5), high: DVec3::new(0.125, 3.0, -2.5) + size, sides, dimensions: 3 };
+    let bounds = sides([Periodic; 3], DVec3::new(12.0, 3.0, 4.0));
+    let positions = scattered(FEW, &bounds, 2.0);
+    let place = Place { device, bounds, guess: positions.clone(), positions };
+    for machine in &machines {
+        stages.push(place.stage("near, periodic", law(MOVING, near(UNIT)), *machine, nothing));
+    }
+    // Two cells and one, and no end.
+    let bounds = sides([Periodic, Periodic, Open], DVec3::new(2.0, 1.5, 3.0));
+    let positions = scattered(90, &bounds, 2.0);
+    let place = Place { device, bounds, guess: positions.clone(), positions };
+    for machine in &machines {
+        stages.push(place.stage("near, narrow", law(STILL, near(UNIT)), *machine, nothing));
+    }
+    let bounds = Bounds::default();
+    // Distances that are just the range, and places where two cells meet.
+    let lattice: Vec<DVec3> = (0..216).map(|i| DVec3::new(f64::from(i % 6), f64::from(i / 6 % 6), f64::from(i / 36))).collect();
+    let place = Place { device, bounds, guess: lattice.clone(), positions: lattice };
+    for machine in &machines {
+        stages.push(place.stage("near, lattice", law(STILL, near(1.0)), *machine, nothing));
+        for text in [CHOOSY, MOVING] {
+            let over = Over::Near { range: 1.5, of: Some(OTHERS + 1) };
+            stages.push(place.stage("near, one species", law(text, over), *machine, nothing));
+        }
     }
 }
