@@ -75,7 +75,11 @@ fn every_mutant_is_noticed() {
         }
         assert!(stages.iter().any(|s| s.uses(&file)), "{file}: no stage runs it");
         for mutant in mutants(&text) {
+            let then = std::time::Instant::now();
             let noticed = noticed(&mut stages, &file, &mutant);
+            if then.elapsed().as_secs_f64() > 0.8 {
+                println!("SLOW {:.1} {noticed} {} -> {} {}", then.elapsed().as_secs_f64(), mutant.old, mutant.new, mutant.line);
+            }
             ledger.enter(&file, &mutant, noticed);
         }
         println!("{file}: {:.1} s", begun.elapsed().as_secs_f64());

@@ -32,6 +32,13 @@ const STILL: &str = "fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<f
 }
 fn acts_on(me: Particle) -> bool { return me.index % 5u != 2u; }
 fn finish(me: Particle, sum: Sum) -> vec4f { return vec4f(sum.acceleration, sum.potential); }";
+/// One that does not leave anybody out.
+const TOUCHING: &str = "fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
+    let near = you.mass / (1.0 + dot(r, r));
+    (*sum).acceleration += near * f32(you.index % 7u + 1u) * r;
+    (*sum).potential += me.mass * near;
+}
+fn finish(me: Particle, sum: Sum) -> vec4f { return vec4f(sum.acceleration, sum.potential); }";
 /// One that meets one species, and says so itself.
 const CHOOSY: &str = "fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
     if species[you.index] == 2u {
@@ -42,15 +49,11 @@ const CHOOSY: &str = "fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<
 }
 fn finish(me: Particle, sum: Sum) -> vec4f { return vec4f(sum.acceleration, sum.potential); }";
 
-/// In a grid of one species, `MOVING` meets nobody else.
 fn law(text: &'static str, over: Over) -> Law {
     let gather = move |me: &Body, you: &Body, r: DVec3, sum: &mut DVec4| {
         let near = you.mass / (1.0 + r.length_squared());
         let weight = (you.index % 7) as f64;
-        let met = match over {
-            Over::Near { of: Some(of), .. } => you.species == of,
-            _ => true,
-        };
+        let met = text != CHOOSY || you.species == OTHERS + 1;
         let part = if text == MOVING { you.velocity - me.velocity + weight * r } else { (weight + 1.0) * r };
         *sum += f64::from(u8::from(met)) * (near * part).extend(me.mass * near);
     };
@@ -81,6 +84,10 @@ impl Place<'_> {
         let problem = Problem::new(u32::try_from(count).expect("few"), machine).at(&self.guess, self.bounds);
         let mut plan = plan(law, &problem);
         change(&mut plan, &problem);
+        self.run(name, plan, machine)
+    }
+    fn run(&self, name: &str, plan: Plan, machine: Machine) -> Stage {
+        let count = self.positions.len();
         let mut simulation = moving(self.device, count, Some(machine));
         let clock = pollster::block_on(simulation.backend().world()).expect("a clock");
         simulation.backend().set_world(World { bounds: self.bounds, ..clock }).expect("a world");
@@ -90,7 +97,10 @@ impl Place<'_> {
         simulation.write(ALARM, &[u32::MAX; 3]).expect("an alarm");
         fill(&mut simulation, &plan);
         if plan.fields(1).contains_key(SPECIES.name) {
-            let species: Vec<u32> = (0..count).map(|i| if i % 3 == 0 { OTHERS + 1 } else { OTHERS }).collect();
+            // A law that does not ask would meet others, were there any.
+            let mixed = plan.kernels.iter().any(|kernel| kernel.name == "curious" && kernel.names(SPECIES.name));
+            let of = |i| if mixed && i % 3 > 0 { OTHERS } else { OTHERS + 1 };
+            let species: Vec<u32> = (0..count).map(of).collect();
             simulation.write(SPECIES, &species).expect("species");
         }
         Stage::of(name, simulation, plan)
@@ -144,15 +154,92 @@ pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
     for machine in &machines {
         stages.push(place.stage("near, narrow", law(STILL, near(UNIT)), *machine, nothing));
     }
+    open(device, &machines, stages);
+    crowds(device, &machines, stages);
+    nearest(device, stages);
+}
+
+fn open(device: &Device, machines: &[Machine], stages: &mut Vec<Stage>) {
     let bounds = Bounds::default();
     // Distances that are just the range, and places where two cells meet.
-    let lattice: Vec<DVec3> = (0..216).map(|i| DVec3::new(f64::from(i % 6), f64::from(i / 6 % 6), f64::from(i / 36))).collect();
+    let lattice: Vec<DVec3> =
+        (0..216).map(|i| DVec3::new(f64::from(i % 6), f64::from(i / 6 % 6), f64::from(i / 36))).collect();
     let place = Place { device, bounds, guess: lattice.clone(), positions: lattice };
-    for machine in &machines {
+    let one = Over::Near { range: 1.5, of: Some(OTHERS + 1) };
+    for machine in machines {
         stages.push(place.stage("near, lattice", law(STILL, near(1.0)), *machine, nothing));
-        for text in [CHOOSY, MOVING] {
-            let over = Over::Near { range: 1.5, of: Some(OTHERS + 1) };
-            stages.push(place.stage("near, one species", law(text, over), *machine, nothing));
+        stages.push(place.stage("near, one species", law(CHOOSY, one), *machine, nothing));
+        stages.push(place.stage("near, one species, moving", law(MOVING, one), *machine, halves));
+    }
+    let machine = Machine { software: true, subgroup: 0, invocations: 1 };
+    let problem = Problem::new(216, machine).at(&place.guess, bounds);
+    let kernel = law(TOUCHING, Over::Within { range: 1.0 }).kernel(&problem).expect("a search");
+    stages.push(place.run("within", Plan { kernels: vec![kernel], order: vec![0] }, machine));
+
+    // Two cells away, and four, on both sides of the corner; and where all cells are one.
+    let cloud = |center: DVec3| {
+        let mut random = Random::new(7);
+        (0..40).map(move |_| (center + 1.4 * random.vector()).as_vec3().as_dvec3())
+    };
+    let guess: Vec<DVec3> = (0..200).map(|i| DVec3::new(f64::from(i % 13), f64::from(i % 5), f64::from(i % 6))).collect();
+    let far = [
+        DVec3::new(9000.0, 2.0, -9000.0),
+        DVec3::new(2.0, 9000.0, 2.0),
+        DVec3::new(3e6, 2.0, 1.0),
+        DVec3::new(3.0, -3e6, 1.0),
+        DVec3::new(-9e6, 3e6, 2.0e6),
+    ];
+    let positions: Vec<DVec3> = far.into_iter().flat_map(cloud).collect();
+    let place = Place { device, bounds, guess, positions };
+    for machine in machines {
+        stages.push(place.stage("near, far away", law(STILL, near(UNIT)), *machine, nothing));
+    }
+}
+
+/// Two dispatches, of which each sees a part of the targets.
+fn halves(plan: &mut Plan, problem: &Problem) {
+    let (grid, _) = law(MOVING, Over::Near { range: 1.5, of: Some(OTHERS + 1) }).grid(problem).expect("a range").expect("a grid");
+    let whole = plan.kernels[1].passes.remove(0);
+    for (first, end) in [(0, 64), (64, problem.count)] {
+        let mut pass = whole.clone();
+        let block = pass.shader.reflection().binding("grid").expect("a block").clone();
+        pass.uniforms.retain(|(name, _)| *name != "grid");
+        pass.uniforms.push(("grid", grid.uniform(&block, first, end).expect("a block")));
+        pass.threads.count = end - first;
+        plan.kernels[1].passes.push(pass);
+    }
+}
+
+/// As many around as a search can visit, and one more.
+fn crowds(device: &Device, machines: &[Machine], stages: &mut Vec<Stage>) {
+    // Ids from 7 on stand in one cell, those before them in another. 7 is left out by the law.
+    let positions: Vec<DVec3> = (0..47).map(|i| DVec3::new(if i < 7 { 0.5 } else { 4.5 }, 0.5, 0.5)).collect();
+    let place = Place { device, bounds: Bounds::default(), guess: positions.clone(), positions };
+    for machine in machines {
+        for (most, alarm) in [(40.0, u32::MAX), (39.0, 8)] {
+            let few = |plan: &mut Plan, _: &Problem| plan.kernels[1].passes[0].constants.push(("MOST", most));
+            let stage = place.stage("crowded", law(STILL, near(UNIT)), *machine, few);
+            let words = [u32::MAX, u32::MAX, alarm].map(f32::from_bits);
+            stages.push(stage.told(ALARM.name, words.to_vec()));
         }
     }
+}
+
+fn nearest(device: &Device, stages: &mut Vec<Stage>) {
+    let bounds = Bounds { low: DVec3::new(0.125, 3.0, -2.5), high: DVec3::new(12.125, 7.0, 3.5), sides: [Periodic; 3], dimensions: 3 };
+    let positions = scattered(FEW, &bounds, 0.5);
+    let place = Place { device, bounds, guess: positions.clone(), positions };
+    for count in [3, 8, 11, 16] {
+        stages.push(place.stage("nearest, periodic", law(STILL, Over::Nearest { count }), LANES, nothing));
+    }
+    let bounds = Bounds::default();
+    let lattice: Vec<DVec3> =
+        (0..216).map(|i| DVec3::new(f64::from(i % 6), f64::from(i / 6 % 6), f64::from(i / 36))).collect();
+    let place = Place { device, bounds, guess: lattice.clone(), positions: lattice };
+    stages.push(place.stage("nearest, lattice", law(STILL, Over::Nearest { count: 5 }), LANES, nothing));
+    // A clump in thin air.
+    let mut random = Random::new(9);
+    let positions: Vec<DVec3> = (0..200).map(|i| (random.vector() * if i % 4 == 0 { 30.0 } else { 1.0 }).as_vec3().as_dvec3()).collect();
+    let place = Place { device, bounds, guess: positions.clone(), positions };
+    stages.push(place.stage("nearest, clump", law(MOVING, Over::Nearest { count: 7 }), LANES, nothing));
 }
