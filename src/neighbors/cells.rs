@@ -63,8 +63,7 @@ impl Cells {
         }
         total as f64 / self.homes.len().max(1) as f64 - 1.0
     }
-    /// Calls with the id of everybody else that is within the range of a particle. Searches are for particles within
-    /// some thousand cells of the grid's corner; further away, where rounding is wider than a cell's slack, one may be missed.
+    /// Calls with the id of everybody else that is within the range of a particle.
     pub fn around(&self, i: usize, mut call: impl FnMut(usize)) {
         let home = self.homes[i];
         self.rows(home, |ids| {
@@ -80,10 +79,12 @@ impl Cells {
     fn rows(&self, home: Vec3, mut call: impl FnMut(&[u32])) {
         let [nx, ny, nz] = self.grid.cells.map(i64::from);
         let c = place(&self.grid, &self.bounds, home);
-        let span = |n: i64| if n < 3 { 0..n } else { -1..2 };
-        for z in span(nz) {
-            for y in span(ny) {
-                for x in span(nx) {
+        let [rx, ry, rz] = reach(&self.grid, home);
+        // Where an axis has fewer cells than are looked at, each is looked at once.
+        let span = |n: i64, reach: i64| if 2 * reach + 1 > n { 0..n } else { -reach..reach + 1 };
+        for z in span(nz, rz) {
+            for y in span(ny, ry) {
+                for x in span(nx, rx) {
                     let [x, y, z] = [(c[0] + x).rem_euclid(nx), (c[1] + y).rem_euclid(ny), (c[2] + z).rem_euclid(nz)];
                     let key = usize::try_from(x + nx * (y + ny * z)).unwrap_or(0);
                     call(&self.ids[self.starts[key] as usize..self.starts[key + 1] as usize]);
@@ -91,6 +92,17 @@ impl Cells {
             }
         }
     }
+}
+
+/// How many cells to look at on each side: more, where rounding moves places by more than a cell's slack; see
+/// `shaders/visit/near_rows.wgsl`.
+fn reach(grid: &Grid, home: Vec3) -> [i64; 3] {
+    let away = ((home - grid.low.as_vec3()) * grid.per_cell.as_vec3()).abs();
+    away.to_array().map(|cells| match cells {
+        cells if cells > 2_097_152.0 => 4,
+        cells if cells > 8192.0 => 2,
+        _ => 1,
+    })
 }
 
 /// The cell of a place at home along each axis, before it is folded.

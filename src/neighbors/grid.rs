@@ -97,7 +97,8 @@ impl Grid {
                 cells[*axis] = (cells[*axis] * factor).floor().clamp(cells[*axis], FINEST);
             }
         }
-        let per_cell = |axis: usize| if periodic[axis] > 0.0 { cells[axis] / size[axis] } else { 1.0 / width };
+        let per_cell =
+            |axis: usize| if periodic[axis] * size[axis] > 0.0 { cells[axis] / size[axis] } else { 1.0 / width };
         let count = |axis: usize| whole(cells[axis]);
         Self {
             name,

@@ -78,7 +78,13 @@ fn every_mutant_is_noticed() {
             let then = std::time::Instant::now();
             let noticed = noticed(&mut stages, &file, &mutant);
             if then.elapsed().as_secs_f64() > 0.8 {
-                println!("SLOW {:.1} {noticed} {} -> {} {}", then.elapsed().as_secs_f64(), mutant.old, mutant.new, mutant.line);
+                println!(
+                    "SLOW {:.1} {noticed} {} -> {} {}",
+                    then.elapsed().as_secs_f64(),
+                    mutant.old,
+                    mutant.new,
+                    mutant.line
+                );
             }
             ledger.enter(&file, &mutant, noticed);
         }

@@ -78,13 +78,7 @@ pub fn simulation(gpu: Gpu, positions: &[DVec3], bounds: Bounds, over: Over) -> 
 }
 
 /// What the device finds.
-pub fn found(
-    shared: &Shared,
-    machine: Option<Machine>,
-    positions: &[DVec3],
-    bounds: Bounds,
-    over: Over,
-) -> Vec<Vec4> {
+pub fn found(shared: &Shared, machine: Option<Machine>, positions: &[DVec3], bounds: Bounds, over: Over) -> Vec<Vec4> {
     let mut gpu = machines::gpu(shared, positions.len());
     if let Some(machine) = machine {
         gpu.pretend(machine);

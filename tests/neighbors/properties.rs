@@ -34,8 +34,7 @@ struct Case {
 
 impl Case {
     fn bounds(&self) -> Bounds {
-        let mut bounds =
-            Bounds { low: self.low, high: self.low + self.size, sides: self.sides, dimensions: 3 };
+        let mut bounds = Bounds { low: self.low, high: self.low + self.size, sides: self.sides, dimensions: 3 };
         if self.flat {
             (bounds.low.z, bounds.high.z, bounds.sides[2], bounds.dimensions) = (0.0, 0.0, Side::Open, 2);
         }
