@@ -15,7 +15,8 @@ fn order(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: v
     if slot < starts[grid.cells.x * grid.cells.y * grid.cells.z] {
         let i = slots[slot];
         let start = starts[keys[i]];
-        let end = min(starts[keys[i] + 1u], start + MOST);
+        let next = starts[keys[i] + 1u];
+        let end = min(next, start + MOST);
         var before = 0u;
         for (var j = start; j < end; j += 4u) {
             before += u32(slots[j] < i);

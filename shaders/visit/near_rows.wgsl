@@ -38,8 +38,14 @@ fn stretch(a: Around, low: u32, high: u32, z: u32, y: u32, part: u32) -> Stretch
     let top = i32(high) + r.x + 1;
     var first = select(max(c.x, 0), 0, whole);
     var last = select(min(top, n.x), n.x, whole);
-    if part == 0u { first = min(c.x, 0) + n.x; last = select(n.x, 0, whole); }
-    if part == 2u { first = 0; last = select(max(top, n.x) - n.x, 0, whole); }
+    if part == 0u {
+        first = min(c.x, 0) + n.x;
+        last = select(n.x, 0, whole);
+    }
+    if part == 2u {
+        first = 0;
+        last = select(max(top, n.x) - n.x, 0, whole);
+    }
     let turns = vec3i(i32(part) - 1, turn(c.y, n.y), turn(c.z, n.z));
     if first >= last { return Stretch(0u, 0u, vec3f()); }
     return Stretch(starts[row + first], starts[row + last], vec3f(turns) * world.period);

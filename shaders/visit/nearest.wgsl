@@ -22,7 +22,8 @@ fn empty() -> List {
 
 // Puts an entry into four of the list; who is behind it moves on, and the last falls out.
 fn insert(e: ptr<function, Entry>, d: ptr<function, vec4f>, i: ptr<function, vec4u>) {
-    let before = (vec4f((*e).d) < *d) | ((vec4f((*e).d) == *d) & (vec4u((*e).id) < *i));
+    let tied = (vec4f((*e).d) == *d) & (vec4u((*e).id) < *i);
+    let before = (vec4f((*e).d) < *d) | tied;
     let out = Entry((*d).w, (*i).w);
     let moved = vec4<bool>(false, before.xyz);
     let new_d = select(select(*d, vec4f((*e).d), before), vec4f(0.0, (*d).xyz), moved);

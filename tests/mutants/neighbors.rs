@@ -190,16 +190,25 @@ fn open(device: &Device, machines: &[Machine], stages: &mut Vec<Stage>) {
     let kernel = law(TOUCHING, Over::Within { range: 2.0 }).kernel(&here.problem(machine)).expect("a search");
     stages.push(here.run("within", alone(kernel), machine));
 
-    // Eight ids in a row of eight cells, the first in the middle: as far as they may walk together, and a cell more.
-    let bounds = Bounds::new(DVec3::ZERO, DVec3::new(7.9, 4.9, 4.9), Side::Reflecting);
-    let cell = |i: u32| {
-        DVec3::new(f64::from([3, 0, 6, 1, 5, 2, 4, 7][i as usize % 8]), f64::from(i / 8 % 5), f64::from(i / 40))
-    };
-    let mut random = Random::new(8);
-    let row = (0..200).map(|i| ((cell(i) + 0.5 + 0.4 * random.vector()) * 0.998).as_vec3().as_dvec3()).collect();
-    let here = Place::new(device, bounds, row);
+    // Eight ids in a row, the first in the middle: of eight cells, which are too few to walk together; and of nine.
+    for cells in [8_u32, 9] {
+        let bounds = Bounds::new(DVec3::ZERO, DVec3::new(f64::from(cells) - 0.1, 4.9, 4.9), Side::Reflecting);
+        let x = [3, 0, 6, 1, 5, 2, 4, cells - 1];
+        let cell = |i: u32| DVec3::new(f64::from(x[i as usize % 8]), f64::from(i / 8 % 5), f64::from(i / 40));
+        let mut random = Random::new(8);
+        let mut place = |i| ((cell(i) + 0.5 + 0.4 * random.vector()) * 0.998).as_vec3().as_dvec3();
+        let here = Place::new(device, bounds, (0..200).map(&mut place).collect());
+        for machine in machines.iter().filter(|machine| cells == 8 || machine.software) {
+            stages.push(here.stage("near, in rows", law(MOVING, ONE), *machine, halves));
+        }
+    }
+    // Three cells, one of them on the other side of the corner.
+    let mut random = Random::new(6);
+    let mut here = Place::new(device, Bounds::default(), Vec::new());
+    here.positions = (0..200).map(|_| (2.0 * random.vector()).as_vec3().as_dvec3()).collect();
+    here.guess = (0..200).map(|i| DVec3::new(f64::from(i % 3), f64::from(i % 8), f64::from(i % 9))).collect();
     for machine in machines {
-        stages.push(here.stage("near, in rows", law(MOVING, ONE), *machine, halves));
+        stages.push(here.stage("near, folded", law(MOVING, ONE), *machine, nothing));
     }
 
     // Two cells away, and four, on both sides of the corner.
@@ -207,7 +216,7 @@ fn open(device: &Device, machines: &[Machine], stages: &mut Vec<Stage>) {
         let mut random = Random::new(7);
         (0..40).map(move |_| (DVec3::from_array(center) + 1.4 * random.vector()).as_vec3().as_dvec3())
     };
-    let far = [[9e3, 2.0, -9e3], [2.0, 9e3, 2.0], [3e6, 2.0, 1.0], [3.0, -3e6, 1.0], [-9e6, 3e6, 2e6]];
+    let far = [[9e3, 2.0, -9e3], [2.0, 9e3, 2.0], [3_000_008.0, 2.0, 1.0], [3.0, -3e6, 1.0], [-9e6, 3e6, 2e6]];
     for (place, machine) in machines.iter().enumerate() {
         let guess = |i| DVec3::new(f64::from(i % [4, 13][place]), f64::from(i % 5), f64::from(i % 6));
         let mut here = Place::new(device, Bounds::default(), far.into_iter().flat_map(cloud).collect());
@@ -284,17 +293,16 @@ fn nearest(device: &Device, stages: &mut Vec<Stage>) {
     let nearest = |count| law(STILL, Over::Nearest { count });
     // A line in the third direction, denser at one end: there is no end to the cube in the other two.
     let mut random = Random::new(4);
-    let mut line = || DVec3::new(0.0, 0.0, 7.0 * random.next().powi(3)).as_vec3().as_dvec3();
+    // Many are equally near.
+    let mut line = || DVec3::new(0.0, 0.0, (56.0 * random.next().powi(3)).round() / 8.0);
     let here = Place::new(device, Bounds::default(), (0..300).map(|_| line()).collect());
-    for count in [5, 9, 13] {
+    for count in [5, 9, 13, 16] {
         stages.push(here.stage("nearest, in a line", nearest(count), LANES, nothing));
     }
     let (low, high) = (DVec3::new(0.125, 3.0, -2.5), DVec3::new(12.125, 7.0, 3.5));
     let bounds = Bounds { low, high, sides: [Periodic; 3], dimensions: 3 };
     let here = Place::new(device, bounds, scattered(FEW, &bounds, 0.5));
-    stages.push(here.stage("nearest, periodic", nearest(16), LANES, nothing));
-    let here = Place::new(device, Bounds::default(), lattice());
-    stages.push(here.stage("nearest, equally near", nearest(8), LANES, nothing));
+    stages.push(here.stage("nearest, periodic", nearest(3), LANES, nothing));
     // Fewer than asked for, and more than can be visited.
     let here = Place::new(device, Bounds::default(), lattice()[..5].to_vec());
     stages.push(here.stage("nearest, few", nearest(7), LANES, nothing));
