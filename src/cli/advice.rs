@@ -2,21 +2,21 @@
 
 use glam::DVec4;
 use motes::forces::{Law, Over, Problem};
-use motes::kernel::{ACCELERATION, Access, Array, Host, Kernel, Machine, POSITION, Pass, Twin, VELOCITY, World};
+use motes::kernel::{ACCELERATION, Access, Array, Host, Kernel, Machine, POSITION, Pass, Plan, Twin, VELOCITY, World};
 use motes::scene::Scene;
 use motes::{Bounds, Error, Setup};
 
 /// Whether a law does something else at another time: its twin says so for a particle at rest.
 fn depends_on_time(twin: &Twin) -> Result<bool, Error> {
-    let at = |time: f64| {
+    let at = |time: f64, step: u32| {
         let mut host = Host::default();
         host.insert(POSITION.name, Array::Vec4(vec![DVec4::new(0.31, -0.23, 0.17, 1.3)]));
         host.insert(VELOCITY.name, Array::Vec4(vec![DVec4::ZERO]));
         host.insert(ACCELERATION.name, Array::Vec4(vec![DVec4::ZERO]));
-        host.set_world(World { time, dt: 1.0, step: 0, count: 1, bounds: Bounds::default() });
+        host.set_world(World { time, dt: 1.0, step, count: 1, bounds: Bounds::default() });
         twin(&host).map(|()| host.get(ACCELERATION.name))
     };
-    Ok(at(0.0)? != at(0.7)?)
+    Ok(at(0.0, 0)? != at(0.7, 3)?)
 }
 
 /// Fields that a shader of a user may read: what a simulation has, and what the file itself writes.
@@ -48,14 +48,20 @@ fn strangers(kernel: &Kernel) -> Result<(), Error> {
 pub fn conserved(setup: &Setup) -> Result<(bool, bool), Error> {
     let (mut energy, mut momentum) = (true, true);
     for law in setup.forces.iter().flat_map(|force| force.laws()) {
-        momentum &= law.over == Over::Pairs && law.twin.is_some();
+        momentum &= law.reciprocal;
+        energy &= law.over == Over::Each || law.reciprocal;
         energy &= match &law.twin {
             Some(twin) => !depends_on_time(twin)?,
             None => false,
         };
         energy &= !law.kernel(&Problem::new(1, MACHINE))?.names("velocity");
     }
-    Ok((energy, momentum))
+    // Who holds a speed takes energy and momentum, or gives some.
+    let mut limits = Plan::default();
+    for force in &setup.forces {
+        force.limit(&mut limits, &Problem::new(1, MACHINE))?;
+    }
+    Ok((energy && limits.order.is_empty(), momentum && limits.order.is_empty()))
 }
 
 const MACHINE: Machine = Machine { software: true, subgroup: 0, invocations: 1 };
@@ -81,7 +87,14 @@ pub fn advice(scene: &Scene, setup: &Setup) -> Result<Vec<String>, Error> {
             remarks.push(format!("`{name}` has no f64 twin: nothing checks it, and it needs a device"));
         }
     }
-    if scene.integrator.name == "forward_euler" {
+    let name = scene.integrator.name;
+    for (force, its) in setup.forces.iter().map(|force| (force, force.integrators())).filter(|(_, its)| !its.is_empty()) {
+        if !its.contains(&name) {
+            let law = force.laws().first().map(|law| law.name.clone()).unwrap_or_default();
+            remarks.push(format!("`{law}` is a rule for whole steps: it wants {}, not {name}", its.join(" or ")));
+        }
+    }
+    if name == "forward_euler" && setup.forces.iter().all(|force| !force.integrators().contains(&name)) {
         remarks
             .push("forward_euler gains energy in every step, whatever the step: it is here to show why not".to_owned());
     }

@@ -33,9 +33,10 @@ impl<'a> Step<'a> {
             }
         }
     }
-    /// v ← v + c a dt
+    /// v ← v + c a dt, within the limits of speed
     pub fn kick(&mut self, factor: f64) {
         self.add(kick::kernel(self.problem.count, factor));
+        self.limit();
     }
     /// x ← x + c v dt
     pub fn drift(&mut self, factor: f64) {
@@ -56,6 +57,7 @@ impl<'a> Step<'a> {
     /// Adds the last slopes with `weight`, and goes from x₀, v₀ the whole step with the weighted sum.
     pub fn finish(&mut self, weight: f64) {
         self.add(runge_kutta::finish(self.problem.count, weight));
+        self.limit();
     }
 
     /// The plan of what is done once: what the integrator wrote, and a look for numbers that are broken from the start,
@@ -110,6 +112,14 @@ impl<'a> Step<'a> {
         Ok((before.finished()?, after.finished()?))
     }
 
+    /// What forces make of velocities that are not allowed.
+    fn limit(&mut self) {
+        for force in self.forces {
+            if self.error.is_none() {
+                self.error = force.limit(&mut self.plan, &self.problem).err();
+            }
+        }
+    }
     fn add(&mut self, kernel: Result<Kernel, Error>) {
         match kernel {
             Ok(kernel) => self.plan.add(kernel),

@@ -5,8 +5,9 @@ mod each;
 mod law;
 mod over;
 mod pairs;
+pub mod random;
 mod twin;
 
-pub use body::Body;
+pub use body::{Body, bodies};
 pub use law::Law;
 pub use over::Over;
