@@ -40,6 +40,15 @@ pub enum Error {
         /// The step, counted from 0, in which it happened.
         step: u64,
     },
+    /// More particles are within reach of one than a search for neighbours can visit. Mended by a shorter range.
+    #[error(
+        "particle {particle} has more than 240000 others in the cells around it, which is more than one search can visit: \
+         choose a shorter range, or look for what drives all particles to one place"
+    )]
+    Crowded {
+        /// The lowest id of such a particle.
+        particle: u32,
+    },
     /// The device is gone (driver reset, watchdog, unplugged). Mended by starting again, with less work per submission.
     #[error("the device was lost: {0}; start again, on another adapter if it happens twice")]
     Lost(String),
@@ -77,7 +86,7 @@ impl Error {
             Self::Scene(_) | Self::Shader { .. } => 3,
             Self::Input { .. } => 4,
             Self::NoAdapter(_) | Self::Limit(_) => 5,
-            Self::NotFinite { .. } => 6,
+            Self::NotFinite { .. } | Self::Crowded { .. } => 6,
             Self::Lost(_) | Self::OutOfMemory(_) | Self::Timeout { .. } | Self::Device(_) => 7,
             Self::Output { .. } => 8,
         }

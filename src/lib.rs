@@ -1,5 +1,6 @@
 //! Particles moved by forces, on any GPU, checked against a second opinion in f64.
 
+pub mod boundary;
 pub mod cpu;
 pub mod error;
 pub mod forces;
@@ -10,7 +11,9 @@ pub mod io;
 pub mod kernel;
 pub mod lockstep;
 pub mod measure;
+pub mod neighbors;
 pub mod particles;
+pub mod primitives;
 pub mod render;
 #[cfg(feature = "scene")]
 pub mod scene;

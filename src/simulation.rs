@@ -1,26 +1,17 @@
 //! A simulation: particles, forces and an integrator on a backend.
 
+mod setup;
+
+pub use setup::{Plans, Setup};
+
+use crate::boundary;
 use crate::error::Error;
-use crate::forces::{Force, Problem};
 use crate::gpu::Gpu;
-use crate::integrators::{Integrator, Step};
-use crate::kernel::{ACCELERATION, ALARM, Array, Backend, Bounds, Element, Field, POSITION, Plan, VELOCITY, World};
+use crate::kernel::{
+    ACCELERATION, ALARM, ALARM_WORDS, Array, Backend, Element, Field, POSITION, SPECIES, VELOCITY, World,
+};
 use crate::particles::Particles;
 use crate::render::{self, Image, Picture};
-
-/// What a simulation is made of.
-pub struct Setup {
-    /// What moves.
-    pub particles: Particles,
-    /// What moves it, in this order.
-    pub forces: Vec<Box<dyn Force>>,
-    /// How.
-    pub integrator: Box<dyn Integrator>,
-    /// The step size \[time\].
-    pub dt: f64,
-    /// Where particles may be.
-    pub bounds: Bounds,
-}
 
 /// The state at the end of a step.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,7 +20,7 @@ pub struct Snapshot {
     pub step: u64,
     /// The time, step × dt.
     pub time: f64,
-    /// Positions, velocities, masses and radii, by id.
+    /// Positions, velocities, masses, radii and species, by id.
     pub particles: Particles,
     /// Each particle's share of the potential energy \[mass length² / time²\].
     pub potential: Vec<f64>,
@@ -45,70 +36,10 @@ pub struct Simulation<B: Backend> {
     measure: (B::Program, B::Program),
     plan: String,
     count: u32,
+    /// As the setup gave them: nothing changes them.
+    species: Vec<u32>,
     dt: f64,
     steps: u64,
-}
-
-/// The plans of a simulation: what runs once, what runs in every step, and what surrounds a measurement.
-pub struct Plans {
-    /// Before the first step.
-    pub start: Plan,
-    /// A step.
-    pub step: Plan,
-    /// Before and after the state is read.
-    pub measure: (Plan, Plan),
-}
-
-impl Setup {
-    /// Writes the plans for a machine.
-    ///
-    /// # Errors
-    /// When the setup makes no sense, or a shader does not compile.
-    pub fn plans(&self, machine: crate::kernel::Machine) -> Result<Plans, Error> {
-        let problem = Problem::new(self.check()?, machine).at(&self.particles.position, self.bounds);
-        let mut start = Step::new(&self.forces, problem);
-        self.integrator.start(&mut start);
-        let mut step = Step::new(&self.forces, problem);
-        self.integrator.step(&mut step);
-        let measure = Step::measurement(&self.forces, problem)?;
-        Ok(Plans { start: start.begun()?, step: step.done()?, measure })
-    }
-    /// The number of particles, if all is well.
-    ///
-    /// # Errors
-    /// [`Error::Scene`] when there are none or too many, when dt is not a positive number, or when a particle has a
-    /// number that is none, or a negative mass.
-    pub fn check(&self) -> Result<u32, Error> {
-        let count = self.particles.len();
-        let lengths = [self.particles.velocity.len(), self.particles.mass.len(), self.particles.radius.len()];
-        if lengths.iter().any(|l| *l != count) {
-            return Err(Error::Scene(format!(
-                "{count} positions come with {lengths:?} velocities, masses and radii: give each particle one of each"
-            )));
-        }
-        let single = f64::from(f32::MIN_POSITIVE)..=f64::from(f32::MAX);
-        if !single.contains(&self.dt) {
-            let text =
-                format!("dt is {}: it must be above 0, and no smaller or larger than single precision holds", self.dt);
-            return Err(Error::Scene(text));
-        }
-        let fits = |x: f64| x.abs() <= f64::from(f32::MAX);
-        let bad = (0..count).find(|i| {
-            let vectors = [self.particles.position[*i], self.particles.velocity[*i]];
-            let (mass, radius) = (self.particles.mass[*i], self.particles.radius[*i]);
-            let good = vectors.iter().all(|v| v.to_array().into_iter().all(fits)) && fits(mass) && fits(radius);
-            !(good && mass >= 0.0 && radius >= 0.0)
-        });
-        if let Some(bad) = bad {
-            return Err(Error::Scene(format!(
-                "particle {bad} has a number that is NaN, infinite or beyond single precision, or a negative mass or radius"
-            )));
-        }
-        u32::try_from(count)
-            .ok()
-            .filter(|n| *n > 0)
-            .ok_or_else(|| Error::Scene(format!("there are {count} particles: a simulation takes 1 to {}", u32::MAX)))
-    }
 }
 
 impl<B: Backend> Simulation<B> {
@@ -125,13 +56,18 @@ impl<B: Backend> Simulation<B> {
         let measure = (backend.compile(&plans.measure.0)?, backend.compile(&plans.measure.1)?);
         backend.set_world(World { time: 0.0, dt: setup.dt, step: 0, count, bounds: setup.bounds })?;
         let particles = &setup.particles;
-        let position = particles.position.iter().zip(&particles.mass).map(|(x, m)| x.extend(*m)).collect();
+        let inside = |x| boundary::wrapped(&setup.bounds, x);
+        let position = particles.position.iter().zip(&particles.mass).map(|(x, m)| inside(*x).extend(*m)).collect();
         let velocity = particles.velocity.iter().zip(&particles.radius).map(|(v, r)| v.extend(*r)).collect();
         backend.write(POSITION.name, &Array::Vec4(position))?;
         backend.write(VELOCITY.name, &Array::Vec4(velocity))?;
         backend.write(ACCELERATION.name, &Array::Vec4(Vec::new()).zeros(count as usize))?;
-        backend.write(ALARM.name, &Array::Uint(vec![u32::MAX; 2]))?;
-        Ok(Self { backend, start, begun: false, step, measure, plan, count, dt: setup.dt, steps: 0 })
+        backend.write(ALARM.name, &Array::Uint(vec![u32::MAX; ALARM_WORDS as usize]))?;
+        let species = particles.species.clone();
+        if plans.all().any(|plan| plan.fields(count).contains_key(SPECIES.name)) {
+            backend.write(SPECIES.name, &Array::Uint(species.clone()))?;
+        }
+        Ok(Self { backend, start, begun: false, step, measure, plan, count, species, dt: setup.dt, steps: 0 })
     }
     /// Advances. May return before the device is done; reading waits.
     ///
@@ -176,14 +112,15 @@ impl<B: Backend> Simulation<B> {
     /// Looks whether any number has stopped being one.
     ///
     /// # Errors
-    /// [`Error::NotFinite`] with the first particle and step, or what reading says.
+    /// [`Error::NotFinite`] with the first particle and step, [`Error::Crowded`], or what reading says.
     pub async fn check(&mut self) -> Result<(), Error> {
-        let alarm = self.backend.read(ALARM.name, &Array::Uint(Vec::new()), 2).await?;
+        let alarm = self.backend.read(ALARM.name, &Array::Uint(Vec::new()), ALARM_WORDS as usize).await?;
         match u32::view(&alarm).map(Vec::as_slice) {
             // The first look comes before the first step, every other one after a step that is done.
-            Some([done, particle]) if *done != u32::MAX => {
+            Some([done, particle, _]) if *done != u32::MAX => {
                 Err(Error::NotFinite { particle: *particle, step: u64::from(done.saturating_sub(1)) })
             }
+            Some([.., particle]) if *particle != u32::MAX => Err(Error::Crowded { particle: *particle }),
             _ => Ok(()),
         }
     }
@@ -209,6 +146,7 @@ impl<B: Backend> Simulation<B> {
                 potential.push(x.w * a.w);
             }
         }
+        particles.species.clone_from(&self.species);
         let time = self.steps as f64 * self.dt;
         Ok(Snapshot { step: self.steps, time, particles, potential })
     }

@@ -6,7 +6,7 @@ use std::fmt::Display;
 
 use motes::gpu::Gpu;
 use motes::integrators::{INTEGRATORS, Step};
-use motes::kernel::{ACCELERATION, Backend, Machine, POSITION, Plan, SPECIES, VELOCITY};
+use motes::kernel::{ACCELERATION, Backend, Machine, POSITION, Plan, VELOCITY};
 use motes::lockstep::{Verdict, compare};
 use motes::{Setup, Simulation, forces};
 use support::choices;
@@ -80,9 +80,6 @@ fn every_law_alone() {
                     step.evaluate();
                     let mut plan = step.finished().expect("a plan");
                     law[0].limit(&mut plan, &problem).expect("limits");
-                    if simulation.backend().size(SPECIES.name) > 0 {
-                        simulation.write(SPECIES, &support::species(count)).expect("species");
-                    }
                     // Alone in the world, nobody attracts; a few may be too far, or of other species.
                     let idle = |_: &Verdict| if pairs { count == 1 } else { count < 63 };
                     judge(&verdicts(simulation.backend(), &plan, count, &of), count, &of, idle);

@@ -4,7 +4,7 @@ struct Params { position: vec3f, velocity: vec3f, strength: f32, softening: f32,
 @group(3) @binding(0) var<uniform> params: Params;
 
 fn force(me: Particle) -> vec4f {
-    let d = me.position - (params.position + params.velocity * world.time);
+    let d = shortest(me.position - (params.position + params.velocity * world.time));
     let soft = dot(d, d) + params.softening * params.softening;
     var pull: f32;
     var potential: f32;

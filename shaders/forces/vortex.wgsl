@@ -6,7 +6,7 @@ struct Params { center: vec3f, axis: vec3f, circulation: f32, core: f32, rate: f
 const TAU: f32 = 6.283185307;
 
 fn force(me: Particle) -> vec4f {
-    let d = me.position - params.center;
+    let d = shortest(me.position - params.center);
     let across = d - params.axis * dot(params.axis, d);
     let flow = cross(params.axis, across) * (params.circulation / (TAU * (dot(across, across) + params.core * params.core)));
     return vec4f((flow - velocity[me.index].xyz) * params.rate, 0.0);

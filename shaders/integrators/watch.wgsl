@@ -8,9 +8,6 @@
 
 const WORKGROUP: u32 = 64u;
 
-// NaN and infinity have every bit of the exponent set. `x != x` will not do: compilers take it for false.
-fn broken(v: vec4f) -> bool { return any((bitcast<vec4u>(v) & vec4u(0x7f800000u)) == vec4u(0x7f800000u)); }
-
 @compute @workgroup_size(WORKGROUP)
 fn watch(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let i = folded(group, groups) * WORKGROUP + lane;

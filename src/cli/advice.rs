@@ -1,22 +1,30 @@
 //! What one should know of a scene before it runs.
 
-use glam::DVec4;
+use glam::{DVec3, DVec4};
 use motes::forces::{Law, Over, Problem};
 use motes::kernel::{ACCELERATION, Access, Array, Host, Kernel, Machine, POSITION, Pass, Plan, Twin, VELOCITY, World};
 use motes::scene::Scene;
-use motes::{Bounds, Error, Setup};
+use motes::{Bounds, Error, Setup, Side};
 
-/// Whether a law does something else at another time: its twin says so for a particle at rest.
-fn depends_on_time(twin: &Twin) -> Result<bool, Error> {
-    let at = |time: f64, step: u32| {
-        let mut host = Host::default();
-        host.insert(POSITION.name, Array::Vec4(vec![DVec4::new(0.31, -0.23, 0.17, 1.3)]));
-        host.insert(VELOCITY.name, Array::Vec4(vec![DVec4::ZERO]));
-        host.insert(ACCELERATION.name, Array::Vec4(vec![DVec4::ZERO]));
-        host.set_world(World { time, dt: 1.0, step, count: 1, bounds: Bounds::default() });
-        twin(&host).map(|()| host.get(ACCELERATION.name))
-    };
-    Ok(at(0.0, 0)? != at(0.7, 3)?)
+/// What a law's twin says to a particle at rest somewhere.
+fn felt(twin: &Twin, (time, step): (f64, u32), position: DVec3, bounds: Bounds) -> Result<DVec4, Error> {
+    let mut host = Host::default();
+    host.insert(POSITION.name, Array::Vec4(vec![position.extend(1.3)]));
+    host.insert(VELOCITY.name, Array::Vec4(vec![DVec4::ZERO]));
+    host.insert(ACCELERATION.name, Array::Vec4(vec![DVec4::ZERO]));
+    host.set_world(World { time, dt: 1.0, step, count: 1, bounds });
+    twin(&host)?;
+    Ok(host.read(ACCELERATION)?.first().copied().unwrap_or_default())
+}
+
+/// Whether a law does the same at another time, and to the particle's images in a periodic box.
+fn keeps_energy(twin: &Twin, bounds: &Bounds) -> Result<bool, Error> {
+    let x = DVec3::new(0.31, -0.23, 0.17);
+    let here = felt(twin, (0.0, 0), x, *bounds)?;
+    let image = felt(twin, (0.0, 0), x + bounds.period(), *bounds)?;
+    // Images are where they are up to rounding; time takes part or does not.
+    let alike = (here - image).abs().max_element() <= 1e-9 * here.abs().max_element();
+    Ok(alike && here == felt(twin, (0.7, 3), x, *bounds)?)
 }
 
 /// Fields that a shader of a user may read: what a simulation has, and what the file itself writes.
@@ -44,24 +52,42 @@ fn strangers(kernel: &Kernel) -> Result<(), Error> {
     Ok(())
 }
 
-/// Whether every force keeps the energy, and whether every force keeps the momentum.
-pub fn conserved(setup: &Setup) -> Result<(bool, bool), Error> {
-    let (mut energy, mut momentum) = (true, true);
+/// What should stay as it is.
+#[derive(Debug, Clone, Copy)]
+pub struct Conserved {
+    /// The total energy.
+    pub energy: bool,
+    /// The momentum.
+    pub momentum: bool,
+    /// The angular momentum.
+    pub angular_momentum: bool,
+}
+
+/// What all forces and the sides of the box keep. A mirror takes momentum and keeps energy; where particles leave at one
+/// side and come in at the other, momentum stays, and the angular momentum is about nothing.
+pub fn conserved(setup: &Setup) -> Result<Conserved, Error> {
+    let (periodic, reflecting) = (setup.bounds.has(Side::Periodic), setup.bounds.has(Side::Reflecting));
+    let mut conserved = Conserved { energy: true, momentum: !reflecting, angular_momentum: !reflecting && !periodic };
     for law in setup.forces.iter().flat_map(|force| force.laws()) {
-        momentum &= law.reciprocal;
-        energy &= law.over == Over::Each || law.reciprocal;
-        energy &= match &law.twin {
-            Some(twin) => !depends_on_time(twin)?,
+        conserved.momentum &= law.reciprocal;
+        conserved.angular_momentum &= law.reciprocal;
+        // What some do to others, and not others to them, keeps nothing.
+        conserved.energy &= law.over == Over::Each || law.reciprocal;
+        conserved.energy &= match &law.twin {
+            Some(twin) => keeps_energy(twin, &setup.bounds)?,
             None => false,
         };
-        energy &= !law.kernel(&Problem::new(1, MACHINE))?.names("velocity");
+        conserved.energy &= !law.kernel(&Problem::new(1, MACHINE))?.names("velocity");
     }
     // Who holds a speed takes energy and momentum, or gives some.
     let mut limits = Plan::default();
     for force in &setup.forces {
         force.limit(&mut limits, &Problem::new(1, MACHINE))?;
     }
-    Ok((energy && limits.order.is_empty(), momentum && limits.order.is_empty()))
+    if !limits.order.is_empty() {
+        conserved = Conserved { energy: false, momentum: false, angular_momentum: false };
+    }
+    Ok(conserved)
 }
 
 const MACHINE: Machine = Machine { software: true, subgroup: 0, invocations: 1 };
@@ -73,7 +99,7 @@ pub fn advice(scene: &Scene, setup: &Setup) -> Result<Vec<String>, Error> {
     let (order, reduced) = (setup.integrator.order(), setup.integrator.order_with_velocity());
     for law in laws {
         let name = law.name.clone();
-        let untwinned = law.twin.is_none();
+        let (untwinned, over) = (law.twin.is_none(), law.over);
         let kernel = law.kernel(&Problem::new(1, MACHINE))?;
         strangers(&kernel)?;
         if kernel.names("velocity") && reduced < order {
@@ -81,6 +107,11 @@ pub fn advice(scene: &Scene, setup: &Setup) -> Result<Vec<String>, Error> {
                 "`{name}` depends on velocity: {} is of order {order} for other forces, and of order {reduced} with it; \
                  midpoint, heun and rk4 keep their order",
                 scene.integrator.name
+            ));
+        }
+        if over == Over::Pairs && setup.bounds.has(Side::Periodic) {
+            remarks.push(format!(
+                "`{name}` in a periodic box comes from the nearest image of everybody alone: there is no Ewald sum"
             ));
         }
         if untwinned {

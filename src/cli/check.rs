@@ -1,10 +1,11 @@
 //! `motes check`
 
+use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
 use motes::kernel::{ACCELERATION, Backend};
 use motes::render::{Picture, Trail};
-use motes::{Cpu, Gpu, Simulation};
+use motes::{Bounds, Cpu, Gpu, Simulation};
 
 use super::advice::advice;
 use super::args::SceneArgs;
@@ -21,11 +22,14 @@ pub async fn check(args: &SceneArgs) -> Result<(), Failure> {
     let engine = Engine::choose(&args.device).await?;
     out!("{}: {count} particles, {} steps of {} by {}", scene.name, scene.steps, scene.dt, scene.integrator.name);
     out!("on {}", engine.describe());
+    if scene.bounds != Bounds::default() {
+        out!("box: {}", scene.bounds);
+    }
 
     let plans = setup.plans(engine.machine(count)?)?;
     out!("\nmemory on the device");
-    let mut fields = plans.step.fields(count);
-    for plan in [&plans.start, &plans.measure.0, &plans.measure.1] {
+    let mut fields = BTreeMap::new();
+    for plan in plans.all() {
         for (name, bytes) in plan.fields(count) {
             let entry = fields.entry(name).or_insert(0);
             *entry = bytes.max(*entry);

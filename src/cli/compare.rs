@@ -106,7 +106,7 @@ async fn steps(found: &gpu::Found, setup: &Setup, steps: u32) -> Result<Over, Fa
     twins.step(steps)?;
     let (a, b) = (device.snapshot().await?, twins.snapshot().await?);
     let (x, y) = (&a.particles.position, &b.particles.position);
-    let errors: Vec<f64> = x.iter().zip(y).map(|(x, y)| x.distance(*y)).collect();
+    let errors: Vec<f64> = x.iter().zip(y).map(|(x, y)| apart(setup, *x, *y)).collect();
     let rms = |of: &[f64]| (of.iter().map(|e| e * e).sum::<f64>() / of.len().max(1) as f64).sqrt();
     let center = Measure::of(&b).center;
     let distances: Vec<f64> = y.iter().map(|y| y.distance(center)).collect();
@@ -123,7 +123,12 @@ async fn steps(found: &gpu::Found, setup: &Setup, steps: u32) -> Result<Over, Fa
 
 fn travelled(after: &Snapshot, setup: &Setup) -> Vec<f64> {
     let before: &[DVec3] = &setup.particles.position;
-    after.particles.position.iter().zip(before).map(|(x, y)| x.distance(*y)).collect()
+    after.particles.position.iter().zip(before).map(|(x, y)| apart(setup, *x, *y)).collect()
+}
+
+/// The way from one place to the other's nearest image.
+fn apart(setup: &Setup, x: DVec3, y: DVec3) -> f64 {
+    setup.bounds.shortest(x - y).length()
 }
 
 fn print_kernels(verdicts: &[Verdict]) {

@@ -3,7 +3,7 @@
 use motes::gpu::{self, Choice, Found};
 use motes::kernel::{Backend, Machine};
 use motes::scene::{Options, Scene, Source};
-use motes::{Bounds, Cpu, Error, Gpu, Setup};
+use motes::{Cpu, Error, Gpu, Setup};
 
 use super::args::{BackendChoice, DeviceArgs, SceneArgs};
 use super::failure::Failure;
@@ -82,6 +82,6 @@ pub fn setup(scene: &mut Scene) -> Setup {
         forces: std::mem::take(&mut scene.forces),
         integrator: (scene.integrator.build)(),
         dt: scene.dt,
-        bounds: Bounds::default(),
+        bounds: scene.bounds,
     }
 }

@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use motes::Bounds;
 use motes::kernel::{Access, Kernel};
 
 use super::args::SceneArgs;
@@ -16,7 +17,11 @@ pub async fn explain(args: &SceneArgs) -> Result<(), Failure> {
     let engine = Engine::choose(&args.device).await?;
     let plans = setup.plans(engine.machine(count)?)?;
     out!("{}: {count} particles, {} steps of {} by {}", scene.name, scene.steps, scene.dt, scene.integrator.name);
-    out!("on {}\n", engine.describe());
+    out!("on {}", engine.describe());
+    if scene.bounds != Bounds::default() {
+        out!("box: {}", scene.bounds);
+    }
+    out!("");
     if !plans.start.order.is_empty() {
         out!("once:  {}", plans.start);
     }

@@ -5,7 +5,7 @@ use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use motes::io::{Precision, atomically, csv, npz};
-use motes::render::{Color, Picture, Trail, group_color, pack};
+use motes::render::{Color, Picture, Trail, framed, group_color, pack};
 use motes::scene::{Format, Group, Scene};
 use motes::settings::Settings;
 use motes::{Error, Measure, Snapshot};
@@ -47,7 +47,7 @@ impl Output {
             formats: scene.output.formats.clone(),
             precision,
             digits: scene.steps.to_string().len(),
-            picture: scene.picture.clone(),
+            picture: framed(&scene.picture, &scene.bounds),
             groups: scene.groups.clone(),
             energy,
             rows: Vec::new(),

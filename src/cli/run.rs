@@ -10,7 +10,7 @@ use motes::scene::Scene;
 use motes::{Cpu, Error, Measure, POSITION, Setup, Simulation};
 use serde_json::json;
 
-use super::advice::{advice, conserved};
+use super::advice::{Conserved, advice, conserved};
 use super::args::RunArgs;
 use super::engine::{self, Engine};
 use super::failure::Failure;
@@ -59,8 +59,8 @@ struct Run {
     device: String,
     folder: PathBuf,
     count: usize,
-    /// Whether the energy and the momentum should stay what they are.
-    conserved: (bool, bool),
+    /// What should stay as it is.
+    conserved: Conserved,
     progress: Progress,
     stop: Stop,
 }
@@ -204,11 +204,13 @@ impl Run {
             large(rate * self.count as f64)
         ));
         let (energy, change) =
-            (last.drift_from(&first), if self.conserved.0 { "error" } else { "not conserved, change" });
+            (last.drift_from(&first), if self.conserved.energy { "error" } else { "not conserved, change" });
         say(format!("energy {:.6e} → {:.6e}, {change} {energy:+.1e}", first.total(), last.total()));
-        if self.conserved.1 {
+        if self.conserved.momentum {
             let (p, l) = (last.momentum - first.momentum, last.angular_momentum - first.angular_momentum);
-            say(format!("momentum changed by {:.1e}, angular momentum by {:.1e}", p.length(), l.length()));
+            let turning = format!(", angular momentum by {:.1e}", l.length());
+            let turning = if self.conserved.angular_momentum { &turning } else { "" };
+            say(format!("momentum changed by {:.1e}{turning}", p.length()));
         }
         let picture = if output.pictures() { format!("{}.png, ", self.scene.name) } else { String::new() };
         say(format!(

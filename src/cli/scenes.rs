@@ -1,6 +1,6 @@
 //! `motes scenes`
 
-use motes::scene::{SCENES, Source};
+use motes::scene::{BOX_KEYS, PARTICLES_KEYS, SCENES, Source};
 use motes::settings::Value;
 
 use super::args::ScenesArgs;
@@ -37,8 +37,17 @@ pub fn scenes(args: &ScenesArgs) -> Result<(), Failure> {
 fn keys(wanted: Option<&str>) -> Result<(), Failure> {
     let forces = motes::forces::FORCES.iter().map(|e| ("[[force]] kind", e.name, e.about, e.keys));
     let shapes = motes::particles::SHAPES.iter().map(|e| ("[[particles]] shape", e.name, e.about, e.keys));
-    let picture = std::iter::once(("section", "picture", "how pictures are made", motes::render::KEYS));
-    let all: Vec<_> = forces.chain(shapes).chain(picture).filter(|e| wanted.is_none_or(|name| name == e.1)).collect();
+    let sections = [
+        (
+            "section",
+            "box",
+            "where particles may be; x, y and z say otherwise for single axes, dimensions 2 or 3",
+            BOX_KEYS,
+        ),
+        ("section", "particles", "what every [[particles]] may say", PARTICLES_KEYS),
+        ("section", "picture", "how pictures are made", motes::render::KEYS),
+    ];
+    let all: Vec<_> = forces.chain(shapes).chain(sections).filter(|e| wanted.is_none_or(|name| name == e.1)).collect();
     if all.is_empty() {
         let text = format!(
             "no force, shape or section is called `{}`; motes scenes --keys lists all",

@@ -40,7 +40,7 @@ impl Force for Attractor {
         let mut values = super::params(&self.0, &["position", "velocity", "strength", "softening"]);
         values.push(("profile".to_owned(), Scalar::Uint(u32::try_from(profile).unwrap_or(0))));
         vec![Law::each("attractor", crate::shader!("forces/attractor.wgsl"), values, move |me, world| {
-            let d = me.position - (position + velocity * world.time);
+            let d = world.bounds.shortest(me.position - (position + velocity * world.time));
             let soft = d.length_squared() + softening * softening;
             let (pull, potential) = match profile {
                 0 => (strength / (soft * soft.sqrt()), -strength / soft.sqrt()),

@@ -33,8 +33,8 @@ impl Force for Vortex {
         let (circulation, core, rate) = (self.0.number("circulation"), self.0.number("core"), self.0.number("rate"));
         let mut values = super::params(&self.0, &["center", "circulation", "core", "rate"]);
         values.push(("axis".to_owned(), Scalar::Vector(axis)));
-        vec![Law::each("vortex", crate::shader!("forces/vortex.wgsl"), values, move |me, _| {
-            let d = me.position - center;
+        vec![Law::each("vortex", crate::shader!("forces/vortex.wgsl"), values, move |me, world| {
+            let d = world.bounds.shortest(me.position - center);
             let across = d - axis * axis.dot(d);
             let u = axis.cross(across) * (circulation / (std::f64::consts::TAU * (across.length_squared() + core * core)));
             ((u - me.velocity) * rate).extend(0.0)

@@ -1,15 +1,18 @@
 //! A step as it is being written: each verb adds kernels to a plan.
 
 use super::verbs::{at, clear, drift, keep, kick, runge_kutta, tick, watch};
+use crate::boundary;
 use crate::error::Error;
 use crate::forces::{Force, Problem};
 use crate::kernel::{Kernel, Plan};
+use crate::neighbors::Grid;
 
 /// Writes a plan in verbs. The first error is kept and given at the end, so that an integrator reads like its textbook.
 pub struct Step<'a> {
     forces: &'a [Box<dyn Force>],
     problem: Problem,
     plan: Plan,
+    evaluated: bool,
     error: Option<Error>,
 }
 
@@ -17,11 +20,13 @@ impl<'a> Step<'a> {
     /// An empty step of particles under some forces.
     #[must_use]
     pub fn new(forces: &'a [Box<dyn Force>], problem: Problem) -> Self {
-        Self { forces, problem, plan: Plan::default(), error: None }
+        Self { forces, problem, plan: Plan::default(), evaluated: false, error: None }
     }
 
     /// a ← forces(x, v, t), with all laws in the order of the scene.
     pub fn evaluate(&mut self) {
+        self.evaluated = true;
+        self.neighbors();
         self.add(clear::kernel(self.problem.count));
         let name = |force: &dyn Force| force.laws().first().map(|law| law.name.clone());
         for (place, force) in self.forces.iter().enumerate() {
@@ -33,14 +38,43 @@ impl<'a> Step<'a> {
             }
         }
     }
+    /// The grids that laws search: each once, however many laws do.
+    fn neighbors(&mut self) {
+        let mut grids: Vec<(Grid, bool)> = Vec::new();
+        for law in self.forces.iter().flat_map(|force| force.laws()) {
+            match law.grid(&self.problem) {
+                Ok(Some((grid, moving))) => match grids.iter_mut().find(|(known, _)| *known == grid) {
+                    Some((_, also)) => *also |= moving,
+                    None => grids.push((grid, moving)),
+                },
+                Ok(None) => {}
+                Err(error) => {
+                    self.error.get_or_insert(error);
+                }
+            }
+        }
+        for (grid, moving) in grids {
+            self.add(grid.kernel(&self.problem, moving));
+        }
+    }
     /// v ← v + c a dt, within the limits of speed
     pub fn kick(&mut self, factor: f64) {
         self.add(kick::kernel(self.problem.count, factor));
         self.limit();
     }
-    /// x ← x + c v dt
+    /// x ← x + c v dt, and back into the box
     pub fn drift(&mut self, factor: f64) {
         self.add(drift::kernel(self.problem.count, factor));
+        self.enclose();
+    }
+    /// Whoever has left the box by a closed side comes in again.
+    pub fn enclose(&mut self) {
+        match boundary::kernels(self.problem.count, &self.problem.bounds) {
+            Ok(kernels) => kernels.into_iter().for_each(|kernel| self.plan.add(kernel)),
+            Err(error) => {
+                self.error.get_or_insert(error);
+            }
+        }
     }
     /// Forces are evaluated at t + c dt from here on, until the end of the step.
     pub fn at(&mut self, factor: f64) {
@@ -54,10 +88,12 @@ impl<'a> Step<'a> {
     pub fn stage(&mut self, weight: f64, factor: f64) {
         self.add(runge_kutta::stage(self.problem.count, weight, factor));
     }
-    /// Adds the last slopes with `weight`, and goes from x₀, v₀ the whole step with the weighted sum.
+    /// Adds the last slopes with `weight`, and goes from x₀, v₀ the whole step with the weighted sum, and back into the
+    /// box. Stages may leave it: forces see the nearest images from there too.
     pub fn finish(&mut self, weight: f64) {
         self.add(runge_kutta::finish(self.problem.count, weight));
         self.limit();
+        self.enclose();
     }
 
     /// The plan of what is done once: what the integrator wrote, and a look for numbers that are broken from the start,
@@ -66,7 +102,7 @@ impl<'a> Step<'a> {
     /// # Errors
     /// The first thing that went wrong while it was written.
     pub fn begun(mut self) -> Result<Plan, Error> {
-        if self.plan.order.is_empty() {
+        if !self.evaluated {
             self.evaluate();
         }
         self.add(watch::kernel(self.problem.count));

@@ -1,5 +1,5 @@
-//! Comma-separated text. Columns `x,y,z`, and any of `vx,vy,vz` (0 when left out), `mass` (1), `radius` (0), `id` and `name`;
-//! lines that start with `#` are comments.
+//! Comma-separated text. Columns `x,y,z`, and any of `vx,vy,vz` (0 when left out), `mass` (1), `radius` (0), `species` (0), `id`
+//! and `name`; lines that start with `#` are comments.
 
 use std::fmt::Write as _;
 use std::io::{self, Write};
@@ -19,6 +19,7 @@ use crate::particles::Particles;
 pub(super) const NUMBERS: [(&str, f64); 8] =
     [("x", 0.0), ("y", 0.0), ("z", 0.0), ("vx", 0.0), ("vy", 0.0), ("vz", 0.0), ("mass", 1.0), ("radius", 0.0)];
 const ID: &str = "id";
+const SPECIES: &str = "species";
 const NAME: &str = "name";
 
 /// Reads particles. With a column `id` the rows may come in any order; ids count from 0.
@@ -45,21 +46,13 @@ pub fn read(path: &Path) -> Result<Particles, Error> {
         }
         let [x, y, z, vx, vy, vz, mass, radius] = columns.numbers(&record, &line, &mut problems);
         particles.push(DVec3::new(x, y, z), DVec3::new(vx, vy, vz), mass, radius);
-        if let Some(place) = columns.id {
-            match cell(&record, place).map(str::parse::<u32>) {
-                Some(Ok(id)) => {
-                    ids.push(u64::from(id));
-                    lines.push(line);
-                }
-                Some(Err(_)) => problems.note(|| {
-                    format!(
-                        "{line}, column id: `{}` is not a whole number from 0 to {}",
-                        shown(&record, place),
-                        u32::MAX
-                    )
-                }),
-                None => problems.note(|| format!("{line}, column id: the cell is missing")),
-            }
+        let of = columns.species.and_then(|place| whole(&record, place, SPECIES, &line, &mut problems));
+        if let (Some(of), Some(species)) = (of, particles.species.last_mut()) {
+            *species = of;
+        }
+        if let Some(id) = columns.id.and_then(|place| whole(&record, place, ID, &line, &mut problems)) {
+            ids.push(u64::from(id));
+            lines.push(line);
         }
     }
     if columns.id.is_none() {
@@ -81,20 +74,22 @@ struct Columns {
     count: usize,
     numbers: [Option<usize>; 8],
     id: Option<usize>,
+    species: Option<usize>,
 }
 
 impl Columns {
     fn named(header: &ByteRecord, problems: &mut Problems) -> Self {
-        let mut columns = Self { count: header.len(), numbers: [None; 8], id: None };
+        let mut columns = Self { count: header.len(), numbers: [None; 8], id: None, species: None };
         let mut name = None;
         for place in 0..header.len() {
             let title = shown(header, place);
             let slot = match NUMBERS.iter().position(|(known, _)| *known == title) {
                 Some(number) => &mut columns.numbers[number],
                 None if title == ID => &mut columns.id,
+                None if title == SPECIES => &mut columns.species,
                 None if title == NAME => &mut name,
                 None => {
-                    problems.note(|| unknown("column", &title, &[ID, NAME]));
+                    problems.note(|| unknown("column", &title, &[SPECIES, ID, NAME]));
                     continue;
                 }
             };
@@ -139,6 +134,19 @@ impl Columns {
     }
 }
 
+/// A whole number that fits 32 bits.
+fn whole(record: &ByteRecord, place: usize, title: &str, line: &Line, problems: &mut Problems) -> Option<u32> {
+    match cell(record, place).map(str::parse::<u32>) {
+        Some(Ok(number)) => return Some(number),
+        Some(Err(_)) => problems.note(|| {
+            let most = u32::MAX;
+            format!("{line}, column {title}: `{}` is not a whole number from 0 to {most}", shown(record, place))
+        }),
+        None => problems.note(|| format!("{line}, column {title}: the cell is missing")),
+    }
+    None
+}
+
 fn cell(record: &ByteRecord, place: usize) -> Option<&str> {
     record.get(place).and_then(|bytes| std::str::from_utf8(bytes).ok())
 }
@@ -164,8 +172,9 @@ pub(super) fn unknown(what: &str, title: &str, others: &[&'static str]) -> Strin
     }
 }
 
-/// Writes a header and one row per particle, in the order of the ids: `id,x,y,z,vx,vy,vz,mass`. Each number is the shortest
-/// decimal that reads back to the same bits of the precision, also where it is read as f64 first; radii are not written.
+/// Writes a header and one row per particle, in the order of the ids: `id,x,y,z,vx,vy,vz,mass`, and `species` where any is
+/// not 0. Each number is the shortest decimal that reads back to the same bits of the precision, also where it is read as f64
+/// first; radii are not written.
 ///
 /// # Errors
 /// Those of `out`.
@@ -173,7 +182,9 @@ pub fn write_csv(mut out: impl Write, particles: &Particles, precision: Precisio
     /// Rows per piece of work, and pieces that are in memory at once: about 16 MB of text.
     const ROWS: usize = 4096;
     const PIECES: usize = 32;
-    out.write_all(b"id,x,y,z,vx,vy,vz,mass\n")?;
+    let species = particles.species.iter().any(|species| *species != 0);
+    out.write_all(b"id,x,y,z,vx,vy,vz,mass")?;
+    out.write_all(if species { b",species\n" } else { b"\n" })?;
     let mut pieces: Vec<String> = vec![String::new(); PIECES];
     for start in (0..particles.len()).step_by(ROWS * PIECES) {
         pieces.par_iter_mut().enumerate().for_each(|(piece, text)| {
@@ -181,6 +192,10 @@ pub fn write_csv(mut out: impl Write, particles: &Particles, precision: Precisio
             let first = start + piece * ROWS;
             for id in first..particles.len().min(first + ROWS) {
                 row(text, id, particles, precision);
+                if species {
+                    let _ = write!(text, ",{}", particles.species[id]);
+                }
+                text.push('\n');
             }
         });
         for text in &pieces {
@@ -211,7 +226,6 @@ fn row(text: &mut String, id: usize, particles: &Particles, precision: Precision
             }
         }
     }
-    text.push('\n');
 }
 
 /// Whether a reader that knows only f64 finds the same f32 when it narrows: rounding twice is not always rounding once. Of all

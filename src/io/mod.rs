@@ -94,5 +94,6 @@ fn picked(particles: &Particles, order: &[usize]) -> Particles {
             particles.radius[*place],
         );
     }
+    picked.species = order.iter().map(|place| particles.species[*place]).collect();
     picked
 }

@@ -1,4 +1,5 @@
-//! NPZ, `NumPy`'s archive of named arrays: `id`, `x`, `y`, `z`, `vx`, `vy`, `vz`, `mass`, `radius`, `time`, `step`.
+//! NPZ, `NumPy`'s archive of named arrays: `id`, `x`, `y`, `z`, `vx`, `vy`, `vz`, `mass`, `radius`,
+//! `species`, `time`, `step`.
 //!
 //! `numpy.load("snapshot.npz")["x"]` is the array of x by id.
 
@@ -21,7 +22,7 @@ use crate::particles::Particles;
 /// Bytes that are written at once.
 const PIECE: usize = 1 << 16;
 /// Reads a snapshot. Arrays may be f4, f8 or integers of 4 or 8 bytes, stored or deflated; `x`, `y`, `z` must be there; left
-/// out, velocities, radii, time and step are 0 and masses are 1; with `id`, entries may come in any order.
+/// out, velocities, radii, species, time and step are 0 and masses are 1; with `id`, entries may come in any order.
 ///
 /// # Errors
 /// [`Error::Input`] that lists every array that is missing, unknown, of another length than `x`, larger than the file can
@@ -32,10 +33,11 @@ pub fn read(path: &Path) -> Result<Snapshot, Error> {
     let time = arrays.single("time");
     let step = arrays.single("step");
     let columns = NUMBERS.map(|(name, _)| arrays.column(name));
-    let ids = arrays.column("id");
+    let (ids, species) = (arrays.column("id"), arrays.column("species"));
     let mut problems = arrays.problems;
     let rows = columns[0].as_ref().map(Vec::len);
-    for (values, name) in columns.iter().zip(NUMBERS.map(|(name, _)| name)).chain([(&ids, "id")]) {
+    for (values, name) in columns.iter().zip(NUMBERS.map(|(name, _)| name)).chain([(&ids, "id"), (&species, "species")])
+    {
         check(name, values.as_deref(), rows, &mut problems);
     }
     if !problems.none() {
@@ -51,6 +53,11 @@ pub fn read(path: &Path) -> Result<Snapshot, Error> {
         velocity: vectors(&next(), &next(), &next()),
         mass: next(),
         radius: next(),
+        species: match species {
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked")]
+            Some(species) => species.iter().map(|of| *of as u32).collect(),
+            None => vec![0; rows.unwrap_or(0)],
+        },
     };
     if let Some(ids) = ids {
         let ids: Vec<u64> = ids.iter().map(|id| whole(*id)).collect();
@@ -72,8 +79,10 @@ fn check(name: &str, values: Option<&[f64]>, rows: Option<usize>, problems: &mut
             problems.note(|| format!("{name}[{place}] is {value}, which is not finite"));
         } else if *value < 0.0 && matches!(name, "mass" | "radius") {
             problems.note(|| format!("{name}[{place}] is {value}, which is below 0"));
-        } else if name == "id" && !(value.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(value)) {
-            problems.note(|| format!("id[{place}] is {value}, not a whole number from 0 to {}", u32::MAX));
+        } else if matches!(name, "id" | "species")
+            && !(value.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(value))
+        {
+            problems.note(|| format!("{name}[{place}] is {value}, not a whole number from 0 to {}", u32::MAX));
         }
     }
 }
@@ -91,8 +100,8 @@ fn whole(x: f64) -> u64 {
     x as u64
 }
 
-/// Writes a snapshot, uncompressed: `id` (u4), `x` … `vz`, `mass`, `radius` (f4 or f8), and the single numbers `time` (f8) and
-/// `step` (u8). The same snapshot gives the same bytes: no date is stored.
+/// Writes a snapshot, uncompressed: `id` (u4), `x` … `vz`, `mass`, `radius` (f4 or f8), `species` (u4) where any is not 0, and
+/// the single numbers `time` (f8) and `step` (u8). The same snapshot gives the same bytes: no date is stored.
 ///
 /// # Errors
 /// Those of `out`.
@@ -121,6 +130,9 @@ pub fn write_npz(
             Precision::Single => put(&mut archive, name, &[count], values.map(|x| (x as f32).to_le_bytes()), 0.0_f32)?,
             Precision::Double => put(&mut archive, name, &[count], values.map(f64::to_le_bytes), 0.0_f64)?,
         }
+    }
+    if particles.species.iter().any(|species| *species != 0) {
+        put(&mut archive, "species", &[count], particles.species.iter().map(|of| of.to_le_bytes()), 0_u32)?;
     }
     archive.zip_writer().finish().map(drop).map_err(io::Error::other)
 }

@@ -44,6 +44,20 @@ pub struct Bounds {
     pub dimensions: u32,
 }
 
+/// For people: `x periodic from 0 to 1, y periodic from 0 to 1, z open`.
+impl std::fmt::Display for Bounds {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
+            let comma = if axis == 0 { "" } else { ", " };
+            write!(f, "{comma}{name} {}", self.sides[axis].name())?;
+            if self.sides[axis] != Side::Open {
+                write!(f, " from {} to {}", self.low[axis], self.high[axis])?;
+            }
+        }
+        if self.dimensions == 2 { write!(f, "; in the plane z = 0") } else { Ok(()) }
+    }
+}
+
 impl Default for Bounds {
     /// Open space.
     fn default() -> Self {
@@ -55,7 +69,7 @@ impl Bounds {
     /// A box with the same at all sides; flat when its two corners have the same z.
     #[must_use]
     pub fn new(low: DVec3, high: DVec3, side: Side) -> Self {
-        if low.z.to_bits() == high.z.to_bits() {
+        if (high.z - low.z).abs() <= 0.0 {
             return Self { low, high, sides: [side, side, Side::Open], dimensions: 2 };
         }
         Self { low, high, sides: [side; 3], dimensions: 3 }
@@ -84,11 +98,11 @@ impl Bounds {
         };
         DVec3::new(of(0), of(1), of(2))
     }
-    /// The shortest way to any image.
+    /// The shortest way to any image. Which one that is, is found in single precision as the device finds it: half way
+    /// between two that are as near, both are to choose the same.
     #[must_use]
     pub fn shortest(&self, r: DVec3) -> DVec3 {
-        let turns = r * self.frequency();
-        r - self.period() * DVec3::new(turns.x.round_ties_even(), turns.y.round_ties_even(), turns.z.round_ties_even())
+        r - self.period() * self.turns(r.as_vec3()).as_dvec3()
     }
     /// Whether an image is within a range, by the device's own arithmetic, operation by operation in single precision:
     /// who stands at the very edge is to be in for both or out for both.
@@ -103,8 +117,29 @@ impl Bounds {
     #[must_use]
     pub fn shortest_single(&self, r: DVec3) -> Vec3 {
         let (r, period) = (r.as_vec3(), self.period().as_vec3());
+        r - period * self.turns(r)
+    }
+    /// The image in the box of a place, by the device's own arithmetic: see `shaders/neighbors/cell.wgsl`.
+    #[must_use]
+    pub fn home(&self, x: DVec3) -> Vec3 {
+        let (low, high, period) = (self.low.as_vec3(), self.high.as_vec3(), self.period().as_vec3());
+        let x = x.as_vec3();
+        let y = x - period * ((x - low) * self.frequency().as_vec3()).floor();
+        let home = |axis: usize| {
+            let (x, y, low, high) = (x[axis], y[axis], low[axis], high[axis]);
+            if period[axis] <= 0.0 || x >= low && x < high {
+                x
+            } else if y < low || y >= high {
+                low
+            } else {
+                y
+            }
+        };
+        Vec3::new(home(0), home(1), home(2))
+    }
+    /// The whole periods in a way.
+    fn turns(&self, r: Vec3) -> Vec3 {
         let turns = r * self.frequency().as_vec3();
-        let turns = Vec3::new(turns.x.round_ties_even(), turns.y.round_ties_even(), turns.z.round_ties_even());
-        r - period * turns
+        Vec3::new(turns.x.round_ties_even(), turns.y.round_ties_even(), turns.z.round_ties_even())
     }
 }

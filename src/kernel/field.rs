@@ -13,9 +13,11 @@ pub const VELOCITY: Field<Vec4> = Field::new("velocity");
 pub const ACCELERATION: Field<Vec4> = Field::new("acceleration");
 /// Of which kind a particle is: predator or prey, one phase or another. A number that scenes choose.
 pub const SPECIES: Field<u32> = Field::new("species");
-/// After how many steps a particle is first seen not to be finite, and its id, the lowest of them; both `u32::MAX` while
-/// all is well.
+/// After how many steps a particle is first seen not to be finite, and its id, the lowest of them; and the lowest id of
+/// one that has more others within reach than a search can visit; `u32::MAX` while all is well.
 pub const ALARM: Field<u32> = Field::new("alarm");
+/// The words of the alarm.
+pub const ALARM_WORDS: u64 = 3;
 
 /// A named array of `T`.
 #[derive(Debug)]

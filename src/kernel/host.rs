@@ -84,10 +84,17 @@ impl Host {
     /// # Errors
     /// When there is none of that name and kind, or when it is being written.
     pub fn read<T: Element>(&self, field: Field<T>) -> Result<Reading<'_, T>, Error> {
-        let lock = self.arrays.get(field.name).ok_or_else(|| missing(field.name))?;
-        let guard = lock.try_read().map_err(|_| aliased(field.name))?;
+        self.reading(field.name)
+    }
+    /// Opens an array for reading, by a name that is known only when the plan is written.
+    ///
+    /// # Errors
+    /// When there is none of that name and kind, or when it is being written.
+    pub fn reading<T: Element>(&self, name: &str) -> Result<Reading<'_, T>, Error> {
+        let lock = self.arrays.get(name).ok_or_else(|| missing(name))?;
+        let guard = lock.try_read().map_err(|_| aliased(name))?;
         if T::view(&guard).is_none() {
-            return Err(missing(field.name));
+            return Err(missing(name));
         }
         Ok(Reading(guard, PhantomData))
     }
@@ -96,10 +103,17 @@ impl Host {
     /// # Errors
     /// When there is none of that name and kind, or when it is open already.
     pub fn write<T: Element>(&self, field: Field<T>) -> Result<Writing<'_, T>, Error> {
-        let lock = self.arrays.get(field.name).ok_or_else(|| missing(field.name))?;
-        let mut guard = lock.try_write().map_err(|_| aliased(field.name))?;
+        self.writing(field.name)
+    }
+    /// Opens an array for writing, by a name that is known only when the plan is written.
+    ///
+    /// # Errors
+    /// When there is none of that name and kind, or when it is open already.
+    pub fn writing<T: Element>(&self, name: &str) -> Result<Writing<'_, T>, Error> {
+        let lock = self.arrays.get(name).ok_or_else(|| missing(name))?;
+        let mut guard = lock.try_write().map_err(|_| aliased(name))?;
         if T::view_mut(&mut guard).is_none() {
-            return Err(missing(field.name));
+            return Err(missing(name));
         }
         Ok(Writing(guard, PhantomData))
     }

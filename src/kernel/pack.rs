@@ -11,6 +11,8 @@ pub enum Scalar {
     Float(f64),
     /// `u32`
     Uint(u32),
+    /// `vec3u`
+    Uints([u32; 3]),
     /// `vec3f`
     Vector(DVec3),
     /// `vec4f`
@@ -71,6 +73,7 @@ impl Packed {
                     let n = x as u32;
                     vec![n.to_le_bytes()]
                 }
+                (Scalar::Uints(v), false, 3) => v.map(u32::to_le_bytes).to_vec(),
                 (Scalar::Vector(v), true, 3) => v.to_array().map(bytes).to_vec(),
                 (Scalar::Vector4(v), true, 4) => v.map(bytes).to_vec(),
                 _ => {

@@ -86,7 +86,8 @@ impl Reader<'_> {
             .try_reserve_exact(count)
             .and_then(|()| particles.velocity.try_reserve_exact(count))
             .and_then(|()| particles.mass.try_reserve_exact(count))
-            .and_then(|()| particles.radius.try_reserve_exact(count));
+            .and_then(|()| particles.radius.try_reserve_exact(count))
+            .and_then(|()| particles.species.try_reserve_exact(count));
         match reserved {
             Ok(()) => Ok((count, particles)),
             Err(_) => Err(limit(format!("need {} GiB of memory, which is not there", (count >> 30) * 64))),

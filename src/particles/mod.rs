@@ -28,6 +28,8 @@ pub struct Particles {
     pub mass: Vec<f64>,
     /// How large they are drawn \[length\]; zero lets the picture choose.
     pub radius: Vec<f64>,
+    /// Of which kind they are: numbers that laws may tell apart; 0 where nobody cares.
+    pub species: Vec<u32>,
 }
 
 /// A named generator: what a scene's `shape = "…"` may say.
@@ -63,12 +65,19 @@ impl Particles {
     pub fn is_empty(&self) -> bool {
         self.position.is_empty()
     }
-    /// Adds one.
+    /// Adds one, of species 0.
     pub fn push(&mut self, position: DVec3, velocity: DVec3, mass: f64, radius: f64) {
         self.position.push(position);
         self.velocity.push(velocity);
         self.mass.push(mass);
         self.radius.push(radius);
+        self.species.push(0);
+    }
+    /// The same, all of one species.
+    #[must_use]
+    pub fn of_species(mut self, species: u32) -> Self {
+        self.species = vec![species; self.len()];
+        self
     }
     /// Adds all of another set; their ids follow on.
     pub fn append(&mut self, other: &Self) {
@@ -76,5 +85,6 @@ impl Particles {
         self.velocity.extend_from_slice(&other.velocity);
         self.mass.extend_from_slice(&other.mass);
         self.radius.extend_from_slice(&other.radius);
+        self.species.extend_from_slice(&other.species);
     }
 }

@@ -3,8 +3,9 @@
 use glam::DVec3;
 
 use super::Trail;
+use crate::kernel::{Bounds, Side};
 use crate::particles::Particles;
-use crate::settings::Settings;
+use crate::settings::{Settings, Value};
 
 /// An eye, what it looks at, and how much of it is in the picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -96,6 +97,26 @@ impl Camera {
         let least = 1e-5 * self.center.length();
         self.reach(if extent > least { extent } else { least.max(1.0) }, perspective);
     }
+}
+
+/// The same settings with all of a box in view, where it is closed all round and the frame is not given.
+#[must_use]
+pub fn framed(settings: &Settings, bounds: &Bounds) -> Settings {
+    let axes = usize::try_from(bounds.dimensions).unwrap_or(3).min(3);
+    if !settings.flag("auto_frame") || bounds.sides[..axes].contains(&Side::Open) {
+        return settings.clone();
+    }
+    let mut corners = Particles::default();
+    for corner in 0..1 << axes {
+        let bit = |axis: usize| f64::from(corner >> axis & 1);
+        let along = |axis: usize| {
+            if axis < axes { bounds.low[axis] + bit(axis) * (bounds.high[axis] - bounds.low[axis]) } else { 0.0 }
+        };
+        corners.push(DVec3::new(along(0), along(1), along(2)), DVec3::ZERO, 0.0, 0.0);
+    }
+    let camera = Camera::fit(&corners, &Trail::new(0), settings);
+    let (center, extent) = (Value::Vector(camera.center), Value::Number(camera.extent));
+    settings.clone().with("auto_frame", Value::Flag(false)).with("center", center).with("extent", extent)
 }
 
 /// So much longer than the rest the whole must be before its ends are taken for stragglers.

@@ -22,7 +22,7 @@ mod streak;
 mod tone;
 mod trail;
 
-pub use camera::Camera;
+pub use camera::{Camera, framed};
 pub use draw::{Image, draw};
 pub use frame::Frame;
 pub use meter::Exposure;

@@ -12,6 +12,7 @@
 //!
 //! The sections and their keys are data (`sections.rs`), checked by one walker (`walk.rs`); nothing in a scene is ever run.
 
+mod bounds;
 mod builtin;
 mod color;
 mod diagnostic;
@@ -33,13 +34,16 @@ use std::ops::Range;
 
 use crate::forces::Force;
 use crate::integrators;
+use crate::kernel::Bounds;
 use crate::particles::Particles;
 use crate::render;
 use crate::settings::Settings;
 
+pub use bounds::BOX_KEYS;
 pub use builtin::{Builtin, SCENES};
 pub use diagnostic::{Diagnostic, Diagnostics, Excerpt, Mended};
 pub use output::{Format, Output};
+pub use particles::EVERY as PARTICLES_KEYS;
 pub use source::Source;
 
 use files::Files;
@@ -59,6 +63,8 @@ pub struct Scene {
     pub steps: u64,
     /// What makes a step.
     pub integrator: &'static integrators::Entry,
+    /// Where particles may be.
+    pub bounds: Bounds,
     /// All particles, in the order of the scene; at least one.
     pub particles: Particles,
     /// One for each `[[particles]]`, in their order; together they cover every id.
@@ -139,6 +145,7 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
     out.comment("Every value of the run, defaults included.");
     let simulation = simulation::read(one("simulation"), report);
     simulation.write(&mut out);
+    let bounds = bounds::read(one("box"), &mut out, report);
 
     let mut particles = Particles::default();
     let mut groups = Vec::new();
@@ -183,6 +190,7 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
         dt: simulation.dt,
         steps: simulation.steps,
         integrator: simulation.integrator,
+        bounds,
         particles,
         groups,
         forces,

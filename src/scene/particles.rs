@@ -23,6 +23,13 @@ pub(super) const OFFSETS: &[Key] = &[
     Key::new("center", Kind::Vector, Value::Vector(DVec3::ZERO), "is added to every position [length]"),
     Key::new("velocity", Kind::Vector, Value::Vector(DVec3::ZERO), "is added to every velocity [length / time]"),
 ];
+/// What every entry may say.
+pub const EVERY: &[Key] = &[Key::new(
+    "species",
+    Kind::Whole,
+    Value::Number(0.0),
+    "of which kind they are, as a number that forces may tell apart; a file's own column counts when this is left out",
+)];
 const BODY: &[Key] = &[
     Key::required("position", Kind::Vector, "where it is [length]"),
     Key::new("velocity", Kind::Vector, Value::Vector(DVec3::ZERO), "how it moves [length / time]"),
@@ -41,6 +48,7 @@ pub(super) struct Block {
 /// Reads an entry that may bring up to `room` particles.
 pub(super) fn read(table: &Table<'_>, room: u32, files: &Files, report: &mut Report) -> Option<Block> {
     let color = table.get("color").and_then(|e| color::read(&e.node, report));
+    let species = table.get("species").and_then(|e| species(e, report));
     let mut out = Writer::default();
     out.header("[[particles]]");
     let entry = table.one_of(&["file", "shape", "bodies"], report)?;
@@ -58,7 +66,26 @@ pub(super) fn read(table: &Table<'_>, room: u32, files: &Files, report: &mut Rep
     if let Some([r, g, b]) = color {
         out.text("color", &format!("#{r:02x}{g:02x}{b:02x}"));
     }
+    // A file may have species of its own.
+    let species = species.or((entry.key != "file").then_some(0));
+    if let Some(species) = species {
+        out.line("species", &species.to_string());
+    }
+    let particles = species.into_iter().fold(particles, Particles::of_species);
     Some(Block { particles, color, resolved: out.0 })
+}
+
+fn species(entry: &Entry, report: &mut Report) -> Option<u32> {
+    let wanted = value::wanted(Kind::Whole);
+    let number = value::number(&entry.node, "species", Kind::Whole, &wanted, report)?;
+    if number > f64::from(u32::MAX) {
+        report.push(
+            Fault::at(&entry.node.place, "`species` is too large").label(format!("it may be at most {}", u32::MAX)),
+        );
+        return None;
+    }
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "whole, and it fits")]
+    Some(number as u32)
 }
 
 fn from_file(
@@ -68,7 +95,7 @@ fn from_file(
     out: &mut Writer,
     report: &mut Report,
 ) -> Option<Particles> {
-    let offsets = table.named(format!("{} file", table.name)).settings(OFFSETS, &["file", "color"], report);
+    let offsets = table.named(format!("{} file", table.name)).settings(OFFSETS, &["file", "color", "species"], report);
     let name = value::text(&entry.node, "file", "the name of a file", report)?;
     let place = &entry.node.place;
     let located = files.locate("file", name, place).and_then(|located| match &located {
@@ -96,7 +123,8 @@ fn from_shape(table: &Table<'_>, entry: &Entry, room: u32, out: &mut Writer, rep
     let name = walk::choice(entry, "shape", &names, report)?;
     let shape = SHAPES.iter().find(|s| s.name == name)?;
     let faults = report.len();
-    let settings = table.named(format!("{} {name}", table.name)).settings(shape.keys, &["shape", "color"], report);
+    let settings =
+        table.named(format!("{} {name}", table.name)).settings(shape.keys, &["shape", "color", "species"], report);
     if report.len() > faults {
         return None;
     }
@@ -132,7 +160,8 @@ fn wanted_count(settings: &Settings) -> (&'static str, f64) {
 }
 
 fn from_bodies(table: &Table<'_>, entry: &Entry, out: &mut Writer, report: &mut Report) -> Option<Particles> {
-    let offsets = table.named(format!("{} bodies", table.name)).settings(OFFSETS, &["bodies", "color"], report);
+    let offsets =
+        table.named(format!("{} bodies", table.name)).settings(OFFSETS, &["bodies", "color", "species"], report);
     let Data::List(list) = &entry.node.data else {
         return value::refuse(&entry.node, "bodies", "a list of tables, as in [{ position = [1, 0, 0] }]", report);
     };

@@ -6,7 +6,7 @@ use crate::particles::SHAPES;
 use crate::render;
 use crate::settings::Key;
 
-use super::{force, output, particles, simulation};
+use super::{bounds, force, output, particles, simulation};
 
 /// A section.
 pub(super) struct Section {
@@ -25,10 +25,11 @@ pub(super) struct Section {
 /// All sections, in the order in which the resolved scene writes them.
 pub(super) const SECTIONS: &[Section] = &[
     Section { name: "simulation", many: false, keys: simulation::KEYS, own: simulation::OWN, kinds: Vec::new },
+    Section { name: "box", many: false, keys: bounds::BOX_KEYS, own: bounds::OWN, kinds: Vec::new },
     Section {
         name: "particles",
         many: true,
-        keys: &[],
+        keys: particles::EVERY,
         own: particles::OWN,
         kinds: || SHAPES.iter().map(|s| s.keys).chain([particles::OFFSETS]).collect(),
     },

@@ -3,6 +3,7 @@
 mod body;
 mod each;
 mod law;
+mod near;
 mod over;
 mod pairs;
 pub mod random;

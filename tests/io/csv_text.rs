@@ -20,6 +20,27 @@ fn a_csv_snapshot_is_the_shortest_text() {
 }
 
 #[test]
+fn species_are_written_where_there_are_any() {
+    let mut particles = some(2);
+    particles.species[1] = 7;
+    let text = String::from_utf8(csv_bytes(&particles, Precision::Single)).expect("text");
+    let lines: Vec<_> = text.lines().collect();
+    assert_eq!(lines[0], "id,x,y,z,vx,vy,vz,mass,species");
+    assert!(lines[1].ends_with(",0") && lines[2].ends_with(",7"), "{text}");
+    refused(
+        "a.csv",
+        "x,y,z,species\n1,2,3,-1\n1,2,3,1.5\n1,2,3\n1,2,3,4294967296\n",
+        &[
+            "line 2, column species: `-1` is not a whole number from 0 to 4294967295",
+            "line 3, column species: `1.5`",
+            "line 4, column species: the cell is missing",
+            "line 5, column species: `4294967296`",
+        ],
+    );
+    refused("a.csv", "x,y,z,spcies\n", &["unknown column `spcies`; did you mean `species`?"]);
+}
+
+#[test]
 fn a_large_csv_keeps_its_order() {
     // More than one round of pieces: 32 · 4096 rows.
     let particles = some(140_000);
@@ -36,9 +57,12 @@ fn a_csv_may_leave_out_much_and_come_in_any_order() {
     let p = read(&path).expect("csv");
     assert_eq!(p.position, [DVec3::new(1.0, 2.0, 3.0), DVec3::new(4.0, 5.0, -0.6)]);
     assert_eq!((p.velocity, p.mass, p.radius), (vec![DVec3::ZERO; 2], vec![2.0, 0.0], vec![0.0; 2]));
-    let p = read(&put(&folder, "b.txt", "radius,z,y,x,id\n0.5,3,2,1,1\n0.25,6,5,4,0\n")).expect("csv");
+    assert_eq!(p.species, [0, 0]);
+    let p =
+        read(&put(&folder, "b.txt", "radius,z,y,x,id,species\n0.5,3,2,1,1,4\n0.25,6,5,4,0,4294967295\n")).expect("csv");
     assert_eq!(p.position, [DVec3::new(4.0, 5.0, 6.0), DVec3::new(1.0, 2.0, 3.0)]);
     assert_eq!((p.mass, p.radius), (vec![1.0; 2], vec![0.25, 0.5]));
+    assert_eq!(p.species, [u32::MAX, 4]);
 }
 
 #[test]

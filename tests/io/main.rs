@@ -51,7 +51,8 @@ fn refused(name: &str, bytes: impl AsRef<[u8]>, words: &[&str]) {
 
 fn bits(p: &Particles) -> Vec<u64> {
     let vectors = p.position.iter().chain(&p.velocity).flat_map(DVec3::to_array);
-    vectors.chain(p.mass.iter().copied()).chain(p.radius.iter().copied()).map(f64::to_bits).collect()
+    let numbers = vectors.chain(p.mass.iter().copied()).chain(p.radius.iter().copied());
+    numbers.chain(p.species.iter().map(|of| f64::from(*of))).map(f64::to_bits).collect()
 }
 
 fn some(count: u32) -> Particles {

@@ -67,11 +67,13 @@ fn any_type_order_and_packing() {
         ("time", npy("'<f8'", "()", &9.5_f64.to_le_bytes())),
         ("step", npy("'<u4'", "(1,)", &[3, 0, 0, 0])),
         ("radius", f4(&[0.0, 4.0])),
+        ("species", npy("'<u4'", "(2,)", &[7, 0, 0, 0, 255, 255, 255, 255])),
     ];
     for method in [CompressionMethod::Stored, CompressionMethod::Deflated] {
         let got = read(&archive(&arrays, method)).expect("npz");
         assert_eq!(got.particles.position, [DVec3::new(-2.5, -8.0, 0.5), DVec3::new(1.5, 7.0, 0.25)]);
         assert_eq!((got.particles.mass, got.particles.radius), (vec![1.0; 2], vec![4.0, 0.0]));
+        assert_eq!(got.particles.species, [u32::MAX, 7]);
         assert_eq!((got.time, got.step, got.particles.velocity), (9.5, 3, vec![DVec3::ZERO; 2]));
     }
 }
@@ -105,6 +107,9 @@ fn archives_that_lie_are_refused() {
     says(&with("mas", two.clone()), &["unknown array `mas`; did you mean `mass`?"]);
     says(&with("mass", f4(&[1.0, -1.0])), &["mass[1] is -1, which is below 0"]);
     says(&with("id", f4(&[0.0, 2.5])), &["id[1] is 2.5, not a whole number"]);
+    says(&with("species", f4(&[0.0, 2.5])), &["species[1] is 2.5, not a whole number"]);
+    says(&with("species", f4(&[-1.0, 2.0])), &["species[0] is -1, not a whole number"]);
+    says(&with("species", f4(&[1.0])), &["the array `species` holds 1 numbers"]);
     says(&with("id", f4(&[0.0, 2.0])), &["id[1]: id 2, but id 1 is missing"]);
     says(&with("time", two.clone()), &["`time` holds 2 numbers"]);
 

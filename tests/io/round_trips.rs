@@ -52,11 +52,19 @@ fn a_single_survives_rounding_twice() {
     assert_eq!(narrow(&read(&path).expect("csv")), narrow(&particles));
 }
 
+/// The same, of some species.
+fn kinds(mut particles: Particles, kinds: &[u32]) -> Particles {
+    particles.species.iter_mut().zip(kinds).for_each(|(species, kind)| *species = *kind);
+    particles
+}
+
 proptest! {
     #[test]
-    fn doubles_come_back_bit_for_bit(numbers in prop::collection::vec(finite(), 0..70)) {
+    fn doubles_come_back_bit_for_bit(
+        numbers in prop::collection::vec(finite(), 0..70), species in prop::collection::vec(any::<u32>(), 0..10),
+    ) {
         let folder = folder();
-        let particles = of(&numbers);
+        let particles = kinds(of(&numbers), &species);
         let text = put(&folder, "a.csv", csv_bytes(&particles, Precision::Double));
         prop_assert_eq!(bits(&read(&text).expect("csv")), bits(&particles));
         let archive = put(&folder, "a.npz", npz_bytes(&particles, Precision::Double));

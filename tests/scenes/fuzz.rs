@@ -13,7 +13,8 @@ fn survives(text: &str, overrides: &[String]) {
             let particles = scene.particles.len();
             assert!((1..=300).contains(&particles) && scene.steps > 0 && scene.dt > 0.0);
             let covered: u32 = scene.groups.iter().map(|g| g.ids.end - g.ids.start).sum();
-            assert_eq!(covered as usize, particles);
+            assert_eq!((covered as usize, scene.particles.species.len()), (particles, particles));
+            assert!(motes::boundary::check(&scene.bounds).is_ok());
         }
         Err(faults) => {
             let told = faults.to_string();
@@ -29,10 +30,17 @@ const GOOD: &str = r##"# See.
 dt = 0.01
 until = 1.5e0
 integrator = "leapfrog"
+[box]
+low = [-9, -9, -9]
+size = [1.8e1, 20, 30]
+boundary = "reflecting"
+x = "open"
+dimensions = 3
 [[particles]]
 shape = "sphere"
 count = 12
 color = "#ffcc88"
+species = 3
 [[particles]]
 bodies = [{ position = [1, 0, 0], velocity = [0, 1, 0], mass = 0x1F }, { position = [-1.5, 2_0, 0.0] }]
 center = [0, 0, 1]

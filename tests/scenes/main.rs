@@ -2,6 +2,7 @@
 
 #![allow(clippy::float_cmp, reason = "the bits are meant")]
 
+mod bounds;
 mod builtin;
 mod files;
 mod fuzz;

@@ -14,6 +14,7 @@ fn assert_reloads(scene: &Scene, folder: &str) {
     assert_eq!((&again.name, &again.about), (&scene.name, &scene.about));
     assert_eq!((again.dt.to_bits(), again.steps), (scene.dt.to_bits(), scene.steps));
     assert_eq!(again.integrator.name, scene.integrator.name);
+    assert_eq!(again.bounds, scene.bounds);
     assert!(again.particles == scene.particles, "{}: other particles", scene.name);
     assert_eq!(again.groups, scene.groups);
     assert_eq!((&again.output, &again.picture), (&scene.output, &scene.picture));
@@ -48,6 +49,10 @@ fn a_scene_of_everything_reloads_as_the_same() {
         [simulation]
         dt = 0.30000000000000004
         until = 1
+        [box]
+        low = [-3e22, -100, -3e22]
+        size = [6e22, 200.3, 6e22]
+        y = "reflecting"
         [[particles]]
         file = "bodies.csv"
         center = [1e-7, -0.0, 1e22]
@@ -55,6 +60,7 @@ fn a_scene_of_everything_reloads_as_the_same() {
         [[particles]]
         shape = "sphere"
         count = 20
+        species = 4294967295
         seed = 9007199254740991
         [[force]]
         wgsl = "swirl.wgsl"
@@ -103,6 +109,7 @@ bodies = [
 ]
 center = [0.0, 0.0, 0.0]
 velocity = [0.0, 0.0, 0.0]
+species = 0
 
 [output]
 every = 1

@@ -2,7 +2,7 @@
 
 use motes::forces::{Force, Problem};
 use motes::gpu::Gpu;
-use motes::kernel::{Kernel, Machine, Pass, Plan, Scalar};
+use motes::kernel::{Bounds, Kernel, Machine, Pass, Plan, Scalar};
 
 use super::Shared;
 
@@ -51,6 +51,13 @@ pub fn kernels(force: &dyn Force, problem: &Problem) -> Vec<Kernel> {
     all
 }
 
+/// The same in a box.
+pub fn kernel_in(bounds: Bounds, force: &dyn Force, count: usize, machine: &Machine) -> Kernel {
+    let law = force.laws().into_iter().next().expect("a law");
+    let problem = Problem::new(u32::try_from(count).expect("few"), *machine).at(&[], bounds);
+    law.kernel(&problem).expect("a kernel")
+}
+
 /// A plan of one kernel.
 pub fn alone(kernel: Kernel) -> Plan {
     Plan { kernels: vec![kernel], order: vec![0] }
@@ -66,7 +73,8 @@ pub fn cut(kernel: &Kernel, finish: &Pass, count: usize, layers: u32, slice: u32
         let end = (first + layers * slice).min(count);
         let values = [("first", first), ("end", end), ("slice", slice)].map(|(name, n)| (name, Scalar::Uint(n)));
         let mut pass = whole.clone();
-        pass.constants = vec![("WHOLE", 0.0)];
+        pass.constants.retain(|(name, _)| *name != "WHOLE");
+        pass.constants.push(("WHOLE", 0.0));
         pass.uniforms.retain(|(name, _)| *name != "span");
         pass.uniforms.push(("span", span.pack("span", &values).expect("three numbers")));
         pass.threads.layers = layers;
@@ -74,7 +82,8 @@ pub fn cut(kernel: &Kernel, finish: &Pass, count: usize, layers: u32, slice: u32
     };
     let mut passes: Vec<_> = (0..count).step_by((layers * slice) as usize).map(dispatch).collect();
     let mut last = finish.clone();
-    last.constants = vec![("LAYERS", f64::from(layers))];
+    last.constants.retain(|(name, _)| *name != "LAYERS");
+    last.constants.push(("LAYERS", f64::from(layers)));
     passes.push(last);
     Kernel { passes, sizes: vec![("parts".into(), u64::from(layers * count))], ..kernel.clone() }
 }

@@ -5,7 +5,7 @@ use motes::forces::{self, Force};
 use motes::integrators::{self, Integrator, Step};
 use motes::kernel::{ACCELERATION, Array, Backend, POSITION, SPECIES, VELOCITY, World};
 use motes::settings::{Settings, Value};
-use motes::{Cpu, Particles, Setup, Simulation};
+use motes::{Bounds, Cpu, Particles, Setup, Simulation};
 
 /// A force by its name, its defaults changed by some settings.
 pub fn force(name: &str, settings: &[(&'static str, Value)]) -> Box<dyn Force> {
@@ -39,13 +39,8 @@ pub fn one(position: DVec3, velocity: DVec3) -> Particles {
 /// A simulation by the twins.
 pub fn cpu(particles: &Particles, forces: Vec<Box<dyn Force>>, name: &str, dt: f64) -> Simulation<Cpu> {
     let count = u32::try_from(particles.len()).expect("few");
-    let setup = Setup {
-        particles: particles.clone(),
-        forces,
-        integrator: integrator(name),
-        dt,
-        bounds: motes::Bounds::default(),
-    };
+    let setup =
+        Setup { particles: particles.clone(), forces, integrator: integrator(name), dt, bounds: Bounds::default() };
     Simulation::on(Cpu::new(count).expect("some"), &setup).expect("a simulation")
 }
 
@@ -60,25 +55,31 @@ pub fn phase(simulation: &mut Simulation<Cpu>) -> (Vec<DVec4>, Vec<DVec4>) {
 
 /// What the twins of some forces say at a state: acceleration, and potential per unit mass.
 pub fn accelerations(forces: &[Box<dyn Force>], particles: &Particles, time: f64) -> Vec<DVec4> {
-    felt(forces, particles, World { time, dt: 0.01, ..World::default() }).0
+    accelerations_in(&Bounds::default(), forces, particles, time)
+}
+
+/// The same in a box.
+pub fn accelerations_in(bounds: &Bounds, forces: &[Box<dyn Force>], particles: &Particles, time: f64) -> Vec<DVec4> {
+    felt(forces, particles, World { time, dt: 0.01, bounds: *bounds, ..World::default() }).0
 }
 
 /// The same with all that is to be known of the world; and the velocities that the forces then allow.
 pub fn felt(forces: &[Box<dyn Force>], particles: &Particles, world: World) -> (Vec<DVec4>, Vec<DVec4>) {
     let count = u32::try_from(particles.len()).expect("few");
     let mut cpu = Cpu::new(count).expect("some");
-    let mut step = Step::new(forces, motes::forces::Problem::new(count, cpu.machine()));
+    let problem = motes::forces::Problem::new(count, cpu.machine()).at(&particles.position, world.bounds);
+    let mut step = Step::new(forces, problem);
     step.evaluate();
     let mut plan = step.finished().expect("a plan");
     for force in forces {
-        force.limit(&mut plan, &motes::forces::Problem::new(count, cpu.machine())).expect("a limit");
+        force.limit(&mut plan, &problem).expect("a limit");
     }
     let program = cpu.compile(&plan).expect("twins");
     let join = |v: &[DVec3], w: &[f64]| Array::Vec4(v.iter().zip(w).map(|(v, w)| v.extend(*w)).collect());
     cpu.write(POSITION.name, &join(&particles.position, &particles.mass)).expect("position");
     cpu.write(VELOCITY.name, &join(&particles.velocity, &particles.radius)).expect("velocity");
     if cpu.host().contains(SPECIES.name) {
-        cpu.write(SPECIES.name, &Array::Uint(super::species(particles.len()))).expect("species");
+        cpu.write(SPECIES.name, &Array::Uint(particles.species.clone())).expect("species");
     }
     cpu.set_world(World { count, ..world }).expect("clock");
     cpu.run(&program, 1).expect("twins run");

@@ -3,11 +3,15 @@
 use std::sync::Arc;
 
 use crate::error::Error;
-use crate::kernel::{ACCELERATION, ALARM, Kernel, POSITION, Shader, VELOCITY};
+use crate::kernel::{ACCELERATION, ALARM, ALARM_WORDS, Kernel, POSITION, Shader, VELOCITY};
 
 /// The kernel.
 pub fn kernel(count: u32) -> Result<Kernel, Error> {
-    let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("integrators/watch.wgsl")])?;
+    let shader = Shader::join(&[
+        crate::shader!("world.wgsl"),
+        crate::shader!("broken.wgsl"),
+        crate::shader!("integrators/watch.wgsl"),
+    ])?;
     let twin = |host: &crate::kernel::Host| {
         let done = host.world().step;
         let (position, velocity, acceleration) = (host.read(POSITION)?, host.read(VELOCITY)?, host.read(ACCELERATION)?);
@@ -23,5 +27,5 @@ pub fn kernel(count: u32) -> Result<Kernel, Error> {
         Ok(())
     };
     let kernel = Kernel::new("watch", shader, Vec::new(), count, Arc::new(twin));
-    Ok(Kernel { sizes: vec![(ALARM.name.into(), 2)], ..kernel })
+    Ok(Kernel { sizes: vec![(ALARM.name.into(), ALARM_WORDS)], ..kernel })
 }

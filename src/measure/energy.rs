@@ -18,9 +18,10 @@ pub struct Measure {
     pub potential: f64,
     /// Σ m v \[mass length / time\]
     pub momentum: DVec3,
-    /// Σ m x × v, about the origin \[mass length² / time\]
+    /// Σ m x × v, about the origin \[mass length² / time\]; it jumps, and means nothing, where images count for each other
     pub angular_momentum: DVec3,
-    /// Σ m x / Σ m; the mean position when all masses are zero \[length\]
+    /// Σ m x / Σ m; the mean position when all masses are zero \[length\]; in a periodic box it
+    /// depends on where the box begins
     pub center: DVec3,
 }
 

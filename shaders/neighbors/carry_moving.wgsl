@@ -1,0 +1,8 @@
+// What a law that asks for velocities finds in the grid.
+@group(2) @binding(6) var<storage, read_write> sorted_position: array<vec4f>;
+@group(2) @binding(7) var<storage, read_write> sorted_velocity: array<vec4f>;
+
+fn carry(i: u32, slot: u32) {
+    sorted_position[slot] = vec4f(home(position[i].xyz), position[i].w);
+    sorted_velocity[slot] = velocity[i];
+}

@@ -1,0 +1,35 @@
+// A uniform grid over all of space, folded onto a box of cells: cell c of an axis is kept as c modulo the cells of the
+// axis. Along a periodic axis that is the period itself; elsewhere far cells share a place, and who is met there fails
+// the test of distance. So there is no edge, and nobody is outside.
+struct Grid { low: vec3f, range: f32, per_cell: vec3f, first: u32, cells: vec3u, end: u32, only: u32 }
+
+@group(2) @binding(0) var<uniform> grid: Grid;
+
+// Beyond so many cells all are one: there, f32 holds no two places that are a cell apart.
+const FARTHEST: f32 = 536870912.0; // 2²⁹
+
+// How many cells from the grid's corner, along each axis.
+fn away(x: vec3f) -> vec3f { return (x - grid.low) * grid.per_cell; }
+
+fn fold(c: i32, cells: u32) -> u32 {
+    // A multiple of the cells that makes every c positive.
+    let whole = (u32(FARTHEST) / cells + 1u) * cells;
+    return (bitcast<u32>(c) + whole) % cells;
+}
+
+// Its image in the box, for who is on the way outside of it: on my side of the seam nobody is then nearer elsewhere.
+fn home(x: vec3f) -> vec3f {
+    if !PERIODIC { return x; }
+    let inside = ((x >= world.low) & (x < world.high)) | (world.period <= vec3f());
+    let y = select(x - world.period * floor((x - world.low) * world.frequency), x, inside);
+    return select(y, world.low, !inside & ((y < world.low) | (y >= world.high)));
+}
+
+// The cell of a place at home, folded. It is some cell even where the place is no number: who looks will see that.
+fn cell(x: vec3f) -> vec3u {
+    let last = select(vec3f(FARTHEST), vec3f(grid.cells) - 1.0, world.period > vec3f());
+    let c = vec3i(clamp(floor(away(x)), vec3f(-FARTHEST), last));
+    return vec3u(fold(c.x, grid.cells.x), fold(c.y, grid.cells.y), fold(c.z, grid.cells.z));
+}
+
+fn key(c: vec3u) -> u32 { return c.x + grid.cells.x * (c.y + grid.cells.y * c.z); }

@@ -1,0 +1,52 @@
+// Each workgroup takes its block to where it belongs, tile by tile: sorted by the digit in its own memory first, so that
+// neighbours write to neighbours.
+struct Extent { elements: u32, block: u32, blocks: u32, shift: u32, mask: u32 }
+
+@group(1) @binding(0) var<storage, read> keys: array<u32>;
+@group(1) @binding(1) var<storage, read> values: array<u32>;
+@group(1) @binding(2) var<storage, read_write> sorted_keys: array<u32>;
+@group(1) @binding(3) var<storage, read_write> sorted_values: array<u32>;
+@group(2) @binding(0) var<uniform> extent: Extent;
+@group(2) @binding(1) var<storage, read> table: array<u32>;
+
+// Where the next key of each digit goes.
+var<workgroup> nexts: array<u32, WORKGROUP>;
+
+fn digit(at: u32) -> u32 { return tile[at] >> 16u; }
+
+@compute @workgroup_size(WORKGROUP)
+fn radix_scatter(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let block = folded(group, groups);
+    let first = block * extent.block;
+    let end = min(first + extent.block, extent.elements);
+    if lane <= extent.mask { nexts[lane] = table[lane * extent.blocks + block]; }
+    for (var start = first; start < end; start += TILE) {
+        for (var at = lane; at < TILE; at += WORKGROUP) {
+            // What lies behind the last key stays behind it.
+            var own = 255u;
+            if start + at < end { own = (keys[start + at] >> extent.shift) & extent.mask; }
+            tile[at] = (own << 16u) | at;
+        }
+        workgroupBarrier();
+        split(16u, lane);
+        split(20u, lane);
+        // Where each digit begins in the tile: the columns have done their work.
+        for (var at = lane; at < TILE; at += WORKGROUP) {
+            if at == 0u || digit(max(at, 1u) - 1u) != digit(at) { columns[digit(at)] = at; }
+        }
+        workgroupBarrier();
+        for (var at = lane; at < TILE; at += WORKGROUP) {
+            let old = start + (tile[at] & 0xffffu);
+            if old < end {
+                let to = nexts[digit(at)] + at - columns[digit(at)];
+                sorted_keys[to] = keys[old];
+                sorted_values[to] = values[old];
+            }
+        }
+        workgroupBarrier();
+        for (var at = lane; at < TILE; at += WORKGROUP) {
+            if at + 1u == TILE || digit(min(at + 1u, TILE - 1u)) != digit(at) { nexts[digit(at)] += at + 1u - columns[digit(at)]; }
+        }
+        workgroupBarrier();
+    }
+}

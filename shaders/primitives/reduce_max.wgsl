@@ -1,0 +1,2 @@
+// The greatest.
+fn combine(a: Item, b: Item) -> Item { return unless_broken(max(a, b), a, b); }

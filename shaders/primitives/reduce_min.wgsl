@@ -1,0 +1,2 @@
+// The least.
+fn combine(a: Item, b: Item) -> Item { return unless_broken(min(a, b), a, b); }

@@ -1,0 +1,2 @@
+// The sum.
+fn combine(a: Item, b: Item) -> Item { return a + b; }

@@ -1,0 +1,28 @@
+// The sum of each tile.
+struct Extent { elements: u32 }
+
+@group(1) @binding(0) var<storage, read> items: array<u32>;
+@group(2) @binding(0) var<uniform> extent: Extent;
+@group(2) @binding(1) var<storage, read_write> sums: array<u32>;
+
+const WORKGROUP: u32 = 256u;
+const EACH: u32 = 8u;
+const TILE: u32 = 2048u;
+
+var<workgroup> totals: array<u32, WORKGROUP>;
+
+@compute @workgroup_size(WORKGROUP)
+fn scan_sums(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let block = folded(group, groups);
+    var total = 0u;
+    for (var k = 0u; k < EACH; k++) {
+        let i = block * TILE + k * WORKGROUP + lane;
+        if i < extent.elements { total += items[i]; }
+    }
+    totals[lane] = total;
+    for (var reach = WORKGROUP / 2u; reach > 0u; reach /= 2u) {
+        workgroupBarrier();
+        if lane < reach { totals[lane] += totals[lane + reach]; }
+    }
+    if lane == 0u && block * TILE < extent.elements { sums[block] = totals[0]; }
+}

@@ -1,0 +1,92 @@
+// Everybody meets who is within a range, for adapters whose subgroups are all of eight lanes (lavapipe with 256-bit
+// vectors). Those who stand side by side in a row of cells walk together: each lane loads one candidate of all their
+// cells taken as one, and the eight are passed round by broadcast. What of that is not around a lane fails its test of
+// distance, so everybody meets the same, in the same order, as alone.
+const WORKGROUP: u32 = 64u;
+const LANES: u32 = 8u;
+const NOBODY: u32 = 0xffffffffu;
+// Cells between those who walk together, at most: more, and most of what they look at is not theirs.
+const APART: u32 = 3u;
+
+// What lane 0, 1, … holds; the lane of a broadcast must be a constant.
+fn told0(q: Particle) -> Particle { return Particle(subgroupBroadcast(q.index, 0u), subgroupBroadcast(q.position, 0u), subgroupBroadcast(q.mass, 0u), subgroupBroadcast(q.velocity, 0u)); }
+fn told1(q: Particle) -> Particle { return Particle(subgroupBroadcast(q.index, 1u), subgroupBroadcast(q.position, 1u), subgroupBroadcast(q.mass, 1u), subgroupBroadcast(q.velocity, 1u)); }
+fn told2(q: Particle) -> Particle { return Particle(subgroupBroadcast(q.index, 2u), subgroupBroadcast(q.position, 2u), subgroupBroadcast(q.mass, 2u), subgroupBroadcast(q.velocity, 2u)); }
+fn told3(q: Particle) -> Particle { return Particle(subgroupBroadcast(q.index, 3u), subgroupBroadcast(q.position, 3u), subgroupBroadcast(q.mass, 3u), subgroupBroadcast(q.velocity, 3u)); }
+fn told4(q: Particle) -> Particle { return Particle(subgroupBroadcast(q.index, 4u), subgroupBroadcast(q.position, 4u), subgroupBroadcast(q.mass, 4u), subgroupBroadcast(q.velocity, 4u)); }
+fn told5(q: Particle) -> Particle { return Particle(subgroupBroadcast(q.index, 5u), subgroupBroadcast(q.position, 5u), subgroupBroadcast(q.mass, 5u), subgroupBroadcast(q.velocity, 5u)); }
+fn told6(q: Particle) -> Particle { return Particle(subgroupBroadcast(q.index, 6u), subgroupBroadcast(q.position, 6u), subgroupBroadcast(q.mass, 6u), subgroupBroadcast(q.velocity, 6u)); }
+fn told7(q: Particle) -> Particle { return Particle(subgroupBroadcast(q.index, 7u), subgroupBroadcast(q.position, 7u), subgroupBroadcast(q.mass, 7u), subgroupBroadcast(q.velocity, 7u)); }
+
+fn consider(k: u32, slot: u32, end: u32, shift: vec3f, me: Particle, you: Particle, with_me: bool, sum: ptr<function, Sum>) {
+    let r = way(me.position, you.position, shift);
+    if with_me && slot < end && in_range(r) && !same(k, slot, me) { gather(me, you, r, sum); }
+}
+
+// Whether I look at the rows of another, at parts of them that do not reach round the seam into each other.
+fn beside(a: Around, lane: u32) -> bool {
+    let cell = subgroupShuffle(a.cell, lane);
+    let rows = all(a.cell.yz == cell.yz) && all(a.reach == subgroupShuffle(a.reach, lane));
+    let apart = max(a.cell.x, cell.x) - min(a.cell.x, cell.x);
+    return rows && (apart == 0u || (apart <= APART && grid.cells.x >= 2u * (a.reach.x + APART)));
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn near(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32,
+        @builtin(subgroup_invocation_id) place: u32) {
+    // Lanes behind the last target repeat it; nothing of theirs is stored.
+    let mine = grid.first + folded(group, groups) * WORKGROUP + lane;
+    let k = min(mine, grid.end - 1u);
+    let me = target_of(k);
+    let awake = mine < grid.end && acts_on(me);
+    let a = around(me.position);
+    var sum = Sum();
+    var waits = awake;
+    var seen = 0u;
+    for (var turn = 0u; turn < LANES && subgroupAny(waits); turn += 1u) {
+        // The first who waits, and all who can go along.
+        let leader = subgroupMin(select(NOBODY, place, waits));
+        let with_me = waits && beside(a, leader);
+        let low = subgroupMin(select(NOBODY, a.cell.x, with_me));
+        let high = subgroupMax(select(0u, a.cell.x, with_me));
+        let led = Around(subgroupShuffle(a.cell, leader), subgroupShuffle(a.reach, leader), subgroupShuffle(a.span, leader));
+        let parts = select(1u, 3u, subgroupAny(with_me && seam(a)));
+        let rows = led.span.y * led.span.z * parts;
+        // Every lane looks up one stretch; then all walk the eight. One loop over them all: on these adapters a loop costs
+        // one turn more than it has, and a branch is never skipped.
+        for (var base = 0u; base < rows; base += LANES) {
+            let i = base + place;
+            let line = i / parts;
+            var own = stretch(led, low, high, line / led.span.y, line % led.span.y, select(i % parts, 1u, parts == 1u));
+            if i >= rows { own.end = own.start; }
+            seen += subgroupAdd(own.end - own.start);
+            var left = subgroupBallot(own.end > own.start && seen <= MOST).x;
+            var slot = 0u;
+            var end = 0u;
+            var shift = vec3f();
+            loop {
+                if slot >= end {
+                    if left == 0u { break; }
+                    let next = firstTrailingBit(left);
+                    left &= left - 1u;
+                    slot = subgroupShuffle(own.start, next);
+                    end = subgroupShuffle(own.end, next);
+                    if PERIODIC { shift = subgroupShuffle(own.shift, next); }
+                }
+                let q = candidate(min(slot + place, end - 1u));
+                consider(k, slot, end, shift, me, told0(q), with_me, &sum);
+                consider(k, slot + 1u, end, shift, me, told1(q), with_me, &sum);
+                consider(k, slot + 2u, end, shift, me, told2(q), with_me, &sum);
+                consider(k, slot + 3u, end, shift, me, told3(q), with_me, &sum);
+                consider(k, slot + 4u, end, shift, me, told4(q), with_me, &sum);
+                consider(k, slot + 5u, end, shift, me, told5(q), with_me, &sum);
+                consider(k, slot + 6u, end, shift, me, told6(q), with_me, &sum);
+                consider(k, slot + 7u, end, shift, me, told7(q), with_me, &sum);
+                slot += LANES;
+            }
+        }
+        if with_me && seen > MOST { atomicMin(&alarm[2], me.index); }
+        waits = waits && !with_me;
+    }
+    if awake { deliver(me, sum); }
+}

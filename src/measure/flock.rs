@@ -1,0 +1,148 @@
+//! How far particles move as one, and who is near whom.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use crate::error::Error;
+use crate::kernel::Bounds;
+use crate::neighbors::Cells;
+use crate::simulation::Snapshot;
+
+/// Order and company of a state: a row of `flock.csv`.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Flock {
+    /// Steps done.
+    pub step: u64,
+    /// The time.
+    pub time: f64,
+    /// |Σ v / |v|| / N over all that move: 1 when all head the same way, about 1 / √N when each goes its own
+    /// (Vicsek et al. 1995). 0 when nobody moves.
+    pub order: f64,
+    /// The mean speed \[length / time\].
+    pub speed: f64,
+    /// How many others are within range of a particle, on average.
+    pub neighbors: f64,
+    /// The most that are within range of one.
+    pub crowd: u32,
+    /// Sets of particles that are joined by chains of neighbours (friends of friends; Davis et al. 1985).
+    pub clusters: u32,
+    /// The part of all particles that is in the largest of them.
+    pub largest: f64,
+}
+
+/// Particles whose neighbours are held at once.
+const CHUNK: usize = 16_384;
+
+impl Flock {
+    /// Measures a state; who is within `range` of whom, if that is given.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] when the range is not a positive number.
+    pub fn of(snapshot: &Snapshot, bounds: Bounds, range: Option<f64>) -> Result<Self, Error> {
+        let velocities = &snapshot.particles.velocity;
+        let headings: Vec<DVec3> = velocities.iter().map(|v| v.normalize_or_zero()).collect();
+        let moving = headings.iter().filter(|h| **h != DVec3::ZERO).count();
+        let count = velocities.len().max(1) as f64;
+        let flock = Self {
+            step: snapshot.step,
+            time: snapshot.time,
+            order: headings.iter().sum::<DVec3>().length() / moving.max(1) as f64,
+            speed: velocities.iter().map(|v| v.length()).sum::<f64>() / count,
+            ..Self::default()
+        };
+        let Some(range) = range else { return Ok(flock) };
+        let cells = Cells::new(&snapshot.particles.position, bounds, range)?;
+        let mut sets = Sets::new(velocities.len());
+        let (mut pairs, mut crowd) = (0, 0);
+        for first in (0..velocities.len()).step_by(CHUNK) {
+            let last = velocities.len().min(first + CHUNK);
+            let near: Vec<Vec<u32>> = (first..last).into_par_iter().map(|i| friends(&cells, i)).collect();
+            for (i, friends) in (first..).zip(near) {
+                pairs += friends.len();
+                crowd = crowd.max(friends.len());
+                friends.into_iter().filter(|j| (*j as usize) < i).for_each(|j| sets.join(i, j as usize));
+            }
+        }
+        let sizes = sets.sizes();
+        let whole = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
+        Ok(Self {
+            neighbors: pairs as f64 / count,
+            crowd: whole(crowd),
+            clusters: whole(sizes.len()),
+            largest: f64::from(sizes.iter().copied().max().unwrap_or(0)) / count,
+            ..flock
+        })
+    }
+}
+
+fn friends(cells: &Cells, i: usize) -> Vec<u32> {
+    let mut friends = Vec::new();
+    cells.around(i, |j| friends.push(u32::try_from(j).unwrap_or(u32::MAX)));
+    friends
+}
+
+/// Disjoint sets (Tarjan 1975), by size, with paths halved.
+struct Sets {
+    parent: Vec<usize>,
+    size: Vec<u32>,
+}
+
+impl Sets {
+    fn new(count: usize) -> Self {
+        Self { parent: (0..count).collect(), size: vec![1; count] }
+    }
+    fn root(&mut self, mut i: usize) -> usize {
+        while self.parent[i] != i {
+            self.parent[i] = self.parent[self.parent[i]];
+            i = self.parent[i];
+        }
+        i
+    }
+    fn join(&mut self, i: usize, j: usize) {
+        let (i, j) = (self.root(i), self.root(j));
+        if i == j {
+            return;
+        }
+        let (large, small) = if self.size[i] < self.size[j] { (j, i) } else { (i, j) };
+        self.parent[small] = large;
+        self.size[large] += self.size[small];
+    }
+    /// The size of each set.
+    fn sizes(&self) -> Vec<u32> {
+        (0..self.parent.len()).filter(|i| self.parent[*i] == *i).map(|i| self.size[i]).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kernel::Side;
+    use crate::particles::Particles;
+
+    fn snapshot(positions: &[DVec3], velocities: &[DVec3]) -> Snapshot {
+        let mut particles = Particles::default();
+        for (x, v) in positions.iter().zip(velocities) {
+            particles.push(*x, *v, 1.0, 0.0);
+        }
+        Snapshot { step: 0, time: 0.0, particles, potential: vec![0.0; positions.len()] }
+    }
+
+    #[test]
+    fn order_is_that_of_headings_not_of_speeds() {
+        let right = DVec3::X;
+        let state = snapshot(&[DVec3::ZERO; 4], &[right * 9.0, right * 0.1, -right, DVec3::ZERO]);
+        let flock = Flock::of(&state, Bounds::default(), None).expect("a measurement");
+        assert!((flock.order - 1.0 / 3.0).abs() < 1e-12 && (flock.speed - 10.1 / 4.0).abs() < 1e-12, "{flock:?}");
+    }
+    #[test]
+    fn chains_of_friends_are_clusters_across_the_seam_too() {
+        // 0–1 across the seam, 2–3–4 in a chain of which the ends are out of each other's range, 5 alone.
+        let x = [0.1, 9.9, 3.0, 3.8, 4.6, 7.0].map(|x| DVec3::new(x, 5.0, 0.0));
+        let bounds = Bounds::new(DVec3::ZERO, DVec3::new(10.0, 10.0, 0.0), Side::Periodic);
+        let flock = Flock::of(&snapshot(&x, &[DVec3::X; 6]), bounds, Some(1.0)).expect("a measurement");
+        assert_eq!((flock.clusters, flock.crowd), (3, 2));
+        assert!((flock.largest - 0.5).abs() < 1e-12 && (flock.neighbors - 1.0).abs() < 1e-12, "{flock:?}");
+        let open = Flock::of(&snapshot(&x, &[DVec3::X; 6]), Bounds::default(), Some(1.0)).expect("a measurement");
+        assert_eq!(open.clusters, 4);
+    }
+}

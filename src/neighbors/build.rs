@@ -1,0 +1,90 @@
+//! Builds a grid: a counting sort by cell, stable by id.
+
+use std::sync::Arc;
+
+use glam::Vec4;
+
+use super::{ARRIVALS, Cells, Grid, KEYS, SLOTS, SORTED_ID, SORTED_POSITION, SORTED_VELOCITY, STARTS};
+use crate::error::Error;
+use crate::kernel::{Host, Kernel, Name, POSITION, Pass, Problem, SPECIES, Shader, Source, VELOCITY};
+use crate::primitives::{fill, scan};
+
+impl Grid {
+    /// What it is called in a plan.
+    #[must_use]
+    pub fn title(&self) -> String {
+        let [x, y, z] = self.cells;
+        format!("grid RANGE={} CELLS={x}×{y}×{z}{}", self.name, self.fitted)
+    }
+
+    /// The kernel that builds it from where particles are now. `moving`: with a sorted copy of their velocities.
+    ///
+    /// # Errors
+    /// When a shader does not compile, or a field does not fit.
+    pub fn kernel(&self, problem: &Problem, moving: bool) -> Result<Kernel, Error> {
+        let (bins, machine) = (self.count() + 1, &problem.machine);
+        let (_, starts) = self.field(STARTS);
+        let sums = scan::scratch(&starts);
+        let chosen = if self.of.is_some() {
+            crate::shader!("neighbors/species.wgsl")
+        } else {
+            crate::shader!("neighbors/anybody.wgsl")
+        };
+        let carry = if moving {
+            crate::shader!("neighbors/carry_moving.wgsl")
+        } else {
+            crate::shader!("neighbors/carry_still.wgsl")
+        };
+        let mut passes = fill::passes(&starts, bins, 0)?;
+        passes.push(self.pass(problem, &[chosen, crate::shader!("neighbors/count.wgsl")])?);
+        passes.extend(scan::passes(&starts, &sums, bins, machine)?);
+        passes.push(self.pass(problem, &[crate::shader!("neighbors/scatter.wgsl")])?);
+        passes.push(self.pass(problem, &[carry, crate::shader!("neighbors/order.wgsl")])?);
+        let grid = self.clone();
+        let twin = move |host: &Host| grid.sort(host, moving);
+        let scratch: Vec<Name> = vec![KEYS.name.into(), ARRIVALS.name.into(), SLOTS.name.into(), sums.clone()];
+        Ok(Kernel {
+            name: self.title(),
+            passes,
+            twin: Some(Arc::new(twin)),
+            sizes: vec![(starts, u64::from(bins)), (sums, scan::blocks(bins, machine))],
+            scratch,
+        })
+    }
+
+    fn pass(&self, problem: &Problem, files: &[Source]) -> Result<Pass, Error> {
+        let mut all =
+            vec![crate::shader!("world.wgsl"), crate::shader!("fields.wgsl"), crate::shader!("neighbors/cell.wgsl")];
+        all.extend_from_slice(files);
+        let shader = Shader::join(&all)?;
+        let block = shader.reflection().binding("grid").map(|b| self.uniform(b, 0, problem.count)).transpose()?;
+        let fields = [STARTS, SORTED_ID, SORTED_POSITION, SORTED_VELOCITY].map(|name| self.field(name));
+        let uniforms = block.into_iter().map(|bytes| ("grid", bytes)).collect();
+        Ok(Pass { uniforms, ..Pass::new(shader, problem.count) }.on(&fields))
+    }
+
+    /// The twin.
+    fn sort(&self, host: &Host, moving: bool) -> Result<(), Error> {
+        let (position, velocity) = (host.read(POSITION)?, host.read(VELOCITY)?);
+        let count = (host.world().count as usize).min(position.len());
+        let species = if self.of.is_some() { host.read(SPECIES)?.to_vec() } else { Vec::new() };
+        let chosen = |i: usize| self.of.is_none_or(|of| species.get(i) == Some(&of));
+        let places = position[..count].iter().map(|x| x.truncate());
+        let cells = Cells::sort(self, host.world().bounds, places, chosen);
+
+        host.writing::<u32>(&self.field(STARTS).1)?.copy_from_slice(&cells.starts);
+        let mut ids = host.writing::<u32>(&self.field(SORTED_ID).1)?;
+        let mut positions = host.writing::<Vec4>(&self.field(SORTED_POSITION).1)?;
+        for (slot, id) in cells.ids.iter().enumerate() {
+            let i = *id as usize;
+            (ids[slot], positions[slot]) = (*id, cells.homes[i].as_dvec3().extend(position[i].w));
+        }
+        if moving {
+            let mut velocities = host.writing::<Vec4>(&self.field(SORTED_VELOCITY).1)?;
+            for (to, id) in velocities.iter_mut().zip(&cells.ids) {
+                *to = velocity[*id as usize];
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,99 @@
+//! A grid that is filled on the host: what the twin of the device's is, and what measurements search.
+
+use glam::{DVec3, Vec3};
+
+use super::Grid;
+use crate::error::Error;
+use crate::kernel::{Bounds, Machine, Problem, Side};
+
+/// Particles, sorted by cell.
+pub struct Cells {
+    grid: Grid,
+    bounds: Bounds,
+    /// Every particle's image in the box.
+    pub(super) homes: Vec<Vec3>,
+    /// Where each cell's particles begin in `ids`; one more than there are cells.
+    pub(super) starts: Vec<u32>,
+    /// Ids, cell by cell, ascending in each.
+    pub(super) ids: Vec<u32>,
+}
+
+impl Cells {
+    /// Sorts particles into cells of a range's width, for searches on the host.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] when the range is not a positive number, or there are more particles than ids.
+    pub fn new(positions: &[DVec3], bounds: Bounds, range: f64) -> Result<Self, Error> {
+        let count = u32::try_from(positions.len())
+            .map_err(|_| Error::Scene(format!("{} particles are more than there are ids", positions.len())))?;
+        let machine = Machine { software: true, subgroup: 0, invocations: 1 };
+        let grid = Grid::new(range, None, &Problem::new(count, machine).at(positions, bounds))?;
+        Ok(Self::sort(&grid, bounds, positions.iter().copied(), |_| true))
+    }
+    /// Sorts those who are chosen by their ids. A cell is found by the device's own arithmetic, so that who stands at
+    /// its edge is on one side for both.
+    pub(super) fn sort(
+        grid: &Grid,
+        bounds: Bounds,
+        positions: impl Iterator<Item = DVec3>,
+        chosen: impl Fn(usize) -> bool,
+    ) -> Self {
+        let homes: Vec<Vec3> = positions.map(|x| bounds.home(x)).collect();
+        let keys: Vec<usize> = homes.iter().map(|x| key(grid, &bounds, *x)).collect();
+        let mut starts = vec![0_u32; grid.count() as usize + 1];
+        let those = || (0..keys.len()).filter(|i| chosen(*i));
+        those().for_each(|i| starts[keys[i] + 1] += 1);
+        for c in 1..starts.len() {
+            starts[c] += starts[c - 1];
+        }
+        let mut next = starts.clone();
+        let mut ids = vec![0; starts.last().map_or(0, |n| *n as usize)];
+        for i in those() {
+            ids[next[keys[i]] as usize] = u32::try_from(i).unwrap_or(u32::MAX);
+            next[keys[i]] += 1;
+        }
+        Self { grid: grid.clone(), bounds, homes, starts, ids }
+    }
+    /// Calls with the id of everybody else that is within the range of a particle. Searches are for particles within
+    /// some thousand cells of the grid's corner; further away, where rounding is wider than a cell's slack, one may be missed.
+    pub fn around(&self, i: usize, mut call: impl FnMut(usize)) {
+        let home = self.homes[i];
+        let [nx, ny, nz] = self.grid.cells.map(i64::from);
+        let c = place(&self.grid, &self.bounds, home);
+        let span = |n: i64| if n < 3 { 0..n } else { -1..2 };
+        for z in span(nz) {
+            for y in span(ny) {
+                for x in span(nx) {
+                    let [x, y, z] = [(c[0] + x).rem_euclid(nx), (c[1] + y).rem_euclid(ny), (c[2] + z).rem_euclid(nz)];
+                    let key = usize::try_from(x + nx * (y + ny * z)).unwrap_or(0);
+                    for &j in &self.ids[self.starts[key] as usize..self.starts[key + 1] as usize] {
+                        let r = (self.homes[j as usize] - home).as_dvec3();
+                        if j as usize != i && self.bounds.within(r, self.grid.range) {
+                            call(j as usize);
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// The cell of a place at home along each axis, before it is folded.
+fn place(grid: &Grid, bounds: &Bounds, home: Vec3) -> [i64; 3] {
+    const FARTHEST: f32 = 536_870_912.0;
+    let c: Vec3 = ((home - grid.low.as_vec3()) * grid.per_cell.as_vec3()).floor();
+    [0, 1, 2].map(|axis| {
+        #[expect(clippy::cast_precision_loss, reason = "at most 8192 along a period")]
+        let last = if bounds.sides[axis] == Side::Periodic { grid.cells[axis] as f32 - 1.0 } else { FARTHEST };
+        #[expect(clippy::cast_possible_truncation, reason = "clamped; a number that is none becomes 0")]
+        let c = c[axis].clamp(-FARTHEST, last) as i32;
+        i64::from(c)
+    })
+}
+
+/// The cell of a place at home, folded; see `shaders/neighbors/cell.wgsl`.
+fn key(grid: &Grid, bounds: &Bounds, home: Vec3) -> usize {
+    let [nx, ny, nz] = grid.cells.map(i64::from);
+    let [x, y, z] = place(grid, bounds, home);
+    usize::try_from(x.rem_euclid(nx) + nx * (y.rem_euclid(ny) + ny * z.rem_euclid(nz))).unwrap_or(0)
+}

@@ -1,0 +1,168 @@
+//! The shape of a grid: how wide a cell is, and how many there are before it is folded.
+
+use glam::DVec3;
+
+use super::field;
+use crate::error::Error;
+use crate::kernel::{Binding, Name, Problem, Scalar, Side};
+
+/// A cell is wider than the range by this part, so that rounding moves no neighbour two cells away; see
+/// `shaders/visit/near_rows.wgsl`. Up to [`FINEST`] cells from the corner a place is wrong by 2 · 8192 · 2⁻²⁴ of a cell at
+/// most (two roundings), and two places differ by twice that: 2⁻⁹.
+const SLACK: f64 = 1.0 / 512.0;
+/// Cells along one axis, at most.
+const FINEST: f64 = 8192.0;
+/// Cells for each particle, about, at most: more are all but empty, and cost memory and time to clear.
+const CELLS_PER_PARTICLE: f64 = 2.0;
+/// Cells, at most: 64 MiB, half of what every device binds.
+const MOST: f64 = 16_777_216.0;
+
+/// A uniform grid of cells no narrower than a range.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Grid {
+    /// What it is for: its range, and the species that it holds.
+    pub name: String,
+    /// How far a search looks \[length\].
+    pub range: f64,
+    /// The only species in it.
+    pub of: Option<u32>,
+    /// Its corner \[length\].
+    pub low: DVec3,
+    /// One over the width of a cell \[1 / length\].
+    pub per_cell: DVec3,
+    /// Cells along each axis.
+    pub cells: [u32; 3],
+    /// How the cells that the range and the place of the particles ask for were brought down to what there is room for.
+    pub fitted: &'static str,
+}
+
+impl Grid {
+    /// For searches within a range.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] when the range is not a positive number.
+    pub fn new(range: f64, of: Option<u32>, problem: &Problem) -> Result<Self, Error> {
+        if !(range > 0.0 && range <= f64::from(f32::MAX) / 4.0) {
+            let text = format!("a search for neighbours has a range of {range}: it must be above 0, and finite");
+            return Err(Error::Scene(text));
+        }
+        let mut name = format!("{range:?}");
+        if let Some(species) = of {
+            name = format!("{name} species {species}");
+        }
+        Ok(Self::of_cells(name, range, of, range * (1.0 + SLACK), problem))
+    }
+
+    /// For searches of the nearest, who may be anywhere: cells that hold about `occupancy` particles each.
+    #[must_use]
+    pub fn sparse(occupancy: f64, problem: &Problem) -> Self {
+        let sides = size(problem).to_array().into_iter().filter(|side| *side > 0.0);
+        let (mut volume, mut axes) = (1.0, 0);
+        for side in sides {
+            (volume, axes) = (volume * side, axes + 1);
+        }
+        let width = (volume * occupancy / f64::from(problem.count)).powf(1.0 / f64::from(axes.max(1)));
+        let width = if width.is_finite() && width > 0.0 { width } else { 1.0 };
+        Self::of_cells(format!("cells of {occupancy:?}"), width, None, width, problem)
+    }
+
+    fn of_cells(name: String, range: f64, of: Option<u32>, width: f64, problem: &Problem) -> Self {
+        let periodic = problem.bounds.axes(Side::Periodic);
+        let size = size(problem);
+        let fine = size / width;
+        // A period is cut into whole cells; elsewhere the last cell may stick out.
+        let wish = DVec3::select(periodic.cmpgt(DVec3::ZERO), fine.floor(), fine.ceil());
+        let wish = wish.clamp(DVec3::ONE, DVec3::splat(FINEST));
+        let flat = problem.bounds.dimensions == 2;
+        let room = (CELLS_PER_PARTICLE * f64::from(problem.count)).clamp(64.0, MOST);
+        let mut cells = wish;
+        while cells.element_product() > room {
+            // The longest axis first, and no more than is needed.
+            let longest = cells.max_position();
+            let less = (cells[longest] * 0.9).min(cells[longest] * room / cells.element_product());
+            cells[longest] = less.max(cells[longest] / 2.0).floor().max(1.0);
+        }
+        let mut fitted = "";
+        if cells != wish {
+            let coarser = (0..3).any(|axis| periodic[axis] > 0.0 && cells[axis] < wish[axis]);
+            fitted = if coarser { " coarser" } else { " folded" };
+        }
+        // Who starts close together in open space may spread: there is to be room for that.
+        let open: Vec<usize> =
+            (0..3).filter(|axis| problem.bounds.sides[*axis] == Side::Open && !(flat && *axis == 2)).collect();
+        let spread = 0.5 * room / cells.element_product();
+        if spread > 1.0 && !open.is_empty() {
+            let factor = spread.powf(1.0 / open.len() as f64);
+            for axis in &open {
+                cells[*axis] = (cells[*axis] * factor).floor().clamp(cells[*axis], FINEST);
+            }
+        }
+        let per_cell = |axis: usize| if periodic[axis] > 0.0 { cells[axis] / size[axis] } else { 1.0 / width };
+        let count = |axis: usize| whole(cells[axis]);
+        Self {
+            name,
+            range,
+            of,
+            low: low(problem),
+            per_cell: DVec3::new(per_cell(0), per_cell(1), per_cell(2)),
+            cells: [count(0), count(1), count(2)],
+            fitted,
+        }
+    }
+
+    /// How many cells there are.
+    #[must_use]
+    pub fn count(&self) -> u32 {
+        self.cells.iter().product()
+    }
+    /// Whether a period has so few cells that those on both sides of me are the same.
+    #[must_use]
+    pub fn narrow(&self, problem: &Problem) -> bool {
+        (0..3).any(|axis| problem.bounds.sides[axis] == Side::Periodic && self.cells[axis] < 3)
+    }
+    /// About how many particles a search looks at, when they are spread evenly.
+    #[must_use]
+    pub fn candidates(&self, problem: &Problem) -> f64 {
+        let around: u32 = self.cells.iter().map(|n| (*n).min(3)).product();
+        (f64::from(problem.count) * f64::from(around) / f64::from(self.count())).max(1.0)
+    }
+    /// A field of it, by its name in shaders.
+    #[must_use]
+    pub fn field(&self, name: &'static str) -> (&'static str, Name) {
+        (name, field(name, &self.name))
+    }
+    /// The block `grid` of a shader, for the targets `first` ≤ k < `end`.
+    ///
+    /// # Errors
+    /// When the shader's block has another shape.
+    pub fn uniform(&self, binding: &Binding, first: u32, end: u32) -> Result<Vec<u8>, Error> {
+        let values = [
+            ("low", Scalar::Vector(self.low)),
+            ("range", Scalar::Float(self.range)),
+            ("per_cell", Scalar::Vector(self.per_cell)),
+            ("first", Scalar::Uint(first)),
+            ("cells", Scalar::Uints(self.cells)),
+            ("end", Scalar::Uint(end)),
+            ("only", Scalar::Uint(self.of.unwrap_or(u32::MAX))),
+        ];
+        binding.packed.pack("grid", &values)
+    }
+}
+
+/// Where the grid begins: a box says so, and elsewhere it is where the first particles are.
+fn low(problem: &Problem) -> DVec3 {
+    let open = problem.bounds.axes(Side::Open);
+    open * problem.extent.0 + (DVec3::ONE - open) * problem.bounds.low
+}
+
+fn size(problem: &Problem) -> DVec3 {
+    let open = problem.bounds.axes(Side::Open);
+    let size =
+        open * (problem.extent.1 - problem.extent.0) + (DVec3::ONE - open) * (problem.bounds.high - problem.bounds.low);
+    if problem.bounds.dimensions == 2 { size.with_z(0.0) } else { size }
+}
+
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "whole, between 1 and 8192")]
+fn whole(x: f64) -> u32 {
+    x as u32
+}

@@ -1,0 +1,29 @@
+//! Who is near: a uniform grid, built on the device at each evaluation. It knows nothing of laws.
+
+mod build;
+mod cells;
+mod grid;
+
+pub use cells::Cells;
+pub use grid::Grid;
+
+use crate::kernel::{Field, Name};
+
+/// A field of one grid: several grids have the same fields under names of their own.
+fn field(of: &str, grid: &str) -> Name {
+    format!("{of} of {grid}").into()
+}
+
+/// Where each cell's particles begin in the sorted fields; one more than there are cells, for where the last ones end.
+pub(crate) const STARTS: &str = "starts";
+/// Ids, cell by cell, ascending in each cell.
+pub(crate) const SORTED_ID: &str = "sorted_id";
+/// Positions and masses in that order.
+pub(crate) const SORTED_POSITION: &str = "sorted_position";
+/// Velocities and radii in that order, where a law asks for them.
+pub(crate) const SORTED_VELOCITY: &str = "sorted_velocity";
+
+/// What is not needed any more when a grid is built: all grids share it.
+const KEYS: Field<u32> = Field::new("keys");
+const ARRIVALS: Field<u32> = Field::new("arrivals");
+const SLOTS: Field<u32> = Field::new("slots");

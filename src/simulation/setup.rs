@@ -1,0 +1,96 @@
+//! What a simulation is made of, checked, and the plans that come of it.
+
+use crate::boundary;
+use crate::error::Error;
+use crate::forces::{Force, Problem};
+use crate::integrators::{Integrator, Step};
+use crate::kernel::{Bounds, Machine, Plan};
+use crate::particles::Particles;
+
+/// What a simulation is made of.
+pub struct Setup {
+    /// What moves.
+    pub particles: Particles,
+    /// What moves it, in this order.
+    pub forces: Vec<Box<dyn Force>>,
+    /// How.
+    pub integrator: Box<dyn Integrator>,
+    /// The step size \[time\].
+    pub dt: f64,
+    /// Where particles may be.
+    pub bounds: Bounds,
+}
+
+/// The plans of a simulation: what runs once, what runs in every step, and what surrounds a measurement.
+pub struct Plans {
+    /// Before the first step.
+    pub start: Plan,
+    /// A step.
+    pub step: Plan,
+    /// Before and after the state is read.
+    pub measure: (Plan, Plan),
+}
+
+impl Plans {
+    /// All of them.
+    pub fn all(&self) -> impl Iterator<Item = &Plan> {
+        [&self.start, &self.step, &self.measure.0, &self.measure.1].into_iter()
+    }
+}
+
+impl Setup {
+    /// Writes the plans for a machine.
+    ///
+    /// # Errors
+    /// When the setup makes no sense, or a shader does not compile.
+    pub fn plans(&self, machine: Machine) -> Result<Plans, Error> {
+        let problem = Problem::new(self.check()?, machine).at(&self.particles.position, self.bounds);
+        let mut start = Step::new(&self.forces, problem);
+        start.enclose();
+        self.integrator.start(&mut start);
+        let mut step = Step::new(&self.forces, problem);
+        self.integrator.step(&mut step);
+        let measure = Step::measurement(&self.forces, problem)?;
+        Ok(Plans { start: start.begun()?, step: step.done()?, measure })
+    }
+    /// The number of particles, if all is well.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] when there are none or too many, when dt is not a positive number, when a particle has a number
+    /// that is none, or a negative mass, when there can be no such box, or when it does not hold them.
+    pub fn check(&self) -> Result<u32, Error> {
+        let Particles { position, velocity, mass, radius, species } = &self.particles;
+        let count = position.len();
+        let lengths = [velocity.len(), mass.len(), radius.len(), species.len()];
+        if lengths.iter().any(|l| *l != count) {
+            return Err(Error::Scene(format!(
+                "{count} positions come with {lengths:?} velocities, masses, radii and species: give each particle one of \
+                 each"
+            )));
+        }
+        let single = f64::from(f32::MIN_POSITIVE)..=f64::from(f32::MAX);
+        if !single.contains(&self.dt) {
+            let text =
+                format!("dt is {}: it must be above 0, and no smaller or larger than single precision holds", self.dt);
+            return Err(Error::Scene(text));
+        }
+        let fits = |x: f64| x.abs() <= f64::from(f32::MAX);
+        let bad = (0..count).find(|i| {
+            let vectors = [position[*i], velocity[*i]];
+            let (mass, radius) = (mass[*i], radius[*i]);
+            let good = vectors.iter().all(|v| v.to_array().into_iter().all(fits)) && fits(mass) && fits(radius);
+            !(good && mass >= 0.0 && radius >= 0.0)
+        });
+        if let Some(bad) = bad {
+            return Err(Error::Scene(format!(
+                "particle {bad} has a number that is NaN, infinite or beyond single precision, or a negative mass or radius"
+            )));
+        }
+        boundary::check(&self.bounds)?;
+        boundary::holds(&self.bounds, position, velocity)?;
+        u32::try_from(count)
+            .ok()
+            .filter(|n| *n > 0)
+            .ok_or_else(|| Error::Scene(format!("there are {count} particles: a simulation takes 1 to {}", u32::MAX)))
+    }
+}

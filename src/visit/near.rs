@@ -1,0 +1,91 @@
+//! Everybody meets who is within a range, through the grid.
+
+use super::{Law, Over};
+use crate::error::Error;
+use crate::kernel::{ALARM, ALARM_WORDS, Kernel, Machine, Name, Pass, Problem, Shader, Source, Threads};
+use crate::neighbors::{Grid, SORTED_ID, SORTED_POSITION, SORTED_VELOCITY, STARTS};
+
+/// Targets of one dispatch, at most. It is a whole number of workgroups.
+const TARGETS: u32 = 1 << 20;
+
+/// Neighbours that one particle can have in a search of the nearest, at most: their list is held in registers.
+pub const MOST_NEAREST: u32 = 16;
+
+/// The grid that a law searches, and whether it asks there for velocities.
+pub fn grid(law: &Law, problem: &Problem) -> Result<Option<(Grid, bool)>, Error> {
+    match law.over {
+        Over::Near { range, of } => Ok(Some((Grid::new(range, of, problem)?, law.wgsl.says(&["velocity_of", "("])))),
+        Over::Nearest { count } => {
+            if !(1..=MOST_NEAREST).contains(&count) {
+                let text = format!("`{}` is to meet its {count} nearest: it can meet 1 to {MOST_NEAREST}", law.name);
+                return Err(Error::Scene(text));
+            }
+            // So many that the first cube of 27 cells holds about three times the list.
+            Ok(Some((Grid::sparse(f64::from(count) / 3.0, problem), false)))
+        }
+        Over::Each | Over::Pairs | Over::Within { .. } => Ok(None),
+    }
+}
+
+/// What a law searches its neighbours with.
+fn files(law: &Law, grid: &Grid, machine: &Machine) -> Vec<Source> {
+    let moving = law.wgsl.says(&["velocity_of", "("]);
+    let mut files = match law.over {
+        Over::Nearest { .. } => vec![crate::shader!("particle.wgsl"), crate::shader!("visit/nearest.wgsl")],
+        _ if moving => vec![crate::shader!("visit/near_moving.wgsl")],
+        _ => vec![crate::shader!("visit/near_still.wgsl")],
+    };
+    if let Over::Near { .. } = law.over {
+        files.push(match grid.of {
+            Some(_) => crate::shader!("visit/near_ids.wgsl"),
+            None => crate::shader!("visit/near_slots.wgsl"),
+        });
+        match (machine.software, machine.subgroup) {
+            (true, 8) => files.push(crate::shader!("visit/near_subgroup.wgsl")),
+            _ => files.extend([crate::shader!("visit/near_walk.wgsl"), crate::shader!("visit/near_lanes.wgsl")]),
+        }
+    }
+    files
+}
+
+pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
+    law.requires_meetings()?;
+    let Some((grid, _)) = grid(&law, problem)? else {
+        return Err(Error::Scene(format!("`{}` searches no grid", law.name)));
+    };
+    let mut sources = vec![
+        crate::shader!("world.wgsl"),
+        crate::shader!("fields.wgsl"),
+        crate::shader!("neighbors/cell.wgsl"),
+        crate::shader!("visit/near_rows.wgsl"),
+    ];
+    sources.extend(files(&law, &grid, &problem.machine));
+    sources.extend(law.files());
+    let shader = Shader::join(&sources)?;
+    let (params, mut constants) = (law.uniforms(&shader)?, problem.constants(&shader));
+    match law.over {
+        Over::Nearest { count } => constants.push(("COUNT", f64::from(count))),
+        _ if grid.narrow(problem) => constants.push(("NARROW", 1.0)),
+        _ => {}
+    }
+    let fields = [STARTS, SORTED_ID, SORTED_POSITION, SORTED_VELOCITY].map(|name| grid.field(name));
+    let mut passes = Vec::new();
+    let mut first = 0;
+    while first < problem.count {
+        let end = problem.count.min(first + TARGETS);
+        let mut uniforms = params.clone();
+        if let Some(binding) = shader.reflection().binding("grid") {
+            uniforms.push(("grid", grid.uniform(binding, first, end)?));
+        }
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "an estimate")]
+        let work = (f64::from(end - first) * grid.candidates(problem)) as u64;
+        let threads = Threads::new(end - first);
+        let pass = Pass { constants: constants.clone(), uniforms, threads, work, ..Pass::new(shader.clone(), 0) };
+        passes.push(pass.on(&fields));
+        first = end;
+    }
+    // The law does not make these, but it binds them: they are as long as the grid makes them.
+    let sizes: Vec<(Name, u64)> =
+        vec![(grid.field(STARTS).1, u64::from(grid.count()) + 1), (ALARM.name.into(), ALARM_WORDS)];
+    Ok(Kernel { name: law.name, passes, twin: law.twin, sizes, scratch: Vec::new() })
+}
