@@ -1,5 +1,6 @@
-// Avoiding an obstacle (containment; Reynolds 1999) by its signed distance φ:  a = f_max (1 − s / L) ∇φ,  L = τ |v| how far one
-// looks ahead, s how far one gets before a bird of radius c touches, ∇φ as it is there. Who touches already has s = 0.
+// Avoiding an obstacle (containment; Reynolds 1999) by its signed distance φ:  a = f_max (1 − s / L) (−h · ∇φ) ∇φ,  with h the
+// heading, L = τ |v| how far one looks ahead, s how far one gets before a bird of radius c touches, ∇φ as it is there.
+// Who touches already, or is inside, is pushed straight out:  a = f_max ∇φ.
 struct Params {
     position: vec3f, radius: f32, size: vec3f, shape: u32, normal: vec3f,
     look_ahead: f32, clearance: f32, max_force: f32,
@@ -29,14 +30,15 @@ fn surface(x: vec3f) -> vec4f {
 
 fn force(me: Particle) -> vec4f {
     let v = velocity_of(me);
+    let h = unit(v);
     let ahead = params.look_ahead * length(v);
     // Sphere tracing (Hart 1996): where φ is the distance, so far the way is free.
     var s = 0.0;
     for (var k = 0u; k < 8u; k += 1u) {
-        s += max(surface(me.position + s * unit(v)).w - params.clearance, 0.0);
+        s += max(surface(me.position + s * h).w - params.clearance, 0.0);
     }
-    if s > 0.0 && s >= ahead { return vec4f(); }
-    var urgency = 1.0;
-    if s > 0.0 { urgency = 1.0 - s / ahead; }
-    return vec4f((urgency * params.max_force) * surface(me.position + s * unit(v)).xyz, 0.0);
+    let out = surface(me.position + s * h).xyz;
+    if s == 0.0 { return vec4f(params.max_force * out, 0.0); }
+    if s >= ahead { return vec4f(); }
+    return vec4f((params.max_force * (1.0 - s / ahead) * max(-dot(h, out), 0.0)) * out, 0.0);
 }

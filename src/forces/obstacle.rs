@@ -26,7 +26,8 @@ const SHAPES: &[&str] = &["sphere", "box", "plane"];
 const MARCHES: usize = 8;
 
 /// `obstacle`: steers round a sphere, a box or a plane that lies ahead, along the normal of where one would touch it (after
-/// Reynolds 1999), the more the nearer that is; and pushes straight out with all its force who touches it or is inside.
+/// Reynolds 1999), the more the nearer that is and the more straight on; who touches it or is inside it pushes straight out
+/// with all its force.
 pub struct Obstacle(Settings);
 
 /// Its signed distance.
@@ -86,11 +87,12 @@ impl Force for Obstacle {
             let ahead = ahead * me.velocity.length();
             let at = |s: f64| surface.at(world.bounds.shortest(me.position + s * heading - position));
             let s = (0..MARCHES).fold(0.0, |s, _| s + (at(s).1 - clearance).max(0.0));
+            let out = at(s).0;
             if s > 0.0 && s >= ahead {
                 return DVec4::ZERO;
             }
-            let urgency = if s > 0.0 { 1.0 - s / ahead } else { 1.0 };
-            (urgency * force * at(s).0).extend(0.0)
+            let urgency = if s > 0.0 { (1.0 - s / ahead) * (-heading.dot(out)).max(0.0) } else { 1.0 };
+            (urgency * force * out).extend(0.0)
         })]
     }
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::time::Duration;
 
-use motes::forces::{self, Force, Law, Problem};
+use motes::forces::{self, Force, Law, Over, Problem};
 use motes::integrators::INTEGRATORS;
 use motes::kernel::{ACCELERATION, ALARM, Backend, Kernel, Machine, POSITION, Plan, SPECIES, Shader, Source, VELOCITY, World};
 use motes::lockstep::{Verdict, compare};
@@ -192,6 +192,10 @@ fn laws(device: &Device, stages: &mut Vec<Stage>) {
             }
             for settings in all {
                 let force = (entry.build)(&settings);
+                // A search wants its grid, and has stages of its own; by force everybody meets the same.
+                if force.laws().iter().any(|law| matches!(law.over, Over::Near { .. } | Over::Nearest { .. })) {
+                    continue;
+                }
                 let problem = Problem::new(u32::try_from(FEW).expect("few"), machine);
                 for kernel in kernels(force.as_ref(), &problem) {
                     stages.push(stage(entry.name, resting(device, machine, Bounds::default()), kernel));
