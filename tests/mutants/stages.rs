@@ -3,15 +3,18 @@
 use std::collections::BTreeMap;
 use std::time::Duration;
 
-use motes::forces::{self, Force, Law};
+use glam::{DVec3, Vec4};
+use motes::forces::{self, Force, Law, Over, Problem};
 use motes::integrators::INTEGRATORS;
-use motes::kernel::{ACCELERATION, ALARM, Backend, Kernel, Machine, POSITION, Plan, Shader, Source, VELOCITY, World};
+use motes::kernel::{
+    ACCELERATION, ALARM, Backend, Kernel, Machine, POSITION, Plan, SPECIES, Shader, Source, VELOCITY, World,
+};
 use motes::lockstep::{Verdict, compare};
 use motes::settings::{Kind, Value};
-use motes::{Gpu, Setup, Simulation, wgpu};
+use motes::{Bounds, Gpu, Setup, Simulation, wgpu};
 
 use crate::primitives;
-use crate::support::machines::{alone, cut, kernel, machines};
+use crate::support::machines::{alone, cut, kernel, kernels, machines};
 use crate::support::states::{force, integrator};
 use crate::support::{self, Shared, choices};
 
@@ -119,10 +122,14 @@ pub fn stage(name: &str, mut simulation: Simulation<Gpu>, kernel: Kernel) -> Sta
     let gpu = simulation.backend();
     gpu.compile(&alone(kernel.clone())).expect("a good kernel");
     let mut random = support::Random::new(23);
-    let kept = [POSITION.name, VELOCITY.name, ALARM.name, "world"];
+    let kept = [POSITION.name, VELOCITY.name, SPECIES.name, ALARM.name, "world"];
     for name in alone(kernel.clone()).fields(1).keys().filter(|n| !kept.contains(&n.as_str())) {
         let words: Vec<f32> = (0..gpu.size(name) / 4).map(|_| random.narrow()).collect();
         gpu.write_bytes(name, 0, bytemuck::cast_slice(&words)).expect("a field");
+    }
+    let bytes = usize::try_from(gpu.size(SPECIES.name)).expect("few");
+    if bytes > 0 {
+        gpu.write_bytes(SPECIES.name, 0, bytemuck::cast_slice(&support::species(bytes / 4))).expect("a field");
     }
     Stage::new(name, simulation, kernel)
 }
@@ -136,6 +143,7 @@ pub fn all(shared: &Shared) -> Vec<Stage> {
     watches(&device, &mut stages);
     crate::boundary::boundary(&device, &mut stages);
     laws(&device, &mut stages);
+    planes(&device, &mut stages);
     pairs(shared, &device, &mut stages);
     primitives::all(&device, &mut stages);
     stages
@@ -204,11 +212,40 @@ fn laws(device: &Device, stages: &mut Vec<Stage>) {
                 }
             }
             for settings in all {
-                let kernel = kernel((entry.build)(&settings).as_ref(), FEW, &machine);
-                stages.push(stage(entry.name, moving(device, FEW, Some(machine)), kernel));
+                let force = (entry.build)(&settings);
+                // A search wants its grid, and has stages of its own; by force everybody meets the same.
+                if force.laws().iter().any(|law| matches!(law.over, Over::Near { .. } | Over::Nearest { .. })) {
+                    continue;
+                }
+                let problem = Problem::new(u32::try_from(FEW).expect("few"), machine);
+                for kernel in kernels(force.as_ref(), &problem) {
+                    stages.push(stage(entry.name, resting(device, machine, Bounds::default()), kernel));
+                }
             }
         }
     }
+}
+
+/// A cloud where it began, with some at rest, two at one place, and some who are alone, or meet head on, far away.
+fn resting(device: &Device, machine: Machine, bounds: Bounds) -> Simulation<Gpu> {
+    let mut simulation = moving(device, FEW, Some(machine));
+    let cloud = support::cloud(FEW, 11);
+    let join = |v: &[DVec3], w: &[f64]| -> Vec<Vec4> { v.iter().zip(w).map(|(v, w)| v.extend(*w).as_vec4()).collect() };
+    let mut positions = join(&cloud.position, &cloud.mass);
+    let mut velocities = join(&cloud.velocity, &cloud.radius);
+    let rest = |v: &mut Vec4| *v = Vec4::ZERO.with_w(v.w);
+    [5, 6, 7].into_iter().for_each(|id| rest(&mut velocities[id]));
+    positions[9] = positions[8];
+    positions[7] = positions[7].with_x(9.0);
+    positions[10] = positions[10].with_x(-9.0);
+    positions[11] = positions[10].with_y(positions[10].y + 0.1);
+    velocities[11] = (-velocities[10]).with_w(velocities[11].w);
+    simulation.write(POSITION, &positions).expect("places");
+    simulation.write(VELOCITY, &velocities).expect("velocities");
+    let gpu = simulation.backend();
+    let world = pollster::block_on(gpu.world()).expect("a clock");
+    gpu.set_world(World { bounds, ..world }).expect("a clock");
+    simulation
 }
 
 /// A law that looks at everything that a visit passes to it: whom it meets, by index too, and where.
@@ -227,6 +264,19 @@ impl Force for Curious {
             let near = 1.0 / (1.0 + r.length_squared());
             (you.mass * near * (you.velocity - me.velocity)).extend(you.mass * me.mass * near)
         })]
+    }
+}
+
+/// Laws that ask how many dimensions there are, in the plane.
+fn planes(device: &Device, stages: &mut Vec<Stage>) {
+    let machine = Machine { software: true, subgroup: 0, invocations: 1 };
+    let flat = Bounds { dimensions: 2, ..Bounds::default() };
+    for entry in forces::FORCES {
+        let force = (entry.build)(&choices::variants(entry.keys).swap_remove(0));
+        if force.laws().iter().any(|law| law.wgsl.text.contains("world.dimensions")) {
+            let kernel = kernel(force.as_ref(), FEW, &machine);
+            stages.push(stage(&format!("{}, flat", entry.name), resting(device, machine, flat), kernel));
+        }
     }
 }
 
