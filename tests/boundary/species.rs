@@ -24,7 +24,14 @@ impl Force for Sorting {
             Ok(())
         };
         let wgsl = Source::ours("sorting", wgsl);
-        vec![Law { name: "sorting".into(), over: Over::Each, wgsl, params: Vec::new(), twin: Some(Arc::new(twin)) }]
+        vec![Law {
+            name: "sorting".into(),
+            over: Over::Each,
+            wgsl,
+            params: Vec::new(),
+            twin: Some(Arc::new(twin)),
+            reciprocal: false,
+        }]
     }
 }
 
