@@ -16,7 +16,7 @@ pub const KEYS: &[Key] = &[
     Key::new("range", Kind::Positive, Value::Number(1.0), "how far one sees, and one sees oneself [length]"),
     Key::new("speed", Kind::Positive, Value::Number(0.03), "the speed of everybody; v₀ of the paper is this times dt [length / time]"),
     Key::new("noise", Kind::NotNegative, Value::Number(2.0), "η: angular, the width of the random turn [0 to 2π]; vectorial, the length of the random arrow [0 to 1]"),
-    Key::new("kind", Kind::Choice(KINDS), Value::Text(Cow::Borrowed("angular")), "whether the noise turns the mean heading, or adds to the headings"),
+    Key::new("noise_kind", Kind::Choice(KINDS), Value::Text(Cow::Borrowed("angular")), "whether the noise turns the mean heading, or adds to the headings"),
     SEED,
     SEE_NEAR,
 ];
@@ -53,7 +53,7 @@ impl Force for Vicsek {
         Some(self.0.number("range"))
     }
     fn laws(&self) -> Vec<Law> {
-        let (speed, eta, vectorial) = (self.0.number("speed"), self.0.number("noise"), self.0.text("kind") == "vectorial");
+        let (speed, eta, vectorial) = (self.0.number("speed"), self.0.number("noise"), self.0.text("noise_kind") == "vectorial");
         let [low, high] = words(self.0.whole("seed"));
         let mut values = super::params(&self.0, &["speed"]);
         values.push(("eta".to_owned(), Scalar::Float(eta)));
