@@ -55,10 +55,7 @@ fn forces_are_gradients_or_depend_on_velocity() {
             others += 1;
             let later = World { time: TIME, dt: 0.01, step: 5, ..World::default() };
             let by_chance = felt(&force, &particles, later).0 != a;
-            assert!(
-                one_sided || by_chance || a != moved,
-                "{name}: no potential, although velocity is nothing to it"
-            );
+            assert!(one_sided || by_chance || a != moved, "{name}: no potential, although velocity is nothing to it");
             return;
         }
         gradients += 1;

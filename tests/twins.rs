@@ -85,7 +85,11 @@ fn every_law_alone() {
                     velocity.iter_mut().for_each(|v| *v *= glam::Vec4::splat(2.3).with_w(1.0));
                     simulation.write(VELOCITY, &velocity).expect("velocities");
                     // Alone in the world, nobody attracts; a few may be too far, or of other species.
-                    let idle = |v: &Verdict| v.field == "alarm" || overs.is_empty() && v.kernel == "clear" || if pairs { count == 1 } else { count < 63 };
+                    let idle = |v: &Verdict| {
+                        v.field == "alarm"
+                            || overs.is_empty() && v.kernel == "clear"
+                            || if pairs { count == 1 } else { count < 63 }
+                    };
                     judge(&verdicts(simulation.backend(), &plan, count, &of), count, &of, idle);
                 }
             }

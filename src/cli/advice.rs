@@ -119,7 +119,8 @@ pub fn advice(scene: &Scene, setup: &Setup) -> Result<Vec<String>, Error> {
         }
     }
     let name = scene.integrator.name;
-    for (force, its) in setup.forces.iter().map(|force| (force, force.integrators())).filter(|(_, its)| !its.is_empty()) {
+    for (force, its) in setup.forces.iter().map(|force| (force, force.integrators())).filter(|(_, its)| !its.is_empty())
+    {
         if !its.contains(&name) {
             let law = force.laws().first().map(|law| law.name.clone()).unwrap_or_default();
             remarks.push(format!("`{law}` is a rule for whole steps: it wants {}, not {name}", its.join(" or ")));

@@ -117,8 +117,12 @@ const SEE_NEAR: Key = Key::new(
     "who meets whom: everybody in range, by a grid or by force",
 );
 
-const SEED: Key =
-    Key::new("seed", crate::settings::Kind::Whole, Value::Number(1.0), "seed of the random numbers, counted by id and step");
+const SEED: Key = Key::new(
+    "seed",
+    crate::settings::Kind::Whole,
+    Value::Number(1.0),
+    "seed of the random numbers, counted by id and step",
+);
 
 /// The words of the seed, as shaders know them.
 fn seed(settings: &Settings) -> [(String, Scalar); 2] {
