@@ -11,7 +11,7 @@ use crate::kernel::{
     ACCELERATION, ALARM, ALARM_WORDS, Array, Backend, Element, Field, POSITION, SPECIES, VELOCITY, World,
 };
 use crate::particles::Particles;
-use crate::render::{self, Image, Picture};
+use crate::render::{self, Film, Image, Picture};
 
 /// The state at the end of a step.
 #[derive(Debug, Clone, PartialEq)]
@@ -62,7 +62,7 @@ impl<B: Backend> Simulation<B> {
         backend.write(POSITION.name, &Array::Vec4(position))?;
         backend.write(VELOCITY.name, &Array::Vec4(velocity))?;
         backend.write(ACCELERATION.name, &Array::Vec4(Vec::new()).zeros(count as usize))?;
-        backend.write(ALARM.name, &Array::Uint(vec![u32::MAX; ALARM_WORDS as usize]))?;
+        backend.write(ALARM.name, &Array::Uint(vec![u32::MAX; ALARM_WORDS]))?;
         let species = particles.species.clone();
         if plans.all().any(|plan| plan.fields(count).contains_key(SPECIES.name)) {
             backend.write(SPECIES.name, &Array::Uint(species.clone()))?;
@@ -114,7 +114,7 @@ impl<B: Backend> Simulation<B> {
     /// # Errors
     /// [`Error::NotFinite`] with the first particle and step, [`Error::Crowded`], or what reading says.
     pub async fn check(&mut self) -> Result<(), Error> {
-        let alarm = self.backend.read(ALARM.name, &Array::Uint(Vec::new()), ALARM_WORDS as usize).await?;
+        let alarm = self.backend.read(ALARM.name, &Array::Uint(Vec::new()), ALARM_WORDS).await?;
         match u32::view(&alarm).map(Vec::as_slice) {
             // The first look comes before the first step, every other one after a step that is done.
             Some([done, particle, _]) if *done != u32::MAX => {
@@ -155,13 +155,25 @@ impl<B: Backend> Simulation<B> {
     /// # Errors
     /// [`Error::Scene`] when the picture was made for another number of particles, or what drawing says.
     pub async fn draw(&mut self, picture: &Picture) -> Result<Image, Error> {
+        self.fits(picture)?;
+        render::draw(&mut self.backend, picture).await
+    }
+    /// Draws the current state as the next picture of a film.
+    ///
+    /// # Errors
+    /// As for [`Simulation::draw`].
+    pub async fn shoot(&mut self, film: &mut Film) -> Result<Image, Error> {
+        self.fits(film.picture())?;
+        render::shoot(&mut self.backend, film).await
+    }
+    fn fits(&self, picture: &Picture) -> Result<(), Error> {
         if picture.frame.count != self.count {
             let (made, have) = (picture.frame.count, self.count);
             return Err(Error::Scene(format!(
                 "a picture of {made} particles cannot be drawn of {have}: make a new one"
             )));
         }
-        render::draw(&mut self.backend, picture).await
+        Ok(())
     }
     /// One step, as `motes explain` prints it.
     #[must_use]

@@ -221,3 +221,42 @@ fn the_other_commands_print_what_they_promise() {
     assert!(bench["pairs"][0]["ratio"].as_f64() > Some(0.0) && bench["commit"].is_string());
     assert_eq!(bench["integrators"]["steps"].as_array().map(Vec::len), Some(motes::integrators::INTEGRATORS.len()));
 }
+
+#[test]
+fn a_box_is_shown_and_what_it_keeps_is_claimed() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let scene = path(&folder, "gas.toml");
+    let gas = "[simulation]\ndt = 0.1\nsteps = 20\n[box]\nlow = [-3, -3, -3]\nsize = [6, 6, 6]\n[[particles]]\nshape = \"box\"\n\
+                count = 20\nsize = [5, 5, 5]\nspeed = 3\nspecies = 2\n[[force]]\nkind = \"gravity\"\nsoftening = 0.5\n";
+    std::fs::write(&scene, gas).expect("written");
+    let shown = "box: x periodic from -3 to 3, y periodic from -3 to 3, z periodic from -3 to 3";
+    let (code, stdout, stderr) = output(&mut motes(&["explain", &scene, "--backend", "cpu"]));
+    assert!(code == 0 && stdout.contains(shown) && stdout.contains("drift | periodic | "), "{stdout}{stderr}");
+    let (code, stdout, stderr) = output(&mut motes(&["check", &scene, "--backend", "cpu"]));
+    assert!(code == 0 && stdout.contains(shown) && stdout.contains("no Ewald sum"), "{stdout}{stderr}");
+    let out = path(&folder, "out");
+    let run = |set: &[&str]| {
+        let mut args = vec!["run", &scene, "-o", &out, "--backend", "cpu", "--set", "output.formats=[\"csv\"]"];
+        args.extend(set.iter().flat_map(|value| ["--set", *value]));
+        let (code, stdout, stderr) = output(&mut motes(&args));
+        assert_eq!(code, 0, "{set:?}: {stderr}");
+        stdout
+    };
+    let periodic = run(&[]);
+    assert!(periodic.contains("momentum changed by") && !periodic.contains("angular"), "{periodic}");
+    assert!(periodic.contains(", error ") && !periodic.contains("not conserved"), "{periodic}");
+    let snapshot = text(&out, "snapshot_20.csv");
+    assert!(snapshot.starts_with("id,x,y,z,vx,vy,vz,mass,species\n0,") && snapshot.contains(",2\n"), "{snapshot}");
+    let reflecting = run(&["box.boundary=reflecting"]);
+    assert!(!reflecting.contains("momentum") && !reflecting.contains("not conserved"), "{reflecting}");
+    let open = run(&["box.boundary=open"]);
+    assert!(open.contains("angular momentum by"), "{open}");
+    // A weight that never ends: who falls through the floor comes in at the ceiling.
+    let weight = "force.0.acceleration=[0, 0, -1]";
+    let falling = gas.replace("kind = \"gravity\"\nsoftening = 0.5\n", "kind = \"uniform\"\n");
+    std::fs::write(&scene, falling).expect("written");
+    assert!(run(&[weight]).contains("not conserved"));
+    assert!(!run(&[weight, "box.z=reflecting"]).contains("not conserved"));
+    let (_, keys, _) = output(&mut motes(&["scenes", "--keys", "box"]));
+    assert!(["size", "low", "boundary", "dimensions"].iter().all(|key| keys.contains(key)), "{keys}");
+}

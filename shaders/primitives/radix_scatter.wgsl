@@ -21,21 +21,22 @@ fn radix_scatter(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) g
     let end = min(first + extent.block, extent.elements);
     if lane <= extent.mask { nexts[lane] = table[lane * extent.blocks + block]; }
     for (var start = first; start < end; start += TILE) {
-        for (var at = lane; at < TILE; at += WORKGROUP) {
+        for (var k = 0u; k < EACH; k++) {
+            let at = k * WORKGROUP + lane;
             // What lies behind the last key stays behind it.
             var own = 255u;
             if start + at < end { own = (keys[start + at] >> extent.shift) & extent.mask; }
             tile[at] = (own << 16u) | at;
         }
         workgroupBarrier();
-        split(16u, lane);
-        split(20u, lane);
+        for (var shift = 16u; shift <= 20u; shift += 4u) { split(shift, lane); }
         // Where each digit begins in the tile: the columns have done their work.
         for (var at = lane; at < TILE; at += WORKGROUP) {
-            if at == 0u || digit(max(at, 1u) - 1u) != digit(at) { columns[digit(at)] = at; }
+            if at == 0u || digit(at - 1u) != digit(at) { columns[digit(at)] = at; }
         }
         workgroupBarrier();
-        for (var at = lane; at < TILE; at += WORKGROUP) {
+        for (var k = 0u; k < EACH; k++) {
+            let at = k * WORKGROUP + lane;
             let old = start + (tile[at] & 0xffffu);
             if old < end {
                 let to = nexts[digit(at)] + at - columns[digit(at)];
@@ -45,7 +46,7 @@ fn radix_scatter(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) g
         }
         workgroupBarrier();
         for (var at = lane; at < TILE; at += WORKGROUP) {
-            if at + 1u == TILE || digit(min(at + 1u, TILE - 1u)) != digit(at) { nexts[digit(at)] += at + 1u - columns[digit(at)]; }
+            if at + 1u == TILE || digit(at + 1u) != digit(at) { nexts[digit(at)] += at + 1u - columns[digit(at)]; }
         }
         workgroupBarrier();
     }

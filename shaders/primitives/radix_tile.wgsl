@@ -1,6 +1,7 @@
 // A workgroup sorts a tile by four bits, stably: each invocation counts its own four items in a column of its own, and a
 // scan over the columns, digit by digit, says where each item goes (Satish, Harris, Garland 2009).
 const WORKGROUP: u32 = 256u;
+const EACH: u32 = 4u;
 const TILE: u32 = 1024u;
 
 // An item: its digit above, its place in the tile as it was loaded in the lower half.

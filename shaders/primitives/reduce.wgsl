@@ -17,11 +17,12 @@ fn reduce(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: 
     let end = min(first + extent.block, extent.elements);
     var total = neutral(extent.neutral);
     for (var i = first + lane; i < end; i += WORKGROUP) { total = combine(total, items[i]); }
-    parts[lane] = total;
-    for (var reach = WORKGROUP / 2u; reach > 0u; reach /= 2u) {
+    for (var width = WORKGROUP; width > 1u; width /= 2u) {
+        if lane < width { parts[lane] = total; }
         workgroupBarrier();
-        if lane < reach { parts[lane] = combine(parts[lane], parts[lane + reach]); }
+        let half = width / 2u;
+        if lane < half { total = combine(total, parts[lane + half]); }
     }
     // Of nothing the result is neutral.
-    if lane == 0u && (first < extent.elements || block == 0u) { results[block] = parts[0]; }
+    if lane == 0u && (first < extent.elements || block == 0u) { results[block] = total; }
 }

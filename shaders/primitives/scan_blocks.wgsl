@@ -4,5 +4,5 @@
 @compute @workgroup_size(WORKGROUP)
 fn scan_blocks(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let block = folded(group, groups);
-    if block * TILE < extent.elements { scan_tile(block * TILE, lane, sums[block]); }
+    scan_tile(block * TILE, lane, sums[block]);
 }

@@ -11,13 +11,11 @@ const WORKGROUP: u32 = 64u;
 fn scan_chunks(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let place = folded(group, groups) * WORKGROUP + lane;
     let first = place * extent.chunk;
-    if first < extent.elements {
-        let end = min(first + extent.chunk, extent.elements);
-        var before = sums[place];
-        for (var i = first; i < end; i++) {
-            let item = items[i];
-            items[i] = before;
-            before += item;
-        }
+    let end = min(first + extent.chunk, extent.elements);
+    var before = sums[place];
+    for (var i = first; i < end; i++) {
+        let item = items[i];
+        items[i] = before;
+        before += item;
     }
 }

@@ -19,10 +19,11 @@ fn scan_sums(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) group
         let i = block * TILE + k * WORKGROUP + lane;
         if i < extent.elements { total += items[i]; }
     }
-    totals[lane] = total;
-    for (var reach = WORKGROUP / 2u; reach > 0u; reach /= 2u) {
+    for (var width = WORKGROUP; width > 1u; width /= 2u) {
+        if lane < width { totals[lane] = total; }
         workgroupBarrier();
-        if lane < reach { totals[lane] += totals[lane + reach]; }
+        let half = width / 2u;
+        if lane < half { total += totals[lane + half]; }
     }
-    if lane == 0u && block * TILE < extent.elements { sums[block] = totals[0]; }
+    if lane == 0u && block * TILE < extent.elements { sums[block] = total; }
 }

@@ -18,8 +18,7 @@ fn place(i: u32) -> u32 { return i + i / EACH; }
 // Puts the exclusive sums of items[start ..] in their place, each with `before` added; gives what stands before the next tile.
 fn scan_tile(start: u32, lane: u32, before: u32) -> u32 {
     // Neighbours load neighbours.
-    for (var k = 0u; k < EACH; k++) {
-        let at = k * WORKGROUP + lane;
+    for (var at = lane; at < TILE; at += WORKGROUP) {
         var item = 0u;
         if start + at < extent.elements { item = items[start + at]; }
         tile[place(at)] = item;

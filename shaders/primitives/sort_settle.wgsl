@@ -1,5 +1,5 @@
 // Who was counted first is a race; this ends it: in each bin ids ascend. Each looks at all of its bin, and stands behind
-// those with lower ids. A bin of more than LARGEST stays as it is, and `largest` tells.
+// those with lower ids. A bin of more than LARGEST stays as it is, which would take too long, and `largest` tells.
 struct Extent { elements: u32, bins: u32 }
 
 @group(1) @binding(0) var<storage, read> keys: array<u32>;
@@ -10,8 +10,7 @@ struct Extent { elements: u32, bins: u32 }
 @group(2) @binding(1) var<storage, read> arrivals: array<u32>;
 
 const WORKGROUP: u32 = 64u;
-// A quarter of a billion looks, which a small GPU does in 0.1 s; 2048 turns of the loop.
-const LARGEST: u32 = 16384u;
+override LARGEST: u32 = 16384u;
 
 // 1 if the id in this slot is lower.
 fn lower(slot: u32, id: u32) -> u32 { return select(0u, 1u, arrivals[slot] < id); }
@@ -30,9 +29,10 @@ fn sort_settle(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gro
         if end - first <= LARGEST {
             place = first;
             var at = first;
-            for (; at + 8u <= end; at += 8u) {
+            while at + 8u <= end {
                 place += lower(at, id) + lower(at + 1u, id) + lower(at + 2u, id) + lower(at + 3u, id);
                 place += lower(at + 4u, id) + lower(at + 5u, id) + lower(at + 6u, id) + lower(at + 7u, id);
+                at += 8u;
             }
             for (; at < end; at++) { place += lower(at, id); }
         }

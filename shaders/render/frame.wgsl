@@ -21,6 +21,9 @@ struct Frame {
     line: f32,     // half the width of a trail [pixels]
     bloom: f32,    // brightness of the halo
     reach: u32,    // of the halo [pixels of it]
+    tail: f32,     // how long ago a stroke of light begins [time]
+    bleach: f32,   // how white the brightest lights become
+    ink: f32,      // how far particles darken a bright sky; 0 for lights in a dark one
 }
 @group(3) @binding(0) var<uniform> frame: Frame;
 

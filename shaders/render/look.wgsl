@@ -1,5 +1,6 @@
 // From light to looks:  t = log(1 + L / knee) / log(1 + white / knee)  (Drago et al. 2003, with a fixed base)
-struct Exposure { knee: f32, slope: f32 } // in canvas units; 1 / log2(1 + white / knee)
+// In canvas units; 1 / log2(1 + white / knee); how much darker ink is than light would be light.
+struct Exposure { knee: f32, slope: f32, body: f32 }
 
 @group(1) @binding(2) var<storage, read> projected: array<vec4f>; // pixels right and down, depth, radius
 @group(1) @binding(3) var<storage, read> color: array<u32>;
@@ -13,6 +14,9 @@ const WORKGROUP: u32 = 64u;
 const SHRINK: u32 = 4u;
 const LAMP: vec3f = vec3f(-0.48, 0.6, 0.64); // right, up, towards the eye; of length 1
 const HALFWAY: vec3f = vec3f(-0.265035, 0.331294, 0.905537); // between the lamp and the eye
+
+// Brightness of ink, for that of light.
+const TINT: f32 = 0.13;
 
 fn pow2(x: f32) -> f32 { return x * x; }
 
@@ -34,8 +38,16 @@ fn glow(light: vec3f) -> vec3f {
     let brightest = max(light.r, max(light.g, light.b));
     if brightest <= 0.0 { return vec3f(); }
     let t = exposure.slope * log2(1.0 + brightest / exposure.knee);
-    let bleach = clamp(t - 0.55, 0.0, 0.6);
+    let bleach = clamp(t - 0.55, 0.0, frame.bleach);
     return min(mix(light * (t / brightest), vec3f(t), bleach), vec3f(1.0));
+}
+
+// What is light on a dark sky is ink on a bright one, and keeps a breath of its hue.
+fn ink(under: vec3f, light: vec3f) -> vec3f {
+    let brightest = max(light.r, max(light.g, light.b));
+    if brightest <= 0.0 { return under; }
+    let t = exposure.slope * log2(1.0 + brightest / exposure.knee);
+    return mix(under, light * (TINT / brightest), frame.ink * min(exposure.body * t, 1.0));
 }
 
 // Two lights on one pixel never pass white.
@@ -46,8 +58,13 @@ fn look(i: u32, under: vec3f) -> vec3f {
     let place = middle(i32(i % frame.width), i32(i / frame.width));
     var c = under;
     if owner[i] != NOBODY { c = ball(c, owner[i], place); }
-    c = screen(c, glow(vec3f(f32(canvas[3u * i]), f32(canvas[3u * i + 1u]), f32(canvas[3u * i + 2u]))));
+    let light = vec3f(f32(canvas[3u * i]), f32(canvas[3u * i + 1u]), f32(canvas[3u * i + 2u]));
+    if frame.ink > 0.0 { c = ink(c, light); } else { c = screen(c, glow(light)); }
     let line = streak[i];
-    if line != 0u { c = screen(c, unpack4x8unorm(color[line & 0xffffu]).rgb * (f32(line >> 16u) / 65535.0)); }
+    if line != 0u {
+        let trail = unpack4x8unorm(color[line & 0xffffu]).rgb;
+        let bright = f32(line >> 16u) / 65535.0;
+        if frame.ink > 0.0 { c = mix(c, TINT * trail, frame.ink * bright); } else { c = screen(c, trail * bright); }
+    }
     return clamp(c, vec3f(0.0), vec3f(1.0));
 }

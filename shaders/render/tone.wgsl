@@ -2,13 +2,6 @@
 @group(3) @binding(7) var<storage, read_write> pixels: array<u32>; // red, green, blue, 255 from the lowest byte on
 @group(3) @binding(9) var<storage, read> halo: array<vec4f>;
 
-// A night sky, a little lighter in the middle.
-fn background(place: vec2f) -> vec3f {
-    let size = vec2f(f32(frame.width), f32(frame.height));
-    let off = place / size - 0.5;
-    return frame.sky * mix(vec3f(0.036, 0.043, 0.072), vec3f(0.008, 0.009, 0.018), clamp(2.0 * dot(off, off), 0.0, 1.0));
-}
-
 fn near(x: i32, y: i32) -> vec3f {
     let columns = i32((frame.width + SHRINK - 1u) / SHRINK);
     let rows = i32((frame.height + SHRINK - 1u) / SHRINK);

@@ -20,6 +20,7 @@ Exit codes:
 Examples:
   motes run galaxy
   motes run my.toml -o results --set simulation.dt=0.01
+  motes run galaxy --frames 240
   motes compare galaxy --steps 20";
 
 /// Particles moved by forces, on any GPU, checked against a second opinion in f64.
@@ -42,7 +43,7 @@ pub enum Command {
     Compare(CompareArgs),
     /// List the scenes that come with motes, or print one
     Scenes(ScenesArgs),
-    /// Measure interactions per second, beside a plain Rust loop on this processor
+    /// Measure steps of gravity and of searches for neighbours, beside plain Rust on this processor
     Bench(BenchArgs),
     /// List adapters and test what simulations rely on
     Doctor(DoctorArgs),
@@ -96,6 +97,12 @@ pub struct RunArgs {
     /// The folder for results [default: out/NAME]
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,
+    /// Take so many pictures, evenly spaced from the first state to the last, and join them to a film
+    #[arg(long, value_name = "N")]
+    pub frames: Option<u64>,
+    /// How many of them are shown in a second
+    #[arg(long, value_name = "N", default_value_t = 30, value_parser = clap::value_parser!(u16).range(1..=1000))]
+    pub fps: u16,
     /// Print events as lines of JSON on standard output
     #[arg(long, conflicts_with = "quiet")]
     pub json: bool,
@@ -134,8 +141,20 @@ pub struct ScenesArgs {
     pub keys: bool,
 }
 
+/// What is measured.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Topic {
+    /// All pairs, and the integrators
+    Gravity,
+    /// Searches for neighbours
+    Neighbors,
+}
+
 #[derive(Debug, ClapArgs)]
 pub struct BenchArgs {
+    /// What to measure; all, if it is left out
+    #[arg(value_enum)]
+    pub topic: Option<Topic>,
     /// The smallest number of bodies
     #[arg(long, value_name = "N", default_value_t = 1024)]
     pub from: u32,

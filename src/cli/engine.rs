@@ -68,7 +68,13 @@ pub async fn open(adapters: Vec<motes::wgpu::Adapter>, name: Option<&str>) -> Re
 
 /// Loads the scene of the arguments.
 pub fn load(args: &SceneArgs) -> Result<Scene, Failure> {
+    load_with(args, None)
+}
+
+/// The same, with one more value set.
+pub fn load_with(args: &SceneArgs, set: Option<String>) -> Result<Scene, Failure> {
     let mut overrides = args.overrides.clone();
+    overrides.extend(set);
     overrides.extend(args.steps.map(|n| format!("simulation.steps={n}")));
     overrides.extend(args.until.map(|t| format!("simulation.until={t:?}")));
     let options = Options { allow_outside: args.allow_outside, ..Options::default() };

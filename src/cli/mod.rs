@@ -17,7 +17,6 @@ macro_rules! note {
 
 mod advice;
 mod args;
-mod baseline;
 mod bench;
 mod check;
 mod compare;
@@ -25,12 +24,14 @@ mod doctor;
 mod engine;
 mod explain;
 mod failure;
+mod film;
 mod output;
 mod plot;
 mod progress;
 mod run;
 mod scenes;
 mod stop;
+mod table;
 
 use std::process::ExitCode;
 

@@ -14,6 +14,7 @@ use super::advice::{Conserved, advice, conserved};
 use super::args::RunArgs;
 use super::engine::{self, Engine};
 use super::failure::Failure;
+use super::film::Film;
 use super::output::Output;
 use super::progress::{Progress, duration, large};
 use super::stop::Stop;
@@ -27,7 +28,7 @@ const TRAIL: u64 = 1000;
 
 /// Runs a scene.
 pub async fn run(args: &RunArgs) -> Result<(), Failure> {
-    let mut scene = engine::load(&args.scene)?;
+    let mut scene = engine::load_with(&args.scene, args.frames.map(|n| format!("output.frames={n}")))?;
     let setup = engine::setup(&mut scene);
     let count = setup.check()?;
     let engine = Engine::choose(&args.scene.device).await?;
@@ -58,7 +59,10 @@ struct Run {
     scene: Scene,
     device: String,
     folder: PathBuf,
+    film: Option<Film>,
     count: usize,
+    /// How far somebody looks for company, if anybody does.
+    company: Option<f64>,
     /// What should stay as it is.
     conserved: Conserved,
     progress: Progress,
@@ -72,6 +76,7 @@ impl Run {
         let device = engine.describe();
         let count = setup.particles.len();
         let folder = args.output.clone().unwrap_or_else(|| PathBuf::from("out").join(&scene.name));
+        let film = Film::of(&scene, &folder, args.fps);
         progress.event(
             "start",
             json!({ "version": env!("CARGO_PKG_VERSION"), "scene": scene.name, "particles": count, "steps": scene.steps,
@@ -86,7 +91,9 @@ impl Run {
             progress.say(&format!("note: {remark}"));
             progress.event("remark", json!({ "text": remark }));
         }
-        Ok(Self { conserved: conserved(setup)?, scene, device, folder, count, progress, stop: Stop::listen() })
+        let company = setup.forces.iter().find_map(|force| force.company());
+        let (conserved, stop) = (conserved(setup)?, Stop::listen());
+        Ok(Self { conserved, scene, device, folder, film, count, company, progress, stop })
     }
 
     async fn drive<B: Backend>(&mut self, mut simulation: Simulation<B>, precision: Precision) -> Result<(), Failure> {
@@ -95,16 +102,18 @@ impl Run {
             self.progress.say(&format!("note: {text}"));
             self.progress.event("remark", json!({ "text": text }));
         }
-        let mut output = Output::new(&self.folder, &self.scene, self.count, precision, &self.device)?;
+        let mut output = Output::new(&self.folder, &self.scene, self.count, self.company, precision, &self.device)?;
         let (steps, every) = (self.scene.steps, self.scene.output.every);
         let mut image = self.write(&mut simulation, &mut output).await?;
+        self.shoot(&mut simulation, &output).await?;
         let (mut batch, mut stepping) = (1, Duration::ZERO);
         let (mut looked, mut look) = (Instant::now(), Duration::ZERO);
         while simulation.steps() < steps && !self.stop.asked() {
             let done = simulation.steps();
             let next = ((done / every + 1) * every).min(steps);
+            let frame = self.film.as_ref().and_then(Film::next).unwrap_or(steps);
             let most = if output.trail.wanted() { (steps / TRAIL).max(1) } else { u64::MAX };
-            let some = u32::try_from((next - done).min(batch).min(most)).unwrap_or(u32::MAX);
+            let some = u32::try_from((next.min(frame) - done).min(batch).min(most)).unwrap_or(u32::MAX);
             let start = Instant::now();
             simulation.step(some)?;
             // Looking waits for the batch, and finds what broke in it.
@@ -134,12 +143,27 @@ impl Run {
                 self.progress.energy(&row, &output.first());
                 (looked, look) = (Instant::now(), start.elapsed());
             }
+            self.shoot(&mut simulation, &output).await?;
         }
         // Ctrl-C may come at any time: what is written last is what was done last.
         if output.rows().last().is_none_or(|row| row.step != simulation.steps()) {
             image = self.write(&mut simulation, &mut output).await?;
         }
-        self.conclude(simulation.steps(), &output, stepping, image.as_ref())
+        let steps = simulation.steps();
+        if let Some(film) = &mut self.film {
+            film.develop(&mut simulation, &output, &self.progress).await?;
+        }
+        self.conclude(steps, &output, stepping, image.as_ref())
+    }
+
+    /// Takes the present state for the film, if it is one of its frames.
+    async fn shoot<B: Backend>(&mut self, simulation: &mut Simulation<B>, output: &Output) -> Result<(), Failure> {
+        match &mut self.film {
+            Some(film) if film.next() == Some(simulation.steps()) => {
+                film.shoot(simulation, output, &self.progress).await
+            }
+            _ => Ok(()),
+        }
     }
 
     /// Measures and writes the present state. Gives the picture, where pictures are wanted.
@@ -149,7 +173,7 @@ impl Run {
         output: &mut Output,
     ) -> Result<Option<Image>, Failure> {
         let snapshot = simulation.snapshot().await?;
-        output.measure(Measure::of(&snapshot))?;
+        output.measure(&snapshot)?;
         output.snapshot(&snapshot)?;
         if snapshot.step == 0 {
             output.trail.push(&snapshot.particles.position);
@@ -182,6 +206,7 @@ impl Run {
                 self.progress.say(&format!("note: {few} of {all} particles are outside of the last picture"));
             }
         }
+        let film = self.film.as_ref().map_or_else(|| Ok(Vec::new()), |film| film.join(&self.progress))?;
         let stopped = steps < self.scene.steps;
         let rate = steps as f64 / stepping.as_secs_f64().max(1e-9);
         let (first, last) = (output.first(), output.rows().last().copied().unwrap_or_default());
@@ -190,7 +215,7 @@ impl Run {
             "finish",
             json!({ "steps": steps, "stopped": stopped, "seconds": took.as_secs_f64(), "stepping_seconds": stepping.as_secs_f64(), "steps_per_second": rate,
                 "energy": last.total(), "energy_error": last.drift_from(&first), "worst_energy_error": worst,
-                "output": output.folder() }),
+                "order": output.company().map(|(_, last)| last.order), "output": output.folder() }),
         );
         let say = |text: String| self.progress.conclude(&text);
         if stopped {
@@ -212,12 +237,26 @@ impl Run {
             let turning = if self.conserved.angular_momentum { &turning } else { "" };
             say(format!("momentum changed by {:.1e}{turning}", p.length()));
         }
+        if let Some((first, last)) = output.company() {
+            say(format!(
+                "order {:.3} → {:.3}, {:.1} → {:.1} neighbours each, {} → {} clusters, the largest {:.0} % of all",
+                first.order,
+                last.order,
+                first.neighbors,
+                last.neighbors,
+                first.clusters,
+                last.clusters,
+                100.0 * last.largest
+            ));
+        }
+        let tables = if output.company().is_some() { "energy.csv, flock.csv" } else { "energy.csv" };
         let picture = if output.pictures() { format!("{}.png, ", self.scene.name) } else { String::new() };
         say(format!(
-            "results in {}: {picture}energy.csv, energy.svg, scene.toml, {} states",
+            "results in {}: {picture}{tables}, energy.svg, scene.toml, {} states",
             output.folder().display(),
             output.rows().len()
         ));
+        film.into_iter().for_each(&say);
         if stopped { Err(Failure::Stopped) } else { Ok(()) }
     }
 }

@@ -54,6 +54,9 @@ impl Boids {
 }
 
 impl Force for Boids {
+    fn company(&self) -> Option<f64> {
+        Some(self.0.number("range"))
+    }
     fn laws(&self) -> Vec<Law> {
         let number = |name| self.0.number(name);
         let weights = ["separation", "alignment", "cohesion"].map(number);

@@ -49,6 +49,9 @@ fn heading(v: DVec3) -> DVec2 {
 }
 
 impl Force for Vicsek {
+    fn company(&self) -> Option<f64> {
+        Some(self.0.number("range"))
+    }
     fn laws(&self) -> Vec<Law> {
         let (speed, eta, vectorial) = (self.0.number("speed"), self.0.number("noise"), self.0.text("kind") == "vectorial");
         let [low, high] = words(self.0.whole("seed"));

@@ -1,8 +1,10 @@
-//! Particles from and to files: CSV, Tipsy and NPZ, reader and writer of a format together.
+//! Particles from and to files: CSV, Tipsy and NPZ, reader and writer of a format together; and pictures joined to films.
 //!
 //! Readers check every count against the size of the file before they reserve memory for it, and report all that is wrong
 //! with a file at once. Writers go through [`atomically`], so that a file is either whole or not there.
 
+#[cfg(feature = "scene")]
+pub mod apng;
 mod archive;
 mod atomic;
 pub mod csv;

@@ -102,6 +102,10 @@ impl Bounds {
     /// between two that are as near, both are to choose the same.
     #[must_use]
     pub fn shortest(&self, r: DVec3) -> DVec3 {
+        // The twins ask for every pair.
+        if !self.has(Side::Periodic) {
+            return r;
+        }
         r - self.period() * self.turns(r.as_vec3()).as_dvec3()
     }
     /// Whether an image is within a range, by the device's own arithmetic, operation by operation in single precision:

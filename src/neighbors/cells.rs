@@ -54,10 +54,30 @@ impl Cells {
         }
         Self { grid: grid.clone(), bounds, homes, starts, ids }
     }
+    /// How many others are in the cells around a particle, on average: what a search looks at.
+    #[must_use]
+    pub fn candidates(&self) -> f64 {
+        let mut total = 0_u64;
+        for i in 0..self.homes.len() {
+            self.rows(self.homes[i], |ids| total += ids.len() as u64);
+        }
+        total as f64 / self.homes.len().max(1) as f64 - 1.0
+    }
     /// Calls with the id of everybody else that is within the range of a particle. Searches are for particles within
     /// some thousand cells of the grid's corner; further away, where rounding is wider than a cell's slack, one may be missed.
     pub fn around(&self, i: usize, mut call: impl FnMut(usize)) {
         let home = self.homes[i];
+        self.rows(home, |ids| {
+            for &j in ids {
+                let r = (self.homes[j as usize] - home).as_dvec3();
+                if j as usize != i && self.bounds.within(r, self.grid.range) {
+                    call(j as usize);
+                }
+            }
+        });
+    }
+    /// Calls with the ids of each cell around a place.
+    fn rows(&self, home: Vec3, mut call: impl FnMut(&[u32])) {
         let [nx, ny, nz] = self.grid.cells.map(i64::from);
         let c = place(&self.grid, &self.bounds, home);
         let span = |n: i64| if n < 3 { 0..n } else { -1..2 };
@@ -66,12 +86,7 @@ impl Cells {
                 for x in span(nx) {
                     let [x, y, z] = [(c[0] + x).rem_euclid(nx), (c[1] + y).rem_euclid(ny), (c[2] + z).rem_euclid(nz)];
                     let key = usize::try_from(x + nx * (y + ny * z)).unwrap_or(0);
-                    for &j in &self.ids[self.starts[key] as usize..self.starts[key + 1] as usize] {
-                        let r = (self.homes[j as usize] - home).as_dvec3();
-                        if j as usize != i && self.bounds.within(r, self.grid.range) {
-                            call(j as usize);
-                        }
-                    }
+                    call(&self.ids[self.starts[key] as usize..self.starts[key + 1] as usize]);
                 }
             }
         }

@@ -54,6 +54,11 @@ impl Camera {
         camera
     }
 
+    /// The same view of so many times as much.
+    #[must_use]
+    pub fn wider(self, factor: f64) -> Self {
+        Self { extent: self.extent * factor, distance: self.distance * factor, ..self }
+    }
     fn reach(&mut self, extent: f64, perspective: bool) {
         self.extent = extent;
         self.distance = if perspective { extent / HALF_VIEW } else { 0.0 };
@@ -183,5 +188,33 @@ mod tests {
                 assert!((0.75..0.9).contains(&filled), "{projection} {past}: {filled}");
             }
         }
+    }
+    #[test]
+    fn a_box_that_is_closed_all_round_is_all_in_the_picture() {
+        let settings = Settings::defaults(super::super::KEYS);
+        let (low, high) = (DVec3::new(3.0, -1.0, 2.0), DVec3::new(9.0, 4.0, 5.0));
+        for flat in [false, true] {
+            let (low, high) = if flat { (low.with_z(7.0), high.with_z(7.0)) } else { (low, high) };
+            let bounds = Bounds::new(low, high, Side::Reflecting);
+            let framed = framed(&settings, &bounds);
+            let mut particles = Particles::default();
+            particles.push(DVec3::ZERO, DVec3::ZERO, 1.0, 0.0);
+            // Whatever the particles.
+            let camera = Camera::fit(&particles, &Trail::new(0), &framed);
+            let mut fullest = 0.0_f64;
+            for corner in 0..8_u8 {
+                let pick = |bit: u8, low: f64, high: f64| if corner >> bit & 1 == 1 { high } else { low };
+                let z = if flat { 0.0 } else { pick(2, low.z, high.z) };
+                let r = DVec3::new(pick(0, low.x, high.x), pick(1, low.y, high.y), z) - camera.center;
+                let near = r.dot(camera.back) / camera.distance;
+                let across = r.dot(camera.right).abs() * 720.0 / 1280.0;
+                fullest = fullest.max(across.max(r.dot(camera.up).abs()) / (1.0 - near) / camera.extent);
+            }
+            assert!((0.75..0.9).contains(&fullest), "{fullest}");
+            let pipe = Bounds { sides: [Side::Periodic, Side::Open, Side::Periodic], ..bounds };
+            assert_eq!(super::framed(&settings, &pipe), settings);
+        }
+        let own = settings.with("auto_frame", Value::Flag(false));
+        assert_eq!(super::framed(&own, &Bounds::new(low, high, Side::Periodic)), own);
     }
 }

@@ -25,7 +25,16 @@ pub struct Image {
 /// # Errors
 /// When the picture does not fit the device, or the device is lost, out of memory or does not answer in time.
 pub async fn draw<B: Backend>(backend: &mut B, picture: &Picture) -> Result<Image, Error> {
-    let image = attempt(backend, picture).await;
+    exposed(backend, picture, |metered| metered).await
+}
+
+/// The same with an exposure of the caller's choice; what was metered is a proposal.
+pub(super) async fn exposed<B: Backend>(
+    backend: &mut B,
+    picture: &Picture,
+    choose: impl FnOnce(Exposure) -> Exposure,
+) -> Result<Image, Error> {
+    let image = attempt(backend, picture, choose).await;
     // The next picture may have another size.
     for field in OWN {
         backend.forget(field);
@@ -33,7 +42,11 @@ pub async fn draw<B: Backend>(backend: &mut B, picture: &Picture) -> Result<Imag
     image
 }
 
-async fn attempt<B: Backend>(backend: &mut B, picture: &Picture) -> Result<Image, Error> {
+async fn attempt<B: Backend>(
+    backend: &mut B,
+    picture: &Picture,
+    choose: impl FnOnce(Exposure) -> Exposure,
+) -> Result<Image, Error> {
     let frame = &picture.frame;
     let expose = backend.compile(&picture.plan()?)?;
     if let Color::Given(colors) = &picture.color {
@@ -44,7 +57,7 @@ async fn attempt<B: Backend>(backend: &mut B, picture: &Picture) -> Result<Image
     }
     backend.run(&expose, 1)?;
     let histogram = words(backend, HISTOGRAM.name, super::frame::BINS).await?;
-    let exposure = Exposure::of(&histogram, frame, picture.exposure);
+    let exposure = choose(Exposure::of(&histogram, frame, picture.exposure));
     let develop = backend.compile(&picture.development(exposure)?)?;
     backend.run(&develop, 1)?;
     let missed = words(backend, MISSED.name, 2).await?;

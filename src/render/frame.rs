@@ -80,6 +80,12 @@ pub struct Frame {
     pub bloom: f64,
     /// How far the halo reaches \[pixels of it\].
     pub reach: u32,
+    /// How long ago the stroke of light of each particle begins \[time\]; zero for a light without one.
+    pub tail: f64,
+    /// How white the brightest lights become, as a part of all of it.
+    pub bleach: f64,
+    /// How far particles darken a bright sky, as a part of all of it; zero for lights in a dark one.
+    pub ink: f64,
 }
 
 /// Where a place is seen.
@@ -126,7 +132,7 @@ impl Frame {
     pub(super) fn pixel(&self, x: u32, y: u32) -> usize {
         y as usize * self.width as usize + x as usize
     }
-    fn values(&self) -> [(&'static str, Scalar); 21] {
+    fn values(&self) -> [(&'static str, Scalar); 24] {
         let camera = &self.camera;
         let float = Scalar::Float;
         [
@@ -151,6 +157,9 @@ impl Frame {
             ("line", float(self.line)),
             ("bloom", float(self.bloom)),
             ("reach", Scalar::Uint(self.reach)),
+            ("tail", float(self.tail)),
+            ("bleach", float(self.bleach)),
+            ("ink", float(self.ink)),
         ]
     }
     /// Elements of the fields that do not have one for each particle.

@@ -15,7 +15,7 @@ pub fn kernel(frame: &Frame, exposure: Exposure) -> Result<Kernel, Error> {
     let threads = Threads::new(columns * rows);
     let files = [crate::shader!("render/look.wgsl"), crate::shader!("render/shrink.wgsl")];
     let mut shrink = frame.pass(&files, threads, u64::from(4 * SHRINK * SHRINK))?;
-    expose(&mut shrink, exposure)?;
+    expose(&mut shrink, frame, exposure)?;
     let across = frame.pass(&[crate::shader!("render/blur.wgsl")], threads, 2 * u64::from(frame.reach) + 1)?;
     let mut down = across.clone();
     down.constants = vec![("DOWN", 1.0)];

@@ -7,16 +7,24 @@ use super::frame::{CANVAS, COLOR, Frame, NOBODY, OWNER, PROJECTED, STREAK, middl
 use crate::error::Error;
 use crate::kernel::{Host, Pass, Scalar};
 
+const TINT: f64 = 0.13;
 const LAMP: DVec3 = DVec3::new(-0.48, 0.6, 0.64);
 const HALFWAY: DVec3 = DVec3::new(-0.265_035, 0.331_294, 0.905_537);
 
 /// Fills the uniform block of `shaders/render/look.wgsl`.
-pub fn expose(pass: &mut Pass, exposure: Exposure) -> Result<(), Error> {
+pub fn expose(pass: &mut Pass, frame: &Frame, exposure: Exposure) -> Result<(), Error> {
     if let Some(binding) = pass.shader.reflection().binding("exposure") {
-        let values = [("knee", Scalar::Float(exposure.knee)), ("slope", Scalar::Float(exposure.slope()))];
+        let values = [("knee", exposure.knee), ("slope", exposure.slope()), ("body", body(frame, exposure))];
+        let values = values.map(|(name, x)| (name, Scalar::Float(x)));
         pass.uniforms.push(("exposure", binding.packed.pack("exposure", &values)?));
     }
     Ok(())
+}
+
+/// How much darker ink is than light would be light. Where birds are alone each is to be seen; where many are on one pixel,
+/// how many.
+fn body(frame: &Frame, exposure: Exposure) -> f64 {
+    1.0 + 0.7 * frame.unit / exposure.white
 }
 
 /// The fields that are looked at.
@@ -55,12 +63,38 @@ impl Look<'_> {
             c = ball(c, color, (middle(x, y) - p.truncate().truncate()) / p.w, p.w);
         }
         let light = DVec3::from_array([0, 1, 2].map(|k| f64::from(self.canvas[3 * at + k])));
-        c = screen(c, glow(light, self.exposure));
+        c = if self.frame.ink > 0.0 { self.ink(c, light) } else { screen(c, self.glow(light)) };
         let streak = self.streak[at];
         if streak != 0 {
-            c = screen(c, unpack(self.color[(streak & 0xffff) as usize]) * (f64::from(streak >> 16) / 65535.0));
+            let trail = unpack(self.color[(streak & 0xffff) as usize]);
+            let bright = f64::from(streak >> 16) / 65535.0;
+            let ink = self.frame.ink;
+            c = if ink > 0.0 { c.lerp(TINT * trail, ink * bright) } else { screen(c, trail * bright) };
         }
         c.clamp(DVec3::ZERO, DVec3::ONE)
+    }
+    /// A brightness on the canvas, as one on the screen.
+    fn toned(&self, brightest: f64) -> f64 {
+        self.exposure.slope() * (1.0 + brightest / self.exposure.knee).log2()
+    }
+    fn glow(&self, light: DVec3) -> DVec3 {
+        let brightest = light.max_element();
+        if brightest <= 0.0 {
+            return DVec3::ZERO;
+        }
+        let t = self.toned(brightest);
+        let bleach = (t - 0.55).clamp(0.0, self.frame.bleach);
+        (light * (t / brightest)).lerp(DVec3::splat(t), bleach).min(DVec3::ONE)
+    }
+    fn ink(&self, under: DVec3, light: DVec3) -> DVec3 {
+        let brightest = light.max_element();
+        if brightest <= 0.0 {
+            return under;
+        }
+        under.lerp(
+            light * (TINT / brightest),
+            self.frame.ink * (body(&self.frame, self.exposure) * self.toned(brightest)).min(1.0),
+        )
     }
 }
 
@@ -71,16 +105,6 @@ fn ball(under: DVec3, color: DVec3, d: DVec2, radius: f64) -> DVec3 {
     let shine = normal.dot(HALFWAY).max(0.0).powi(32);
     let shade = color * (0.16 + 0.84 * lit) + 0.35 * shine;
     under.lerp(shade, (radius + 0.5 - radius * rho.sqrt()).clamp(0.0, 1.0))
-}
-
-fn glow(light: DVec3, exposure: Exposure) -> DVec3 {
-    let brightest = light.max_element();
-    if brightest <= 0.0 {
-        return DVec3::ZERO;
-    }
-    let t = exposure.slope() * (1.0 + brightest / exposure.knee).log2();
-    let bleach = (t - 0.55).clamp(0.0, 0.6);
-    (light * (t / brightest)).lerp(DVec3::splat(t), bleach).min(DVec3::ONE)
 }
 
 /// Two lights on one pixel never pass white.

@@ -61,6 +61,12 @@ impl Exposure {
         let knee = (middle / 2.5).min(0.5 * frame.unit);
         Self { knee: knee.max(1e-3 * white) / exposure, white: white / exposure }
     }
+    /// Part of the way to another exposure, in f-stops: 0 is this one, 1 the other.
+    #[must_use]
+    pub fn toward(self, other: Self, part: f64) -> Self {
+        let between = |a: f64, b: f64| a.powf(1.0 - part) * b.powf(part);
+        Self { knee: between(self.knee, other.knee), white: between(self.white, other.white) }
+    }
     /// 1 / log₂(1 + white / knee)
     #[must_use]
     pub fn slope(&self) -> f64 {

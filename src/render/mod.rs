@@ -7,8 +7,10 @@ mod blank;
 mod camera;
 mod cover;
 mod draw;
+mod film;
 mod frame;
 mod halo;
+mod heading;
 mod look;
 mod meter;
 mod paint;
@@ -17,13 +19,16 @@ mod picture;
 #[cfg(feature = "scene")]
 mod png;
 mod project;
+mod sky;
 mod splat;
 mod streak;
+mod stroke;
 mod tone;
 mod trail;
 
 pub use camera::{Camera, framed};
 pub use draw::{Image, draw};
+pub use film::{Film, shoot};
 pub use frame::Frame;
 pub use meter::Exposure;
 pub use palette::{Color, group_color, pack};

@@ -23,7 +23,8 @@ pub fn kernel(frame: &Frame) -> Result<Kernel, Error> {
     Ok(frame.kernel("paint", vec![pass], twin))
 }
 
-fn rounded(rgb: DVec3) -> u32 {
+/// The nearest of all colours of three bytes.
+pub(super) fn rounded(rgb: DVec3) -> u32 {
     let byte = |x: f64| u8::try_from(whole((x.clamp(0.0, 1.0) * 255.0 + 0.5).floor())).unwrap_or(u8::MAX);
     pack([byte(rgb.x), byte(rgb.y), byte(rgb.z)])
 }

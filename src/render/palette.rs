@@ -30,6 +30,8 @@ pub enum Color {
         /// The bright end.
         fast: f64,
     },
+    /// Where it is heading: the hue by the angle in the plane of x and y, the lightness by the climb along z.
+    Heading,
 }
 
 /// Red in the lowest byte.
@@ -53,6 +55,7 @@ impl Color {
         let by_speed = match settings.text("color") {
             "speed" => true,
             "group" => false,
+            "heading" => return Self::Heading,
             _ => !several && !few,
         };
         if by_speed {

@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::camera::FEW;
 use super::meter::Exposure;
 use super::{Camera, Color, Frame, Trail};
-use super::{blank, cover, halo, meter, paint, project, splat, streak, tone};
+use super::{blank, cover, halo, heading, meter, paint, project, splat, streak, stroke, tone};
 use crate::error::Error;
 use crate::kernel::Plan;
 use crate::particles::Particles;
@@ -33,7 +33,7 @@ pub const KEYS: &[Key] = &[
         "auto_frame",
         Kind::Flag,
         Value::Flag(true),
-        "look at all particles but the outermost, and at their trails; each picture by itself",
+        "look at all particles but the outermost, and at their trails; each picture by itself, a film once",
     ),
     Key::new("center", Kind::Vector, Value::Vector(DVec3::ZERO), "what to look at, without auto_frame [length]"),
     Key::new(
@@ -50,9 +50,15 @@ pub const KEYS: &[Key] = &[
     ),
     Key::new(
         "color",
-        Kind::Choice(&["auto", "group", "speed"]),
+        Kind::Choice(&["auto", "group", "speed", "heading"]),
         word("auto"),
-        "by group of particles, by speed, or by speed where many are one group",
+        "by group of particles, by speed, by heading (hue round the z axis, lighter upwards); auto: by speed where many are one group",
+    ),
+    Key::new(
+        "tail",
+        Kind::NotNegative,
+        Value::Number(0.0),
+        "draw each particle as a stroke of light from where it was so long ago [time]",
     ),
     Key::new(
         "exposure",
@@ -60,7 +66,12 @@ pub const KEYS: &[Key] = &[
         Value::Number(1.0),
         "brightness of lights, as a multiple of the automatic one",
     ),
-    Key::new("background", Kind::Choice(&["night", "black"]), word("night"), "a dark blue sky, or nothing"),
+    Key::new(
+        "background",
+        Kind::Choice(&["night", "black", "dusk"]),
+        word("night"),
+        "a dark blue sky; nothing; or a bright sky at dusk, with lights and trails as ink",
+    ),
 ];
 
 /// A picture of so many particles, from one place. It can be drawn again and again as they move.
@@ -101,6 +112,8 @@ impl Picture {
         let count = u32::try_from(particles.len()).ok().filter(|n| *n > 0);
         let count = count.ok_or_else(|| Error::Scene("a picture needs one or more particles".to_owned()))?;
         let (few, style) = (particles.len() <= FEW, settings.text("style"));
+        let background = settings.text("background");
+        let dusk = background == "dusk";
         let color = Color::choose(settings, particles, groups);
         let camera = Camera::fit(particles, &trail, settings);
         let short = width.min(height);
@@ -121,16 +134,30 @@ impl Picture {
                 "balls" => 0.0,
                 _ => solid(particles, 0.5 * height / camera.extent, few),
             },
-            glow: (0.4 * (width * height / f64::from(count)).sqrt()).clamp(1.5, (short / 150.0).max(1.5)),
+            glow: {
+                // A stroke has more pixels than a point, and would run into the next one.
+                let part = if settings.number("tail") > 0.0 { 0.28 } else { 0.4 };
+                (part * (width * height / f64::from(count)).sqrt()).clamp(1.5, (short / 150.0).max(1.5))
+            },
             unit: unit(count),
             speeds: if let Color::Speed { slow, fast } = color { (slow, fast) } else { (0.0, 1.0) },
-            points: u32::try_from(trail.points().count()).unwrap_or(0),
-            sky: if settings.text("background") == "black" { 0.0 } else { 1.0 },
+            points: points(&trail),
+            sky: if background == "black" { 0.0 } else { 1.0 },
             line: (short / 800.0).max(0.5),
-            bloom: 1.8,
+            // A bright sky outshines every halo.
+            bloom: if dusk { 0.0 } else { 1.8 },
             reach: super::frame::whole(short / 48.0).max(1),
+            tail: settings.number("tail"),
+            // White has no hue to say where it is heading.
+            bleach: if color == Color::Heading { 0.2 } else { 0.6 },
+            ink: if dusk { 0.94 } else { 0.0 },
         };
         Ok(Self { frame, color, trail, exposure: settings.number("exposure") })
+    }
+    /// The same picture with other trails.
+    pub fn retrace(&mut self, trail: Trail) {
+        self.frame.points = points(&trail);
+        self.trail = trail;
     }
     /// From particles to light: what runs before the exposure is known.
     ///
@@ -140,13 +167,16 @@ impl Picture {
         let mut plan = Plan::default();
         plan.add(blank::kernel(&self.frame)?);
         plan.add(project::kernel(&self.frame)?);
-        if let Color::Speed { .. } = self.color {
-            plan.add(paint::kernel(&self.frame)?);
+        match self.color {
+            Color::Speed { .. } => plan.add(paint::kernel(&self.frame)?),
+            Color::Heading => plan.add(heading::kernel(&self.frame)?),
+            Color::Given(_) => {}
         }
         if self.frame.solid < NEVER {
             plan.add(cover::kernel(&self.frame)?);
         }
-        plan.add(splat::kernel(&self.frame)?);
+        let lights = if self.frame.tail > 0.0 { stroke::kernel } else { splat::kernel };
+        plan.add(lights(&self.frame)?);
         if self.frame.points > 0 {
             plan.add(streak::kernel(&self.frame)?);
         }
@@ -159,10 +189,17 @@ impl Picture {
     /// When a shader does not compile.
     pub fn development(&self, exposure: Exposure) -> Result<Plan, Error> {
         let mut plan = Plan::default();
-        plan.add(halo::kernel(&self.frame, exposure)?);
+        // Without light there is none to spread: what a device has not written is zero.
+        if self.frame.bloom > 0.0 {
+            plan.add(halo::kernel(&self.frame, exposure)?);
+        }
         plan.add(tone::kernel(&self.frame, exposure)?);
         Ok(plan)
     }
+}
+
+fn points(trail: &Trail) -> u32 {
+    u32::try_from(trail.points().count()).unwrap_or(0)
 }
 
 /// A power of two, so that it is the same on the device, and small enough that the lights of all particles on one pixel

@@ -3,19 +3,21 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::frame::{Frame, HALO, PIXELS, middle, whole};
+use super::frame::{Frame, HALO, PIXELS, whole};
 use super::halo::between;
 use super::look::{Look, expose, screen};
 use super::meter::Exposure;
 use super::palette::pack;
+use super::sky::background;
 use crate::error::Error;
 use crate::kernel::{Host, Kernel, Threads};
 
 /// The kernel.
 pub fn kernel(frame: &Frame, exposure: Exposure) -> Result<Kernel, Error> {
-    let files = [crate::shader!("render/look.wgsl"), crate::shader!("render/tone.wgsl")];
+    let files =
+        [crate::shader!("render/look.wgsl"), crate::shader!("render/sky.wgsl"), crate::shader!("render/tone.wgsl")];
     let mut pass = frame.pass(&files, Threads::new(frame.area()), 8)?;
-    expose(&mut pass, exposure)?;
+    expose(&mut pass, frame, exposure)?;
     let frame = *frame;
     let twin = move |host: &Host| {
         let (halo, mut pixels) = (host.read(HALO)?, host.write(PIXELS)?);
@@ -32,12 +34,6 @@ pub fn kernel(frame: &Frame, exposure: Exposure) -> Result<Kernel, Error> {
         })
     };
     Ok(frame.kernel("tone", vec![pass], twin))
-}
-
-fn background(frame: &Frame, x: u32, y: u32) -> DVec3 {
-    let off = middle(x, y) / frame.size() - 0.5;
-    let (inner, outer) = (DVec3::new(0.036, 0.043, 0.072), DVec3::new(0.008, 0.009, 0.018));
-    frame.sky * inner.lerp(outer, (2.0 * off.length_squared()).clamp(0.0, 1.0))
 }
 
 /// A number in [0, 1).

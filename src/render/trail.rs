@@ -50,6 +50,18 @@ impl Trail {
     pub fn moments(&self) -> usize {
         self.points.len() / self.count.max(1)
     }
+    /// How often it was pushed.
+    #[must_use]
+    pub fn pushes(&self) -> u64 {
+        self.pushes
+    }
+    /// What there was of it after so many pushes.
+    #[must_use]
+    pub fn until(&self, pushes: u64) -> Self {
+        let moments = usize::try_from(pushes.div_ceil(self.stride.max(1))).unwrap_or(usize::MAX).min(self.moments());
+        let points = self.points[..moments * self.count].to_vec();
+        Self { points, pushes: pushes.min(self.pushes), count: self.count, stride: self.stride }
+    }
     /// All points: all particles at the first moment, at the second, and so on.
     pub fn points(&self) -> impl Iterator<Item = DVec3> {
         self.points.iter().copied()
@@ -77,6 +89,25 @@ mod tests {
         // Whole numbers, exact in f64.
         assert!(first.windows(2).all(|w| (w[1] - w[0]).to_bits() == stride.to_bits()), "{stride}");
         assert!(first[first.len() - 1] > 50_000.0 - 2.0 * stride);
+    }
+    #[test]
+    fn what_was_there_earlier_ends_there() {
+        let mut trail = Trail::new(2);
+        let mut earlier = Vec::new();
+        for i in 0..100 {
+            trail.push(&[DVec3::splat(f64::from(i)), DVec3::splat(f64::from(i) + 0.5)]);
+            earlier.push(trail.clone());
+        }
+        for (i, then) in (1..).zip(&earlier) {
+            assert!(trail.until(i) == *then);
+        }
+        assert!((trail.until(0).moments(), trail.until(1000)) == (0, trail.clone()));
+        for i in 100..5000 {
+            trail.push(&[DVec3::splat(f64::from(i)); 2]);
+        }
+        // Every fourth moment is left; of the first ten pushes, those of 0, 4 and 8.
+        let last = trail.until(10).points().last();
+        assert_eq!((trail.until(10).moments(), last), (3, Some(DVec3::splat(8.5))));
     }
     #[test]
     fn of_many_particles_nothing_is_kept() {

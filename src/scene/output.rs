@@ -1,15 +1,15 @@
 //! `[output]`: how often the run is written down, and in which formats.
 
-use crate::settings::Key;
+use crate::settings::{Key, Kind};
 
-use super::report::Report;
+use super::report::{Fault, Report};
 use super::resolved::Writer;
 use super::tree::Data;
 use super::value;
 use super::walk::{self, Table};
 
 pub(super) const KEYS: &[Key] = &[];
-pub(super) const OWN: &[&str] = &["every", "formats"];
+pub(super) const OWN: &[&str] = &["every", "formats", "frames"];
 
 /// What a run writes.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -18,6 +18,8 @@ pub struct Output {
     pub every: u64,
     /// In which formats, each once; none at all leaves only the table of energies.
     pub formats: Vec<Format>,
+    /// How many pictures of a film, evenly spaced over the run; zero for none, and one more than the steps at most.
+    pub frames: u64,
 }
 
 /// A format of snapshots.
@@ -47,7 +49,7 @@ impl Format {
 }
 
 pub(super) fn read(table: Option<&Table<'_>>, steps: u64, report: &mut Report) -> Output {
-    let mut output = Output { every: (steps / 10).max(1), formats: vec![Format::Csv, Format::Png] };
+    let mut output = Output { every: (steps / 10).max(1), formats: vec![Format::Csv, Format::Png], frames: 0 };
     let Some(table) = table else { return output };
     table.settings(KEYS, OWN, report);
     if let Some(every) = table.get("every").and_then(|e| walk::whole_from_one(e, report)) {
@@ -63,6 +65,16 @@ pub(super) fn read(table: Option<&Table<'_>>, steps: u64, report: &mut Report) -
             value::refuse::<()>(&entry.node, "formats", "a list, as in [\"csv\", \"png\"]", report);
         }
     }
+    if let Some(entry) = table.get("frames") {
+        let frames = value::number(&entry.node, "frames", Kind::Whole, &value::wanted(Kind::Whole), report);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "whole, and from 0 to 2^53")]
+        let frames = frames.map_or(0, |x| x as u64);
+        if frames > steps + 1 {
+            let fault = format!("{frames} `frames` are more than the states of {steps} steps, the first one included");
+            report.push(Fault::at(&entry.node.place, fault).label(format!("at most {}, or more steps", steps + 1)));
+        }
+        output.frames = frames;
+    }
     output
 }
 
@@ -72,5 +84,6 @@ impl Output {
         out.line("every", &self.every.to_string());
         let names: Vec<_> = self.formats.iter().map(|f| format!("\"{}\"", f.name())).collect();
         out.line("formats", &format!("[{}]", names.join(", ")));
+        out.line("frames", &self.frames.to_string());
     }
 }

@@ -8,6 +8,7 @@ mod laws;
 mod lockstep;
 mod paths;
 mod refusals;
+mod species;
 
 use glam::DVec3;
 use motes::forces::Force;

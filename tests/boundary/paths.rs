@@ -39,7 +39,10 @@ fn follows(snapshot: &Snapshot, from: &motes::Particles, bounds: &Bounds, time: 
             assert!(off <= allowed, "{side:?}: particle {id}, axis {axis}: {} is not {want}", x[axis]);
             // Next to a mirror rounding may decide whether it has been reached.
             let near = (want - low).min(high - want) <= allowed;
-            assert!(v[axis].to_bits() == direction.to_bits() || near && v[axis].abs() == speed.abs(), "{side:?}: {v}");
+            assert!(
+                v[axis].to_bits() == direction.to_bits() || near && v[axis].abs().to_bits() == speed.abs().to_bits(),
+                "{side:?}: {v}"
+            );
             let rounding = 1e-7 * low.abs().max(high.abs());
             let within = x[axis] >= low - rounding && x[axis] <= high + rounding;
             assert!(within || side == Side::Open, "{side:?}: particle {id} is outside: {x}");

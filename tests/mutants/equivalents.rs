@@ -7,6 +7,7 @@ const ALWAYS_SET: &str = "the host sets every override";
 const SLOW_WAY: &str = "it takes the way for blocks that are not apart, or not full: slower, and the same sum";
 const STORES_NOTHING: &str = "lanes behind the last particle store nothing of theirs";
 const EDGE: &str = "nobody stands at the very edge";
+const AT_THE_SIDE: &str = "who is at the side stays at the side, by one way or the other";
 const APART: &str = "let apart = start + BLOCK <= mine || start >= mine + WORKGROUP * TARGETS;";
 
 pub const EQUIVALENT: &[Equivalent] = &[
@@ -15,6 +16,7 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("", "override WEIGHT: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
     same("at.wgsl", "override FACTOR: f32 = 0.0;", "0.0", "1.0", ALWAYS_SET),
     same("pairs_finish.wgsl", "override LAYERS: u32 = 1u;", "1u", "2u", ALWAYS_SET),
+    same("fields.wgsl", "override PERIODIC: bool = false;", "false", "true", ALWAYS_SET),
     same("span.wgsl", "override WHOLE: bool = true;", "true", "false", ALWAYS_SET),
     same("gravity_spline.wgsl", "if distance2 >= h * h {", ">=", ">", "at u = 1 both formulas are the same number"),
     same("gravity_spline.wgsl", "if u < 0.5 {", "<", "<=", "at u = 1/2 both formulas are the same number"),
@@ -50,6 +52,10 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("steering.wgsl", "if size > most {", ">", ">=", "at the limit both are the same number"),
     same("vicsek.wgsl", "way = vec2f(1.0, 0.0);", "1.0", "1.5", "it has a direction alone"),
     same("wander.wgsl", "(fraction(words.x) - 0.5)", "-", "+", "a whole turn further"),
+    same("boundary/", "(x >= low && x <", ">=", ">", AT_THE_SIDE),
+    same("reflecting.wgsl", "x <= high)", "<=", "<", AT_THE_SIDE),
+    same("periodic.wgsl", "if inside >= low", ">=", ">", AT_THE_SIDE),
+    same("reflecting.wgsl", "velocity[i] = v * vec4f(", "*", "/", "1 and -1 are their own inverses"),
     same("particle.wgsl", "let index = min(i, world.count - 1u);", "-", "+", STORES_NOTHING),
     same("span.wgsl", "i >= world.count { return Sum(); }", ">=", ">", STORES_NOTHING),
     same(

@@ -1,6 +1,9 @@
 //! Mutation: every operator and literal of every shader is changed once, and the lockstep with the twins must notice.
 
+mod boundary;
+mod equivalent_primitives;
 mod equivalents;
+mod primitives;
 mod stages;
 #[path = "../support/mod.rs"]
 mod support;
@@ -60,7 +63,8 @@ fn every_mutant_is_noticed() {
     let mut stages = stages::all(&shared);
     agree(&mut stages);
     let has_subgroups = support::machines::subgroups_of_eight(&shared);
-    let mut ledger = Ledger::new(EQUIVALENT);
+    let equivalents = [EQUIVALENT, equivalent_primitives::EQUIVALENT].concat();
+    let mut ledger = Ledger::new(&equivalents);
     for (file, text) in files() {
         if file.contains("subgroup") && !has_subgroups {
             continue;

@@ -1,6 +1,7 @@
 //! Pictures: kernels against twins, the same bytes on every run, awkward sizes and places.
 
 mod limits;
+mod looks;
 mod places;
 #[path = "../support/mod.rs"]
 mod support;

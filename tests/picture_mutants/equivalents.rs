@@ -10,6 +10,7 @@ const WIDER: &str = "it looks at more pixels, which the line does not touch";
 const LONGER: &str = "pixels of other layers are drawn again, and the brightest wins as before";
 const ZERO: &str = "0 and −0 are one depth";
 const ONE_PLACE: &str = "a line of no length is at one place, whatever part of it";
+const FAINT: &str = "it ends a quarter of a pixel aside, where the rim is fainter than a unit of light";
 const WHITE: &str = "more than white is white, also under another light";
 const CLAMPED: &str = "what follows cuts it off at the same end";
 const UNREAD: &str = "the fourth number is read by nobody, and written again before the end";
@@ -51,6 +52,7 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("paint.wgsl", "let last = clamp(t - 3.0, 0.0, 1.0);", "1.0", "1.5", "t is 4 at most"),
     same("paint.wgsl", "let part = clamp(", "1.0", "1.5", "behind the last colour there is no other"),
     same("paint.wgsl", "pack4x8unorm(vec4f(map(part), 1.0));", "1.0", "1.5", CLAMPED),
+    same("heading.wgsl", "color[i] = pack4x8unorm(", "1.0", "1.5", CLAMPED),
     same("splat.wgsl", "if q > 0.0 &&", ">", ">=", "where q is 0 the light is nothing"),
     same("streak.wgsl", "let steep = abs(way.y) > abs(way.x);", ">", ">=", "a diagonal can be walked either way"),
     same("streak.wgsl", "let low = i32(clamp(", "0.5", "0.75", WIDER),
@@ -75,7 +77,22 @@ pub const EQUIVALENT: &[Equivalent] = &[
         "beyond the end its own direction leads to the pixels of its round end too: `across` reaches √2 as far",
     ),
     same("streak.wgsl", "< front[pixel(x, y)]", "<", "<=", "no line is exactly as deep as a ball"),
-    same("tone.wgsl", "clamp(2.0 * dot(off, off), 0.0, 1.0)", "1.0", "1.5", "in a corner it is 1, and nowhere more"),
+    same("sky.wgsl", "clamp(2.0 * dot(off, off), 0.0, 1.0)", "1.0", "1.5", "in a corner it is 1, and nowhere more"),
+    same("stroke.wgsl", "override WALK: i32 = 64;", "64", "65", ALWAYS_SET),
+    same("stroke.wgsl", "let steep = abs(way.y) > abs(way.x);", ">", ">=", "a diagonal can be walked either way"),
+    same("stroke.wgsl", "let high = i32(clamp(", "0.0", "1.0", WIDER),
+    same("stroke.wgsl", "let across = 1.4143 * frame.glow;", "1.4143", "2.12145", WIDER),
+    same("stroke.wgsl", "let squared = ", "1e-12", "1.5e-12", "a stroke is much longer, or of no length"),
+    same("stroke.wgsl", "var part = 0.0;", "0.0", "1.0", ONE_PLACE),
+    same("stroke.wgsl", "if along.x != 0.0 {", "0.0", "1.0", ONE_PLACE),
+    same("stroke.wgsl", "part = clamp((", "1.0", "1.5", "the far end, beyond which it looks elsewhere, has no light"),
+    same("stroke.wgsl", "part = clamp((", "0.5", "0.75", FAINT),
+    same("stroke.wgsl", "let row = ", "0.5", "0.75", FAINT),
+    same("stroke.wgsl", "let row = ", "-", "+", "rounded down, the first row has a pixel to spare"),
+    same("stroke.wgsl", "let last = i32(clamp(", "0.0", "1.0", WIDER),
+    same("stroke.wgsl", "let s = clamp(dot(off, way) / squared", "1.0", "1.5", "beyond the far end there is no light"),
+    same("stroke.wgsl", "if q > 0.0 &&", ">", ">=", "where q is 0 the light is nothing"),
+    same("stroke.wgsl", "< front[at] {", "<", "<=", "no stroke is exactly as deep as a ball"),
     same(
         "tone.wgsl",
         "return f32((h ^ (h >> 16u)) >> 8u)",

@@ -24,18 +24,19 @@ pub struct Scene {
 }
 
 /// What is asked of a scene; the rest is the same for all.
-struct Wish {
-    name: &'static str,
-    size: (u32, u32),
-    style: &'static str,
-    projection: &'static str,
-    background: &'static str,
-    extent: f64,
-    count: usize,
-    trails: bool,
+pub struct Wish {
+    pub name: &'static str,
+    pub size: (u32, u32),
+    pub style: &'static str,
+    pub projection: &'static str,
+    pub background: &'static str,
+    pub extent: f64,
+    pub count: usize,
+    pub trails: bool,
+    pub color: &'static str,
 }
 
-const PLAIN: Wish = Wish {
+pub const PLAIN: Wish = Wish {
     name: "",
     // Both are one more than a multiple of four, and their product is none of 64.
     size: (45, 33),
@@ -45,9 +46,10 @@ const PLAIN: Wish = Wish {
     extent: 1.2,
     count: FEW,
     trails: false,
+    color: "speed",
 };
 
-fn scene(wish: &Wish, change: impl FnOnce(&mut Picture, &mut Particles)) -> Scene {
+pub fn scene(wish: &Wish, change: impl FnOnce(&mut Picture, &mut Particles)) -> Scene {
     let word = |text: &'static str| Value::Text(text.into());
     let mut particles = support::cloud(wish.count, 11);
     // Half as far again as the picture reaches, so that many cross its edges.
@@ -57,7 +59,7 @@ fn scene(wish: &Wish, change: impl FnOnce(&mut Picture, &mut Particles)) -> Scen
         ("style", wish.style),
         ("projection", wish.projection),
         ("background", wish.background),
-        ("color", if wish.trails { "group" } else { "speed" }),
+        ("color", if wish.trails { "group" } else { wish.color }),
     ];
     let settings = sizes.iter().fold(Settings::defaults(KEYS), |s, (key, n)| s.with(key, Value::Number((*n).into())));
     let settings = words.iter().fold(settings, |s, (key, text)| s.with(key, word(text)));
@@ -92,7 +94,7 @@ fn at(camera: &Camera, pixels: DVec2, height: u32, back: f64) -> DVec3 {
 }
 
 /// Particles that cannot be drawn, or hardly: behind the eye and about it, far out, not a number, two at one place.
-fn awkward(picture: &Picture, particles: &mut Particles) {
+pub fn awkward(picture: &Picture, particles: &mut Particles) {
     let camera = &picture.frame.camera;
     let axis = |back: f64| at(camera, DVec2::new(0.4, -0.3), picture.frame.height, back);
     let d = camera.distance.max(0.1);
@@ -132,7 +134,7 @@ fn far_trails(picture: &mut Picture, particles: &Particles) {
 }
 
 /// Sizes from nothing to more than what is drawn.
-fn sizes(particles: &mut Particles, largest: f64) {
+pub fn sizes(particles: &mut Particles, largest: f64) {
     for (i, radius) in (0..7).cycle().zip(&mut particles.radius) {
         *radius = largest * f64::from(i) / 6.0;
     }
@@ -180,7 +182,15 @@ pub fn few() -> Vec<Scene> {
         picture.frame.marker = 0.8;
         picture.frame.solid = 0.5;
     });
-    vec![parallel, balls, tiny]
+    let dusk = Wish { name: "dusk with trails", style: "auto", background: "dusk", trails: true, ..PLAIN };
+    let dusk = scene(&dusk, |picture, particles| {
+        sizes(particles, 0.2);
+        picture.frame.marker = 1.7;
+        picture.frame.solid = 1.6;
+        picture.frame.line = 0.8;
+        picture.frame.ink = 0.7;
+    });
+    vec![parallel, balls, tiny, dusk]
 }
 
 /// Many particles, mostly lights.
@@ -214,6 +224,14 @@ pub fn tall() -> Scene {
         sizes(particles, 0.5);
         picture.frame.largest = 600.0;
         picture.frame.marker = 0.3;
+        // Strokes from below to above, longer than one layer walks.
+        picture.frame.tail = 1.3;
+        picture.frame.glow = 9.0;
+        let camera = picture.frame.camera;
+        for (i, height) in [(31, 1200.0), (32, 1100.0), (33, 900.0)] {
+            particles.position[i] = at(&camera, DVec2::new(0.02 * height - 21.0, height), 2500, 1.0);
+            particles.velocity[i] = 1.6 * camera.up;
+        }
     })
 }
 

@@ -70,7 +70,9 @@ impl Stage {
     fn padded(&self, name: &str, array: &Array, size: u64) -> Vec<u8> {
         let mut bytes = array.to_bytes();
         let radius = if self.kernel.name == "splat" { 0.0 } else { 3.0 };
-        let behind = Vec4::new(20.3, 12.7, 0.1, radius);
+        // A place in space for who asks where it is seen.
+        let place = if self.kernel.name == "stroke" { [0.13, -0.11] } else { [20.3, 12.7] };
+        let behind = Vec4::new(place[0], place[1], 0.1, radius);
         // Of the pixels behind the last one nobody has yet taken any.
         let free = [u32::MAX; 4];
         let behind =

@@ -70,6 +70,7 @@ fn a_scene_of_everything_reloads_as_the_same() {
         kind = "wind"
         [output]
         formats = ["png", "csv", "png"]
+        frames = 5
     "#;
     let path = folder.path().join("every thing.toml");
     std::fs::write(&path, text).expect("a file");
@@ -81,7 +82,7 @@ fn a_scene_of_everything_reloads_as_the_same() {
         scene.remarks,
         ["until = 1.0 is no whole number of steps of dt = 0.30000000000000004: 4 steps end at 1.2000000000000002"]
     );
-    assert_eq!(scene.output.formats, [Format::Csv, Format::Png]);
+    assert_eq!((&scene.output.formats[..], scene.output.frames), (&[Format::Csv, Format::Png][..], 5));
     assert!(scene.resolved.contains("\nmass = 3.0\n") && scene.resolved.contains("\nintegrator = \"rk4\"\n"));
     assert!(scene.resolved.contains("\nseed = 9007199254740991\n"));
     assert_reloads(&scene, &folder.path().to_string_lossy());
@@ -114,6 +115,7 @@ species = 0
 [output]
 every = 1
 formats = ["csv", "png"]
+frames = 0
 
 [picture]
 "#;

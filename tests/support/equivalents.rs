@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use super::mutants::Mutant;
 
 /// A change in certain lines of certain files.
-#[derive(Debug)]
+#[derive(Debug, Clone, Copy)]
 pub struct Equivalent {
     /// What the file's path contains.
     pub file: &'static str,
@@ -37,16 +37,16 @@ pub const fn same(
 }
 
 /// What became of every mutant, held to a list.
-pub struct Ledger {
-    list: &'static [Equivalent],
+pub struct Ledger<'a> {
+    list: &'a [Equivalent],
     used: Vec<bool>,
     wrong: String,
     killed: usize,
     lived: usize,
 }
 
-impl Ledger {
-    pub fn new(list: &'static [Equivalent]) -> Self {
+impl<'a> Ledger<'a> {
+    pub fn new(list: &'a [Equivalent]) -> Self {
         Self { list, used: vec![false; list.len()], wrong: String::new(), killed: 0, lived: 0 }
     }
     /// A mutant that lives must be on the list, and one that is noticed must not.

@@ -1,23 +1,19 @@
-//! `motes bench`
-
-use std::time::Instant;
+//! All pairs: gravity over sizes, and the integrators.
 
 use motes::kernel::Backend;
 use motes::settings::{Settings, Value};
 use motes::{Bounds, Error, Particles, Setup, Simulation, forces, gpu, integrators, lockstep, particles};
 use serde_json::json;
 
-use super::args::BenchArgs;
-use super::baseline::Bodies;
-use super::engine;
-use super::failure::Failure;
-use super::progress::large;
+use super::bodies::Bodies;
+use super::{median, repeats, time};
+use crate::cli::args::BenchArgs;
+use crate::cli::failure::Failure;
+use crate::cli::progress::{duration, large};
 
 const SOFTENING: f64 = 0.02;
 /// Bodies of the comparison of integrators.
 const INTEGRATED: u32 = 4096;
-/// One measurement takes about this long, unless a step is longer \[s\].
-const SPAN: f64 = 0.15;
 
 struct Row {
     count: u32,
@@ -28,53 +24,19 @@ struct Row {
 }
 
 /// Measures all-pairs gravity over sizes, and the integrators.
-pub async fn bench(args: &BenchArgs) -> Result<(), Failure> {
-    let found = engine::open(gpu::adapters(&gpu::instance()).await, args.adapter.as_deref()).await?;
+pub async fn bench(args: &BenchArgs, found: &gpu::Found) -> Result<serde_json::Value, Failure> {
     if !args.json {
-        out!(
-            "{}\ncommit {}, {} cores, {} repeats, medians\n",
-            found.describe(),
-            commit(),
-            rayon::current_num_threads(),
-            args.repeat
-        );
-        out!("all pairs, gravity with potential, leapfrog, whole steps");
+        out!("\nall pairs, gravity with potential, leapfrog, whole steps");
         out!("{:>9}  {:>12}  {:>16}  {:>16}  {:>7}", "bodies", "step", "device", "plain Rust", "ratio");
     }
-    let rows = sizes(args, &found)?;
-    let integrators = integrators(args, &found)?;
-    let accuracy = accuracy(&found).await?;
-    if args.json {
-        let sizes: Vec<_> = rows.iter().map(Row::json).collect();
-        let steps: Vec<_> = integrators.iter().map(|(name, evaluations, time)| json!({ "integrator": name, "evaluations": evaluations, "seconds_per_step": time })).collect();
-        let value = json!({ "device": found.describe(), "commit": commit(), "version": env!("CARGO_PKG_VERSION"),
-            "cores": rayon::current_num_threads(), "repeat": args.repeat, "softening": SOFTENING, "pairs": sizes,
-            "integrators": { "bodies": INTEGRATED, "steps": steps },
-            "relative_force_error": { "bodies": INTEGRATED, "median": accuracy[0], "p99": accuracy[1], "max": accuracy[2] } });
-        out!("{value:#}");
-    }
-    Ok(())
-}
-
-fn sizes(args: &BenchArgs, found: &gpu::Found) -> Result<Vec<Row>, Failure> {
-    let mut rows: Vec<Row> = Vec::new();
-    let mut count = args.from.max(1);
-    while count <= args.to {
-        let expected = rows.last().map_or(0.0, |row| 4.0 * median(&row.device));
-        if expected > args.longest {
-            if !args.json {
-                out!("{count:>9}  left out: a step is expected to take {expected:.0} s (--longest)");
-            }
-            break;
-        }
-        let row = measure(args, found, count, rows.last())?;
-        if !args.json {
-            out!("{row}");
-        }
-        rows.push(row);
-        count = count.saturating_mul(2);
-    }
-    Ok(rows)
+    let rows = super::sizes(args, 4.0, |count, last| measure(args, found, count, last), |row| median(&row.device))?;
+    let integrators = integrators(args, found)?;
+    let accuracy = accuracy(found).await?;
+    let sizes: Vec<_> = rows.iter().map(Row::json).collect();
+    let steps: Vec<_> = integrators.iter().map(|(name, evaluations, time)| json!({ "integrator": name, "evaluations": evaluations, "seconds_per_step": time })).collect();
+    Ok(json!({ "softening": SOFTENING, "pairs": sizes,
+        "integrators": { "bodies": INTEGRATED, "steps": steps },
+        "relative_force_error": { "bodies": INTEGRATED, "median": accuracy[0], "p99": accuracy[1], "max": accuracy[2] } }))
 }
 
 fn measure(args: &BenchArgs, found: &gpu::Found, count: u32, last: Option<&Row>) -> Result<Row, Failure> {
@@ -116,18 +78,6 @@ fn measure(args: &BenchArgs, found: &gpu::Found, count: u32, last: Option<&Row>)
 }
 
 const SOFTENING_F32: f32 = 0.02;
-
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small whole number")]
-fn repeats(seconds: f64) -> u32 {
-    if seconds.is_finite() { (SPAN / seconds).clamp(1.0, 10_000.0) as u32 } else { 1 }
-}
-
-/// Seconds of one turn.
-fn time(turns: u32, call: impl FnOnce() -> Result<(), Error>) -> Result<f64, Failure> {
-    let start = Instant::now();
-    call()?;
-    Ok(start.elapsed().as_secs_f64() / f64::from(turns))
-}
 
 fn integrators(args: &BenchArgs, found: &gpu::Found) -> Result<Vec<(&'static str, usize, f64)>, Failure> {
     let mut simulations = Vec::new();
@@ -189,22 +139,6 @@ fn setup(count: u32, integrator: &str) -> Result<Setup, Error> {
     })
 }
 
-fn median(values: &[f64]) -> f64 {
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    sorted.get(sorted.len() / 2).copied().unwrap_or(f64::NAN)
-}
-
-/// The commit, as the environment or git has it.
-fn commit() -> String {
-    let asked = std::env::var("MOTES_COMMIT").ok();
-    let git = || {
-        let output = std::process::Command::new("git").args(["rev-parse", "--short=12", "HEAD"]).output().ok()?;
-        output.status.success().then(|| String::from_utf8_lossy(&output.stdout).trim().to_owned())
-    };
-    asked.or_else(git).unwrap_or_else(|| "unknown".to_owned())
-}
-
 impl Row {
     fn rate(&self, times: &[f64]) -> f64 {
         f64::from(self.count) * f64::from(self.count) / median(times)
@@ -222,7 +156,7 @@ impl Row {
 
 impl std::fmt::Display for Row {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let step = super::progress::duration(std::time::Duration::from_secs_f64(median(&self.device)));
+        let step = duration(std::time::Duration::from_secs_f64(median(&self.device)));
         write!(f, "{:>9}  {step:>12}  {:>14}/s", self.count, large(self.rate(&self.device)))?;
         if !self.plain.is_empty() {
             write!(f, "  {:>14}/s  {:>7.2}", large(self.rate(&self.plain)), self.ratio())?;

@@ -1,0 +1,24 @@
+// Skies: a night, a little lighter in the middle; or a dusk, mixed downwards from slate to rose to amber, bright where the sun
+// has set:  glow = 2^(−d² / S²)
+const SLATE: vec3f = vec3f(0.26, 0.31, 0.47);
+const ROSE: vec3f = vec3f(0.76, 0.55, 0.58);
+const AMBER: vec3f = vec3f(0.94, 0.68, 0.46);
+const SUN: vec3f = vec3f(0.10, 0.09, 0.01);
+
+fn night(place: vec2f, size: vec2f) -> vec3f {
+    let off = place / size - 0.5;
+    return frame.sky * mix(vec3f(0.036, 0.043, 0.072), vec3f(0.008, 0.009, 0.018), clamp(2.0 * dot(off, off), 0.0, 1.0));
+}
+
+fn dusk(place: vec2f, size: vec2f) -> vec3f {
+    let fall = place.y / size.y;
+    let air = mix(mix(SLATE, ROSE, smoothstep(0.0, 0.7, fall)), AMBER, smoothstep(0.5, 1.0, fall));
+    let off = (place - size * vec2f(0.62, 1.04)) / (0.42 * size.y);
+    return air + SUN * exp2(-dot(off, off));
+}
+
+fn background(place: vec2f) -> vec3f {
+    let size = vec2f(f32(frame.width), f32(frame.height));
+    if frame.ink > 0.0 { return dusk(place, size); }
+    return night(place, size);
+}

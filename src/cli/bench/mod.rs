@@ -1,0 +1,111 @@
+//! `motes bench`
+
+mod agents;
+mod bodies;
+mod gravity;
+mod neighbors;
+
+use std::time::Instant;
+
+use motes::{Error, gpu};
+use serde_json::json;
+
+use super::args::{BenchArgs, Topic};
+use super::engine;
+use super::failure::Failure;
+
+/// One measurement takes about this long, unless a step is longer \[s\].
+const SPAN: f64 = 0.15;
+
+/// Measures what was asked for.
+pub async fn bench(args: &BenchArgs) -> Result<(), Failure> {
+    let found = engine::open(gpu::adapters(&gpu::instance()).await, args.adapter.as_deref()).await?;
+    let cores = rayon::current_num_threads();
+    if !args.json {
+        out!("{}\ncommit {}, {cores} cores, {} repeats, medians", found.describe(), commit(), args.repeat);
+    }
+    let mut value = json!({ "device": found.describe(), "commit": commit(), "version": env!("CARGO_PKG_VERSION"),
+        "cores": cores, "repeat": args.repeat });
+    for topic in [Topic::Gravity, Topic::Neighbors] {
+        if args.topic.is_none_or(|wanted| wanted == topic) {
+            let part = match topic {
+                Topic::Gravity => gravity::bench(args, &found).await?,
+                Topic::Neighbors => neighbors::bench(args, &found).await?,
+            };
+            if let (Some(all), serde_json::Value::Object(part)) = (value.as_object_mut(), part) {
+                all.extend(part);
+            }
+        }
+    }
+    if args.json {
+        out!("{value:#}");
+    }
+    Ok(())
+}
+
+/// The sizes from `--from` to `--to`, each twice the last. `measure` gives the seconds that a step took; sizes of which
+/// that is expected to be more than `--longest` are left out.
+fn sizes<R>(
+    args: &BenchArgs,
+    growth: f64,
+    mut measure: impl FnMut(u32, Option<&R>) -> Result<R, Failure>,
+    seconds: impl Fn(&R) -> f64,
+) -> Result<Vec<R>, Failure>
+where
+    R: std::fmt::Display,
+{
+    let mut rows: Vec<R> = Vec::new();
+    let mut count = args.from.max(1);
+    while count <= args.to {
+        let expected = rows.last().map_or(0.0, |row| growth * seconds(row));
+        if expected > args.longest {
+            if !args.json {
+                out!("{count:>9}  left out: a step is expected to take {expected:.0} s (--longest)");
+            }
+            break;
+        }
+        let row = match measure(count, rows.last()) {
+            Err(Failure::Error(Error::Limit(text) | Error::OutOfMemory(text))) if !rows.is_empty() => {
+                if !args.json {
+                    out!("{count:>9}  left out: {text}");
+                }
+                break;
+            }
+            other => other?,
+        };
+        if !args.json {
+            out!("{row}");
+        }
+        rows.push(row);
+        count = count.saturating_mul(2);
+    }
+    Ok(rows)
+}
+
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small whole number")]
+fn repeats(seconds: f64) -> u32 {
+    if seconds.is_finite() { (SPAN / seconds).clamp(1.0, 10_000.0) as u32 } else { 1 }
+}
+
+/// Seconds of one turn.
+fn time(turns: u32, call: impl FnOnce() -> Result<(), Error>) -> Result<f64, Failure> {
+    let start = Instant::now();
+    call()?;
+    Ok(start.elapsed().as_secs_f64() / f64::from(turns))
+}
+
+fn median(values: &[f64]) -> f64 {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    sorted.get(sorted.len() / 2).copied().unwrap_or(f64::NAN)
+}
+
+/// The commit, as the environment or git has it.
+fn commit() -> String {
+    let asked = std::env::var("MOTES_COMMIT").ok();
+    let git = || {
+        let output = std::process::Command::new("git").args(["rev-parse", "--short=12", "HEAD"]).output().ok()?;
+        output.status.success().then(|| String::from_utf8_lossy(&output.stdout).trim().to_owned())
+    };
+    asked.or_else(git).unwrap_or_else(|| "unknown".to_owned())
+}

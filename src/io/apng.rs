@@ -1,0 +1,93 @@
+//! Animated PNG, out of pictures that are PNG files.
+
+use std::fs::File;
+use std::io::{self, BufReader, Write};
+use std::path::{Path, PathBuf};
+
+use super::atomically;
+use crate::error::Error;
+
+/// Writes a film of pictures of one size, of three bytes for each pixel, that repeats for ever. Each picture is shown for
+/// 1 / `rate` s. Of a picture only the pixels that differ from the one before are kept, so that a sky that stays costs
+/// nothing. Two pictures are held at a time.
+///
+/// # Errors
+/// [`Error::Output`], with the file that cannot be read or written; the film is there whole or not at all.
+pub fn write_apng(path: &Path, frames: &[PathBuf], rate: u16) -> Result<(), Error> {
+    let mut unread = None;
+    let written = atomically(path, |out| {
+        film(out, frames, rate).map_err(|fault| {
+            let message = fault.error.to_string();
+            unread = fault.frame;
+            io::Error::other(message)
+        })
+    });
+    match (written, unread) {
+        (Err(Error::Output { message, .. }), Some(file)) => Err(Error::Output { file, message }),
+        (written, _) => written,
+    }
+}
+
+/// What went wrong, and with which frame, if it was one.
+struct Fault {
+    error: io::Error,
+    frame: Option<PathBuf>,
+}
+
+impl<E: Into<io::Error>> From<E> for Fault {
+    fn from(error: E) -> Self {
+        Self { error: error.into(), frame: None }
+    }
+}
+
+fn film(out: impl Write, frames: &[PathBuf], rate: u16) -> Result<(), Fault> {
+    let count = u32::try_from(frames.len()).map_err(io::Error::other)?;
+    let Some(first) = frames.first() else { return Err(io::Error::other("a film needs a picture or more").into()) };
+    let mut last = read(first)?;
+    let mut encoder = png::Encoder::new(out, last.width, last.height);
+    encoder.set_color(png::ColorType::Rgba);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
+    encoder.set_animated(count, 0)?;
+    encoder.set_frame_delay(1, rate)?;
+    encoder.set_blend_op(png::BlendOp::Over)?;
+    encoder.set_dispose_op(png::DisposeOp::None)?;
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(&last.rgb.chunks_exact(3).flat_map(|p| [p[0], p[1], p[2], 255]).collect::<Vec<_>>())?;
+    for file in &frames[1..] {
+        let next = read(file)?;
+        if (next.width, next.height) != (last.width, last.height) {
+            let (width, height) = (next.width, next.height);
+            let text = format!("{width} × {height} pixels in a film of {} × {}", last.width, last.height);
+            return Err(Fault { error: io::Error::other(text), frame: Some(file.clone()) });
+        }
+        let pixels = last.rgb.chunks_exact(3).zip(next.rgb.chunks_exact(3));
+        // What is transparent leaves the pixel as it was.
+        let changes = pixels.flat_map(|(old, new)| if old == new { [0; 4] } else { [new[0], new[1], new[2], 255] });
+        writer.write_image_data(&changes.collect::<Vec<_>>())?;
+        last = next;
+    }
+    Ok(writer.finish()?)
+}
+
+struct Pixels {
+    width: u32,
+    height: u32,
+    rgb: Vec<u8>,
+}
+
+fn read(file: &Path) -> Result<Pixels, Fault> {
+    decoded(file).map_err(|error| Fault { error, frame: Some(file.to_owned()) })
+}
+
+fn decoded(file: &Path) -> io::Result<Pixels> {
+    let mut reader = png::Decoder::new(BufReader::new(File::open(file)?)).read_info()?;
+    let size = reader.output_buffer_size().ok_or_else(|| io::Error::other("a picture larger than memory"))?;
+    let mut rgb = vec![0; size];
+    let info = reader.next_frame(&mut rgb)?;
+    if (info.color_type, info.bit_depth) != (png::ColorType::Rgb, png::BitDepth::Eight) {
+        return Err(io::Error::other("not a picture of three bytes for each pixel"));
+    }
+    rgb.truncate(info.buffer_size());
+    Ok(Pixels { width: info.width, height: info.height, rgb })
+}

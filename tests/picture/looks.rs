@@ -1,0 +1,92 @@
+//! Strokes of light, colours by heading, and a bright sky.
+
+use glam::DVec3;
+use motes::render::{Color, Picture, Trail};
+use motes::settings::Value;
+use motes::*;
+
+use super::*;
+
+/// Particles on a line, 0.5 apart, each with its own velocity; seen from above, 100 pixels per length.
+fn line(velocities: &[DVec3]) -> (Particles, Settings) {
+    let mut particles = Particles::default();
+    for (i, v) in (0_u32..).zip(velocities) {
+        particles.push(DVec3::new(0.5 * f64::from(i) - 0.75, 0.0, 0.0), *v, 1.0, 0.0);
+    }
+    let above = settings(300, 200).with("eye", Value::Vector(DVec3::Z)).with("projection", word("orthographic"));
+    let above =
+        above.with("auto_frame", Value::Flag(false)).with("style", word("glow")).with("background", word("black"));
+    (particles, above)
+}
+
+/// Brightness of the pixel so far right and up of the middle, in lengths.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a place in the picture")]
+fn bright(image: &Image, x: f64, y: f64) -> u8 {
+    let at = [150.0 + 100.0 * x, 100.0 - 100.0 * y].map(|x| x as usize);
+    image.rgba[4 * (at[1] * 300 + at[0])..][..3].iter().copied().max().unwrap_or(0)
+}
+
+#[test]
+fn a_stroke_reaches_from_where_the_particle_was_and_a_particle_at_rest_is_a_light() {
+    let (particles, settings) = line(&[DVec3::Y, DVec3::new(0.0, -2.0, 0.0), DVec3::ZERO, 0.5 * DVec3::X]);
+    let settings = settings.with("color", word("heading")).with("tail", Value::Number(0.4));
+    let mut picture = Picture::new(&settings, &particles, &[], Trail::default()).unwrap();
+    (picture.frame.bloom, picture.frame.glow) = (0.0, 4.0);
+    let image = &on_gpu(&particles, &[&picture])[0];
+    assert_close(image, &on_cpu(&particles, &picture), "strokes");
+    // From y = −0.4 to 0, brighter towards the present, and nothing beyond its ends.
+    let first = [-0.45, -0.35, -0.2, 0.0, 0.1].map(|y| bright(image, -0.745, y));
+    assert!(first[0] == 0 && first[1] > 0 && first[1] < first[2] && first[2] < first[3] && first[4] == 0, "{first:?}");
+    // The faster one from y = 0.8 on; it came from above.
+    let second = [-0.1, 0.0, 0.4, 0.7, 0.85].map(|y| bright(image, -0.245, y));
+    assert!(second[0] == 0 && second[1] > second[2] && second[2] > second[3] && second[3] > 0 && second[4] == 0);
+    let third = [-0.06, 0.0, 0.06].map(|y| bright(image, 0.255, y));
+    assert!(third[0] == 0 && third[1] > 100 && third[2] == 0, "{third:?}");
+    // Where nothing moves, strokes are the lights of a picture without.
+    let (still, settings) = line(&[DVec3::ZERO; 4]);
+    let with = Picture::new(&settings.clone().with("tail", Value::Number(3.0)), &still, &[], Trail::default()).unwrap();
+    let mut without = Picture::new(&settings.with("tail", Value::Number(0.0)), &still, &[], Trail::default()).unwrap();
+    without.frame.glow = with.frame.glow;
+    let images = on_gpu(&still, &[&with, &without]);
+    assert!(images[0] == images[1] && lit(&images[0]) > 0);
+}
+
+#[test]
+fn headings_are_hues_and_the_same_bytes_every_time() {
+    let (particles, settings) = line(&[DVec3::X, DVec3::Y, DVec3::NEG_X, DVec3::NEG_Y]);
+    let picture = Picture::new(&settings.with("color", word("heading")), &particles, &[], Trail::default()).unwrap();
+    assert_eq!(picture.color, Color::Heading);
+    let images = on_gpu(&particles, &[&picture, &picture]);
+    assert!(images[0] == images[1]);
+    let middle = |i: usize| &images[0].rgba[4 * (100 * 300 + 75 + 50 * i)..][..3];
+    // East is rose, north is gold, west is green, south is blue.
+    let [east, north, west, south] = [0, 1, 2, 3].map(middle);
+    assert!(east[0] > east[2] && east[2] > east[1], "{east:?}");
+    assert!(north[0] > north[2] && north[1] > north[2], "{north:?}");
+    assert!(west[1] > west[0] && west[2] > west[0], "{west:?}");
+    assert!(south[2] > south[1] && south[2] > south[0], "{south:?}");
+}
+
+#[test]
+fn gpu_and_twins_draw_the_same_birds() {
+    for (count, background, tail) in [(65, "dusk", 0.3), (3000, "dusk", 0.08), (3000, "night", 0.2), (40, "dusk", 0.0)]
+    {
+        let mut particles = support::cloud(count, 21);
+        particles.radius.iter_mut().step_by(3).for_each(|r| *r = 0.04);
+        let settings = settings(301, 203).with("background", word(background)).with("tail", Value::Number(tail));
+        let picture =
+            Picture::new(&settings.with("color", word("heading")), &particles, &[], trail(&particles)).unwrap();
+        let gpu = &on_gpu(&particles, &[&picture])[0];
+        assert_close(gpu, &on_cpu(&particles, &picture), &format!("{count} birds, {background}, tails of {tail}"));
+    }
+}
+
+#[test]
+fn birds_are_dark_before_a_bright_sky() {
+    let (particles, settings) = line(&[DVec3::ZERO; 4]);
+    let picture = Picture::new(&settings.with("background", word("dusk")), &particles, &[], Trail::default()).unwrap();
+    let image = &on_gpu(&particles, &[&picture])[0];
+    let (bird, sky) = (bright(image, 0.255, 0.0), bright(image, 0.0, 0.0));
+    assert!(bird < 90 && sky > 150, "{bird} before {sky}");
+    assert!(bright(image, 0.0, -0.9) > bright(image, 0.0, 0.9), "brighter where the sun has set");
+}
