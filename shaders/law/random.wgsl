@@ -16,5 +16,5 @@ fn mixed(counter: vec4u) -> vec4u {
     return v;
 }
 
-// A word as a number between 0 and 1, never either: 23 bits and a half, which f32 holds.
-fn fraction(word: u32) -> f32 { return (f32(word >> 9u) + 0.5) / 8388608.0; }
+// A word as a number from 0 on, below 1: 24 bits, which f32 holds.
+fn fraction(word: u32) -> f32 { return f32(word >> 8u) / 16777216.0; }

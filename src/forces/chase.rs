@@ -20,13 +20,6 @@ pub const KEYS: &[Key] = &[
 /// `chase`: predators steer to the middle of all prey in range. Prey feel nothing of it: see `flee`.
 pub struct Chase(Settings);
 
-/// The prey in range.
-#[derive(Default)]
-struct Seen {
-    displacement: DVec3,
-    neighbors: u32,
-}
-
 impl Chase {
     /// From checked settings.
     #[must_use]
@@ -42,18 +35,14 @@ impl Force for Chase {
         let (prey, prey_value) = species(&self.0, "prey");
         let mut values = params(&self.0, &["max_speed", "max_force"]);
         values.extend([("species".to_owned(), predators_value), ("prey".to_owned(), prey_value)]);
-        let gather = move |me: &Body, you: &Body, r: DVec3, seen: &mut Seen| {
+        let gather = move |me: &Body, you: &Body, r: DVec3, displacement: &mut DVec3| {
             if predators.has(me) && prey.has(you) {
-                seen.displacement += r;
-                seen.neighbors += 1;
+                *displacement += r;
             }
         };
-        let finish = move |me: &Body, seen: &Seen, _: &World| {
-            if seen.neighbors == 0 {
-                return DVec4::ZERO;
-            }
-            let wish = speed * seen.displacement.normalize_or_zero();
-            (wish - me.velocity).clamp_length_max(force).extend(0.0)
+        let finish = move |me: &Body, displacement: &DVec3, _: &World| match displacement.try_normalize() {
+            Some(way) => (speed * way - me.velocity).clamp_length_max(force).extend(0.0),
+            None => DVec4::ZERO,
         };
         let over = super::over(&self.0, prey.0);
         vec![Law::gathering("chase", over, crate::shader!("forces/chase.wgsl"), values, gather, finish)]

@@ -226,14 +226,17 @@ fn laws(device: &Device, stages: &mut Vec<Stage>) {
     }
 }
 
-/// A cloud where it began, with some at rest, two at one place, and some who are alone, or meet head on, far away.
+/// A cloud where it began, with some at rest, one of them in the middle, two at one place, and some who are alone, or meet head on, far away.
 fn resting(device: &Device, machine: Machine, bounds: Bounds) -> Simulation<Gpu> {
     let mut simulation = moving(device, FEW, Some(machine));
     let cloud = support::cloud(FEW, 11);
     let join = |v: &[DVec3], w: &[f64]| -> Vec<Vec4> { v.iter().zip(w).map(|(v, w)| v.extend(*w).as_vec4()).collect() };
     let mut positions = join(&cloud.position, &cloud.mass);
     let mut velocities = join(&cloud.velocity, &cloud.radius);
+    velocities.iter_mut().for_each(|v| *v *= Vec4::splat(1.7).with_w(1.0));
+    velocities[13] *= Vec4::splat(0.03).with_w(1.0);
     let rest = |v: &mut Vec4| *v = Vec4::ZERO.with_w(v.w);
+    positions[6] = Vec4::ZERO.with_w(positions[6].w);
     [5, 6, 7].into_iter().for_each(|id| rest(&mut velocities[id]));
     positions[9] = positions[8];
     positions[7] = positions[7].with_x(9.0);
