@@ -79,16 +79,17 @@ fn every_law_alone() {
                     let mut step = Step::new(&law, problem);
                     step.evaluate();
                     let mut plan = step.finished().expect("a plan");
+                    let laws = plan.order.len();
                     law[0].limit(&mut plan, &problem).expect("limits");
-                    // Faster than any limit has left them.
-                    let mut velocity = pollster::block_on(simulation.read(VELOCITY)).expect("velocities");
-                    velocity.iter_mut().for_each(|v| *v *= glam::Vec4::splat(2.3).with_w(1.0));
-                    simulation.write(VELOCITY, &velocity).expect("velocities");
+                    if plan.order.len() > laws {
+                        // Faster than the limit has left them.
+                        let mut velocity = pollster::block_on(simulation.read(VELOCITY)).expect("velocities");
+                        velocity.iter_mut().for_each(|v| *v *= glam::Vec4::splat(2.3).with_w(1.0));
+                        simulation.write(VELOCITY, &velocity).expect("velocities");
+                    }
                     // Alone in the world, nobody attracts; a few may be too far, or of other species.
                     let idle = |v: &Verdict| {
-                        v.field == "alarm"
-                            || overs.is_empty() && v.kernel == "clear"
-                            || if pairs { count == 1 } else { count < 63 }
+                        v.field == "alarm" || v.kernel == "clear" || if pairs { count == 1 } else { count < 333 }
                     };
                     judge(&verdicts(simulation.backend(), &plan, count, &of), count, &of, idle);
                 }
