@@ -79,6 +79,10 @@ fn every_law_alone() {
                     let mut step = Step::new(&law, problem);
                     step.evaluate();
                     let mut plan = step.finished().expect("a plan");
+                    // Back to where they began: what pushes away leaves nobody to be pushed.
+                    let cloud = support::cloud(count, 7);
+                    let places = cloud.position.iter().zip(&cloud.mass).map(|(x, m)| x.extend(*m).as_vec4());
+                    simulation.write(POSITION, &places.collect::<Vec<_>>()).expect("places");
                     let laws = plan.order.len();
                     law[0].limit(&mut plan, &problem).expect("limits");
                     if plan.order.len() > laws {
