@@ -79,16 +79,21 @@ fn every_law_alone() {
                     let mut step = Step::new(&law, problem);
                     step.evaluate();
                     let mut plan = step.finished().expect("a plan");
+                    // Back to where they began: what pushes away leaves nobody to be pushed.
+                    let cloud = support::cloud(count, 7);
+                    let places = cloud.position.iter().zip(&cloud.mass).map(|(x, m)| x.extend(*m).as_vec4());
+                    simulation.write(POSITION, &places.collect::<Vec<_>>()).expect("places");
+                    let laws = plan.order.len();
                     law[0].limit(&mut plan, &problem).expect("limits");
-                    // Faster than any limit has left them.
-                    let mut velocity = pollster::block_on(simulation.read(VELOCITY)).expect("velocities");
-                    velocity.iter_mut().for_each(|v| *v *= glam::Vec4::splat(2.3).with_w(1.0));
-                    simulation.write(VELOCITY, &velocity).expect("velocities");
+                    if plan.order.len() > laws {
+                        // Faster than the limit has left them.
+                        let mut velocity = pollster::block_on(simulation.read(VELOCITY)).expect("velocities");
+                        velocity.iter_mut().for_each(|v| *v *= glam::Vec4::splat(2.3).with_w(1.0));
+                        simulation.write(VELOCITY, &velocity).expect("velocities");
+                    }
                     // Alone in the world, nobody attracts; a few may be too far, or of other species.
                     let idle = |v: &Verdict| {
-                        v.field == "alarm"
-                            || overs.is_empty() && v.kernel == "clear"
-                            || if pairs { count == 1 } else { count < 63 }
+                        v.field == "alarm" || v.kernel == "clear" || if pairs { count == 1 } else { count < 333 }
                     };
                     judge(&verdicts(simulation.backend(), &plan, count, &of), count, &of, idle);
                 }

@@ -48,13 +48,11 @@ impl Surface {
                 let depth = d.abs() - half;
                 let outside = depth.max(DVec3::ZERO);
                 let side = DVec3::from_array(d.to_array().map(|x| if x >= 0.0 { 1.0 } else { -1.0 }));
-                match outside.try_normalize() {
-                    Some(normal) => (side * normal, outside.length()),
-                    None => {
-                        let axis = depth.max_position();
-                        (DVec3::AXES[axis] * side[axis], depth[axis])
-                    }
+                if let Some(normal) = outside.try_normalize() {
+                    return (side * normal, outside.length());
                 }
+                let axis = depth.max_position();
+                (DVec3::AXES[axis] * side[axis], depth[axis])
             }
         }
     }

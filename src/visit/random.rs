@@ -41,7 +41,7 @@ mod tests {
         assert_eq!(pcg4d([1, 2, 3, 4]), [0x3622_cd16, 0xf114_71d8, 0xe110_9b3f, 0x02b9_4c2f]);
         assert_eq!(pcg4d([u32::MAX, 7, 1 << 31, 12345]), [0xef91_5379, 0xd05f_9fcb, 0x52c5_ef09, 0xeadb_4cc0]);
         assert_eq!(words(0x0012_3456_89ab_cdef), [0x89ab_cdef, 0x0012_3456]);
-        assert!(fraction(0) == 0.0 && fraction(1 << 31) == 0.5 && fraction(u32::MAX) < 1.0);
+        assert!((fraction(1 << 31) - 0.5).abs() < 1e-15 && fraction(0).abs() < 1e-15 && fraction(u32::MAX) < 1.0);
     }
 
     /// Neighbouring counters give numbers that have nothing to do with each other.
