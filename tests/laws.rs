@@ -7,9 +7,10 @@ use std::f64::consts::TAU;
 use glam::{DVec3, DVec4};
 use motes::Particles;
 use motes::forces::{self, Entry, Force, Over};
-use motes::kernel::World;
+use motes::kernel::{Access, Machine, World};
 use motes::settings::{Kind, Settings, Value};
 use support::choices::{self, nudged};
+use support::machines;
 use support::states::{accelerations, felt, force, one, vector, word};
 
 const TIME: f64 = 0.83;
@@ -239,4 +240,23 @@ fn numbers_by_hand() {
     near(at("point"), [0.0, -1.0, -4.0 / 3.0, -12.0]);
     near(at("harmonic"), [0.0, -216.0, -288.0, 900.0]);
     near(at("logarithmic"), [0.0, -6.0, -8.0, 36.0 * 36f64.ln()]);
+}
+
+/// WebGPU allows eight storage buffers in a stage, whatever the law looks at and through which search.
+#[test]
+fn no_law_binds_more_than_is_allowed() {
+    let mut most = 0;
+    every(|name, _, _, force| {
+        for machine in [(false, 0), (true, 0), (true, 8)] {
+            let machine = Machine { software: machine.0, subgroup: machine.1, invocations: 1 };
+            for kernel in machines::kernels(force.as_ref(), &forces::Problem::new(1000, machine)) {
+                for pass in &kernel.passes {
+                    let storage = pass.bindings().filter(|(_, b)| b.access != Access::Uniform).count();
+                    assert!(storage <= 8, "{name}: {storage} storage buffers");
+                    most = most.max(storage);
+                }
+            }
+        }
+    });
+    assert!(most > 5, "{most} are too few to be all");
 }

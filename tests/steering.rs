@@ -105,17 +105,17 @@ fn hunt() -> Particles {
 fn prey_flee_and_predators_chase() {
     for over in ["near", "within"] {
         let settings =
-            [("range", NUMBER(1.0)), ("strength", NUMBER(5.0)), ("species", NUMBER(4.0)), ("predators", NUMBER(7.0))];
+            [("range", NUMBER(2.0)), ("strength", NUMBER(5.0)), ("species", NUMBER(4.0)), ("predators", NUMBER(7.0))];
         let flee = force("flee", &[&settings[..], &[("over", word(over))]].concat());
         let a = accelerations(&[flee], &hunt(), 0.0);
         near(a[0], [0.0; 4]);
-        near(a[1], [2.0, 0.0, 0.0, 0.0]);
-        near(a[2], [0.0, 1.0, 0.0, 0.0]);
+        near(a[1], [3.5, 0.0, 0.0, 0.0]);
+        near(a[2], [0.0, 3.0, 0.0, 0.0]);
         // From two predators the two pushes add up.
         let settings =
-            [("range", NUMBER(1.0)), ("strength", NUMBER(5.0)), ("species", NUMBER(7.0)), ("predators", NUMBER(4.0))];
+            [("range", NUMBER(2.0)), ("strength", NUMBER(5.0)), ("species", NUMBER(7.0)), ("predators", NUMBER(4.0))];
         let flee = force("flee", &[&settings[..], &[("over", word(over))]].concat());
-        near(accelerations(&[flee], &hunt(), 0.0)[0], [-2.0, -1.0, 0.0, 0.0]);
+        near(accelerations(&[flee], &hunt(), 0.0)[0], [-3.5, -3.0, 0.0, 0.0]);
         let settings = [
             ("range", NUMBER(0.9)),
             ("max_speed", NUMBER(2.0)),

@@ -88,7 +88,9 @@ fn every_law_alone() {
                     if plan.order.len() > laws {
                         // Faster than the limit has left them.
                         let mut velocity = pollster::block_on(simulation.read(VELOCITY)).expect("velocities");
-                        velocity.iter_mut().for_each(|v| *v *= glam::Vec4::splat(2.3).with_w(1.0));
+                        for v in &mut velocity {
+                            *v *= glam::Vec4::splat(2.3).with_w(1.0);
+                        }
                         simulation.write(VELOCITY, &velocity).expect("velocities");
                     }
                     // Alone in the world, nobody attracts; a few may be too far, or of other species.

@@ -93,7 +93,7 @@ impl Run {
         }
         let company = setup.forces.iter().find_map(|force| force.company());
         let (conserved, stop) = (conserved(setup)?, Stop::listen());
-        Ok(Self { conserved, scene, device, folder, film, count, company, progress, stop })
+        Ok(Self { scene, device, folder, film, count, company, conserved, progress, stop })
     }
 
     async fn drive<B: Backend>(&mut self, mut simulation: Simulation<B>, precision: Precision) -> Result<(), Failure> {

@@ -3,6 +3,7 @@
 mod boundary;
 mod equivalent_primitives;
 mod equivalents;
+mod laws;
 mod primitives;
 mod stages;
 #[path = "../support/mod.rs"]

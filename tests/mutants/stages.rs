@@ -3,20 +3,19 @@
 use std::collections::BTreeMap;
 use std::time::Duration;
 
-use glam::{DVec3, Vec4};
-use motes::forces::{self, Force, Law, Over, Problem};
+use motes::forces::{Force, Law};
 use motes::integrators::INTEGRATORS;
 use motes::kernel::{
     ACCELERATION, ALARM, Backend, Kernel, Machine, POSITION, Plan, SPECIES, Shader, Source, VELOCITY, World,
 };
 use motes::lockstep::{Verdict, compare};
-use motes::settings::{Kind, Value};
-use motes::{Bounds, Gpu, Setup, Simulation, wgpu};
+use motes::settings::Value;
+use motes::{Gpu, Setup, Simulation, wgpu};
 
-use crate::primitives;
-use crate::support::machines::{alone, cut, kernel, kernels, machines};
+use crate::support::machines::{alone, cut, kernel, machines};
 use crate::support::states::{force, integrator};
-use crate::support::{self, Shared, choices};
+use crate::support::{self, Shared};
+use crate::{laws, primitives};
 
 /// Large, and not a round number: what is wrong in a step shows.
 const DT: f64 = 0.37;
@@ -142,8 +141,8 @@ pub fn all(shared: &Shared) -> Vec<Stage> {
     integrators(&device, &mut stages);
     watches(&device, &mut stages);
     crate::boundary::boundary(&device, &mut stages);
-    laws(&device, &mut stages);
-    planes(&device, &mut stages);
+    laws::all(&device, &mut stages);
+    laws::planes(&device, &mut stages);
     pairs(shared, &device, &mut stages);
     primitives::all(&device, &mut stages);
     stages
@@ -198,59 +197,6 @@ fn watches(device: &Device, stages: &mut Vec<Stage>) {
     }
 }
 
-/// Every law alone, in all its variants; those over pairs by the visit that compiles fastest.
-fn laws(device: &Device, stages: &mut Vec<Stage>) {
-    let machine = Machine { software: true, subgroup: 0, invocations: 1 };
-    for entry in forces::FORCES {
-        for settings in choices::variants(entry.keys) {
-            // Vectors that are none, or short, may go another way.
-            let mut all = vec![settings.clone()];
-            for key in entry.keys.iter().filter(|key| key.kind == Kind::Vector) {
-                for part in [0.0, 0.3] {
-                    let vector = (settings.vector(key.name) * part).as_vec3().as_dvec3();
-                    all.push(settings.clone().with(key.name, Value::Vector(vector)));
-                }
-            }
-            for settings in all {
-                let force = (entry.build)(&settings);
-                // A search wants its grid, and has stages of its own; by force everybody meets the same.
-                if force.laws().iter().any(|law| matches!(law.over, Over::Near { .. } | Over::Nearest { .. })) {
-                    continue;
-                }
-                let problem = Problem::new(u32::try_from(FEW).expect("few"), machine);
-                for kernel in kernels(force.as_ref(), &problem) {
-                    stages.push(stage(entry.name, resting(device, machine, Bounds::default()), kernel));
-                }
-            }
-        }
-    }
-}
-
-/// A cloud where it began, with some at rest, one of them in the middle, two at one place, and some who are alone, or meet head on, far away.
-fn resting(device: &Device, machine: Machine, bounds: Bounds) -> Simulation<Gpu> {
-    let mut simulation = moving(device, FEW, Some(machine));
-    let cloud = support::cloud(FEW, 11);
-    let join = |v: &[DVec3], w: &[f64]| -> Vec<Vec4> { v.iter().zip(w).map(|(v, w)| v.extend(*w).as_vec4()).collect() };
-    let mut positions = join(&cloud.position, &cloud.mass);
-    let mut velocities = join(&cloud.velocity, &cloud.radius);
-    velocities.iter_mut().for_each(|v| *v *= Vec4::splat(1.7).with_w(1.0));
-    velocities[13] *= Vec4::splat(0.03).with_w(1.0);
-    let rest = |v: &mut Vec4| *v = Vec4::ZERO.with_w(v.w);
-    positions[6] = Vec4::ZERO.with_w(positions[6].w);
-    [5, 6, 7].into_iter().for_each(|id| rest(&mut velocities[id]));
-    positions[9] = positions[8];
-    positions[7] = positions[7].with_x(9.0);
-    positions[10] = positions[10].with_x(-9.0);
-    positions[11] = positions[10].with_y(positions[10].y + 0.1);
-    velocities[11] = (-velocities[10]).with_w(velocities[11].w);
-    simulation.write(POSITION, &positions).expect("places");
-    simulation.write(VELOCITY, &velocities).expect("velocities");
-    let gpu = simulation.backend();
-    let world = pollster::block_on(gpu.world()).expect("a clock");
-    gpu.set_world(World { bounds, ..world }).expect("a clock");
-    simulation
-}
-
 /// A law that looks at everything that a visit passes to it: whom it meets, by index too, and where.
 struct Curious;
 
@@ -267,19 +213,6 @@ impl Force for Curious {
             let near = 1.0 / (1.0 + r.length_squared());
             (you.mass * near * (you.velocity - me.velocity)).extend(you.mass * me.mass * near)
         })]
-    }
-}
-
-/// Laws that ask how many dimensions there are, in the plane.
-fn planes(device: &Device, stages: &mut Vec<Stage>) {
-    let machine = Machine { software: true, subgroup: 0, invocations: 1 };
-    let flat = Bounds { dimensions: 2, ..Bounds::default() };
-    for entry in forces::FORCES {
-        let force = (entry.build)(&choices::variants(entry.keys).swap_remove(0));
-        if force.laws().iter().any(|law| law.wgsl.text.contains("world.dimensions")) {
-            let kernel = kernel(force.as_ref(), FEW, &machine);
-            stages.push(stage(&format!("{}, flat", entry.name), resting(device, machine, flat), kernel));
-        }
     }
 }
 
