@@ -3,7 +3,7 @@
 // Who touches already, or is inside, is pushed straight out:  a = f_max ∇φ.
 struct Params {
     position: vec3f, radius: f32, size: vec3f, shape: u32, normal: vec3f,
-    look_ahead: f32, clearance: f32, max_force: f32,
+    look_ahead: f32, clearance: f32, max_force: f32, species: u32,
 }
 
 @group(3) @binding(0) var<uniform> params: Params;
@@ -18,7 +18,9 @@ fn surface(x: vec3f) -> vec4f {
     }
     if params.shape == 2u { return vec4f(params.normal, dot(params.normal, d)); }
     let side = select(vec3f(-1.0), vec3f(1.0), d >= vec3f());
-    let depth = abs(d) - 0.5 * params.size;
+    var depth = abs(d) - 0.5 * params.size;
+    // In the plane there is no way out above it.
+    if world.dimensions == 2u { depth.z = -3e38; }
     let outside = max(depth, vec3f());
     let distance = length(outside);
     if distance > 0.0 { return vec4f(side * outside / distance, distance); }
@@ -29,6 +31,7 @@ fn surface(x: vec3f) -> vec4f {
 }
 
 fn force(me: Particle) -> vec4f {
+    if !is_of(me.index, params.species) { return vec4f(); }
     let v = velocity_of(me);
     let h = unit(v);
     let ahead = params.look_ahead * length(v);

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use glam::{DVec3, DVec4};
 
-use super::{EACH, Force, Law, params};
+use super::{EACH, Force, Law, SPECIES, params, species};
 use crate::kernel::Scalar;
 use crate::settings::{Key, Kind, Settings, Value};
 
@@ -18,6 +18,7 @@ pub const KEYS: &[Key] = &[
     Key::new("look_ahead", Kind::NotNegative, Value::Number(1.0), "how far ahead one looks [time]"),
     Key::new("clearance", Kind::NotNegative, Value::Number(0.05), "how far off one keeps: the radius of a bird [length]"),
     Key::new("max_force", Kind::Positive, Value::Number(5.0), "what it does to who touches it [length / time²]"),
+    SPECIES,
     EACH,
 ];
 
@@ -40,12 +41,13 @@ enum Surface {
 
 impl Surface {
     /// ∇φ and φ, at a way from its middle.
-    fn at(self, d: DVec3) -> (DVec3, f64) {
+    fn at(self, d: DVec3, dimensions: u32) -> (DVec3, f64) {
         match self {
             Self::Sphere(radius) => (d.try_normalize().unwrap_or(DVec3::X), d.length() - radius),
             Self::Plane(normal) => (normal, normal.dot(d)),
             Self::Box(half) => {
-                let depth = d.abs() - half;
+                // In the plane there is no way out above it.
+                let depth = d.abs() - if dimensions == 2 { half.with_z(3e38) } else { half };
                 let outside = depth.max(DVec3::ZERO);
                 let side = DVec3::from_array(d.to_array().map(|x| if x >= 0.0 { 1.0 } else { -1.0 }));
                 if let Some(normal) = outside.try_normalize() {
@@ -76,14 +78,21 @@ impl Force for Obstacle {
             "plane" => Surface::Plane(normal),
             _ => Surface::Sphere(number("radius")),
         };
+        let (kind, kind_value) = species(&self.0, "species");
         let shape = SHAPES.iter().position(|s| *s == self.0.text("shape")).unwrap_or(0);
         let mut values = params(&self.0, &["position", "radius", "size", "look_ahead", "clearance", "max_force"]);
         values.push(("normal".to_owned(), Scalar::Vector(normal)));
+        values.push(("species".to_owned(), kind_value));
         values.push(("shape".to_owned(), Scalar::Uint(u32::try_from(shape).unwrap_or(0))));
         vec![Law::each("obstacle", crate::shader!("forces/obstacle.wgsl"), values, move |me, world| {
+            if !kind.has(me) {
+                return DVec4::ZERO;
+            }
             let heading = me.velocity.normalize_or_zero();
             let ahead = ahead * me.velocity.length();
-            let at = |s: f64| surface.at(world.bounds.shortest(me.position + s * heading - position));
+            let at = |s: f64| {
+                surface.at(world.bounds.shortest(me.position + s * heading - position), world.bounds.dimensions)
+            };
             let s = (0..MARCHES).fold(0.0, |s, _| s + (at(s).1 - clearance).max(0.0));
             let out = at(s).0;
             if s > 0.0 && s >= ahead {
