@@ -7,7 +7,7 @@
 
 const WORKGROUP: u32 = 64u;
 // In a cell of more (see `near`) the order is wrong, and the search raises the alarm.
-const MOST: u32 = 240000u;
+override MOST: u32 = 240000u;
 
 @compute @workgroup_size(WORKGROUP)
 fn order(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {

@@ -5,7 +5,7 @@
 @group(2) @binding(1) var<storage, read> starts: array<u32>;
 
 // Candidates of one search, at most: lavapipe ends an invocation's loops after 65 535 turns, without a word.
-const MOST: u32 = 240000u;
+override MOST: u32 = 240000u;
 
 // My cell, how far I look, and how many rows and cells that is.
 struct Around { cell: vec3u, reach: vec3u, span: vec3u }
@@ -15,9 +15,8 @@ struct Stretch { start: u32, end: u32, shift: vec3f }
 // A cell is a little wider than the range, so that rounding does not move a neighbour two cells away. Far from the
 // corner rounding is more than that little, and two cells are looked at, or four.
 fn reach(x: vec3f) -> vec3u {
-    let fine = vec3u(grid.fine, 1u, 1u);
-    let d = abs(away(x)) / vec3f(fine);
-    return fine * select(select(vec3u(1u), vec3u(2u), d > vec3f(8192.0)), vec3u(4u), d > vec3f(2097152.0));
+    let d = abs(away(x)) / vec3f(grid.fine);
+    return grid.fine * select(select(vec3u(1u), vec3u(2u), d > vec3f(8192.0)), vec3u(4u), d > vec3f(2097152.0));
 }
 
 fn around(x: vec3f) -> Around { return cube(cell(x), reach(x)); }

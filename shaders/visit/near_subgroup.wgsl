@@ -29,7 +29,7 @@ fn beside(a: Around, lane: u32) -> bool {
     let cell = subgroupShuffle(a.cell, lane);
     let rows = all(a.cell.yz == cell.yz) && all(a.reach == subgroupShuffle(a.reach, lane));
     let apart = max(a.cell.x, cell.x) - min(a.cell.x, cell.x);
-    let most = APART * grid.fine;
+    let most = APART * grid.fine.x;
     return rows && (apart == 0u || (apart <= most && grid.cells.x > 2u * (a.reach.x + most)));
 }
 

@@ -140,11 +140,12 @@ impl<'a> Step<'a> {
     /// # Errors
     /// The first thing that went wrong while they were written.
     pub fn measurement(forces: &'a [Box<dyn Force>], problem: Problem) -> Result<(Plan, Plan), Error> {
-        let mut before = Self::new(forces, problem);
-        before.add(keep::keep(problem.count));
+        let count = problem.count;
+        let mut before = Self::new(forces, problem.clone());
+        before.add(keep::keep(count));
         before.evaluate();
         let mut after = Self::new(forces, problem);
-        after.add(keep::restore(problem.count));
+        after.add(keep::restore(count));
         Ok((before.finished()?, after.finished()?))
     }
 

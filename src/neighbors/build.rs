@@ -60,7 +60,8 @@ impl Grid {
         let block = shader.reflection().binding("grid").map(|b| self.uniform(b, 0, problem.count)).transpose()?;
         let fields = [STARTS, SORTED_ID, SORTED_POSITION, SORTED_VELOCITY].map(|name| self.field(name));
         let uniforms = block.into_iter().map(|bytes| ("grid", bytes)).collect();
-        Ok(Pass { uniforms, ..Pass::new(shader, problem.count) }.on(&fields))
+        let constants = problem.constants(&shader);
+        Ok(Pass { constants, uniforms, ..Pass::new(shader, problem.count) }.on(&fields))
     }
 
     /// The twin.

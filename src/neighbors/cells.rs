@@ -80,7 +80,7 @@ impl Cells {
     fn rows(&self, home: Vec3, mut call: impl FnMut(&[u32])) {
         let [nx, ny, nz] = self.grid.cells.map(i64::from);
         let c = place(&self.grid, &self.bounds, home);
-        let [rx, ry, rz] = self.grid.reach().map(i64::from);
+        let [rx, ry, rz] = self.grid.fine.map(i64::from);
         let span = |n: i64, reach: i64| if n <= 2 * reach { 0..n } else { -reach..reach + 1 };
         for z in span(nz, rz) {
             for y in span(ny, ry) {

@@ -12,8 +12,11 @@ use crate::kernel::{Binding, Name, Problem, Scalar, Side};
 const SLACK: f64 = 1.0 / 512.0;
 /// Cells along one axis, at most.
 const FINEST: f64 = 8192.0;
-/// Cells that a range may be along x, the best first: the finer, the fewer are looked at for nothing.
-const FINE: [u32; 3] = [4, 2, 1];
+/// Cells that a range may be along each axis, the best first: the finer, the fewer are looked at for nothing, and the
+/// more rows there are. Finer along y and z is for ranges that hold very many.
+const FINE: [[u32; 3]; 6] = [[32, 8, 8], [16, 4, 4], [8, 2, 2], [4, 1, 1], [2, 1, 1], [1, 1, 1]];
+/// Particles of a cell from which on it is worth while to cut y and z too.
+const CROWD: f64 = 4.0;
 /// Cells for each particle, about, at most: more are all but empty, and cost memory and time to clear.
 const CELLS_PER_PARTICLE: f64 = 2.0;
 /// Cells, at most: 64 MiB, half of what every device binds.
@@ -37,8 +40,10 @@ pub struct Grid {
     pub per_cell: DVec3,
     /// Cells along each axis.
     pub cells: [u32; 3],
-    /// Cells that make up a range along x: there they are contiguous, so that rows can be cut close to who looks.
-    pub fine: u32,
+    /// Cells that make up a range along each axis.
+    pub fine: [u32; 3],
+    /// Particles of a cell at the start, when they are spread evenly.
+    pub occupancy: f64,
     /// How the cells that the range and the place of the particles ask for were brought down to what there is room for.
     pub fitted: &'static str,
 }
@@ -56,9 +61,9 @@ impl Grid {
         }
         // As fine as there is room for.
         let width = range * (1.0 + SLACK);
-        let mut grids = FINE.iter().map(|fine| Self::of_cells(name.clone(), range, of, width, *fine, problem));
-        let fitting = grids.find(|grid| grid.fitted.is_empty());
-        Ok(fitting.unwrap_or_else(|| Self::of_cells(name, range, of, width, 1, problem)))
+        let make = |fine: [u32; 3]| Self::of_cells(name.clone(), range, of, width, fine, problem);
+        let mut grids = FINE.iter().map(|fine| make(*fine)).filter(|grid| grid.fine[1] == 1 || grid.is_crowded());
+        Ok(grids.find(|grid| grid.fitted.is_empty()).unwrap_or_else(|| make([1; 3])))
     }
 
     /// For searches of the nearest, who may be anywhere: cells that hold about `occupancy` particles each.
@@ -72,18 +77,18 @@ impl Grid {
         let width = (volume * occupancy / f64::from(problem.count)).powf(1.0 / f64::from(axes.max(1)));
         // One over it is to be a number too.
         let width = if width.is_finite() && width > 0.0 { width.clamp(1e-37, 1e37) } else { 1.0 };
-        Self::of_cells(format!("cells of {occupancy:?}"), width, None, width, 1, problem)
+        Self::of_cells(format!("cells of {occupancy:?}"), width, None, width, [1; 3], problem)
     }
 
-    fn of_cells(name: String, range: f64, of: Option<u32>, width: f64, fine: u32, problem: &Problem) -> Self {
+    fn of_cells(name: String, range: f64, of: Option<u32>, width: f64, fine: [u32; 3], problem: &Problem) -> Self {
         let periodic = problem.bounds.axes(Side::Periodic);
         let size = size(problem);
-        let parts = DVec3::new(f64::from(fine), 1.0, 1.0);
+        let parts = DVec3::from_array(fine.map(f64::from));
         let whole_cells = size / width * parts;
         // A period is cut into whole cells; elsewhere the last cell may stick out.
         let wish = DVec3::select(periodic.cmpgt(DVec3::ZERO), whole_cells.floor(), whole_cells.ceil()).max(DVec3::ONE);
         let flat = problem.bounds.dimensions == 2;
-        let room = (CELLS_PER_PARTICLE * f64::from(problem.count)).clamp(64.0, MOST);
+        let room = (CELLS_PER_PARTICLE * f64::from(problem.count_of(of))).clamp(64.0, MOST);
         let most = FINEST * parts;
         let mut cells = wish.min(most);
         while cells.element_product() > room {
@@ -117,14 +122,14 @@ impl Grid {
             per_cell: DVec3::new(per_cell(0), per_cell(1), per_cell(2)),
             cells: [count(0), count(1), count(2)],
             fine,
+            occupancy: f64::from(problem.count_of(of)) / wish.element_product(),
             fitted,
         }
     }
 
-    /// How many cells a range is, along each axis.
-    #[must_use]
-    pub fn reach(&self) -> [u32; 3] {
-        [self.fine, 1, 1]
+    /// Whether cells that are so much finer still hold several particles each, when these are spread evenly.
+    fn is_crowded(&self) -> bool {
+        self.occupancy > CROWD
     }
     /// How many cells there are.
     #[must_use]
@@ -134,13 +139,13 @@ impl Grid {
     /// Whether a period has so few cells that those on both sides of me are the same.
     #[must_use]
     pub fn narrow(&self, problem: &Problem) -> bool {
-        (0..3).any(|axis| problem.bounds.sides[axis] == Side::Periodic && self.cells[axis] <= 2 * self.reach()[axis])
+        (0..3).any(|axis| problem.bounds.sides[axis] == Side::Periodic && self.cells[axis] <= 2 * self.fine[axis])
     }
     /// About how many particles a search looks at, when they are spread evenly.
     #[must_use]
     pub fn candidates(&self, problem: &Problem) -> f64 {
-        let around: u32 = self.cells.iter().zip(self.reach()).map(|(n, reach)| (*n).min(2 * reach + 1)).product();
-        (f64::from(problem.count) * f64::from(around) / f64::from(self.count())).max(1.0)
+        let around: u32 = self.cells.iter().zip(self.fine).map(|(n, fine)| (*n).min(2 * fine + 1)).product();
+        (f64::from(problem.count_of(self.of)) * f64::from(around) / f64::from(self.count())).max(1.0)
     }
     /// A field of it, by its name in shaders.
     #[must_use]
@@ -159,7 +164,7 @@ impl Grid {
             ("first", Scalar::Uint(first)),
             ("cells", Scalar::Uints(self.cells)),
             ("end", Scalar::Uint(end)),
-            ("fine", Scalar::Uint(self.fine)),
+            ("fine", Scalar::Uints(self.fine)),
             ("only", Scalar::Uint(self.of.unwrap_or(u32::MAX))),
         ];
         binding.packed.pack("grid", &values)

@@ -38,8 +38,11 @@ pub struct Stage {
 
 impl Stage {
     /// Keeps the state that a simulation is in.
-    pub fn new(name: &str, mut simulation: Simulation<Gpu>, kernel: Kernel) -> Self {
-        let plan = alone(kernel);
+    pub fn new(name: &str, simulation: Simulation<Gpu>, kernel: Kernel) -> Self {
+        Self::of(name, simulation, alone(kernel))
+    }
+    /// The same for several kernels, of which each takes up what those before it left.
+    pub fn of(name: &str, mut simulation: Simulation<Gpu>, plan: Plan) -> Self {
         let count = simulation.count();
         let gpu = simulation.backend();
         gpu.pace(Duration::from_millis(80), Duration::from_secs(5));
@@ -76,6 +79,7 @@ impl Stage {
             return Self::tells(gpu, plan, field, want).unwrap_or(false);
         }
         let verdicts = pollster::block_on(compare(gpu, plan, count));
+        if std::env::var("SHOW").is_ok() { eprintln!("{}: {verdicts:?}", self.name); }
         verdicts.is_ok_and(|all| !all.is_empty() && all.iter().all(Verdict::good))
     }
     /// Whether a file is part of what runs here.
@@ -118,11 +122,18 @@ pub fn moving(device: &Device, count: usize, machine: Option<Machine>) -> Simula
 
 /// A stage where every field but position, velocity and alarm holds numbers that differ from element to element.
 pub fn stage(name: &str, mut simulation: Simulation<Gpu>, kernel: Kernel) -> Stage {
+    let plan = alone(kernel);
+    fill(&mut simulation, &plan);
+    Stage::of(name, simulation, plan)
+}
+
+/// Numbers for every field but position, velocity and alarm.
+pub fn fill(simulation: &mut Simulation<Gpu>, plan: &Plan) {
     let gpu = simulation.backend();
-    gpu.compile(&alone(kernel.clone())).expect("a good kernel");
+    gpu.compile(plan).expect("a good plan");
     let mut random = support::Random::new(23);
     let kept = [POSITION.name, VELOCITY.name, SPECIES.name, ALARM.name, "world"];
-    for name in alone(kernel.clone()).fields(1).keys().filter(|n| !kept.contains(&n.as_str())) {
+    for name in plan.fields(1).keys().filter(|n| !kept.contains(&n.as_str())) {
         let words: Vec<f32> = (0..gpu.size(name) / 4).map(|_| random.narrow()).collect();
         gpu.write_bytes(name, 0, bytemuck::cast_slice(&words)).expect("a field");
     }
@@ -130,7 +141,6 @@ pub fn stage(name: &str, mut simulation: Simulation<Gpu>, kernel: Kernel) -> Sta
     if bytes > 0 {
         gpu.write_bytes(SPECIES.name, 0, bytemuck::cast_slice(&support::species(bytes / 4))).expect("a field");
     }
-    Stage::new(name, simulation, kernel)
 }
 
 /// All stages, those that cost the least first.
@@ -144,6 +154,7 @@ pub fn all(shared: &Shared) -> Vec<Stage> {
     laws::all(&device, &mut stages);
     laws::planes(&device, &mut stages);
     pairs(shared, &device, &mut stages);
+    crate::neighbors::all(shared, &device, &mut stages);
     primitives::all(&device, &mut stages);
     stages
 }

@@ -3,7 +3,10 @@
 #[path = "../support/mod.rs"]
 mod support;
 
+mod exact;
+mod far;
 mod places;
+mod properties;
 
 use motes::forces::{Force, Law, Over};
 use motes::integrators::Step;

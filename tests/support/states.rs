@@ -68,7 +68,7 @@ pub fn felt(forces: &[Box<dyn Force>], particles: &Particles, world: World) -> (
     let count = u32::try_from(particles.len()).expect("few");
     let mut cpu = Cpu::new(count).expect("some");
     let problem = motes::forces::Problem::new(count, cpu.machine()).at(&particles.position, world.bounds);
-    let mut step = Step::new(forces, problem);
+    let mut step = Step::new(forces, problem.clone());
     step.evaluate();
     let mut plan = step.finished().expect("a plan");
     for force in forces {
