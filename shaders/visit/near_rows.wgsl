@@ -15,14 +15,17 @@ struct Stretch { start: u32, end: u32, shift: vec3f }
 // A cell is a little wider than the range, so that rounding does not move a neighbour two cells away. Far from the
 // corner rounding is more than that little, and two cells are looked at, or four.
 fn reach(x: vec3f) -> vec3u {
-    let d = abs(away(x));
-    return select(select(vec3u(1u), vec3u(2u), d > vec3f(8192.0)), vec3u(4u), d > vec3f(2097152.0));
+    let fine = vec3u(grid.fine, 1u, 1u);
+    let d = abs(away(x)) / vec3f(fine);
+    return fine * select(select(vec3u(1u), vec3u(2u), d > vec3f(8192.0)), vec3u(4u), d > vec3f(2097152.0));
 }
 
+fn around(x: vec3f) -> Around { return cube(cell(x), reach(x)); }
+
 // Where an axis has fewer cells than I look at, each is looked at once.
-fn around(x: vec3f) -> Around {
-    let r = reach(x);
-    return Around(cell(x), r, min(2u * r + 1u, grid.cells));
+fn cube(cell: vec3u, reach: vec3u) -> Around {
+    let r = min(reach, grid.cells);
+    return Around(cell, r, min(2u * r + 1u, grid.cells));
 }
 
 // Part 0, 1 or 2 of the row y, z among those around me, for who stands in a cell from `low` to `high`, which is mine or close to it.
@@ -44,7 +47,7 @@ fn stretch(a: Around, low: u32, high: u32, z: u32, y: u32, part: u32) -> Stretch
 }
 
 // Looks go no further than once round.
-fn wrap(c: i32, n: i32) -> i32 { return (c + 4 * n) % n; }
+fn wrap(c: i32, n: i32) -> i32 { return (c + n) % n; }
 fn turn(c: i32, n: i32) -> i32 { return i32(c >= n) - i32(c < 0); }
 
 // Whether a row reaches over the seam.

@@ -5,7 +5,7 @@
 const WORKGROUP: u32 = 64u;
 const LANES: u32 = 8u;
 const NOBODY: u32 = 0xffffffffu;
-// Cells between those who walk together, at most: more, and most of what they look at is not theirs.
+// Ranges between those who walk together, at most: more, and most of what they look at is not theirs.
 const APART: u32 = 3u;
 
 // What lane 0, 1, … holds; the lane of a broadcast must be a constant.
@@ -23,12 +23,14 @@ fn consider(k: u32, slot: u32, end: u32, shift: vec3f, me: Particle, you: Partic
     if with_me && slot < end && in_range(r) && !same(k, slot, me) { gather(me, you, r, sum); }
 }
 
-// Whether I look at the rows of another, at parts of them that do not reach round the seam into each other.
+// Whether I look at the rows of another, at parts of them that do not reach round the seam into each other: who walks
+// together stands up to twice APART from each other, on both sides of the leader.
 fn beside(a: Around, lane: u32) -> bool {
     let cell = subgroupShuffle(a.cell, lane);
     let rows = all(a.cell.yz == cell.yz) && all(a.reach == subgroupShuffle(a.reach, lane));
     let apart = max(a.cell.x, cell.x) - min(a.cell.x, cell.x);
-    return rows && (apart == 0u || (apart <= APART && grid.cells.x >= 2u * (a.reach.x + APART)));
+    let most = APART * grid.fine;
+    return rows && (apart == 0u || (apart <= most && grid.cells.x > 2u * (a.reach.x + most)));
 }
 
 @compute @workgroup_size(WORKGROUP)
@@ -42,8 +44,11 @@ fn near(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
     let a = around(me.position);
     var sum = Sum();
     var waits = awake;
-    var seen = 0u;
+    var walked = 0u;
     for (var turn = 0u; turn < LANES && subgroupAny(waits); turn += 1u) {
+        // Of the turns that an invocation's loops may take, those before this one had some. Two searches of MOST are all.
+        let spent = max(walked, MOST) - MOST;
+        var seen = spent;
         // The first who waits, and all who can go along.
         let leader = subgroupMin(select(NOBODY, place, waits));
         let with_me = waits && beside(a, leader);
@@ -86,6 +91,7 @@ fn near(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
             }
         }
         if with_me && seen > MOST { atomicMin(&alarm[2], me.index); }
+        walked += min(seen, MOST) - spent;
         waits = waits && !with_me;
     }
     if awake { deliver(me, sum); }

@@ -94,7 +94,7 @@ fn nearest(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups:
             var seen = 0u;
             var reach = 1u;
             loop {
-                let a = Around(c, vec3u(reach), min(vec3u(2u * reach + 1u), grid.cells));
+                let a = cube(c, vec3u(reach));
                 let parts = select(vec2u(1u, 2u), vec2u(0u, 3u), seam(a));
                 list = empty();
                 for (var z = 0u; z < a.span.z; z += 1u) {

@@ -80,10 +80,11 @@ impl Cells {
     fn rows(&self, home: Vec3, mut call: impl FnMut(&[u32])) {
         let [nx, ny, nz] = self.grid.cells.map(i64::from);
         let c = place(&self.grid, &self.bounds, home);
-        let span = |n: i64| if n < 3 { 0..n } else { -1..2 };
-        for z in span(nz) {
-            for y in span(ny) {
-                for x in span(nx) {
+        let [rx, ry, rz] = self.grid.reach().map(i64::from);
+        let span = |n: i64, reach: i64| if n <= 2 * reach { 0..n } else { -reach..reach + 1 };
+        for z in span(nz, rz) {
+            for y in span(ny, ry) {
+                for x in span(nx, rx) {
                     let [x, y, z] = [(c[0] + x).rem_euclid(nx), (c[1] + y).rem_euclid(ny), (c[2] + z).rem_euclid(nz)];
                     let key = usize::try_from(x + nx * (y + ny * z)).unwrap_or(0);
                     call(&self.ids[self.starts[key] as usize..self.starts[key + 1] as usize]);

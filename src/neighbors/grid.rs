@@ -12,10 +12,15 @@ use crate::kernel::{Binding, Name, Problem, Scalar, Side};
 const SLACK: f64 = 1.0 / 512.0;
 /// Cells along one axis, at most.
 const FINEST: f64 = 8192.0;
+/// Cells that a range may be along x, the best first: the finer, the fewer are looked at for nothing.
+const FINE: [u32; 3] = [4, 2, 1];
 /// Cells for each particle, about, at most: more are all but empty, and cost memory and time to clear.
 const CELLS_PER_PARTICLE: f64 = 2.0;
 /// Cells, at most: 64 MiB, half of what every device binds.
 const MOST: f64 = 16_777_216.0;
+/// Cells between the origin and the corner of an axis without a period, at most. A place there has digits for its
+/// distance from the origin; further from the corner than this, fewer would be left of it than tell cells apart.
+const NEAREST_CORNER: f64 = 1_048_576.0;
 
 /// A uniform grid of cells no narrower than a range.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,6 +37,8 @@ pub struct Grid {
     pub per_cell: DVec3,
     /// Cells along each axis.
     pub cells: [u32; 3],
+    /// Cells that make up a range along x: there they are contiguous, so that rows can be cut close to who looks.
+    pub fine: u32,
     /// How the cells that the range and the place of the particles ask for were brought down to what there is room for.
     pub fitted: &'static str,
 }
@@ -42,15 +49,16 @@ impl Grid {
     /// # Errors
     /// [`Error::Scene`] when the range is not a positive number.
     pub fn new(range: f64, of: Option<u32>, problem: &Problem) -> Result<Self, Error> {
-        if !(range > 0.0 && range <= f64::from(f32::MAX) / 4.0) {
-            let text = format!("a search for neighbours has a range of {range}: it must be above 0, and finite");
-            return Err(Error::Scene(text));
-        }
+        checked(range)?;
         let mut name = format!("{range:?}");
         if let Some(species) = of {
             name = format!("{name} species {species}");
         }
-        Ok(Self::of_cells(name, range, of, range * (1.0 + SLACK), problem))
+        // As fine as there is room for.
+        let width = range * (1.0 + SLACK);
+        let mut grids = FINE.iter().map(|fine| Self::of_cells(name.clone(), range, of, width, *fine, problem));
+        let fitting = grids.find(|grid| grid.fitted.is_empty());
+        Ok(fitting.unwrap_or_else(|| Self::of_cells(name, range, of, width, 1, problem)))
     }
 
     /// For searches of the nearest, who may be anywhere: cells that hold about `occupancy` particles each.
@@ -62,20 +70,22 @@ impl Grid {
             (volume, axes) = (volume * side, axes + 1);
         }
         let width = (volume * occupancy / f64::from(problem.count)).powf(1.0 / f64::from(axes.max(1)));
-        let width = if width.is_finite() && width > 0.0 { width } else { 1.0 };
-        Self::of_cells(format!("cells of {occupancy:?}"), width, None, width, problem)
+        // One over it is to be a number too.
+        let width = if width.is_finite() && width > 0.0 { width.clamp(1e-37, 1e37) } else { 1.0 };
+        Self::of_cells(format!("cells of {occupancy:?}"), width, None, width, 1, problem)
     }
 
-    fn of_cells(name: String, range: f64, of: Option<u32>, width: f64, problem: &Problem) -> Self {
+    fn of_cells(name: String, range: f64, of: Option<u32>, width: f64, fine: u32, problem: &Problem) -> Self {
         let periodic = problem.bounds.axes(Side::Periodic);
         let size = size(problem);
-        let fine = size / width;
+        let parts = DVec3::new(f64::from(fine), 1.0, 1.0);
+        let whole_cells = size / width * parts;
         // A period is cut into whole cells; elsewhere the last cell may stick out.
-        let wish = DVec3::select(periodic.cmpgt(DVec3::ZERO), fine.floor(), fine.ceil());
-        let wish = wish.clamp(DVec3::ONE, DVec3::splat(FINEST));
+        let wish = DVec3::select(periodic.cmpgt(DVec3::ZERO), whole_cells.floor(), whole_cells.ceil()).max(DVec3::ONE);
         let flat = problem.bounds.dimensions == 2;
         let room = (CELLS_PER_PARTICLE * f64::from(problem.count)).clamp(64.0, MOST);
-        let mut cells = wish;
+        let most = FINEST * parts;
+        let mut cells = wish.min(most);
         while cells.element_product() > room {
             // The longest axis first, and no more than is needed.
             let longest = cells.max_position();
@@ -94,22 +104,28 @@ impl Grid {
         if spread > 1.0 && !open.is_empty() {
             let factor = spread.powf(1.0 / open.len() as f64);
             for axis in &open {
-                cells[*axis] = (cells[*axis] * factor).floor().clamp(cells[*axis], FINEST);
+                cells[*axis] = (cells[*axis] * factor).floor().clamp(cells[*axis], most[*axis]);
             }
         }
-        let per_cell = |axis: usize| if periodic[axis] > 0.0 { cells[axis] / size[axis] } else { 1.0 / width };
+        let per_cell = |axis: usize| if periodic[axis] > 0.0 { cells[axis] / size[axis] } else { parts[axis] / width };
         let count = |axis: usize| whole(cells[axis]);
         Self {
             name,
             range,
             of,
-            low: low(problem),
+            low: low(problem, width),
             per_cell: DVec3::new(per_cell(0), per_cell(1), per_cell(2)),
             cells: [count(0), count(1), count(2)],
+            fine,
             fitted,
         }
     }
 
+    /// How many cells a range is, along each axis.
+    #[must_use]
+    pub fn reach(&self) -> [u32; 3] {
+        [self.fine, 1, 1]
+    }
     /// How many cells there are.
     #[must_use]
     pub fn count(&self) -> u32 {
@@ -118,12 +134,12 @@ impl Grid {
     /// Whether a period has so few cells that those on both sides of me are the same.
     #[must_use]
     pub fn narrow(&self, problem: &Problem) -> bool {
-        (0..3).any(|axis| problem.bounds.sides[axis] == Side::Periodic && self.cells[axis] < 3)
+        (0..3).any(|axis| problem.bounds.sides[axis] == Side::Periodic && self.cells[axis] <= 2 * self.reach()[axis])
     }
     /// About how many particles a search looks at, when they are spread evenly.
     #[must_use]
     pub fn candidates(&self, problem: &Problem) -> f64 {
-        let around: u32 = self.cells.iter().map(|n| (*n).min(3)).product();
+        let around: u32 = self.cells.iter().zip(self.reach()).map(|(n, reach)| (*n).min(2 * reach + 1)).product();
         (f64::from(problem.count) * f64::from(around) / f64::from(self.count())).max(1.0)
     }
     /// A field of it, by its name in shaders.
@@ -143,22 +159,45 @@ impl Grid {
             ("first", Scalar::Uint(first)),
             ("cells", Scalar::Uints(self.cells)),
             ("end", Scalar::Uint(end)),
+            ("fine", Scalar::Uint(self.fine)),
             ("only", Scalar::Uint(self.of.unwrap_or(u32::MAX))),
         ];
         binding.packed.pack("grid", &values)
     }
 }
 
-/// Where the grid begins: a box says so, and elsewhere it is where the first particles are.
-fn low(problem: &Problem) -> DVec3 {
-    let open = problem.bounds.axes(Side::Open);
-    open * problem.extent.0 + (DVec3::ONE - open) * problem.bounds.low
+/// A range that can be searched: single precision must hold its square.
+///
+/// # Errors
+/// [`Error::Scene`] when it is another.
+pub fn checked(range: f64) -> Result<(), Error> {
+    if range > 0.0 && (f64::from(f32::MIN_POSITIVE)..=f64::from(f32::MAX)).contains(&(range * range)) {
+        return Ok(());
+    }
+    Err(Error::Scene(format!(
+        "a search for neighbours has a range of {range}: it must be above 0, and between 1.1e-19 and 1.8e19, so that \
+         single precision holds its square"
+    )))
 }
 
+/// Where the grid begins: a box says so, and elsewhere it is where the first particles are.
+fn low(problem: &Problem, width: f64) -> DVec3 {
+    let corner = |axis: usize| match problem.bounds.sides[axis] {
+        Side::Periodic => problem.bounds.low[axis],
+        side => {
+            let low = if side == Side::Open { problem.extent.0[axis] } else { problem.bounds.low[axis] };
+            if low.abs() <= NEAREST_CORNER * width { low } else { 0.0 }
+        }
+    };
+    DVec3::new(corner(0), corner(1), corner(2))
+}
+
+/// How far particles are spread, or the box; 0 along an axis where that is no number.
 fn size(problem: &Problem) -> DVec3 {
-    let open = problem.bounds.axes(Side::Open);
-    let size =
-        open * (problem.extent.1 - problem.extent.0) + (DVec3::ONE - open) * (problem.bounds.high - problem.bounds.low);
+    let open = problem.bounds.axes(Side::Open).cmpgt(DVec3::ZERO);
+    let (low, high) = (problem.bounds.low, problem.bounds.high);
+    let size = DVec3::select(open, problem.extent.1 - problem.extent.0, high - low);
+    let size = DVec3::from_array(size.to_array().map(|side| if side.is_finite() { side } else { 0.0 }));
     if problem.bounds.dimensions == 2 { size.with_z(0.0) } else { size }
 }
 

@@ -5,7 +5,7 @@ mod cells;
 mod grid;
 
 pub use cells::Cells;
-pub use grid::Grid;
+pub use grid::{Grid, checked};
 
 use crate::kernel::{Field, Name};
 

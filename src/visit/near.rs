@@ -72,7 +72,7 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
     let mut passes = Vec::new();
     let mut first = 0;
     while first < problem.count {
-        let end = problem.count.min(first + TARGETS);
+        let end = problem.count.min(first.saturating_add(TARGETS));
         let mut uniforms = params.clone();
         if let Some(binding) = shader.reflection().binding("grid") {
             uniforms.push(("grid", grid.uniform(binding, first, end)?));

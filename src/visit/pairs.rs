@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::Law;
 use crate::error::Error;
 use crate::kernel::{Kernel, Machine, Pass, Problem, Scalar, Shader, Source, Threads};
+use crate::neighbors::checked;
 
 /// Meetings in one dispatch, at most. At 10 billion a second (a small GPU) that is 0.1 s; a large one needs half a millisecond.
 const MEETINGS: u64 = 1 << 30;
@@ -66,6 +67,7 @@ fn join(visit: Source, law: &Law) -> Result<Arc<Shader>, Error> {
 pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
     let (count, machine) = (problem.count, &problem.machine);
     law.requires_meetings()?;
+    law.over.range().map_or(Ok(()), checked)?;
     let shader = join(variant(machine), &law)?;
     let reflection = shader.reflection();
     let (targets, block) = (reflection.constant("TARGETS"), reflection.constant("BLOCK"));
