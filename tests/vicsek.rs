@@ -48,7 +48,7 @@ impl Run {
             ("range", number(self.range)),
             ("speed", number(self.speed)),
             ("noise", number(self.eta)),
-            ("kind", word(self.kind)),
+            ("noise_kind", word(self.kind)),
             ("over", word(self.over)),
         ];
         let bounds = Bounds::new(DVec3::ZERO, DVec3::new(self.side, self.side, 0.0), Side::Periodic);
