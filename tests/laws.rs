@@ -126,6 +126,12 @@ fn every_key_is_read() {
         let world = World { time: TIME, dt: 0.01, ..World::default() };
         let at = |settings: &Settings| felt(&[(entry.build)(settings)], &support::cloud(100, 3), world);
         for key in entry.keys {
+            assert!(
+                !["kind", "wgsl"].contains(&key.name),
+                "{}: a scene says `{}` of which force it is",
+                entry.name,
+                key.name
+            );
             let others = |settings: &Settings| -> Vec<Settings> {
                 let value = &settings.0[key.name];
                 match key.kind {

@@ -75,12 +75,13 @@ fn every_law_alone() {
                     // The integrator that needs the fewest pipelines.
                     let mut simulation = moving(gpu, count, vec![law], "symplectic_euler");
                     let law = [pick().1];
-                    let problem = forces::Problem::new(simulation.count(), machine);
+                    let cloud = support::cloud(count, 7);
+                    let problem =
+                        forces::Problem::new(simulation.count(), machine).at(&cloud.position, motes::Bounds::default());
                     let mut step = Step::new(&law, problem);
                     step.evaluate();
                     let mut plan = step.finished().expect("a plan");
                     // Back to where they began: what pushes away leaves nobody to be pushed.
-                    let cloud = support::cloud(count, 7);
                     let places = cloud.position.iter().zip(&cloud.mass).map(|(x, m)| x.extend(*m).as_vec4());
                     simulation.write(POSITION, &places.collect::<Vec<_>>()).expect("places");
                     let laws = plan.order.len();

@@ -37,7 +37,7 @@ impl Force for Sorting {
 
 fn particles() -> Particles {
     let mut particles = support::cloud(40, 2).of_species(3);
-    particles.append(&support::cloud(25, 3));
+    particles.append(&support::cloud(25, 3).of_species(0));
     particles.velocity.fill(DVec3::ZERO);
     particles.species[64] = 9;
     particles

@@ -10,6 +10,8 @@ use motes::{Bounds, Cpu, Particles, Setup, Simulation};
 /// A force by its name, its defaults changed by some settings.
 pub fn force(name: &str, settings: &[(&'static str, Value)]) -> Box<dyn Force> {
     let entry = forces::entry(name).unwrap_or_else(|| panic!("no force is called {name}"));
+    let known = |key: &str| entry.keys.iter().any(|k| k.name == key);
+    assert!(settings.iter().all(|(key, _)| known(key)), "{name} has not all of these keys: {settings:?}");
     let defaults = Settings::defaults(entry.keys);
     (entry.build)(&settings.iter().fold(defaults, |s, (key, value)| s.with(key, value.clone())))
 }
