@@ -78,7 +78,7 @@ fn every_law_alone() {
                     let cloud = support::cloud(count, 7);
                     let problem =
                         forces::Problem::new(simulation.count(), machine).at(&cloud.position, motes::Bounds::default());
-                    let mut step = Step::new(&law, problem);
+                    let mut step = Step::new(&law, problem.clone());
                     step.evaluate();
                     let mut plan = step.finished().expect("a plan");
                     // Back to where they began: what pushes away leaves nobody to be pushed.

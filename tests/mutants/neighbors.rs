@@ -130,7 +130,12 @@ pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
     let machines: Vec<_> = [LANES, EIGHT].into_iter().filter(|m| eight || !m.software).collect();
 
     // Three, four and twelve cells, with seams everywhere; eight workgroups in two rows.
-    let sides = |sides, size| Bounds { low: DVec3::new(0.125, 3.0, -2.5), high: DVec3::new(0.125, 3.0, -2.5) + size, sides, dimensions: 3 };
+    let sides = |sides, size| Bounds {
+        low: DVec3::new(0.125, 3.0, -2.5),
+        high: DVec3::new(0.125, 3.0, -2.5) + size,
+        sides,
+        dimensions: 3,
+    };
     let bounds = sides([Periodic; 3], DVec3::new(12.0, 3.0, 4.0));
     let positions = scattered(FEW, &bounds, 2.0);
     let place = Place { device, bounds, guess: positions.clone(), positions };
@@ -146,7 +151,8 @@ pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
     }
     let bounds = Bounds::default();
     // Distances that are just the range, and places where two cells meet.
-    let lattice: Vec<DVec3> = (0..216).map(|i| DVec3::new(f64::from(i % 6), f64::from(i / 6 % 6), f64::from(i / 36))).collect();
+    let lattice: Vec<DVec3> =
+        (0..216).map(|i| DVec3::new(f64::from(i % 6), f64::from(i / 6 % 6), f64::from(i / 36))).collect();
     let place = Place { device, bounds, guess: lattice.clone(), positions: lattice };
     for machine in &machines {
         stages.push(place.stage("near, lattice", law(STILL, near(1.0)), *machine, nothing));
