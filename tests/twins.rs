@@ -76,8 +76,9 @@ fn every_law_alone() {
                     let mut simulation = moving(gpu, count, vec![law], "symplectic_euler");
                     let law = [pick().1];
                     let cloud = support::cloud(count, 7);
-                    let problem =
-                        forces::Problem::new(simulation.count(), machine).at(&cloud.position, motes::Bounds::default());
+                    let problem = forces::Problem::new(simulation.count(), machine)
+                        .at(&cloud.position, motes::Bounds::default())
+                        .of_species(&cloud.species);
                     let mut step = Step::new(&law, problem.clone());
                     step.evaluate();
                     let mut plan = step.finished().expect("a plan");

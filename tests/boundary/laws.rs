@@ -38,7 +38,9 @@ fn every_law_in_a_periodic_box() {
                     let far = if nearby { crate::inside(count, &bounds, 9) } else { scattered(count, &bounds, 9) };
                     let far: Vec<_> = far.position.iter().zip(&far.mass).map(|(x, m)| x.extend(*m).as_vec4()).collect();
                     simulation.write(motes::POSITION, &far).expect("places");
-                    let problem = Problem::new(333, machine).at(&start.particles.position, bounds);
+                    let problem = Problem::new(333, machine)
+                        .at(&start.particles.position, bounds)
+                        .of_species(&start.particles.species);
                     let law = [pick()];
                     let mut step = Step::new(&law, problem);
                     step.evaluate();
