@@ -15,6 +15,8 @@ const FINEST: f64 = 8192.0;
 /// Cells that a range may be along each axis, the best first: the finer, the fewer are looked at for nothing, and the
 /// more rows there are. Finer along y and z is for ranges that hold very many.
 const FINE: [[u32; 3]; 6] = [[32, 8, 8], [16, 4, 4], [8, 2, 2], [4, 1, 1], [2, 1, 1], [1, 1, 1]];
+/// So few of one species need no cells.
+const FEW: u32 = 32;
 /// Particles of a cell from which on it is worth while to cut y and z too.
 const CROWD: f64 = 4.0;
 /// Cells for each particle, about, at most: more are all but empty, and cost memory and time to clear.
@@ -89,6 +91,9 @@ impl Grid {
         let wish = DVec3::select(periodic.cmpgt(DVec3::ZERO), whole_cells.floor(), whole_cells.ceil()).max(DVec3::ONE);
         let flat = problem.bounds.dimensions == 2;
         let room = (CELLS_PER_PARTICLE * f64::from(problem.count_of(of))).clamp(64.0, MOST);
+        // A few of one species are looked at one and all.
+        let few = of.is_some() && problem.count_of(of) <= FEW;
+        let wish = if few { DVec3::ONE } else { wish };
         let most = FINEST * parts;
         let mut cells = wish.min(most);
         while cells.element_product() > room {
@@ -106,7 +111,7 @@ impl Grid {
         let open: Vec<usize> =
             (0..3).filter(|axis| problem.bounds.sides[*axis] == Side::Open && !(flat && *axis == 2)).collect();
         let spread = 0.5 * room / cells.element_product();
-        if spread > 1.0 && !open.is_empty() {
+        if spread > 1.0 && !few && !open.is_empty() {
             let factor = spread.powf(1.0 / open.len() as f64);
             for axis in &open {
                 cells[*axis] = (cells[*axis] * factor).floor().clamp(cells[*axis], most[*axis]);
