@@ -2,8 +2,8 @@
 // vectors). Those who stand side by side in a row of cells walk together: each lane loads one candidate of all their
 // cells taken as one, and the eight are passed round by broadcast. What of that is not around a lane fails its test of
 // distance, so everybody meets the same, in the same order, as alone.
-const WORKGROUP: u32 = 64u;
 const LANES: u32 = 8u;
+const WORKGROUP: u32 = 8u * LANES;
 const NOBODY: u32 = 0xffffffffu;
 // Ranges between those who walk together, at most: more, and most of what they look at is not theirs.
 const APART: u32 = 3u;

@@ -63,8 +63,7 @@ impl Cells {
         }
         total as f64 / self.homes.len().max(1) as f64 - 1.0
     }
-    /// Calls with the id of everybody else that is within the range of a particle. Searches are for particles within
-    /// some thousand cells of the grid's corner; further away, where rounding is wider than a cell's slack, one may be missed.
+    /// Calls with the id of everybody else that is within the range of a particle.
     pub fn around(&self, i: usize, mut call: impl FnMut(usize)) {
         let home = self.homes[i];
         self.rows(home, |ids| {
@@ -80,8 +79,9 @@ impl Cells {
     fn rows(&self, home: Vec3, mut call: impl FnMut(&[u32])) {
         let [nx, ny, nz] = self.grid.cells.map(i64::from);
         let c = place(&self.grid, &self.bounds, home);
-        let [rx, ry, rz] = self.grid.fine.map(i64::from);
-        let span = |n: i64, reach: i64| if n <= 2 * reach { 0..n } else { -reach..reach + 1 };
+        let [rx, ry, rz] = reach(&self.grid, home);
+        // Where an axis has fewer cells than are looked at, each is looked at once.
+        let span = |n: i64, reach: i64| if 2 * reach + 1 > n { 0..n } else { -reach..reach + 1 };
         for z in span(nz, rz) {
             for y in span(ny, ry) {
                 for x in span(nx, rx) {
@@ -92,6 +92,22 @@ impl Cells {
             }
         }
     }
+}
+
+/// How many cells to look at on each side: more, where rounding moves places by more than a cell's slack; see
+/// `shaders/visit/near_rows.wgsl`.
+fn reach(grid: &Grid, home: Vec3) -> [i64; 3] {
+    let away = ((home - grid.low.as_vec3()) * grid.per_cell.as_vec3()).abs().to_array();
+    #[expect(clippy::cast_precision_loss, reason = "a small whole number")]
+    let reach = |axis: usize| {
+        let fine = i64::from(grid.fine[axis]);
+        match away[axis] / fine as f32 {
+            ranges if ranges > 2_097_152.0 => 4 * fine,
+            ranges if ranges > 8192.0 => 2 * fine,
+            _ => fine,
+        }
+    };
+    [0, 1, 2].map(reach)
 }
 
 /// The cell of a place at home along each axis, before it is folded.

@@ -117,7 +117,9 @@ impl Grid {
                 cells[*axis] = (cells[*axis] * factor).floor().clamp(cells[*axis], most[*axis]);
             }
         }
-        let per_cell = |axis: usize| if periodic[axis] > 0.0 { cells[axis] / size[axis] } else { parts[axis] / width };
+        let per_cell = |axis: usize| {
+            if periodic[axis] * size[axis] > 0.0 { cells[axis] / size[axis] } else { parts[axis] / width }
+        };
         let count = |axis: usize| whole(cells[axis]);
         Self {
             name,

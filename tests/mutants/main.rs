@@ -1,6 +1,7 @@
 //! Mutation: every operator and literal of every shader is changed once, and the lockstep with the twins must notice.
 
 mod boundary;
+mod equivalent_neighbors;
 mod equivalent_primitives;
 mod equivalents;
 mod laws;
@@ -65,7 +66,7 @@ fn every_mutant_is_noticed() {
     let mut stages = stages::all(&shared);
     agree(&mut stages);
     let has_subgroups = support::machines::subgroups_of_eight(&shared);
-    let equivalents = [EQUIVALENT, equivalent_primitives::EQUIVALENT].concat();
+    let equivalents = [EQUIVALENT, equivalent_primitives::EQUIVALENT, equivalent_neighbors::EQUIVALENT].concat();
     let mut ledger = Ledger::new(&equivalents);
     let only = std::env::var("MUTANTS").unwrap_or_default();
     for (file, text) in files().into_iter().filter(|(file, _)| only.split(',').any(|part| file.contains(part))) {
@@ -75,7 +76,17 @@ fn every_mutant_is_noticed() {
         }
         assert!(stages.iter().any(|s| s.uses(&file)), "{file}: no stage runs it");
         for mutant in mutants(&text) {
+            let then = std::time::Instant::now();
             let noticed = noticed(&mut stages, &file, &mutant);
+            if then.elapsed().as_secs_f64() > 0.8 {
+                println!(
+                    "SLOW {:.1} {noticed} {} -> {} {}",
+                    then.elapsed().as_secs_f64(),
+                    mutant.old,
+                    mutant.new,
+                    mutant.line
+                );
+            }
             ledger.enter(&file, &mutant, noticed);
         }
         println!("{file}: {:.1} s", begun.elapsed().as_secs_f64());

@@ -1,12 +1,14 @@
 //! Stages of the grid and of the searches through it: small boxes in which every seam, fold and reach is met.
 
+#![allow(clippy::cast_possible_truncation, reason = "numbers are rounded to what f32 holds")]
+
 use glam::{DVec3, DVec4, Vec4};
 use motes::forces::{Body, Law, Over, Problem};
 use motes::kernel::{ALARM, Backend, Machine, Plan, Source, World};
-use motes::{Bounds, POSITION, SPECIES, Side};
+use motes::{Bounds, Gpu, POSITION, SPECIES, Side, Simulation};
 
 use crate::stages::{Device, FEW, Stage, fill, moving};
-use crate::support::machines::subgroups_of_eight;
+use crate::support::machines::{alone, subgroups_of_eight};
 use crate::support::{Random, Shared};
 
 use Side::{Open, Periodic};
@@ -32,6 +34,13 @@ const STILL: &str = "fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<f
 }
 fn acts_on(me: Particle) -> bool { return me.index % 5u != 2u; }
 fn finish(me: Particle, sum: Sum) -> vec4f { return vec4f(sum.acceleration, sum.potential); }";
+/// One that does not leave anybody out.
+const TOUCHING: &str = "fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
+    let near = you.mass / (1.0 + dot(r, r));
+    (*sum).acceleration += near * f32(you.index % 7u + 1u) * r;
+    (*sum).potential += me.mass * near;
+}
+fn finish(me: Particle, sum: Sum) -> vec4f { return vec4f(sum.acceleration, sum.potential); }";
 /// One that meets one species, and says so itself.
 const CHOOSY: &str = "fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
     if species[you.index] == 2u {
@@ -42,15 +51,11 @@ const CHOOSY: &str = "fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<
 }
 fn finish(me: Particle, sum: Sum) -> vec4f { return vec4f(sum.acceleration, sum.potential); }";
 
-/// In a grid of one species, `MOVING` meets nobody else.
 fn law(text: &'static str, over: Over) -> Law {
     let gather = move |me: &Body, you: &Body, r: DVec3, sum: &mut DVec4| {
         let near = you.mass / (1.0 + r.length_squared());
         let weight = (you.index % 7) as f64;
-        let met = match over {
-            Over::Near { of: Some(of), .. } => you.species == of,
-            _ => true,
-        };
+        let met = text != CHOOSY || you.species == OTHERS + 1;
         let part = if text == MOVING { you.velocity - me.velocity + weight * r } else { (weight + 1.0) * r };
         *sum += f64::from(u8::from(met)) * (near * part).extend(me.mass * near);
     };
@@ -75,25 +80,40 @@ struct Place<'a> {
     positions: Vec<DVec3>,
 }
 
-impl Place<'_> {
+impl<'a> Place<'a> {
+    fn new(device: &'a Device, bounds: Bounds, positions: Vec<DVec3>) -> Self {
+        Self { device, bounds, guess: positions.clone(), positions }
+    }
+    fn problem(&self, machine: Machine) -> Problem {
+        Problem::new(u32::try_from(self.positions.len()).expect("few"), machine).at(&self.guess, self.bounds)
+    }
     fn stage(&self, name: &str, law: Law, machine: Machine, change: impl Fn(&mut Plan, &Problem)) -> Stage {
-        let count = self.positions.len();
-        let problem = Problem::new(u32::try_from(count).expect("few"), machine).at(&self.guess, self.bounds);
+        let problem = self.problem(machine);
         let mut plan = plan(law, &problem);
         change(&mut plan, &problem);
+        self.run(name, plan, machine)
+    }
+    fn run(&self, name: &str, plan: Plan, machine: Machine) -> Stage {
+        Stage::of(name, self.simulation(&plan, machine), plan)
+    }
+    fn simulation(&self, plan: &Plan, machine: Machine) -> Simulation<Gpu> {
+        let count = self.positions.len();
         let mut simulation = moving(self.device, count, Some(machine));
         let clock = pollster::block_on(simulation.backend().world()).expect("a clock");
         simulation.backend().set_world(World { bounds: self.bounds, ..clock }).expect("a world");
-        let places: Vec<Vec4> =
-            self.positions.iter().enumerate().map(|(i, x)| x.extend(0.2 + 0.1 * (i % 3) as f64).as_vec4()).collect();
+        let mass = |i: usize| 0.2 + 0.1 * (i % 3) as f64;
+        let places: Vec<Vec4> = self.positions.iter().enumerate().map(|(i, x)| x.extend(mass(i)).as_vec4()).collect();
         simulation.write(POSITION, &places).expect("places");
         simulation.write(ALARM, &[u32::MAX; 3]).expect("an alarm");
-        fill(&mut simulation, &plan);
+        fill(&mut simulation, plan);
         if plan.fields(1).contains_key(SPECIES.name) {
-            let species: Vec<u32> = (0..count).map(|i| if i % 3 == 0 { OTHERS + 1 } else { OTHERS }).collect();
+            // A law that does not ask would meet others, were there any.
+            let mixed = plan.kernels.iter().all(|kernel| kernel.name != "curious" || kernel.names(SPECIES.name));
+            let of = |i| if mixed && i % 3 > 0 { OTHERS } else { OTHERS + 1 };
+            let species: Vec<u32> = (0..count).map(of).collect();
             simulation.write(SPECIES, &species).expect("species");
         }
-        Stage::of(name, simulation, plan)
+        simulation
     }
 }
 
@@ -111,7 +131,8 @@ fn scattered(count: usize, bounds: &Bounds, out: f64) -> Vec<DVec3> {
             4..7 => (low[axis] + size[axis] * (0.5 + out * random.next())) as f32,
             _ => inside,
         };
-        f64::from(if bounds.sides[axis] == Periodic { x } else { inside })
+        // Along an open axis the box says nothing.
+        f64::from(if bounds.sides[axis] == Periodic { x } else { 1.5 * inside })
     };
     (0..count).map(|i| DVec3::new(place(i, 0), place(i, 1), place(i, 2))).collect()
 }
@@ -124,41 +145,161 @@ fn nothing(_: &mut Plan, _: &Problem) {}
 
 /// A grid of unit cells, about.
 const UNIT: f64 = 0.996;
+const ONE: Over = Over::Near { range: UNIT, of: Some(OTHERS + 1) };
 
 pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
-    let eight = subgroups_of_eight(shared);
-    let machines: Vec<_> = [LANES, EIGHT].into_iter().filter(|m| eight || !m.software).collect();
-
-    // Three, four and twelve cells, with seams everywhere; eight workgroups in two rows.
-    let sides = |sides, size| Bounds {
-        low: DVec3::new(0.125, 3.0, -2.5),
-        high: DVec3::new(0.125, 3.0, -2.5) + size,
-        sides,
-        dimensions: 3,
+    let mut machines = vec![LANES];
+    if subgroups_of_eight(shared) {
+        machines.push(EIGHT);
+    }
+    let bounds = |sides, size: [f64; 3]| {
+        let low = DVec3::new(0.125, 3.0, -2.5);
+        Bounds { low, high: low + DVec3::from_array(size), sides, dimensions: 3 }
     };
-    let bounds = sides([Periodic; 3], DVec3::new(12.0, 3.0, 4.0));
-    let positions = scattered(FEW, &bounds, 2.0);
-    let place = Place { device, bounds, guess: positions.clone(), positions };
-    for machine in &machines {
-        stages.push(place.stage("near, periodic", law(MOVING, near(UNIT)), *machine, nothing));
+    for (place, machine) in machines.iter().enumerate() {
+        // Three, four and twelve cells, with seams everywhere; eight workgroups in two rows.
+        let wide = bounds([Periodic; 3], [[3.0, 12.0, 4.0], [12.0, 3.0, 4.0]][place]);
+        let here = Place::new(device, wide, scattered(FEW, &wide, 2.0));
+        stages.push(here.stage("near, periodic", law(MOVING, near(UNIT)), *machine, nothing));
+        // Two cells and one, and no end.
+        let narrow = bounds([Periodic, Periodic, Open], [[1.5, 2.0, 3.0], [2.0, 1.5, 3.0]][place]);
+        let here = Place::new(device, narrow, scattered(90, &narrow, 2.0));
+        stages.push(here.stage("near, narrow", law(STILL, near(UNIT)), *machine, nothing));
     }
-    // Two cells and one, and no end.
-    let bounds = sides([Periodic, Periodic, Open], DVec3::new(2.0, 1.5, 3.0));
-    let positions = scattered(90, &bounds, 2.0);
-    let place = Place { device, bounds, guess: positions.clone(), positions };
-    for machine in &machines {
-        stages.push(place.stage("near, narrow", law(STILL, near(UNIT)), *machine, nothing));
+    open(device, &machines, stages);
+    grids(device, stages);
+    nearest(device, stages);
+}
+
+/// Places 0 to 5 along each axis, in an order in which nobody stands beside the one before it.
+fn lattice() -> Vec<DVec3> {
+    (0..216)
+        .map(|i| i * 85 % 216)
+        .map(|i| DVec3::new(f64::from(i % 6), f64::from(i / 6 % 6), f64::from(i / 36)))
+        .collect()
+}
+
+fn open(device: &Device, machines: &[Machine], stages: &mut Vec<Stage>) {
+    // Three cells each way; distances that are just the range.
+    let bounds = Bounds::new(DVec3::ZERO, DVec3::splat(6.0), Side::Reflecting);
+    let here = Place::new(device, bounds, lattice());
+    for machine in machines {
+        let one = Over::Near { range: 2.0, of: Some(OTHERS + 1) };
+        stages.push(here.stage("near, lattice", law(STILL, near(2.0)), *machine, nothing));
+        stages.push(here.stage("near, one species", law(CHOOSY, one), *machine, nothing));
     }
-    let bounds = Bounds::default();
-    // Distances that are just the range, and places where two cells meet.
-    let lattice: Vec<DVec3> =
-        (0..216).map(|i| DVec3::new(f64::from(i % 6), f64::from(i / 6 % 6), f64::from(i / 36))).collect();
-    let place = Place { device, bounds, guess: lattice.clone(), positions: lattice };
-    for machine in &machines {
-        stages.push(place.stage("near, lattice", law(STILL, near(1.0)), *machine, nothing));
-        for text in [CHOOSY, MOVING] {
-            let over = Over::Near { range: 1.5, of: Some(OTHERS + 1) };
-            stages.push(place.stage("near, one species", law(text, over), *machine, nothing));
+    let machine = Machine { software: true, subgroup: 0, invocations: 1 };
+    let kernel = law(TOUCHING, Over::Within { range: 2.0 }).kernel(&here.problem(machine)).expect("a search");
+    stages.push(here.run("within", alone(kernel), machine));
+
+    // Eight ids in a row of eight cells, the first in the middle: as far as they may walk together, and a cell more.
+    let bounds = Bounds::new(DVec3::ZERO, DVec3::new(7.9, 4.9, 4.9), Side::Reflecting);
+    let cell = |i: u32| {
+        DVec3::new(f64::from([3, 0, 6, 1, 5, 2, 4, 7][i as usize % 8]), f64::from(i / 8 % 5), f64::from(i / 40))
+    };
+    let mut random = Random::new(8);
+    let row = (0..200).map(|i| ((cell(i) + 0.5 + 0.4 * random.vector()) * 0.998).as_vec3().as_dvec3()).collect();
+    let here = Place::new(device, bounds, row);
+    for machine in machines {
+        stages.push(here.stage("near, in rows", law(MOVING, ONE), *machine, halves));
+    }
+
+    // Two cells away, and four, on both sides of the corner.
+    let cloud = |center: [f64; 3]| {
+        let mut random = Random::new(7);
+        (0..40).map(move |_| (DVec3::from_array(center) + 1.4 * random.vector()).as_vec3().as_dvec3())
+    };
+    let far = [[9e3, 2.0, -9e3], [2.0, 9e3, 2.0], [3e6, 2.0, 1.0], [3.0, -3e6, 1.0], [-9e6, 3e6, 2e6]];
+    for (place, machine) in machines.iter().enumerate() {
+        let guess = |i| DVec3::new(f64::from(i % [4, 13][place]), f64::from(i % 5), f64::from(i % 6));
+        let mut here = Place::new(device, Bounds::default(), far.into_iter().flat_map(cloud).collect());
+        here.guess = (0..200).map(guess).collect();
+        stages.push(here.stage("near, far away", law(STILL, near(UNIT)), *machine, nothing));
+    }
+
+    // As many around as a search can visit, and one more. Ids from 7 on stand in one cell, those before them in another;
+    // 7 is left out by the law.
+    let clump = (0..47).map(|i| DVec3::new(if i < 7 { 0.5 } else { 4.5 }, 0.5, 0.5)).collect();
+    let here = Place::new(device, Bounds::default(), clump);
+    for machine in machines {
+        stages.push(here.stage("near, all but crowded", law(STILL, near(UNIT)), *machine, |plan, _| most(plan, 40.0)));
+        let stage = here.stage("near, crowded", law(STILL, near(UNIT)), *machine, |plan, _| most(plan, 39.0));
+        stages.push(stage.told(ALARM.name, [u32::MAX, u32::MAX, 8].map(f32::from_bits).to_vec()));
+    }
+}
+
+fn most(plan: &mut Plan, most: f64) {
+    plan.kernels[1].passes[0].constants.push(("MOST", most));
+}
+
+/// Two dispatches, of which each sees a part of the targets.
+fn halves(plan: &mut Plan, problem: &Problem) {
+    let (grid, _) = law(MOVING, ONE).grid(problem).expect("a range").expect("a grid");
+    let whole = plan.kernels[1].passes.remove(0);
+    for (first, end) in [(0, 64), (64, problem.count)] {
+        let mut pass = whole.clone();
+        let block = pass.shader.reflection().binding("grid").expect("a block").clone();
+        pass.uniforms.retain(|(name, _)| *name != "grid");
+        pass.uniforms.push(("grid", grid.uniform(&block, first, end).expect("a block")));
+        pass.threads.count = end - first;
+        plan.kernels[1].passes.push(pass);
+    }
+}
+
+/// What the race of arrivals hides, and what stands where nobody arrived.
+fn grids(device: &Device, stages: &mut Vec<Stage>) {
+    let bounds = Bounds::new(DVec3::ZERO, DVec3::splat(6.0), Side::Reflecting);
+    let here = Place::new(device, bounds, lattice());
+    let read = |simulation: &mut Simulation<Gpu>, name: &str, len: u64| {
+        let bytes = pollster::block_on(simulation.backend().bytes(name, 0, 4 * len)).expect("a field");
+        bytemuck::pod_collect_to_vec::<u8, u32>(&bytes)
+    };
+    for of in [None, Some(OTHERS + 1)] {
+        let law = law(CHOOSY, Over::Near { range: 2.0, of });
+        let (grid, _) = law.grid(&here.problem(LANES)).expect("a range").expect("a grid");
+        let mut plan = alone(grid.kernel(&here.problem(LANES), false).expect("a grid"));
+        let mut simulation = here.simulation(&plan, LANES);
+        let count = if of.is_some() { 72 } else { 216 };
+        simulation.backend().write_bytes("arrivals", 0, &[0; 4 * 216]).expect("a field");
+        let program = simulation.backend().compile(&plan).expect("a plan");
+        simulation.backend().run(&program, 1).expect("a grid");
+        let (_, name) = grid.field("sorted_id");
+        let sorted = read(&mut simulation, &name, count);
+        if of.is_none() {
+            // The last to arrive first.
+            let keys = read(&mut simulation, "keys", count);
+            let cell = |id: &u32| keys[*id as usize];
+            let mut slots = sorted.clone();
+            slots.chunk_by_mut(|a, b| cell(a) == cell(b)).for_each(<[u32]>::reverse);
+            simulation.backend().write_bytes("slots", 0, bytemuck::cast_slice(&slots)).expect("a field");
+            plan.kernels[0].passes.retain(|pass| pass.shader.reflection().entry == "order");
+        } else {
+            simulation.backend().write_bytes("arrivals", 0, &[0; 4 * 216]).expect("a field");
         }
+        simulation.backend().write_bytes(&name, 0, &[0xff; 4 * 216]).expect("a field");
+        let told = sorted.into_iter().map(f32::from_bits).collect();
+        stages.push(Stage::of("grid", simulation, plan).told(name.into_owned().leak(), told));
     }
+}
+
+fn nearest(device: &Device, stages: &mut Vec<Stage>) {
+    let nearest = |count| law(STILL, Over::Nearest { count });
+    // A line in the third direction, denser at one end: there is no end to the cube in the other two.
+    let mut random = Random::new(4);
+    let mut line = || DVec3::new(0.0, 0.0, 7.0 * random.next().powi(3)).as_vec3().as_dvec3();
+    let here = Place::new(device, Bounds::default(), (0..300).map(|_| line()).collect());
+    for count in [5, 9, 13] {
+        stages.push(here.stage("nearest, in a line", nearest(count), LANES, nothing));
+    }
+    let (low, high) = (DVec3::new(0.125, 3.0, -2.5), DVec3::new(12.125, 7.0, 3.5));
+    let bounds = Bounds { low, high, sides: [Periodic; 3], dimensions: 3 };
+    let here = Place::new(device, bounds, scattered(FEW, &bounds, 0.5));
+    stages.push(here.stage("nearest, periodic", nearest(16), LANES, nothing));
+    let here = Place::new(device, Bounds::default(), lattice());
+    stages.push(here.stage("nearest, equally near", nearest(8), LANES, nothing));
+    // Fewer than asked for, and more than can be visited.
+    let here = Place::new(device, Bounds::default(), lattice()[..5].to_vec());
+    stages.push(here.stage("nearest, few", nearest(7), LANES, nothing));
+    let stage = here.stage("nearest, crowded", nearest(7), LANES, |plan, _| most(plan, 9.0));
+    stages.push(stage.told(ALARM.name, [u32::MAX, u32::MAX, 0].map(f32::from_bits).to_vec()));
 }

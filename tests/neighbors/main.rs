@@ -7,6 +7,9 @@ mod exact;
 mod far;
 mod places;
 mod properties;
+mod refusals;
+mod runs;
+mod sizes;
 
 use motes::forces::{Force, Law, Over};
 use motes::integrators::Step;

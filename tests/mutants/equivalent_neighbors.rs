@@ -1,0 +1,91 @@
+//! Mutants of the grid and its searches that no test can notice, because they do the same; each with its reason.
+
+use crate::support::equivalents::{Equivalent, same};
+
+const ALWAYS_SET: &str = "the host sets every override";
+const FURTHER: &str = "it looks further, where nobody is in range";
+const EMPTY: &str = "one more stretch or turn, with nobody in it";
+const IN_RESERVE: &str = "a search of the most takes 60 000 turns, and lavapipe ends loops after 65 535";
+const WORTHLESS: &str = "the alarm is raised, and what a crowd sums up is of no worth";
+const AT_ONE_PLACE: &str = "so far away only those at one place are in range, and they are in one cell";
+const AT_THE_SIDE: &str = "who is at the lower side stays there, by one way or the other";
+const HIDDEN: &str = "the first of four is never moved on, and takes nobody's place";
+const UNUSED: &str = "more of the list is kept than is used, or waited for: slower, and the same";
+const ROUNDED: &str = "what rounding moves over a cell's side is a millionth of a cell away from it";
+const REACH: &str = "return select(select(vec3u(1u)";
+const BREAK: &str = "if seen > MOST || all(";
+
+pub const EQUIVALENT: &[Equivalent] = &[
+    same("visit/nearest", "override COUNT: u32 = 7u;", "7u", "8u", ALWAYS_SET),
+    same("visit/within", "override RANGE: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
+    same("cell.wgsl", "const FARTHEST", "536870912.0", "805306368.0", AT_ONE_PLACE),
+    same("cell.wgsl", "let whole = ", "+", "-", AT_ONE_PLACE),
+    same("cell.wgsl", "let whole = ", "1u", "2u", "one more multiple of the cells"),
+    same("cell.wgsl", "let inside = ", ">=", ">", AT_THE_SIDE),
+    same("cell.wgsl", "return select(y, world.low", "<", "<=", AT_THE_SIDE),
+    same("", "override MOST: u32 = 240000u;", "240000u", "240001u", IN_RESERVE),
+    same("order.wgsl", "start + MOST", "+", "-", WORTHLESS),
+    same("scatter.wgsl", "if i < world.count {", "<", "<=", "behind the last key stands one that leads nowhere"),
+    same("near_rows", REACH, "2u", "3u", FURTHER),
+    same("near_rows", REACH, "4u", "5u", FURTHER),
+    same("near_rows", REACH, ">", ">=", "just there one cell, or two, is enough"),
+    same(
+        "near_rows",
+        REACH,
+        "8192.0",
+        "12288.0",
+        "it takes two of the worst roundings, and a pair that is just in range",
+    ),
+    same("near_rows", REACH, "2097152.0", "3145728.0", "up to 2²² two cells are enough"),
+    same("near_rows", "return Around(cell, r,", "2u", "3u", FURTHER),
+    same("near_rows", "return Around(cell, r,", "1u", "2u", FURTHER),
+    same("near_rows", "if part == 0u { first = min(c.x, 0)", "0", "1", EMPTY),
+    same("near_rows", "if first >= last", ">=", ">", EMPTY),
+    same("near_rows", "fn seam(a", "<", "<=", EMPTY),
+    same("near_rows", "override NARROW", "false", "true", "the nearest image is the same, however it is found"),
+    same(
+        "near_subgroup",
+        "8u * LANES",
+        "8u",
+        "9u",
+        "the host reads the size of a workgroup by reflection, and any will do",
+    ),
+    same("near_subgroup", "const APART", "3u", "4u", "more walk together, and look further"),
+    same("near_subgroup", "return rows &&", "<=", "<", "fewer walk together"),
+    same("near_subgroup", "let k = min(", "-", "+", "lanes behind the last target store nothing"),
+    same("near_subgroup", "var walked", "0u", "1u", IN_RESERVE),
+    same("near_subgroup", "walked +=", "-", "+", IN_RESERVE),
+    same("near_subgroup", "turn < LANES", "<", "<=", EMPTY),
+    same("near_subgroup", "turn < LANES", "&&", "||", EMPTY),
+    same("near_subgroup", "let parts = ", "1u", "2u", EMPTY),
+    same("near_subgroup", "let parts = ", "&&", "||", EMPTY),
+    same("near_subgroup", "base < rows", "<", "<=", EMPTY),
+    same("near_subgroup", "var left = ", ">", ">=", EMPTY),
+    same("near_subgroup", "var left = ", "&&", "||", WORTHLESS),
+    same("near_subgroup", "var slot = 0u", "0u", "1u", "it is behind the end, which is 0"),
+    same("near_subgroup", "if slot >= end {", ">=", ">", EMPTY),
+    same("near_subgroup", "end - 1u));", "-", "+", "who is loaded behind the end is met by nobody"),
+    same("near_walk", "let parts = ", "2u", "3u", EMPTY),
+    same("near_walk", "slot < end; slot", "<", "<=", EMPTY),
+    same("nearest", "let before = ", "<", "<=", "nobody comes twice"),
+    same("nearest", "let new_d = ", "0.0", "1.0", HIDDEN),
+    same("nearest", "let new_i = ", "0u", "1u", HIDDEN),
+    same("nearest", "if COUNT > ", ">", ">=", UNUSED),
+    same("nearest", "let slack = ", "max", "min", ROUNDED),
+    same("nearest", "let slack = ", "0.00390625", "0.005859375", FURTHER),
+    same("nearest", "let slack = ", "*", "/", FURTHER),
+    same("nearest", "let slack = ", "0.000000238418579", "3.576278685e-7", FURTHER),
+    same("nearest", "let open = ", "<", "<=", FURTHER),
+    same("nearest", "return max(min(", "max", "min", FURTHER),
+    same("nearest", "var seen = 0u", "0u", "1u", IN_RESERVE),
+    same("nearest", "var reach = 1u", "1u", "2u", FURTHER),
+    same("nearest", "let parts = ", "2u", "3u", EMPTY),
+    same("nearest", "seen += 8u", "8u", "9u", IN_RESERVE),
+    same("nearest", "seen += 8u", "-", "+", IN_RESERVE),
+    same("nearest", "seen <= MOST", "<=", "<", IN_RESERVE),
+    same("nearest", "slot < end; slot", "<", "<=", EMPTY),
+    same("nearest", BREAK, ">", ">=", IN_RESERVE),
+    same("nearest", BREAK, "<", "<=", "nobody is just as far away as the cube reaches"),
+    same("nearest", "reach *= 2u;", "2u", "3u", FURTHER),
+    same("nearest", "if seen > MOST { atomic", ">", ">=", IN_RESERVE),
+];
