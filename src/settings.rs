@@ -31,6 +31,8 @@ pub enum Kind {
     Count,
     /// A whole number, zero or above, that fits 53 bits (a seed).
     Whole,
+    /// A species: a whole number below 2³² − 1, or the word `all`.
+    Species,
     /// Three finite numbers.
     Vector,
     /// Three finite numbers, not all zero: a direction.
@@ -101,6 +103,14 @@ impl Settings {
     )]
     pub fn whole(&self, name: &str) -> u64 {
         self.number(name) as u64
+    }
+    /// A species; `None` stands for all.
+    #[must_use]
+    pub fn species(&self, name: &str) -> Option<u32> {
+        match self.0.get(name) {
+            Some(Value::Number(_)) => u32::try_from(self.whole(name)).ok(),
+            _ => None,
+        }
     }
     /// Three numbers.
     #[must_use]

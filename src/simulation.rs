@@ -62,7 +62,7 @@ impl<B: Backend> Simulation<B> {
         backend.write(POSITION.name, &Array::Vec4(position))?;
         backend.write(VELOCITY.name, &Array::Vec4(velocity))?;
         backend.write(ACCELERATION.name, &Array::Vec4(Vec::new()).zeros(count as usize))?;
-        backend.write(ALARM.name, &Array::Uint(vec![u32::MAX; ALARM_WORDS as usize]))?;
+        backend.write(ALARM.name, &Array::Uint(vec![u32::MAX; ALARM_WORDS]))?;
         let species = particles.species.clone();
         if plans.all().any(|plan| plan.fields(count).contains_key(SPECIES.name)) {
             backend.write(SPECIES.name, &Array::Uint(species.clone()))?;
@@ -114,7 +114,7 @@ impl<B: Backend> Simulation<B> {
     /// # Errors
     /// [`Error::NotFinite`] with the first particle and step, [`Error::Crowded`], or what reading says.
     pub async fn check(&mut self) -> Result<(), Error> {
-        let alarm = self.backend.read(ALARM.name, &Array::Uint(Vec::new()), ALARM_WORDS as usize).await?;
+        let alarm = self.backend.read(ALARM.name, &Array::Uint(Vec::new()), ALARM_WORDS).await?;
         match u32::view(&alarm).map(Vec::as_slice) {
             // The first look comes before the first step, every other one after a step that is done.
             Some([done, particle, _]) if *done != u32::MAX => {

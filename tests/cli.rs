@@ -260,3 +260,41 @@ fn a_box_is_shown_and_what_it_keeps_is_claimed() {
     let (_, keys, _) = output(&mut motes(&["scenes", "--keys", "box"]));
     assert!(["size", "low", "boundary", "dimensions"].iter().all(|key| keys.contains(key)), "{keys}");
 }
+
+/// Vicsek's model is a rule for whole steps, and keeps nothing; nor does a limit of speed, or a flight.
+#[test]
+fn rules_for_whole_steps_want_their_integrators() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let scene = path(&folder, "a.toml");
+    let out = path(&folder, "out");
+    let told = |command: &[&str], integrator: &str, force: &str| {
+        let bodies = "bodies = [{ position = [0, 0, 0], mass = 1 }, { position = [0.5, 0, 0], mass = 1 }]";
+        let text = format!(
+            "[simulation]\ndt = 1\nsteps = 2\nintegrator = \"{integrator}\"\n[[particles]]\n{bodies}\n[[force]]\nkind = {force}\n"
+        );
+        std::fs::write(&scene, text).expect("written");
+        let (code, stdout, stderr) = output(&mut motes(&[&[command[0], &scene], &command[1..]].concat()));
+        assert_eq!(code, 0, "{stderr}");
+        stdout + &stderr
+    };
+    let check = |integrator, force| told(&["check"], integrator, force);
+    let remark = "it wants forward_euler or symplectic_euler";
+    for (integrator, remarked) in [("leapfrog", true), ("symplectic_euler", false), ("forward_euler", false)] {
+        let words = check(integrator, "\"vicsek\"");
+        assert_eq!(words.contains(remark), remarked, "{words}");
+        assert!(!words.contains("gains energy"), "{words}");
+    }
+    assert!(check("forward_euler", "\"gravity\"").contains("gains energy"));
+    let run = ["run", "-o", &out, "--backend", "cpu", "--set", "output.formats=[\"csv\"]"];
+    let limited = "\"gravity\"\n[[force]]\nkind = \"speed_limit\"\nmax = 1";
+    for (force, energy, momentum) in [
+        ("\"gravity\"", true, true),
+        (limited, false, false),
+        ("\"flee\"", false, false),
+        ("\"wander\"", false, false),
+        ("\"soft_turn\"", true, false),
+    ] {
+        let words = told(&run, "leapfrog", force);
+        assert_eq!((words.contains(", error "), words.contains("momentum changed")), (energy, momentum), "{words}");
+    }
+}

@@ -61,11 +61,13 @@ fn every_law_alone() {
     for entry in forces::FORCES {
         for variant in 0..choices::forces(entry).len() {
             let pick = || choices::forces(entry).swap_remove(variant);
-            let pairs = pick().1.laws().iter().any(|law| law.over == forces::Over::Pairs);
+            let overs: Vec<_> = pick().1.laws().iter().map(|law| law.over).collect();
+            let meet = overs.iter().any(|over| *over != forces::Over::Each);
+            let pairs = overs.contains(&forces::Over::Pairs);
             let plain = [("as it is", gpu(&shared, 1).machine())].to_vec();
             for (machine_name, machine) in if pairs { machines::machines(&shared) } else { plain } {
                 // Three blocks of sources, and a half: layers of unequal length; or one more than 65 536.
-                for count in SIZES.into_iter().chain([if pairs { 333 } else { 65_537 }]) {
+                for count in SIZES.into_iter().chain([if meet { 333 } else { 65_537 }]) {
                     let (name, law) = pick();
                     let of = format!("{name}, {machine_name}");
                     let mut gpu = gpu(&shared, count);
@@ -73,11 +75,30 @@ fn every_law_alone() {
                     // The integrator that needs the fewest pipelines.
                     let mut simulation = moving(gpu, count, vec![law], "symplectic_euler");
                     let law = [pick().1];
-                    let mut step = Step::new(&law, forces::Problem::new(simulation.count(), machine));
+                    let cloud = support::cloud(count, 7);
+                    let problem = forces::Problem::new(simulation.count(), machine)
+                        .at(&cloud.position, motes::Bounds::default())
+                        .of_species(&cloud.species);
+                    let mut step = Step::new(&law, problem.clone());
                     step.evaluate();
-                    let plan = step.finished().expect("a plan");
-                    // Alone in the world, nobody attracts.
-                    let idle = |_: &Verdict| count == 1 && pairs;
+                    let mut plan = step.finished().expect("a plan");
+                    // Back to where they began: what pushes away leaves nobody to be pushed.
+                    let places = cloud.position.iter().zip(&cloud.mass).map(|(x, m)| x.extend(*m).as_vec4());
+                    simulation.write(POSITION, &places.collect::<Vec<_>>()).expect("places");
+                    let laws = plan.order.len();
+                    law[0].limit(&mut plan, &problem).expect("limits");
+                    if plan.order.len() > laws {
+                        // Faster than the limit has left them.
+                        let mut velocity = pollster::block_on(simulation.read(VELOCITY)).expect("velocities");
+                        for v in &mut velocity {
+                            *v *= glam::Vec4::splat(2.3).with_w(1.0);
+                        }
+                        simulation.write(VELOCITY, &velocity).expect("velocities");
+                    }
+                    // Alone in the world, nobody attracts; a few may be too far, or of other species.
+                    let idle = |v: &Verdict| {
+                        v.field == "alarm" || v.kernel == "clear" || if pairs { count == 1 } else { count < 333 }
+                    };
                     judge(&verdicts(simulation.backend(), &plan, count, &of), count, &of, idle);
                 }
             }

@@ -15,8 +15,8 @@ struct Stretch { start: u32, end: u32, shift: vec3f }
 // A cell is a little wider than the range, so that rounding does not move a neighbour two cells away. Far from the
 // corner rounding is more than that little, and two cells are looked at, or four.
 fn reach(x: vec3f) -> vec3u {
-    let d = abs(away(x));
-    return select(select(vec3u(1u), vec3u(2u), d > vec3f(8192.0)), vec3u(4u), d > vec3f(2097152.0));
+    let d = abs(away(x)) / vec3f(grid.fine);
+    return grid.fine * select(select(vec3u(1u), vec3u(2u), d > vec3f(8192.0)), vec3u(4u), d > vec3f(2097152.0));
 }
 
 fn around(x: vec3f) -> Around { return cube(cell(x), reach(x)); }

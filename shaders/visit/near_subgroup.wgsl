@@ -5,7 +5,7 @@
 const LANES: u32 = 8u;
 const WORKGROUP: u32 = 8u * LANES;
 const NOBODY: u32 = 0xffffffffu;
-// Cells between those who walk together, at most: more, and most of what they look at is not theirs.
+// Ranges between those who walk together, at most: more, and most of what they look at is not theirs.
 const APART: u32 = 3u;
 
 // What lane 0, 1, … holds; the lane of a broadcast must be a constant.
@@ -29,7 +29,8 @@ fn beside(a: Around, lane: u32) -> bool {
     let cell = subgroupShuffle(a.cell, lane);
     let rows = all(a.cell.yz == cell.yz) && all(a.reach == subgroupShuffle(a.reach, lane));
     let apart = max(a.cell.x, cell.x) - min(a.cell.x, cell.x);
-    return rows && (apart == 0u || (apart <= APART && grid.cells.x > 2u * (a.reach.x + APART)));
+    let most = APART * grid.fine.x;
+    return rows && (apart == 0u || (apart <= most && grid.cells.x > 2u * (a.reach.x + most)));
 }
 
 @compute @workgroup_size(WORKGROUP)

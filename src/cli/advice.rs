@@ -2,17 +2,17 @@
 
 use glam::{DVec3, DVec4};
 use motes::forces::{Law, Over, Problem};
-use motes::kernel::{ACCELERATION, Access, Array, Host, Kernel, Machine, POSITION, Pass, Twin, VELOCITY, World};
+use motes::kernel::{ACCELERATION, Access, Array, Host, Kernel, Machine, POSITION, Pass, Plan, Twin, VELOCITY, World};
 use motes::scene::Scene;
 use motes::{Bounds, Error, Setup, Side};
 
 /// What a law's twin says to a particle at rest somewhere.
-fn felt(twin: &Twin, time: f64, position: DVec3, bounds: Bounds) -> Result<DVec4, Error> {
+fn felt(twin: &Twin, (time, step): (f64, u32), position: DVec3, bounds: Bounds) -> Result<DVec4, Error> {
     let mut host = Host::default();
     host.insert(POSITION.name, Array::Vec4(vec![position.extend(1.3)]));
     host.insert(VELOCITY.name, Array::Vec4(vec![DVec4::ZERO]));
     host.insert(ACCELERATION.name, Array::Vec4(vec![DVec4::ZERO]));
-    host.set_world(World { time, dt: 1.0, step: 0, count: 1, bounds });
+    host.set_world(World { time, dt: 1.0, step, count: 1, bounds });
     twin(&host)?;
     Ok(host.read(ACCELERATION)?.first().copied().unwrap_or_default())
 }
@@ -20,11 +20,11 @@ fn felt(twin: &Twin, time: f64, position: DVec3, bounds: Bounds) -> Result<DVec4
 /// Whether a law does the same at another time, and to the particle's images in a periodic box.
 fn keeps_energy(twin: &Twin, bounds: &Bounds) -> Result<bool, Error> {
     let x = DVec3::new(0.31, -0.23, 0.17);
-    let here = felt(twin, 0.0, x, *bounds)?;
-    let image = felt(twin, 0.0, x + bounds.period(), *bounds)?;
+    let here = felt(twin, (0.0, 0), x, *bounds)?;
+    let image = felt(twin, (0.0, 0), x + bounds.period(), *bounds)?;
     // Images are where they are up to rounding; time takes part or does not.
     let alike = (here - image).abs().max_element() <= 1e-9 * here.abs().max_element();
-    Ok(alike && here == felt(twin, 0.7, x, *bounds)?)
+    Ok(alike && here == felt(twin, (0.7, 3), x, *bounds)?)
 }
 
 /// Fields that a shader of a user may read: what a simulation has, and what the file itself writes.
@@ -69,14 +69,23 @@ pub fn conserved(setup: &Setup) -> Result<Conserved, Error> {
     let (periodic, reflecting) = (setup.bounds.has(Side::Periodic), setup.bounds.has(Side::Reflecting));
     let mut conserved = Conserved { energy: true, momentum: !reflecting, angular_momentum: !reflecting && !periodic };
     for law in setup.forces.iter().flat_map(|force| force.laws()) {
-        let mutual = law.over == Over::Pairs && law.twin.is_some();
-        conserved.momentum &= mutual;
-        conserved.angular_momentum &= mutual;
+        conserved.momentum &= law.reciprocal;
+        conserved.angular_momentum &= law.reciprocal;
+        // What some do to others, and not others to them, keeps nothing.
+        conserved.energy &= law.over == Over::Each || law.reciprocal;
         conserved.energy &= match &law.twin {
             Some(twin) => keeps_energy(twin, &setup.bounds)?,
             None => false,
         };
         conserved.energy &= !law.kernel(&Problem::new(1, MACHINE))?.names("velocity");
+    }
+    // Who holds a speed takes energy and momentum, or gives some.
+    let mut limits = Plan::default();
+    for force in &setup.forces {
+        force.limit(&mut limits, &Problem::new(1, MACHINE))?;
+    }
+    if !limits.order.is_empty() {
+        conserved = Conserved { energy: false, momentum: false, angular_momentum: false };
     }
     Ok(conserved)
 }
@@ -109,7 +118,15 @@ pub fn advice(scene: &Scene, setup: &Setup) -> Result<Vec<String>, Error> {
             remarks.push(format!("`{name}` has no f64 twin: nothing checks it, and it needs a device"));
         }
     }
-    if scene.integrator.name == "forward_euler" {
+    let name = scene.integrator.name;
+    for (force, its) in setup.forces.iter().map(|force| (force, force.integrators())).filter(|(_, its)| !its.is_empty())
+    {
+        if !its.contains(&name) {
+            let law = force.laws().first().map(|law| law.name.clone()).unwrap_or_default();
+            remarks.push(format!("`{law}` is a rule for whole steps: it wants {}, not {name}", its.join(" or ")));
+        }
+    }
+    if name == "forward_euler" && setup.forces.iter().all(|force| !force.integrators().contains(&name)) {
         remarks
             .push("forward_euler gains energy in every step, whatever the step: it is here to show why not".to_owned());
     }

@@ -164,6 +164,9 @@ pub struct BenchArgs {
     /// Leave out sizes of which a step is expected to take longer than this [s]
     #[arg(long, value_name = "S", default_value_t = 10.0)]
     pub longest: f64,
+    /// Draw how the time of a step grows with the agents into this SVG
+    #[arg(long, value_name = "FILE")]
+    pub plot: Option<PathBuf>,
     /// How often each thing is measured; the median counts
     #[arg(long, value_name = "N", default_value_t = 7)]
     pub repeat: usize,

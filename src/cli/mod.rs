@@ -31,6 +31,7 @@ mod progress;
 mod run;
 mod scenes;
 mod stop;
+mod table;
 
 use std::process::ExitCode;
 

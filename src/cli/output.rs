@@ -1,19 +1,21 @@
 //! What a run leaves behind.
 
-use std::fs::File;
-use std::io::{BufWriter, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use motes::io::{Precision, atomically, csv, npz};
+use motes::measure::Flock;
 use motes::render::{Color, Picture, Trail, framed, group_color, pack};
 use motes::scene::{Format, Group, Scene};
 use motes::settings::Settings;
-use motes::{Error, Measure, Snapshot};
+use motes::{Bounds, Error, Measure, Snapshot};
 
 use super::plot;
+use super::table::Table;
 
 const HEADER: &str = "step,time,kinetic,potential,total,momentum_x,momentum_y,momentum_z,angular_momentum_x,\
                       angular_momentum_y,angular_momentum_z";
+const FLOCK: &str = "step,time,order,speed,neighbors,most_neighbors,clusters,largest_cluster";
 
 /// The folder, and what is in it so far.
 pub struct Output {
@@ -24,23 +26,33 @@ pub struct Output {
     digits: usize,
     picture: Settings,
     groups: Vec<Group>,
-    energy: BufWriter<File>,
+    energy: Table,
     rows: Vec<Measure>,
+    /// Of a flock: its table, how far one looks for company, and in which box.
+    flock: Option<(Table, f64, Bounds)>,
+    company: Vec<Flock>,
     /// Where a few particles have been.
     pub trail: Trail,
 }
 
 impl Output {
-    /// Makes the folder, the scene as it was resolved, and an empty table of energies.
-    pub fn new(folder: &Path, scene: &Scene, count: usize, precision: Precision, device: &str) -> Result<Self, Error> {
+    /// Makes the folder, the scene as it was resolved, and an empty table of energies; and one of order and clusters,
+    /// where somebody looks for `company` so far away.
+    pub fn new(
+        folder: &Path,
+        scene: &Scene,
+        count: usize,
+        company: Option<f64>,
+        precision: Precision,
+        device: &str,
+    ) -> Result<Self, Error> {
         let failed =
             |file: &Path, error: &std::io::Error| Error::Output { file: file.to_owned(), message: error.to_string() };
         std::fs::create_dir_all(folder).map_err(|e| failed(folder, &e))?;
         let resolved = format!("{}\n# Run by motes {} on {device}.\n", scene.resolved, env!("CARGO_PKG_VERSION"));
         atomically(&folder.join("scene.toml"), |out| out.write_all(resolved.as_bytes()))?;
-        let path = folder.join("energy.csv");
-        let mut energy = BufWriter::new(File::create(&path).map_err(|e| failed(&path, &e))?);
-        writeln!(energy, "{HEADER}").map_err(|e| failed(&path, &e))?;
+        let energy = Table::new(folder.join("energy.csv"), HEADER)?;
+        let flock = company.map(|range| Ok((Table::new(folder.join("flock.csv"), FLOCK)?, range, scene.bounds)));
         Ok(Self {
             folder: folder.to_owned(),
             name: scene.name.clone(),
@@ -51,6 +63,8 @@ impl Output {
             groups: scene.groups.clone(),
             energy,
             rows: Vec::new(),
+            flock: flock.transpose()?,
+            company: Vec::new(),
             // A trail is for pictures.
             trail: Trail::new(if scene.output.formats.contains(&Format::Png) || scene.output.frames > 0 {
                 count
@@ -59,19 +73,28 @@ impl Output {
             }),
         })
     }
-    /// Adds a row to the table of energies, and writes it out.
-    pub fn measure(&mut self, row: Measure) -> Result<(), Error> {
+    /// Measures a state, and writes that down.
+    pub fn measure(&mut self, snapshot: &Snapshot) -> Result<(), Error> {
+        let row = Measure::of(snapshot);
         let (p, l) = (row.momentum, row.angular_momentum);
         let numbers = [row.time, row.kinetic, row.potential, row.total(), p.x, p.y, p.z, l.x, l.y, l.z];
-        let text: Vec<String> = numbers.iter().map(|x| format!("{x:?}")).collect();
-        let written = writeln!(self.energy, "{},{}", row.step, text.join(",")).and_then(|()| self.energy.flush());
-        written.map_err(|e| Error::Output { file: self.folder.join("energy.csv"), message: e.to_string() })?;
+        self.energy.row(row.step, &numbers)?;
         self.rows.push(row);
+        if let Some((table, range, bounds)) = &mut self.flock {
+            let f = Flock::of(snapshot, *bounds, Some(*range))?;
+            let numbers = [f.time, f.order, f.speed, f.neighbors, f64::from(f.crowd), f64::from(f.clusters), f.largest];
+            table.row(f.step, &numbers)?;
+            self.company.push(f);
+        }
         Ok(())
     }
     /// The first row, which energies are compared with.
     pub fn first(&self) -> Measure {
         self.rows.first().copied().unwrap_or_default()
+    }
+    /// The first and the last row of the table of order and clusters, if there is one.
+    pub fn company(&self) -> Option<(&Flock, &Flock)> {
+        Some((self.company.first()?, self.company.last()?))
     }
     /// All rows.
     pub fn rows(&self) -> &[Measure] {

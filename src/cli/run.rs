@@ -61,6 +61,8 @@ struct Run {
     folder: PathBuf,
     film: Option<Film>,
     count: usize,
+    /// How far somebody looks for company, if anybody does.
+    company: Option<f64>,
     /// What should stay as it is.
     conserved: Conserved,
     progress: Progress,
@@ -89,7 +91,9 @@ impl Run {
             progress.say(&format!("note: {remark}"));
             progress.event("remark", json!({ "text": remark }));
         }
-        Ok(Self { conserved: conserved(setup)?, scene, device, folder, film, count, progress, stop: Stop::listen() })
+        let company = setup.forces.iter().find_map(|force| force.company());
+        let (conserved, stop) = (conserved(setup)?, Stop::listen());
+        Ok(Self { scene, device, folder, film, count, company, conserved, progress, stop })
     }
 
     async fn drive<B: Backend>(&mut self, mut simulation: Simulation<B>, precision: Precision) -> Result<(), Failure> {
@@ -98,7 +102,7 @@ impl Run {
             self.progress.say(&format!("note: {text}"));
             self.progress.event("remark", json!({ "text": text }));
         }
-        let mut output = Output::new(&self.folder, &self.scene, self.count, precision, &self.device)?;
+        let mut output = Output::new(&self.folder, &self.scene, self.count, self.company, precision, &self.device)?;
         let (steps, every) = (self.scene.steps, self.scene.output.every);
         let mut image = self.write(&mut simulation, &mut output).await?;
         self.shoot(&mut simulation, &output).await?;
@@ -169,7 +173,7 @@ impl Run {
         output: &mut Output,
     ) -> Result<Option<Image>, Failure> {
         let snapshot = simulation.snapshot().await?;
-        output.measure(Measure::of(&snapshot))?;
+        output.measure(&snapshot)?;
         output.snapshot(&snapshot)?;
         if snapshot.step == 0 {
             output.trail.push(&snapshot.particles.position);
@@ -211,7 +215,7 @@ impl Run {
             "finish",
             json!({ "steps": steps, "stopped": stopped, "seconds": took.as_secs_f64(), "stepping_seconds": stepping.as_secs_f64(), "steps_per_second": rate,
                 "energy": last.total(), "energy_error": last.drift_from(&first), "worst_energy_error": worst,
-                "output": output.folder() }),
+                "order": output.company().map(|(_, last)| last.order), "output": output.folder() }),
         );
         let say = |text: String| self.progress.conclude(&text);
         if stopped {
@@ -233,9 +237,22 @@ impl Run {
             let turning = if self.conserved.angular_momentum { &turning } else { "" };
             say(format!("momentum changed by {:.1e}{turning}", p.length()));
         }
+        if let Some((first, last)) = output.company() {
+            say(format!(
+                "order {:.3} → {:.3}, {:.1} → {:.1} neighbours each, {} → {} clusters, the largest {:.0} % of all",
+                first.order,
+                last.order,
+                first.neighbors,
+                last.neighbors,
+                first.clusters,
+                last.clusters,
+                100.0 * last.largest
+            ));
+        }
+        let tables = if output.company().is_some() { "energy.csv, flock.csv" } else { "energy.csv" };
         let picture = if output.pictures() { format!("{}.png, ", self.scene.name) } else { String::new() };
         say(format!(
-            "results in {}: {picture}energy.csv, energy.svg, scene.toml, {} states",
+            "results in {}: {picture}{tables}, energy.svg, scene.toml, {} states",
             output.folder().display(),
             output.rows().len()
         ));

@@ -32,6 +32,7 @@ impl Force for Custom {
             wgsl: Source::theirs(self.file.clone(), self.wgsl.clone()),
             params: self.params.iter().map(|(name, value)| (name.clone(), scalar(value))).collect(),
             twin: None,
+            reciprocal: false,
         }]
     }
 }

@@ -1,8 +1,10 @@
 //! Forces. Each is one `.wgsl` and one `.rs` of the same name, and one line in the register below.
 
 mod custom;
+mod kind;
 
 pub use custom::Custom;
+use kind::{Kind, SPECIES, species};
 
 use crate::error::Error;
 pub use crate::kernel::Problem;
@@ -12,6 +14,10 @@ pub use crate::visit::{Body, Law, Over};
 
 /// What pushes particles.
 pub trait Force: Send + Sync {
+    /// How far one looks for company \[length\]: where a force says so, runs are measured for order and clusters.
+    fn company(&self) -> Option<f64> {
+        None
+    }
     /// Its laws, in the order in which they are visited; a later one may read what an earlier one wrote.
     fn laws(&self) -> Vec<Law>;
 
@@ -26,6 +32,18 @@ pub trait Force: Send + Sync {
             plan.push(&name, || law.kernel(problem))?;
         }
         Ok(())
+    }
+    /// Adds kernels that keep velocities lawful: speeds within limits. They run after every kick, and at the end of a
+    /// Runge–Kutta step.
+    ///
+    /// # Errors
+    /// When the limits make no sense.
+    fn limit(&self, _plan: &mut Plan, _problem: &Problem) -> Result<(), Error> {
+        Ok(())
+    }
+    /// The integrators under which it is what its paper says; none: under all.
+    fn integrators(&self) -> &'static [&'static str] {
+        &[]
     }
 }
 
@@ -61,6 +79,15 @@ register! {
     wind: Wind, "a wind that blows in gusts and carries particles along";
     vortex: Vortex, "a whirl about an axis that carries particles along (Kaufmann 1962)";
     attractor: Attractor, "a fixed or moving centre: point mass, spring or logarithmic halo";
+    boids: Boids, "a flock: separation, alignment and cohesion within a field of view (Reynolds 1987, 1999)";
+    speed_limit: SpeedLimit, "the least and the greatest speed of a species";
+    obstacle: Obstacle, "a sphere, a box or a plane that is seen ahead and avoided (after Reynolds 1999)";
+    flee: Flee, "prey flee from predators";
+    chase: Chase, "predators chase prey";
+    goal: Goal, "a place to steer to and arrive at, or a roost to keep to (Reynolds 1999)";
+    wander: Wander, "a random walk of velocities, the same numbers on every device";
+    soft_turn: SoftTurn, "a box with soft walls that turn back";
+    vicsek: Vicsek, "everybody takes the mean heading around it, with noise, in the plane (Vicsek et al. 1995)";
 }
 
 /// The force of a scene's word.
@@ -79,6 +106,39 @@ fn params(settings: &Settings, names: &[&str]) -> Vec<(String, Scalar)> {
         ((*name).to_owned(), value)
     };
     names.iter().map(scalar).collect()
+}
+
+/// Who meets whom, where a force looks within a range; `of` are those whom it looks for.
+fn over(settings: &Settings, of: Option<u32>) -> Over {
+    let range = settings.number("range");
+    if settings.text("over") == "within" { Over::Within { range } } else { Over::Near { range, of } }
+}
+
+const SEE_NEAR: Key = Key::new(
+    "over",
+    crate::settings::Kind::Choice(&["near", "within"]),
+    Value::Text(std::borrow::Cow::Borrowed("near")),
+    "who meets whom: everybody in range, by a grid or by force",
+);
+
+const SEED: Key = Key::new(
+    "seed",
+    crate::settings::Kind::Whole,
+    Value::Number(1.0),
+    "seed of the random numbers, counted by id and step",
+);
+
+/// The words of the seed, as shaders know them.
+fn seed(settings: &Settings) -> [(String, Scalar); 2] {
+    let [low, high] = crate::visit::random::words(settings.whole("seed"));
+    [("seed_low".to_owned(), Scalar::Uint(low)), ("seed_high".to_owned(), Scalar::Uint(high))]
+}
+
+/// Whether r is shorter than a range, by the device's own arithmetic.
+fn is_nearer(r: glam::DVec3, range: f64) -> bool {
+    #[expect(clippy::cast_possible_truncation, reason = "as the device holds it")]
+    let (r, range) = (r.as_vec3(), range as f32);
+    r.length_squared() < range * range
 }
 
 const EACH: Key = Key::new(

@@ -57,9 +57,10 @@ impl<'a> Step<'a> {
             self.add(grid.kernel(&self.problem, moving));
         }
     }
-    /// v ← v + c a dt
+    /// v ← v + c a dt, within the limits of speed
     pub fn kick(&mut self, factor: f64) {
         self.add(kick::kernel(self.problem.count, factor));
+        self.limit();
     }
     /// x ← x + c v dt, and back into the box
     pub fn drift(&mut self, factor: f64) {
@@ -91,6 +92,7 @@ impl<'a> Step<'a> {
     /// box. Stages may leave it: forces see the nearest images from there too.
     pub fn finish(&mut self, weight: f64) {
         self.add(runge_kutta::finish(self.problem.count, weight));
+        self.limit();
         self.enclose();
     }
 
@@ -138,14 +140,23 @@ impl<'a> Step<'a> {
     /// # Errors
     /// The first thing that went wrong while they were written.
     pub fn measurement(forces: &'a [Box<dyn Force>], problem: Problem) -> Result<(Plan, Plan), Error> {
-        let mut before = Self::new(forces, problem);
-        before.add(keep::keep(problem.count));
+        let count = problem.count;
+        let mut before = Self::new(forces, problem.clone());
+        before.add(keep::keep(count));
         before.evaluate();
         let mut after = Self::new(forces, problem);
-        after.add(keep::restore(problem.count));
+        after.add(keep::restore(count));
         Ok((before.finished()?, after.finished()?))
     }
 
+    /// What forces make of velocities that are not allowed.
+    fn limit(&mut self) {
+        for force in self.forces {
+            if self.error.is_none() {
+                self.error = force.limit(&mut self.plan, &self.problem).err();
+            }
+        }
+    }
     fn add(&mut self, kernel: Result<Kernel, Error>) {
         match kernel {
             Ok(kernel) => self.plan.add(kernel),

@@ -17,7 +17,7 @@ pub const SPECIES: Field<u32> = Field::new("species");
 /// one that has more others within reach than a search can visit; `u32::MAX` while all is well.
 pub const ALARM: Field<u32> = Field::new("alarm");
 /// The words of the alarm.
-pub const ALARM_WORDS: u64 = 3;
+pub const ALARM_WORDS: usize = 3;
 
 /// A named array of `T`.
 #[derive(Debug)]

@@ -6,7 +6,7 @@ use super::{Bounds, Machine, Shader, Side};
 
 /// The machine, the particles' number and place at the start, and their box. What a plan makes of the place are
 /// guesses of speed alone: particles may go anywhere.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Problem {
     /// How many particles.
     pub count: u32,
@@ -16,13 +16,15 @@ pub struct Problem {
     pub bounds: Bounds,
     /// The lowest and the highest corner of where they are at the start \[length\].
     pub extent: (DVec3, DVec3),
+    /// How many are of each species; nothing where there is but one.
+    pub species: Vec<(u32, u32)>,
 }
 
 impl Problem {
     /// So many particles in open space, somewhere in a cube of unit sides.
     #[must_use]
     pub fn new(count: u32, machine: Machine) -> Self {
-        Self { count, machine, bounds: Bounds::default(), extent: (DVec3::ZERO, DVec3::ONE) }
+        Self { count, machine, bounds: Bounds::default(), extent: (DVec3::ZERO, DVec3::ONE), species: Vec::new() }
     }
     /// The same with particles at these places, in this box.
     #[must_use]
@@ -30,6 +32,21 @@ impl Problem {
         let low = positions.iter().copied().reduce(DVec3::min).unwrap_or_default();
         let high = positions.iter().copied().reduce(DVec3::max).unwrap_or_default();
         Self { bounds, extent: (low, high), ..self }
+    }
+    /// The same with particles of these species.
+    #[must_use]
+    pub fn of_species(self, species: &[u32]) -> Self {
+        let mut counts = std::collections::BTreeMap::new();
+        for kind in species {
+            *counts.entry(*kind).or_insert(0) += 1;
+        }
+        Self { species: counts.into_iter().collect(), ..self }
+    }
+    /// How many are of a species; of none in particular: all.
+    #[must_use]
+    pub fn count_of(&self, species: Option<u32>) -> u32 {
+        let Some(wanted) = species.filter(|_| !self.species.is_empty()) else { return self.count };
+        self.species.iter().find(|(kind, _)| *kind == wanted).map_or(0, |(_, count)| *count)
     }
     /// The `override`s of a shader that the problem decides.
     #[must_use]

@@ -97,12 +97,17 @@ impl Cells {
 /// How many cells to look at on each side: more, where rounding moves places by more than a cell's slack; see
 /// `shaders/visit/near_rows.wgsl`.
 fn reach(grid: &Grid, home: Vec3) -> [i64; 3] {
-    let away = ((home - grid.low.as_vec3()) * grid.per_cell.as_vec3()).abs();
-    away.to_array().map(|cells| match cells {
-        cells if cells > 2_097_152.0 => 4,
-        cells if cells > 8192.0 => 2,
-        _ => 1,
-    })
+    let away = ((home - grid.low.as_vec3()) * grid.per_cell.as_vec3()).abs().to_array();
+    #[expect(clippy::cast_precision_loss, reason = "a small whole number")]
+    let reach = |axis: usize| {
+        let fine = i64::from(grid.fine[axis]);
+        match away[axis] / fine as f32 {
+            ranges if ranges > 2_097_152.0 => 4 * fine,
+            ranges if ranges > 8192.0 => 2 * fine,
+            _ => fine,
+        }
+    };
+    [0, 1, 2].map(reach)
 }
 
 /// The cell of a place at home along each axis, before it is folded.

@@ -12,6 +12,13 @@ use crate::kernel::{Binding, Name, Problem, Scalar, Side};
 const SLACK: f64 = 1.0 / 512.0;
 /// Cells along one axis, at most.
 const FINEST: f64 = 8192.0;
+/// Cells that a range may be along each axis, the best first: the finer, the fewer are looked at for nothing, and the
+/// more rows there are. Finer along y and z is for ranges that hold very many.
+const FINE: [[u32; 3]; 6] = [[32, 8, 8], [16, 4, 4], [8, 2, 2], [4, 1, 1], [2, 1, 1], [1, 1, 1]];
+/// So few of one species need no cells.
+const FEW: u32 = 32;
+/// Particles of a cell from which on it is worth while to cut y and z too.
+const CROWD: f64 = 4.0;
 /// Cells for each particle, about, at most: more are all but empty, and cost memory and time to clear.
 const CELLS_PER_PARTICLE: f64 = 2.0;
 /// Cells, at most: 64 MiB, half of what every device binds.
@@ -35,6 +42,10 @@ pub struct Grid {
     pub per_cell: DVec3,
     /// Cells along each axis.
     pub cells: [u32; 3],
+    /// Cells that make up a range along each axis.
+    pub fine: [u32; 3],
+    /// Particles of a cell at the start, when they are spread evenly.
+    pub occupancy: f64,
     /// How the cells that the range and the place of the particles ask for were brought down to what there is room for.
     pub fitted: &'static str,
 }
@@ -50,7 +61,11 @@ impl Grid {
         if let Some(species) = of {
             name = format!("{name} species {species}");
         }
-        Ok(Self::of_cells(name, range, of, range * (1.0 + SLACK), problem))
+        // As fine as there is room for.
+        let width = range * (1.0 + SLACK);
+        let make = |fine: [u32; 3]| Self::of_cells(name.clone(), range, of, width, fine, problem);
+        let mut grids = FINE.iter().map(|fine| make(*fine)).filter(|grid| grid.fine[1] == 1 || grid.is_crowded());
+        Ok(grids.find(|grid| grid.fitted.is_empty()).unwrap_or_else(|| make([1; 3])))
     }
 
     /// For searches of the nearest, who may be anywhere: cells that hold about `occupancy` particles each.
@@ -64,18 +79,23 @@ impl Grid {
         let width = (volume * occupancy / f64::from(problem.count)).powf(1.0 / f64::from(axes.max(1)));
         // One over it is to be a number too.
         let width = if width.is_finite() && width > 0.0 { width.clamp(1e-37, 1e37) } else { 1.0 };
-        Self::of_cells(format!("cells of {occupancy:?}"), width, None, width, problem)
+        Self::of_cells(format!("cells of {occupancy:?}"), width, None, width, [1; 3], problem)
     }
 
-    fn of_cells(name: String, range: f64, of: Option<u32>, width: f64, problem: &Problem) -> Self {
+    fn of_cells(name: String, range: f64, of: Option<u32>, width: f64, fine: [u32; 3], problem: &Problem) -> Self {
         let periodic = problem.bounds.axes(Side::Periodic);
         let size = size(problem);
-        let fine = size / width;
+        let parts = DVec3::from_array(fine.map(f64::from));
+        let whole_cells = size / width * parts;
         // A period is cut into whole cells; elsewhere the last cell may stick out.
-        let wish = DVec3::select(periodic.cmpgt(DVec3::ZERO), fine.floor(), fine.ceil()).max(DVec3::ONE);
+        let wish = DVec3::select(periodic.cmpgt(DVec3::ZERO), whole_cells.floor(), whole_cells.ceil()).max(DVec3::ONE);
         let flat = problem.bounds.dimensions == 2;
-        let room = (CELLS_PER_PARTICLE * f64::from(problem.count)).clamp(64.0, MOST);
-        let mut cells = wish.min(DVec3::splat(FINEST));
+        let room = (CELLS_PER_PARTICLE * f64::from(problem.count_of(of))).clamp(64.0, MOST);
+        // A few of one species are looked at one and all.
+        let few = of.is_some() && problem.count_of(of) <= FEW;
+        let wish = if few { DVec3::ONE } else { wish };
+        let most = FINEST * parts;
+        let mut cells = wish.min(most);
         while cells.element_product() > room {
             // The longest axis first, and no more than is needed.
             let longest = cells.max_position();
@@ -91,14 +111,15 @@ impl Grid {
         let open: Vec<usize> =
             (0..3).filter(|axis| problem.bounds.sides[*axis] == Side::Open && !(flat && *axis == 2)).collect();
         let spread = 0.5 * room / cells.element_product();
-        if spread > 1.0 && !open.is_empty() {
+        if spread > 1.0 && !few && !open.is_empty() {
             let factor = spread.powf(1.0 / open.len() as f64);
             for axis in &open {
-                cells[*axis] = (cells[*axis] * factor).floor().clamp(cells[*axis], FINEST);
+                cells[*axis] = (cells[*axis] * factor).floor().clamp(cells[*axis], most[*axis]);
             }
         }
-        let per_cell =
-            |axis: usize| if periodic[axis] * size[axis] > 0.0 { cells[axis] / size[axis] } else { 1.0 / width };
+        let per_cell = |axis: usize| {
+            if periodic[axis] * size[axis] > 0.0 { cells[axis] / size[axis] } else { parts[axis] / width }
+        };
         let count = |axis: usize| whole(cells[axis]);
         Self {
             name,
@@ -107,10 +128,16 @@ impl Grid {
             low: low(problem, width),
             per_cell: DVec3::new(per_cell(0), per_cell(1), per_cell(2)),
             cells: [count(0), count(1), count(2)],
+            fine,
+            occupancy: f64::from(problem.count_of(of)) / wish.element_product(),
             fitted,
         }
     }
 
+    /// Whether cells that are so much finer still hold several particles each, when these are spread evenly.
+    fn is_crowded(&self) -> bool {
+        self.occupancy > CROWD
+    }
     /// How many cells there are.
     #[must_use]
     pub fn count(&self) -> u32 {
@@ -119,13 +146,13 @@ impl Grid {
     /// Whether a period has so few cells that those on both sides of me are the same.
     #[must_use]
     pub fn narrow(&self, problem: &Problem) -> bool {
-        (0..3).any(|axis| problem.bounds.sides[axis] == Side::Periodic && self.cells[axis] < 3)
+        (0..3).any(|axis| problem.bounds.sides[axis] == Side::Periodic && self.cells[axis] <= 2 * self.fine[axis])
     }
     /// About how many particles a search looks at, when they are spread evenly.
     #[must_use]
     pub fn candidates(&self, problem: &Problem) -> f64 {
-        let around: u32 = self.cells.iter().map(|n| (*n).min(3)).product();
-        (f64::from(problem.count) * f64::from(around) / f64::from(self.count())).max(1.0)
+        let around: u32 = self.cells.iter().zip(self.fine).map(|(n, fine)| (*n).min(2 * fine + 1)).product();
+        (f64::from(problem.count_of(self.of)) * f64::from(around) / f64::from(self.count())).max(1.0)
     }
     /// A field of it, by its name in shaders.
     #[must_use]
@@ -144,6 +171,7 @@ impl Grid {
             ("first", Scalar::Uint(first)),
             ("cells", Scalar::Uints(self.cells)),
             ("end", Scalar::Uint(end)),
+            ("fine", Scalar::Uints(self.fine)),
             ("only", Scalar::Uint(self.of.unwrap_or(u32::MAX))),
         ];
         binding.packed.pack("grid", &values)

@@ -19,14 +19,14 @@ const KEYS: &[Key] = &[
         "size",
         Kind::Vector,
         Value::Vector(DVec3::ONE),
-        "lengths of the sides [length], 0 or above: a zero makes it flat",
+        "lengths of the sides [length], 0 or above: a zero makes it flat, and all that moves in it",
     ),
     Key::new("mass", Kind::NotNegative, Value::Number(1.0), "mass of each particle [mass]"),
     Key::new(
         "speed",
         Kind::NotNegative,
         Value::Number(0.0),
-        "thermal speed: standard deviation of each velocity component [length / time], √(k T / m) of a gas",
+        "thermal speed: standard deviation of each velocity component, but across a flat box [length / time], √(k T / m) of a gas",
     ),
     CENTER,
     VELOCITY,
@@ -47,11 +47,13 @@ fn build(settings: &Settings) -> Result<Particles, Error> {
     let center = reader.vector("center")?;
     let velocity = reader.vector("velocity")?;
     let radius = reader.not_negative("particle_radius")?;
+    // In a flat box they move in the plane.
+    let free = DVec3::select(size.cmpgt(DVec3::ZERO), DVec3::ONE, DVec3::ZERO);
     for _ in 0..count {
         let x = random.between(-0.5, 0.5);
         let y = random.between(-0.5, 0.5);
         let z = random.between(-0.5, 0.5);
-        let thermal = if speed > 0.0 { random.normals() * speed } else { DVec3::ZERO };
+        let thermal = if speed > 0.0 { random.normals() * speed * free } else { DVec3::ZERO };
         particles.push(DVec3::new(x, y, z) * size + center, thermal, mass, radius);
     }
     let (_, drift) = particles.center();

@@ -26,5 +26,16 @@ macro_rules! scenes {
 }
 
 /// All of them, in the order in which a newcomer would try them.
-pub const SCENES: &[Builtin] =
-    scenes!["throw", "kepler", "figure_eight", "solar_system", "galaxy", "merger", "fountain"];
+pub const SCENES: &[Builtin] = scenes![
+    "throw",
+    "kepler",
+    "figure_eight",
+    "solar_system",
+    "galaxy",
+    "merger",
+    "fountain",
+    "flock",
+    "fish_school",
+    "vicsek",
+    "murmuration",
+];

@@ -3,16 +3,16 @@
 use std::path::Path;
 
 use crate::forces::{self, Custom, FORCES, Force, Over};
-use crate::settings::{Settings, Value};
+use crate::settings::{Kind, Settings, Value};
 
 use super::files::Files;
-use super::report::Report;
+use super::report::{Fault, Report};
 use super::resolved::{self, Writer};
 use super::tree::{Data, Entry};
 use super::value;
 use super::walk::{self, Table};
 
-pub(super) const OWN: &[&str] = &["kind", "wgsl", "over", "params"];
+pub(super) const OWN: &[&str] = &["kind", "wgsl", "over", "range", "neighbors", "params"];
 
 /// A force as the scene gives it.
 pub(super) enum Chosen {
@@ -33,11 +33,8 @@ pub(super) fn read(table: &Table<'_>, files: &Files, report: &mut Report) -> Opt
 }
 
 fn read_own(table: &Table<'_>, wgsl: &Entry, files: &Files, report: &mut Report) -> Option<Chosen> {
-    table.settings(&[], &["wgsl", "over", "params"], report);
-    let over = table.get("over").and_then(|entry| walk::choice(entry, "over", &["each", "pairs"], report));
-    if table.get("over").is_none() {
-        report.push(table.lacks("over", "either \"each\" or \"pairs\"", "who meets whom"));
-    }
+    table.settings(&[], &OWN[1..], report);
+    let over = over(table, report);
     let params = table.get("params").map_or_else(Vec::new, |entry| params(entry, report));
     let name = value::text(&wgsl.node, "wgsl", "the name of a file", report)?;
     let text = files
@@ -47,13 +44,49 @@ fn read_own(table: &Table<'_>, wgsl: &Entry, files: &Files, report: &mut Report)
         Ok((text, path)) => {
             let stem =
                 Path::new(name).file_stem().map_or_else(|| name.to_owned(), |s| s.to_string_lossy().into_owned());
-            let over = if over? == "each" { Over::Each } else { Over::Pairs };
-            Some(Chosen::Own { law: Custom { name: stem, over, wgsl: text, file: name.to_owned(), params }, path })
+            Some(Chosen::Own {
+                law: Custom { name: stem, over: over?, wgsl: text, file: name.to_owned(), params },
+                path,
+            })
         }
         Err(fault) => {
             report.push(fault);
             None
         }
+    }
+}
+
+/// Who meets whom, with the range or the number of neighbours that this asks for.
+fn over(table: &Table<'_>, report: &mut Report) -> Option<Over> {
+    let Some(entry) = table.get("over") else {
+        report.push(table.lacks("over", &value::wanted(Kind::Choice(Over::NAMES)), "who meets whom"));
+        return None;
+    };
+    let word = walk::choice(entry, "over", Over::NAMES, report)?;
+    let wanted = match word {
+        "within" | "near" => Some("range"),
+        "nearest" => Some("neighbors"),
+        _ => None,
+    };
+    for given in ["range", "neighbors"].into_iter().filter_map(|key| table.get(key)) {
+        if wanted != Some(given.key.as_str()) {
+            let fault = Fault::at(&given.place, format!("a law over \"{word}\" has no use for `{}`", given.key));
+            report.push(fault.label("remove it, or change `over`"));
+        }
+    }
+    let Some(wanted) = wanted else { return Some(if word == "each" { Over::Each } else { Over::Pairs }) };
+    let kind = if wanted == "range" { Kind::Positive } else { Kind::Count };
+    let Some(given) = table.get(wanted) else {
+        let about = if wanted == "range" { "how far one meets another [length]" } else { "how many are met" };
+        report.push(table.lacks(wanted, &value::wanted(kind), about));
+        return None;
+    };
+    let number = value::number(&given.node, wanted, kind, &value::wanted(kind), report)?;
+    match word {
+        "within" => Some(Over::Within { range: number }),
+        "near" => Some(Over::Near { range: number, of: None }),
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count fits 32 bits")]
+        _ => Some(Over::Nearest { count: number as u32 }),
     }
 }
 
@@ -66,7 +99,6 @@ fn params(entry: &Entry, report: &mut Report) -> Vec<(String, Value)> {
 }
 
 fn param(entry: &Entry, report: &mut Report) -> Option<Value> {
-    use crate::settings::Kind;
     let kind = match entry.node.data {
         Data::Integer(_) | Data::Float(_) => Kind::Number,
         Data::List(_) => Kind::Vector,
@@ -92,7 +124,12 @@ impl Chosen {
             }
             Self::Own { law, path } => {
                 out.text("wgsl", path);
-                out.text("over", if matches!(law.over, Over::Each) { "each" } else { "pairs" });
+                out.text("over", law.over.name());
+                match law.over {
+                    Over::Within { range } | Over::Near { range, .. } => out.number("range", range),
+                    Over::Nearest { count } => out.line("neighbors", &count.to_string()),
+                    Over::Each | Over::Pairs => {}
+                }
                 let params: Vec<_> =
                     law.params.iter().map(|(k, v)| format!("{} = {}", resolved::bare(k), resolved::value(v))).collect();
                 out.line("params", &format!("{{ {} }}", params.join(", ")));

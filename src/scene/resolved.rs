@@ -43,7 +43,8 @@ impl Writer {
     pub(super) fn settings(&mut self, keys: &[Key], settings: &Settings) {
         for key in keys {
             if let Some(v) = settings.0.get(key.name) {
-                let whole = matches!(key.kind, Kind::Count | Kind::Whole);
+                let whole =
+                    matches!(key.kind, Kind::Count | Kind::Whole | Kind::Species) && matches!(v, Value::Number(_));
                 self.line(key.name, &if whole { settings.whole(key.name).to_string() } else { value(v) });
             }
         }

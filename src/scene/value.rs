@@ -20,6 +20,7 @@ pub(super) fn wanted(kind: Kind) -> String {
         Kind::NotNegative => "a number, zero or above".to_owned(),
         Kind::Count => "a whole number, one or above".to_owned(),
         Kind::Whole => "a whole number, zero or above".to_owned(),
+        Kind::Species => "a whole number, zero or above, or \"all\"".to_owned(),
         Kind::Vector => "three numbers".to_owned(),
         Kind::Direction => "three numbers, not all zero".to_owned(),
         Kind::Choice([only]) => format!("\"{only}\""),
@@ -34,6 +35,10 @@ pub(super) fn read(node: &Node, key: &str, kind: Kind, report: &mut Report) -> O
         Kind::Number | Kind::Positive | Kind::NotNegative | Kind::Count | Kind::Whole => {
             number(node, key, kind, &wanted(kind), report).map(Value::Number)
         }
+        Kind::Species => match &node.data {
+            Data::Text(text) if text == "all" => Some(Value::Text(Cow::Borrowed("all"))),
+            _ => number(node, key, kind, &wanted(kind), report).map(Value::Number),
+        },
         Kind::Vector | Kind::Direction => vector(node, key, kind, report).map(Value::Vector),
         Kind::Choice(known) => choice(node, key, key, known, report).map(|word| Value::Text(Cow::Borrowed(word))),
         Kind::Flag => match node.data {
@@ -45,7 +50,7 @@ pub(super) fn read(node: &Node, key: &str, kind: Kind, report: &mut Report) -> O
 
 /// A number of this kind; `wanted` says it in words.
 pub(super) fn number(node: &Node, key: &str, kind: Kind, wanted: &str, report: &mut Report) -> Option<f64> {
-    let whole = matches!(kind, Kind::Count | Kind::Whole);
+    let whole = matches!(kind, Kind::Count | Kind::Whole | Kind::Species);
     let value = match node.data {
         #[expect(
             clippy::cast_precision_loss,
@@ -67,11 +72,13 @@ pub(super) fn number(node: &Node, key: &str, kind: Kind, wanted: &str, report: &
     let largest = match kind {
         Kind::Count => f64::from(u32::MAX),
         Kind::Whole => LARGEST_WHOLE,
+        // The last one stands for all.
+        Kind::Species => f64::from(u32::MAX - 1),
         _ => f64::from(f32::MAX),
     };
     let low = match kind {
         Kind::Positive => value <= 0.0,
-        Kind::NotNegative | Kind::Whole => value < 0.0,
+        Kind::NotNegative | Kind::Whole | Kind::Species => value < 0.0,
         Kind::Count => value < 1.0,
         _ => false,
     };

@@ -44,11 +44,13 @@ impl Setup {
     /// # Errors
     /// When the setup makes no sense, or a shader does not compile.
     pub fn plans(&self, machine: Machine) -> Result<Plans, Error> {
-        let problem = Problem::new(self.check()?, machine).at(&self.particles.position, self.bounds);
-        let mut start = Step::new(&self.forces, problem);
+        let problem = Problem::new(self.check()?, machine)
+            .at(&self.particles.position, self.bounds)
+            .of_species(&self.particles.species);
+        let mut start = Step::new(&self.forces, problem.clone());
         start.enclose();
         self.integrator.start(&mut start);
-        let mut step = Step::new(&self.forces, problem);
+        let mut step = Step::new(&self.forces, problem.clone());
         self.integrator.step(&mut step);
         let measure = Step::measurement(&self.forces, problem)?;
         Ok(Plans { start: start.begun()?, step: step.done()?, measure })

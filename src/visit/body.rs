@@ -30,6 +30,9 @@ impl Body {
 }
 
 /// All particles of a host.
+///
+/// # Errors
+/// When it lacks position or velocity, or they are being written.
 pub fn bodies(host: &Host) -> Result<Vec<Body>, Error> {
     let count = host.world().count as usize;
     let (position, velocity) = (host.read(POSITION)?, host.read(VELOCITY)?);

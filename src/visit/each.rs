@@ -6,13 +6,14 @@ use crate::kernel::{Kernel, Pass, Problem, Shader};
 
 pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
     law.requires(&[("force", "fn force(me: Particle) -> vec4f")])?;
-    let shader = Shader::join(&[
+    let mut files = vec![
         crate::shader!("world.wgsl"),
         crate::shader!("fields.wgsl"),
         crate::shader!("particle.wgsl"),
         crate::shader!("visit/each.wgsl"),
-        law.wgsl.clone(),
-    ])?;
+    ];
+    files.extend(law.files());
+    let shader = Shader::join(&files)?;
     let uniforms = law.uniforms(&shader)?;
     let constants = problem.constants(&shader);
     let pass = Pass { constants, uniforms, ..Pass::new(shader, problem.count) };

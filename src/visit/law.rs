@@ -20,7 +20,17 @@ pub struct Law {
     pub params: Vec<(String, Scalar)>,
     /// The visit's twin around the law's; `None` only for a user's law.
     pub twin: Option<Twin>,
+    /// Whether what two do to each other adds up to nothing, so that momentum is kept.
+    pub reciprocal: bool,
 }
+
+/// Files that a law has by calling a function of theirs, and not having one of that name itself.
+const ON_CALL: [(&str, Source); 4] = [
+    ("is_of", crate::shader!("law/species.wgsl")),
+    ("unit", crate::shader!("law/steering.wgsl")),
+    ("truncated", crate::shader!("law/steering.wgsl")),
+    ("pcg4d", crate::shader!("law/random.wgsl")),
+];
 
 impl Law {
     /// A law of each particle alone; `rule(me, world)` gives acceleration and potential per unit mass.
@@ -30,7 +40,7 @@ impl Law {
         params: Vec<(String, Scalar)>,
         rule: impl Fn(&Body, &World) -> DVec4 + Send + Sync + 'static,
     ) -> Self {
-        Self { name: name.to_owned(), over: Over::Each, wgsl, params, twin: Some(twin::each(rule)) }
+        Self { name: name.to_owned(), over: Over::Each, wgsl, params, twin: Some(twin::each(rule)), reciprocal: false }
     }
     /// A law of all pairs that adds up: [`Law::between`] over [`Over::Pairs`].
     pub fn pairs(
@@ -42,7 +52,7 @@ impl Law {
         Self::between(name, Over::Pairs, wgsl, params, rule)
     }
     /// A law that adds up; `rule(me, you, r)`, with r from me to you, gives what you add to my acceleration and
-    /// potential per unit mass.
+    /// potential per unit mass. What you do to me, I do to you.
     pub fn between(
         name: &str,
         over: Over,
@@ -51,7 +61,7 @@ impl Law {
         rule: impl Fn(&Body, &Body, DVec3) -> DVec4 + Send + Sync + 'static,
     ) -> Self {
         let gather = move |me: &Body, you: &Body, r, sum: &mut DVec4| *sum += rule(me, you, r);
-        Self::gathering(name, over, wgsl, params, gather, |_, sum, _| *sum)
+        Self { reciprocal: true, ..Self::gathering(name, over, wgsl, params, gather, |_, sum, _| *sum) }
     }
     /// A law that makes something else of its neighbours than a sum of accelerations; `gather(me, you, r, sum)` takes
     /// them in, in any order, and `finish(me, sum, world)` gives acceleration and potential per unit mass.
@@ -63,7 +73,8 @@ impl Law {
         gather: impl Fn(&Body, &Body, DVec3, &mut S) + Send + Sync + 'static,
         finish: impl Fn(&Body, &S, &World) -> DVec4 + Send + Sync + 'static,
     ) -> Self {
-        Self { name: name.to_owned(), over, wgsl, params, twin: Some(twin::meetings(over, gather, finish)) }
+        let twin = Some(twin::meetings(over, gather, finish));
+        Self { name: name.to_owned(), over, wgsl, params, twin, reciprocal: false }
     }
     /// Joins the law with its visit, for such a problem.
     ///
@@ -114,7 +125,7 @@ impl Law {
         }
         Ok(())
     }
-    /// What the law leaves to the usual: a sum of accelerations, and that it acts on everybody.
+    /// What the law leaves to the usual: a sum of accelerations, and that it acts on everybody; and what it calls for.
     pub(super) fn files(&self) -> Vec<Source> {
         let mut files = Vec::new();
         if self.over != Over::Each && !self.wgsl.says(&["struct", "Sum", "{"]) {
@@ -122,6 +133,12 @@ impl Law {
         }
         if self.over != Over::Each && !self.wgsl.says(&["fn", "acts_on", "("]) {
             files.push(crate::shader!("visit/everybody.wgsl"));
+        }
+        for (function, file) in ON_CALL {
+            let called = self.wgsl.says(&[function, "("]) && !self.wgsl.says(&["fn", function, "("]);
+            if called && !files.contains(&file) {
+                files.push(file);
+            }
         }
         files.push(self.wgsl.clone());
         files

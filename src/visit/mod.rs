@@ -6,8 +6,9 @@ mod law;
 mod near;
 mod over;
 mod pairs;
+pub mod random;
 mod twin;
 
-pub use body::Body;
+pub use body::{Body, bodies};
 pub use law::Law;
 pub use over::Over;

@@ -24,13 +24,20 @@ impl Force for Sorting {
             Ok(())
         };
         let wgsl = Source::ours("sorting", wgsl);
-        vec![Law { name: "sorting".into(), over: Over::Each, wgsl, params: Vec::new(), twin: Some(Arc::new(twin)) }]
+        vec![Law {
+            name: "sorting".into(),
+            over: Over::Each,
+            wgsl,
+            params: Vec::new(),
+            twin: Some(Arc::new(twin)),
+            reciprocal: false,
+        }]
     }
 }
 
 fn particles() -> Particles {
     let mut particles = support::cloud(40, 2).of_species(3);
-    particles.append(&support::cloud(25, 3));
+    particles.append(&support::cloud(25, 3).of_species(0));
     particles.velocity.fill(DVec3::ZERO);
     particles.species[64] = 9;
     particles

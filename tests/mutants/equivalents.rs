@@ -6,6 +6,7 @@ const ANY_SIZE: &str = "the host reads the size of a workgroup by reflection, an
 const ALWAYS_SET: &str = "the host sets every override";
 const SLOW_WAY: &str = "it takes the way for blocks that are not apart, or not full: slower, and the same sum";
 const STORES_NOTHING: &str = "lanes behind the last particle store nothing of theirs";
+const EDGE: &str = "nobody stands at the very edge";
 const AT_THE_SIDE: &str = "who is at the side stays at the side, by one way or the other";
 const APART: &str = "let apart = start + BLOCK <= mine || start >= mine + WORKGROUP * TARGETS;";
 
@@ -33,6 +34,24 @@ pub const EQUIVALENT: &[Equivalent] = &[
         "<=",
         "behind the last element stands a finite number, or the last one again",
     ),
+    same(
+        "boids.wgsl",
+        "const COINCIDENT: f32 = 1e-30;",
+        "1e-30",
+        "1.5000000000000001e-30",
+        "as good as nothing as well",
+    ),
+    same("boids.wgsl", "if d2 < params.separation_range", "<", "<=", EDGE),
+    same("boids.wgsl", "&& d2 > COINCIDENT {", ">", ">=", EDGE),
+    same("goal.wgsl", "if distance < params.free_radius", "<", "<=", EDGE),
+    same("goal.wgsl", "if distance < params.slow_radius", "<", "<=", "at the edge both are the same number"),
+    same("obstacle.wgsl", "if depth.", ">=", ">", "nobody is as near to two faces"),
+    same("obstacle.wgsl", "if s >= ahead {", ">=", ">", "so far ahead the push is nothing"),
+    same("speed_limit.wgsl", "if speed > params.most {", ">", ">=", "at the limit both are the same number"),
+    same("speed_limit.wgsl", "if speed < params.least {", "<", "<=", "at the limit both are the same number"),
+    same("steering.wgsl", "if size > most {", ">", ">=", "at the limit both are the same number"),
+    same("vicsek.wgsl", "way = vec2f(1.0, 0.0);", "1.0", "1.5", "it has a direction alone"),
+    same("wander.wgsl", "(fraction(words.x) - 0.5)", "-", "+", "a whole turn further"),
     same("boundary/", "(x >= low && x <", ">=", ">", AT_THE_SIDE),
     same("reflecting.wgsl", "x <= high)", "<=", "<", AT_THE_SIDE),
     same("periodic.wgsl", "if inside >= low", ">=", ">", AT_THE_SIDE),

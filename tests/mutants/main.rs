@@ -4,6 +4,7 @@ mod boundary;
 mod equivalent_neighbors;
 mod equivalent_primitives;
 mod equivalents;
+mod laws;
 mod neighbors;
 mod primitives;
 mod stages;

@@ -1,5 +1,7 @@
 //! Stages of the grid and of the searches through it: small boxes in which every seam, fold and reach is met.
 
+#![allow(clippy::cast_possible_truncation, reason = "numbers are rounded to what f32 holds")]
+
 use glam::{DVec3, DVec4, Vec4};
 use motes::forces::{Body, Law, Over, Problem};
 use motes::kernel::{ALARM, Backend, Machine, Plan, Source, World};

@@ -3,17 +3,19 @@
 use std::collections::BTreeMap;
 use std::time::Duration;
 
-use motes::forces::{self, Force, Law};
+use motes::forces::{Force, Law};
 use motes::integrators::INTEGRATORS;
-use motes::kernel::{ACCELERATION, ALARM, Backend, Kernel, Machine, POSITION, Plan, Shader, Source, VELOCITY, World};
+use motes::kernel::{
+    ACCELERATION, ALARM, Backend, Kernel, Machine, POSITION, Plan, SPECIES, Shader, Source, VELOCITY, World,
+};
 use motes::lockstep::{Verdict, compare};
-use motes::settings::{Kind, Value};
+use motes::settings::Value;
 use motes::{Gpu, Setup, Simulation, wgpu};
 
-use crate::primitives;
 use crate::support::machines::{alone, cut, kernel, machines};
 use crate::support::states::{force, integrator};
-use crate::support::{self, Shared, choices};
+use crate::support::{self, Shared};
+use crate::{laws, primitives};
 
 /// Large, and not a round number: what is wrong in a step shows.
 const DT: f64 = 0.37;
@@ -132,10 +134,14 @@ pub fn fill(simulation: &mut Simulation<Gpu>, plan: &Plan) {
     let gpu = simulation.backend();
     gpu.compile(plan).expect("a good plan");
     let mut random = support::Random::new(23);
-    let kept = [POSITION.name, VELOCITY.name, ALARM.name, "world"];
+    let kept = [POSITION.name, VELOCITY.name, SPECIES.name, ALARM.name, "world"];
     for name in plan.fields(1).keys().filter(|n| !kept.contains(&n.as_str())) {
         let words: Vec<f32> = (0..gpu.size(name) / 4).map(|_| random.narrow()).collect();
         gpu.write_bytes(name, 0, bytemuck::cast_slice(&words)).expect("a field");
+    }
+    let bytes = usize::try_from(gpu.size(SPECIES.name)).expect("few");
+    if bytes > 0 {
+        gpu.write_bytes(SPECIES.name, 0, bytemuck::cast_slice(&support::species(bytes / 4))).expect("a field");
     }
 }
 
@@ -147,7 +153,8 @@ pub fn all(shared: &Shared) -> Vec<Stage> {
     integrators(&device, &mut stages);
     watches(&device, &mut stages);
     crate::boundary::boundary(&device, &mut stages);
-    laws(&device, &mut stages);
+    laws::all(&device, &mut stages);
+    laws::planes(&device, &mut stages);
     pairs(shared, &device, &mut stages);
     crate::neighbors::all(shared, &device, &mut stages);
     primitives::all(&device, &mut stages);
@@ -200,27 +207,6 @@ fn watches(device: &Device, stages: &mut Vec<Stage>) {
         simulation.write(field, &values).expect("a field");
         simulation.write(ALARM, &alarm).expect("a field");
         stages.push(Stage::new(&format!("watch {case}"), simulation, watch.clone()));
-    }
-}
-
-/// Every law alone, in all its variants; those over pairs by the visit that compiles fastest.
-fn laws(device: &Device, stages: &mut Vec<Stage>) {
-    let machine = Machine { software: true, subgroup: 0, invocations: 1 };
-    for entry in forces::FORCES {
-        for settings in choices::variants(entry.keys) {
-            // Vectors that are none, or short, may go another way.
-            let mut all = vec![settings.clone()];
-            for key in entry.keys.iter().filter(|key| key.kind == Kind::Vector) {
-                for part in [0.0, 0.3] {
-                    let vector = (settings.vector(key.name) * part).as_vec3().as_dvec3();
-                    all.push(settings.clone().with(key.name, Value::Vector(vector)));
-                }
-            }
-            for settings in all {
-                let kernel = kernel((entry.build)(&settings).as_ref(), FEW, &machine);
-                stages.push(stage(entry.name, moving(device, FEW, Some(machine)), kernel));
-            }
-        }
     }
 }
 

@@ -12,7 +12,8 @@ fn builtin(name: &str) -> Scene {
 #[test]
 fn every_one_loads_and_says_what_to_see() {
     let names: Vec<_> = SCENES.iter().map(|s| s.name).collect();
-    assert_eq!(names, ["throw", "kepler", "figure_eight", "solar_system", "galaxy", "merger", "fountain"]);
+    let bodies = ["throw", "kepler", "figure_eight", "solar_system", "galaxy", "merger", "fountain"];
+    assert_eq!(names, [&bodies[..], &["flock", "fish_school", "vicsek", "murmuration"]].concat());
     for builtin in SCENES {
         let scene = self::builtin(builtin.name);
         assert!(scene.about.len() > 200, "{}: {}", builtin.name, scene.about);
@@ -148,4 +149,51 @@ fn the_planets_are_where_its_comment_says() {
         // The error of pefrl at this step, measured against a step five times as short: 2.8e-6, and the ninth digit.
         assert!(off < if id == 0 { 3e-6 } else { 3e-8 }, "{name}: {off:e}");
     }
+}
+
+/// A scene with fewer particles in less room, by the twins: what is measured in the beginning and in the end.
+fn smaller(name: &str, overrides: &[&str], steps: u32) -> [motes::measure::Flock; 2] {
+    let overrides: Vec<_> = overrides.iter().map(|text| (*text).to_owned()).collect();
+    let source = Source::find(name).expect("a built-in scene");
+    let scene = Scene::load(&source, &overrides, &Options::default()).unwrap_or_else(|faults| panic!("{faults}"));
+    let range = scene.forces.iter().find_map(|force| force.company()).expect("a flock");
+    let setup = Setup {
+        particles: scene.particles,
+        forces: scene.forces,
+        integrator: (scene.integrator.build)(),
+        dt: scene.dt,
+        bounds: scene.bounds,
+    };
+    let count = setup.check().expect("a scene that may run");
+    let mut simulation = Simulation::on(Cpu::new(count).expect("a host"), &setup).expect("a simulation");
+    let mut measure = |steps| {
+        simulation.step(steps).expect("steps");
+        let snapshot = pollster::block_on(simulation.snapshot()).expect("a state");
+        motes::measure::Flock::of(&snapshot, setup.bounds, Some(range)).expect("a measurement")
+    };
+    [measure(0), measure(steps)]
+}
+
+#[test]
+fn vicseks_arrows_come_to_order() {
+    let few = [
+        "particles.0.count=288",
+        "particles.0.size=[16, 9, 0]",
+        "particles.0.center=[8, 4.5, 0]",
+        "box.size=[16, 9, 0]",
+    ];
+    let [first, last] = smaller("vicsek", &few, 400);
+    // 288 that go their own ways have an order of about 1 / √288 = 0.06.
+    assert!(first.order < 0.2 && last.order > 0.7, "{first:?} {last:?}");
+}
+
+#[test]
+fn birds_come_together_and_fish_flee() {
+    let few =
+        ["particles.0.count=700", "particles.0.size=[6, 6, 4.5]", "box.size=[6, 6, 4.5]", "box.low=[-3, -3, -2.25]"];
+    let [first, last] = smaller("flock", &few, 150);
+    assert!(last.neighbors > 2.0 * first.neighbors && last.order > 3.0 * first.order, "{first:?} {last:?}");
+    let few = ["particles.0.count=400", "force.0.range=1.0"];
+    let [first, last] = smaller("fish_school", &few, 150);
+    assert!(last.neighbors > 1.3 * first.neighbors, "{first:?} {last:?}");
 }

@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::Path;
 
+use motes::forces::Over;
 use motes::scene::{Options, SCENES, Scene, Source};
 
 use crate::SMALL;
@@ -187,6 +188,24 @@ fn a_law_of_ones_own_is_read_from_its_file() {
         scene.resolved
     );
 
+    // Whom it meets, and how far or how many that are; and the same again out of the resolved scene.
+    for (over, more, want) in [
+        ("near", "range = 0.1", Over::Near { range: 0.1, of: None }),
+        ("within", "range = 2", Over::Within { range: 2.0 }),
+        ("nearest", "neighbors = 7", Over::Nearest { count: 7 }),
+        ("pairs", "", Over::Pairs),
+    ] {
+        let scene = format!("{SMALL}[[force]]\nwgsl = \"swirl.wgsl\"\nover = \"{over}\"\n{more}\n");
+        let files: &[(&str, &[u8])] = &[("scene.toml", scene.as_bytes()), ("swirl.wgsl", b"fn gather() {}")];
+        let scene = report_in(files, &Options::default()).expect("a good scene");
+        assert_eq!(scene.forces[0].laws()[0].over, want);
+        assert!(
+            scene.resolved.contains(&format!("over = \"{over}\"\n{}", more.replace("= 2", "= 2.0"))),
+            "{}",
+            scene.resolved
+        );
+    }
+
     let wrong = format!("{SMALL}[[force]]\nwgsl = \"swirl.wgsl\"\nover = \"tree\"\nparams = {{ strength = \"2\" }}\n");
     let (report, code) = fault(&[("scene.toml", wrong.as_bytes()), ("swirl.wgsl", b"\xff")]);
     let expected = r#"error: cannot read swirl.wgsl: stream did not contain valid UTF-8
@@ -200,7 +219,7 @@ error: unknown over "tree"
    |
  8 | over = "tree"
    |        ^^^^^^
-   = known: `each`, `pairs`
+   = known: `each`, `pairs`, `within`, `near`, `nearest`
 
 error: `strength` must be a number, three numbers, or true or false, not the text "2"
   --> scene.toml:9:23

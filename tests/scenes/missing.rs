@@ -184,7 +184,7 @@ wgsl = "swirl.wgsl"
   --> a.toml:6:1
    |
  6 | [[force]]
-   | ^^^^^^^^^ add `over`, either "each" or "pairs": who meets whom
+   | ^^^^^^^^^ add `over`, one of `each`, `pairs`, `within`, `near`, `nearest`: who meets whom
 
 error: there is no file swirl.wgsl
   --> a.toml:7:8
@@ -194,5 +194,39 @@ error: there is no file swirl.wgsl
    = it is sought at tests/scenes/swirl.wgsl
 
 a.toml: 2 errors"#,
+    );
+}
+
+#[test]
+fn a_law_with_another_reach_than_it_needs() {
+    let scene = |over: &str, more: &str| {
+        format!(
+            "[simulation]\ndt = 0.1\nsteps = 10\n[[particles]]\nbodies = [{{ position = [0, 0, 0] }}]\n[[force]]\nover = \"{over}\"\n{more}wgsl = \"missing.rs\"\n"
+        )
+    };
+    let missing = |wanted: &str| format!("error: [[force]] wgsl lacks {wanted}\n\na.toml: 1 error");
+    assert_report(
+        &scene("near", ""),
+        &[],
+        &missing(
+            "`range`\n  --> a.toml:6:1\n   |\n 6 | [[force]]\n   | ^^^^^^^^^ add `range`, a number above zero: how far one meets another [length]",
+        ),
+    );
+    assert_report(
+        &scene("nearest", ""),
+        &[],
+        &missing(
+            "`neighbors`\n  --> a.toml:6:1\n   |\n 6 | [[force]]\n   | ^^^^^^^^^ add `neighbors`, a whole number, one or above: how many are met",
+        ),
+    );
+    assert_report(
+        &scene("each", "range = 2\n"),
+        &[],
+        "error: a law over \"each\" has no use for `range`\n  --> a.toml:8:1\n   |\n 8 | range = 2\n   | ^^^^^ remove it, or change `over`\n\na.toml: 1 error",
+    );
+    assert_report(
+        &scene("within", "range = 0\n"),
+        &[],
+        "error: `range` must be a number above zero, not 0\n  --> a.toml:8:9\n   |\n 8 | range = 0\n   |         ^\n\na.toml: 1 error",
     );
 }

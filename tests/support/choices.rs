@@ -25,14 +25,17 @@ fn values(key: &Key) -> Vec<Value> {
     match (key.kind, &key.default) {
         (Kind::Choice(words), _) => words.iter().map(|w| Value::Text(Cow::Borrowed(*w))).collect(),
         (Kind::Flag, _) => vec![Value::Flag(false), Value::Flag(true)],
-        (_, None) => vec![nudged(&default(key.kind))],
-        (_, Some(value)) => vec![nudged(value)],
+        (Kind::Species, Some(Value::Number(n))) => vec![Value::Text("all".into()), Value::Number(n + 1.0)],
+        (Kind::Species, _) => vec![Value::Text("all".into()), Value::Number(1.0)],
+        (_, None) => vec![nudged(key.kind, &default(key.kind))],
+        (_, Some(value)) => vec![nudged(key.kind, value)],
     }
 }
 
 /// Another value of the same kind: not the old one, not 0, not 1.
-pub fn nudged(value: &Value) -> Value {
+pub fn nudged(kind: Kind, value: &Value) -> Value {
     match value {
+        Value::Number(x) if matches!(kind, Kind::Whole | Kind::Count | Kind::Species) => Value::Number(x + 2.0),
         Value::Number(x) if *x > 1.0 && x.fract() == 0.0 => Value::Number(x + 2.0),
         Value::Number(x) => Value::Number(f64::from((x * 1.3 + 0.17) as f32)),
         Value::Vector(v) => Value::Vector((*v + DVec3::new(0.31, -0.23, 0.47)).as_vec3().as_dvec3()),

@@ -42,6 +42,15 @@ pub fn kernel(force: &dyn Force, count: usize, machine: &Machine) -> Kernel {
     law.kernel(&Problem::new(u32::try_from(count).expect("few"), *machine)).expect("a kernel")
 }
 
+/// The kernels of a force: those of its laws, and those that keep velocities lawful.
+pub fn kernels(force: &dyn Force, problem: &Problem) -> Vec<Kernel> {
+    let mut all: Vec<_> = force.laws().into_iter().map(|law| law.kernel(problem).expect("a kernel")).collect();
+    let mut limits = Plan::default();
+    force.limit(&mut limits, problem).expect("limits");
+    all.extend(limits.kernels);
+    all
+}
+
 /// The same in a box.
 pub fn kernel_in(bounds: Bounds, force: &dyn Force, count: usize, machine: &Machine) -> Kernel {
     let law = force.laws().into_iter().next().expect("a law");

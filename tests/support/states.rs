@@ -3,13 +3,15 @@
 use glam::{DVec3, DVec4};
 use motes::forces::{self, Force};
 use motes::integrators::{self, Integrator, Step};
-use motes::kernel::{ACCELERATION, Array, Backend, POSITION, VELOCITY, World};
+use motes::kernel::{ACCELERATION, Array, Backend, POSITION, SPECIES, VELOCITY, World};
 use motes::settings::{Settings, Value};
 use motes::{Bounds, Cpu, Particles, Setup, Simulation};
 
 /// A force by its name, its defaults changed by some settings.
 pub fn force(name: &str, settings: &[(&'static str, Value)]) -> Box<dyn Force> {
     let entry = forces::entry(name).unwrap_or_else(|| panic!("no force is called {name}"));
+    let known = |key: &str| entry.keys.iter().any(|k| k.name == key);
+    assert!(settings.iter().all(|(key, _)| known(key)), "{name} has not all of these keys: {settings:?}");
     let defaults = Settings::defaults(entry.keys);
     (entry.build)(&settings.iter().fold(defaults, |s, (key, value)| s.with(key, value.clone())))
 }
@@ -60,19 +62,31 @@ pub fn accelerations(forces: &[Box<dyn Force>], particles: &Particles, time: f64
 
 /// The same in a box.
 pub fn accelerations_in(bounds: &Bounds, forces: &[Box<dyn Force>], particles: &Particles, time: f64) -> Vec<DVec4> {
+    felt(forces, particles, World { time, dt: 0.01, bounds: *bounds, ..World::default() }).0
+}
+
+/// The same with all that is to be known of the world; and the velocities that the forces then allow.
+pub fn felt(forces: &[Box<dyn Force>], particles: &Particles, world: World) -> (Vec<DVec4>, Vec<DVec4>) {
     let count = u32::try_from(particles.len()).expect("few");
     let mut cpu = Cpu::new(count).expect("some");
-    let mut step = Step::new(forces, motes::forces::Problem::new(count, cpu.machine()).at(&[], *bounds));
+    let problem = motes::forces::Problem::new(count, cpu.machine()).at(&particles.position, world.bounds);
+    let mut step = Step::new(forces, problem.clone());
     step.evaluate();
-    let plan = step.finished().expect("a plan");
+    let mut plan = step.finished().expect("a plan");
+    for force in forces {
+        force.limit(&mut plan, &problem).expect("a limit");
+    }
     let program = cpu.compile(&plan).expect("twins");
     let join = |v: &[DVec3], w: &[f64]| Array::Vec4(v.iter().zip(w).map(|(v, w)| v.extend(*w)).collect());
     cpu.write(POSITION.name, &join(&particles.position, &particles.mass)).expect("position");
     cpu.write(VELOCITY.name, &join(&particles.velocity, &particles.radius)).expect("velocity");
-    cpu.set_world(World { time, dt: 0.01, step: 0, count, bounds: *bounds }).expect("clock");
+    if cpu.host().contains(SPECIES.name) {
+        cpu.write(SPECIES.name, &Array::Uint(particles.species.clone())).expect("species");
+    }
+    cpu.set_world(World { count, ..world }).expect("clock");
     cpu.run(&program, 1).expect("twins run");
-    match cpu.host().get(ACCELERATION.name) {
-        Some(Array::Vec4(a)) => a,
+    match (cpu.host().get(ACCELERATION.name), cpu.host().get(VELOCITY.name)) {
+        (Some(Array::Vec4(a)), Some(Array::Vec4(v))) => (a, v),
         _ => panic!("forces give accelerations"),
     }
 }

@@ -35,7 +35,9 @@ impl Agents {
         let keys: Vec<u32> =
             self.position.par_iter().map(|x| u32::try_from(self.key(self.cell(*x))).unwrap_or(0)).collect();
         let mut starts = vec![0u32; self.cells.pow(3) + 1];
-        keys.iter().for_each(|k| starts[*k as usize + 1] += 1);
+        for k in &keys {
+            starts[*k as usize + 1] += 1;
+        }
         for c in 1..starts.len() {
             starts[c] += starts[c - 1];
         }

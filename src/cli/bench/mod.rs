@@ -4,6 +4,7 @@ mod agents;
 mod bodies;
 mod gravity;
 mod neighbors;
+mod plot;
 
 use std::time::Instant;
 
@@ -13,6 +14,7 @@ use serde_json::json;
 use super::args::{BenchArgs, Topic};
 use super::engine;
 use super::failure::Failure;
+use super::progress::large;
 
 /// One measurement takes about this long, unless a step is longer \[s\].
 const SPAN: f64 = 0.15;
@@ -36,6 +38,9 @@ pub async fn bench(args: &BenchArgs) -> Result<(), Failure> {
                 all.extend(part);
             }
         }
+    }
+    if let Some(path) = &args.plot {
+        plot::neighbors(path, &value)?;
     }
     if args.json {
         out!("{value:#}");

@@ -66,7 +66,7 @@ pub async fn bench(args: &BenchArgs, found: &gpu::Found) -> Result<serde_json::V
     let circles = super::sizes(
         args,
         2.0,
-        |count, last| measure(args, found, &circles(count)?, last, true),
+        |count, last| measure(args, found, &circles(count), last, true),
         |r| median(&r.device),
     )?;
     header("boids: about 7 neighbours");
@@ -96,11 +96,11 @@ fn setup(particles: Particles, force: Box<dyn Force>, bounds: Bounds) -> Setup {
     Setup { particles, forces: vec![force], integrator: Box::new(integrators::SymplecticEuler), dt: DT, bounds }
 }
 
-fn circles(count: u32) -> Result<(Setup, f64), Failure> {
+fn circles(count: u32) -> (Setup, f64) {
     let side = f64::from(count).cbrt();
     let bounds = Bounds::new(DVec3::ZERO, DVec3::splat(side), Side::Reflecting);
     let over = Over::Near { range: f64::from(RADIUS), of: None };
-    Ok((setup(scattered(count, side, 0.0), Box::new(Circles(over)), bounds), f64::from(RADIUS)))
+    (setup(scattered(count, side, 0.0), Box::new(Circles(over)), bounds), f64::from(RADIUS))
 }
 
 /// 7 neighbours: 4/3 π range³ agents in one unit of volume.
@@ -167,7 +167,7 @@ fn company(setup: &Setup, range: f64) -> Result<(f64, f64), Failure> {
 /// The search by force, at one size: how much longer it takes, and how much longer it should by what both look at.
 async fn forced(args: &BenchArgs, found: &gpu::Found) -> Result<serde_json::Value, Failure> {
     let count = FORCED.clamp(args.from, args.to.max(args.from));
-    let (mut setup, range) = circles(count)?;
+    let (mut setup, range) = circles(count);
     let (candidates, _) = company(&setup, range)?;
     let mut near = Simulation::new(&found.device, &found.queue, &setup)?;
     setup.forces = vec![Box::new(Circles(Over::Within { range }))];

@@ -27,5 +27,5 @@ pub fn kernel(count: u32) -> Result<Kernel, Error> {
         Ok(())
     };
     let kernel = Kernel::new("watch", shader, Vec::new(), count, Arc::new(twin));
-    Ok(Kernel { sizes: vec![(ALARM.name.into(), ALARM_WORDS)], ..kernel })
+    Ok(Kernel { sizes: vec![(ALARM.name.into(), ALARM_WORDS as u64)], ..kernel })
 }

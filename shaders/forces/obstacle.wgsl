@@ -1,0 +1,47 @@
+// Avoiding an obstacle (containment; Reynolds 1999) by its signed distance φ:  a = f_max (1 − s / L) (−h · ∇φ) ∇φ,  with h the
+// heading, L = τ |v| how far one looks ahead, s how far one gets before a bird of radius c touches, ∇φ as it is there.
+// Who touches already, or is inside, is pushed straight out:  a = f_max ∇φ.
+struct Params {
+    position: vec3f, radius: f32, size: vec3f, shape: u32, normal: vec3f,
+    look_ahead: f32, clearance: f32, max_force: f32, species: u32,
+}
+
+@group(3) @binding(0) var<uniform> params: Params;
+
+// ∇φ and φ. In the very middle of a sphere, and of a box, all ways out are as long: one goes along x.
+fn surface(x: vec3f) -> vec4f {
+    let d = shortest(x - params.position);
+    if params.shape == 0u {
+        let distance = length(d);
+        if distance > 0.0 { return vec4f(d / distance, distance - params.radius); }
+        return vec4f(1.0, 0.0, 0.0, -params.radius);
+    }
+    if params.shape == 2u { return vec4f(params.normal, dot(params.normal, d)); }
+    let side = select(vec3f(-1.0), vec3f(1.0), d >= vec3f());
+    var depth = abs(d) - 0.5 * params.size;
+    // In the plane there is no way out above it.
+    if world.dimensions == 2u { depth.z = -3e38; }
+    let outside = max(depth, vec3f());
+    let distance = length(outside);
+    if distance > 0.0 { return vec4f(side * outside / distance, distance); }
+    // Inside: to the nearest face.
+    if depth.x >= max(depth.y, depth.z) { return vec4f(side.x, 0.0, 0.0, depth.x); }
+    if depth.y >= depth.z { return vec4f(0.0, side.y, 0.0, depth.y); }
+    return vec4f(0.0, 0.0, side.z, depth.z);
+}
+
+fn force(me: Particle) -> vec4f {
+    if !is_of(me.index, params.species) { return vec4f(); }
+    let v = velocity_of(me);
+    let h = unit(v);
+    let ahead = params.look_ahead * length(v);
+    // Sphere tracing (Hart 1996): where φ is the distance, so far the way is free.
+    var s = 0.0;
+    for (var k = 0u; k < 8u; k += 1u) {
+        s += max(surface(me.position + s * h).w - params.clearance, 0.0);
+    }
+    let out = surface(me.position + s * h).xyz;
+    if s == 0.0 { return vec4f(params.max_force * out, 0.0); }
+    if s >= ahead { return vec4f(); }
+    return vec4f((params.max_force * (1.0 - s / ahead) * max(-dot(h, out), 0.0)) * out, 0.0);
+}

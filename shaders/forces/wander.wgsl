@@ -1,0 +1,18 @@
+// Wandering:  a = σ n / √dt, with n a random direction, another one for every particle and step. So in the time t a velocity
+// walks σ² t in the mean square, whatever the step.
+struct Params { strength: f32, seed_low: u32, seed_high: u32, species: u32 }
+
+@group(3) @binding(0) var<uniform> params: Params;
+
+const TAU: f32 = 6.283185307;
+
+fn force(me: Particle) -> vec4f {
+    if !is_of(me.index, params.species) { return vec4f(); }
+    let words = pcg4d(vec4u(me.index, world.step, params.seed_low, params.seed_high));
+    let angle = TAU * (fraction(words.x) - 0.5);
+    // Heights of a sphere are uniform (Archimedes); in the plane there is none.
+    var z = 0.0;
+    if world.dimensions == 3u { z = 2.0 * fraction(words.y) - 1.0; }
+    let across = sqrt((1.0 - z) * (1.0 + z));
+    return vec4f((params.strength * inverseSqrt(world.dt)) * vec3f(across * cos(angle), across * sin(angle), z), 0.0);
+}

@@ -1,0 +1,14 @@
+// Steering (Reynolds 1999), for a law that calls for it:  a = truncate(u − v, f_max), with u the velocity that is wished for.
+
+// The direction of v; what has no length has none, and is zero.
+fn unit(v: vec3f) -> vec3f {
+    let size = length(v);
+    if size > 0.0 { return v / size; }
+    return vec3f();
+}
+
+fn truncated(v: vec3f, most: f32) -> vec3f {
+    let size = length(v);
+    if size > most { return v * (most / size); }
+    return v;
+}

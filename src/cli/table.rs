@@ -1,0 +1,29 @@
+//! A table of numbers that grows while a run goes on: every row is on the disk when it is written.
+
+use std::fs::File;
+use std::io::{BufWriter, Write};
+use std::path::PathBuf;
+
+use motes::Error;
+
+/// A file of comma-separated values.
+pub struct Table {
+    path: PathBuf,
+    file: BufWriter<File>,
+}
+
+impl Table {
+    /// A new file with these names in its first line.
+    pub fn new(path: PathBuf, header: &str) -> Result<Self, Error> {
+        let failed = |error: &std::io::Error| Error::Output { file: path.clone(), message: error.to_string() };
+        let mut file = BufWriter::new(File::create(&path).map_err(|e| failed(&e))?);
+        writeln!(file, "{header}").map_err(|e| failed(&e))?;
+        Ok(Self { path, file })
+    }
+    /// Adds a row: the step, and what belongs to it.
+    pub fn row(&mut self, step: u64, numbers: &[f64]) -> Result<(), Error> {
+        let text: Vec<String> = numbers.iter().map(|x| format!("{x:?}")).collect();
+        let written = writeln!(self.file, "{step},{}", text.join(",")).and_then(|()| self.file.flush());
+        written.map_err(|e| Error::Output { file: self.path.clone(), message: e.to_string() })
+    }
+}

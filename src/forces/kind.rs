@@ -1,0 +1,36 @@
+//! Kinds of particles, as forces tell them apart.
+
+use std::borrow::Cow;
+
+use crate::kernel::Scalar;
+use crate::settings::{self, Key, Settings, Value};
+use crate::visit::Body;
+
+/// One species, or everybody.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Kind(pub Option<u32>);
+
+/// For whom a force is, when it may be for everybody.
+pub const SPECIES: Key = Key::new(
+    "species",
+    settings::Kind::Species,
+    Value::Text(Cow::Borrowed("all")),
+    "for whom it is: a species, or \"all\"",
+);
+
+impl Kind {
+    /// Whether a particle is of it.
+    pub fn has(self, body: &Body) -> bool {
+        self.0.is_none_or(|species| species == body.species)
+    }
+    /// As shaders know it: see `shaders/law/species.wgsl`.
+    pub fn scalar(self) -> Scalar {
+        Scalar::Uint(self.0.unwrap_or(u32::MAX))
+    }
+}
+
+/// What a key of [`settings::Kind::Species`] says, and the same for a shader.
+pub fn species(settings: &Settings, name: &str) -> (Kind, Scalar) {
+    let kind = Kind(settings.species(name));
+    (kind, kind.scalar())
+}

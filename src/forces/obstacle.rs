@@ -1,0 +1,105 @@
+//! An obstacle to be avoided.
+
+use std::borrow::Cow;
+
+use glam::{DVec3, DVec4};
+
+use super::{EACH, Force, Law, SPECIES, params, species};
+use crate::kernel::Scalar;
+use crate::settings::{Key, Kind, Settings, Value};
+
+/// What a scene may say.
+pub const KEYS: &[Key] = &[
+    Key::new("shape", Kind::Choice(SHAPES), Value::Text(Cow::Borrowed("sphere")), "what it is"),
+    Key::new("position", Kind::Vector, Value::Vector(DVec3::ZERO), "its middle, or a point on the plane [length]"),
+    Key::new("radius", Kind::Positive, Value::Number(0.5), "sphere: its radius [length]"),
+    Key::new("size", Kind::Vector, Value::Vector(DVec3::ONE), "box: its sides [length]"),
+    Key::new("normal", Kind::Direction, Value::Vector(DVec3::Z), "plane: the direction to the free side"),
+    Key::new("look_ahead", Kind::NotNegative, Value::Number(1.0), "how far ahead one looks [time]"),
+    Key::new("clearance", Kind::NotNegative, Value::Number(0.05), "how far off one keeps: the radius of a bird [length]"),
+    Key::new("max_force", Kind::Positive, Value::Number(5.0), "what it does to who touches it [length / time²]"),
+    SPECIES,
+    EACH,
+];
+
+const SHAPES: &[&str] = &["sphere", "box", "plane"];
+/// How often the way ahead is felt; a way that only grazes is then a little shorter than it is.
+const MARCHES: usize = 8;
+
+/// `obstacle`: steers round a sphere, a box or a plane that lies ahead, along the normal of where one would touch it (after
+/// Reynolds 1999), the more the nearer that is and the more straight on; who touches it or is inside it pushes straight out
+/// with all its force.
+pub struct Obstacle(Settings);
+
+/// Its signed distance.
+#[derive(Debug, Clone, Copy)]
+enum Surface {
+    Sphere(f64),
+    Box(DVec3),
+    Plane(DVec3),
+}
+
+impl Surface {
+    /// ∇φ and φ, at a way from its middle.
+    fn at(self, d: DVec3, dimensions: u32) -> (DVec3, f64) {
+        match self {
+            Self::Sphere(radius) => (d.try_normalize().unwrap_or(DVec3::X), d.length() - radius),
+            Self::Plane(normal) => (normal, normal.dot(d)),
+            Self::Box(half) => {
+                // In the plane there is no way out above it.
+                let depth = d.abs() - if dimensions == 2 { half.with_z(3e38) } else { half };
+                let outside = depth.max(DVec3::ZERO);
+                let side = DVec3::from_array(d.to_array().map(|x| if x >= 0.0 { 1.0 } else { -1.0 }));
+                if let Some(normal) = outside.try_normalize() {
+                    return (side * normal, outside.length());
+                }
+                let axis = depth.max_position();
+                (DVec3::AXES[axis] * side[axis], depth[axis])
+            }
+        }
+    }
+}
+
+impl Obstacle {
+    /// From checked settings.
+    #[must_use]
+    pub fn new(settings: &Settings) -> Self {
+        Self(settings.clone())
+    }
+}
+
+impl Force for Obstacle {
+    fn laws(&self) -> Vec<Law> {
+        let number = |name| self.0.number(name);
+        let (ahead, clearance, force) = (number("look_ahead"), number("clearance"), number("max_force"));
+        let (position, normal) = (self.0.vector("position"), self.0.vector("normal").normalize_or_zero());
+        let surface = match self.0.text("shape") {
+            "box" => Surface::Box(self.0.vector("size") * 0.5),
+            "plane" => Surface::Plane(normal),
+            _ => Surface::Sphere(number("radius")),
+        };
+        let (kind, kind_value) = species(&self.0, "species");
+        let shape = SHAPES.iter().position(|s| *s == self.0.text("shape")).unwrap_or(0);
+        let mut values = params(&self.0, &["position", "radius", "size", "look_ahead", "clearance", "max_force"]);
+        values.push(("normal".to_owned(), Scalar::Vector(normal)));
+        values.push(("species".to_owned(), kind_value));
+        values.push(("shape".to_owned(), Scalar::Uint(u32::try_from(shape).unwrap_or(0))));
+        vec![Law::each("obstacle", crate::shader!("forces/obstacle.wgsl"), values, move |me, world| {
+            if !kind.has(me) {
+                return DVec4::ZERO;
+            }
+            let heading = me.velocity.normalize_or_zero();
+            let ahead = ahead * me.velocity.length();
+            let at = |s: f64| {
+                surface.at(world.bounds.shortest(me.position + s * heading - position), world.bounds.dimensions)
+            };
+            let s = (0..MARCHES).fold(0.0, |s, _| s + (at(s).1 - clearance).max(0.0));
+            let out = at(s).0;
+            if s > 0.0 && s >= ahead {
+                return DVec4::ZERO;
+            }
+            let urgency = if s > 0.0 { (1.0 - s / ahead) * (-heading.dot(out)).max(0.0) } else { 1.0 };
+            (urgency * force * out).extend(0.0)
+        })]
+    }
+}

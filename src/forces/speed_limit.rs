@@ -1,0 +1,75 @@
+//! A speed within limits.
+
+use std::sync::Arc;
+
+use glam::DVec4;
+
+use super::{Force, Kind as Who, Law, Problem, SPECIES, species};
+use crate::error::Error;
+use crate::kernel::{Host, Kernel, Pass, Plan, Scalar, Shader, VELOCITY};
+use crate::settings::{Key, Kind, Settings, Value};
+
+/// What a scene may say.
+pub const KEYS: &[Key] = &[
+    Key::new("min", Kind::NotNegative, Value::Number(0.0), "the least speed; who rests sets off along x [length / time]"),
+    Key::required("max", Kind::Positive, "the most speed [length / time]"),
+    SPECIES,
+];
+
+/// `speed_limit`: after every kick, v ← v clamp(|v|, least, most) / |v|. It accelerates nobody by itself.
+pub struct SpeedLimit(Settings);
+
+impl SpeedLimit {
+    /// From checked settings.
+    #[must_use]
+    pub fn new(settings: &Settings) -> Self {
+        Self(settings.clone())
+    }
+}
+
+impl Force for SpeedLimit {
+    fn laws(&self) -> Vec<Law> {
+        Vec::new()
+    }
+    fn limit(&self, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
+        let limits = [self.0.number("min"), self.0.number("max")];
+        kernel(problem, limits, species(&self.0, "species").0).map(|kernel| plan.add(kernel))
+    }
+}
+
+/// The kernel that keeps the speeds of a kind between the least and the most.
+///
+/// # Errors
+/// [`Error::Scene`] when the least is above the most.
+pub fn kernel(problem: &Problem, [least, most]: [f64; 2], who: Who) -> Result<Kernel, Error> {
+    if least > most {
+        let text = format!("the least speed, {least}, is above the greatest, {most}: lower one or raise the other");
+        return Err(Error::Scene(text));
+    }
+    let shader = Shader::join(&[
+        crate::shader!("world.wgsl"),
+        crate::shader!("law/species.wgsl"),
+        crate::shader!("forces/speed_limit.wgsl"),
+    ])?;
+    let values = [("least", Scalar::Float(least)), ("most", Scalar::Float(most)), ("species", who.scalar())];
+    let params = shader.reflection().binding("params");
+    let params = params.map_or(Ok(Vec::new()), |binding| binding.packed.pack("speed_limit", &values))?;
+    let pass = Pass { uniforms: vec![("params", params)], ..Pass::new(shader, problem.count) };
+    let twin = move |host: &Host| {
+        let bodies = crate::visit::bodies(host)?;
+        let mut velocity = host.write(VELOCITY)?;
+        for (v, _) in velocity.iter_mut().zip(&bodies).filter(|(_, body)| who.has(body)) {
+            let speed = v.truncate().length();
+            if speed > most {
+                *v *= DVec4::splat(most / speed).with_w(1.0);
+            } else if speed == 0.0 && least > 0.0 {
+                v.x = least;
+            } else if speed < least {
+                *v *= DVec4::splat(least / speed).with_w(1.0);
+            }
+        }
+        Ok(())
+    };
+    let name = "speed_limit".to_owned();
+    Ok(Kernel { name, passes: vec![pass], twin: Some(Arc::new(twin)), sizes: Vec::new(), scratch: Vec::new() })
+}

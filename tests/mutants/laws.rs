@@ -1,0 +1,80 @@
+//! Stages of laws, and of what keeps velocities lawful.
+
+use glam::{DVec3, Vec4};
+use motes::forces::{self, Over, Problem};
+use motes::kernel::{Backend, Machine, POSITION, VELOCITY, World};
+use motes::settings::{Kind, Value};
+use motes::{Bounds, Gpu, Simulation};
+
+use crate::stages::{Device, FEW, Stage, moving, stage};
+use crate::support::machines::{kernel, kernels};
+use crate::support::{self, choices};
+
+/// Every law alone, in all its variants; those over pairs by the visit that compiles fastest.
+pub fn all(device: &Device, stages: &mut Vec<Stage>) {
+    let machine = Machine { software: true, subgroup: 0, invocations: 1 };
+    for entry in forces::FORCES {
+        for settings in choices::variants(entry.keys) {
+            // Vectors that are none, or short, may go another way.
+            let mut all = vec![settings.clone()];
+            for key in entry.keys.iter().filter(|key| key.kind == Kind::Vector) {
+                for part in [0.0, 0.3] {
+                    let vector = (settings.vector(key.name) * part).as_vec3().as_dvec3();
+                    all.push(settings.clone().with(key.name, Value::Vector(vector)));
+                }
+            }
+            for settings in all {
+                let force = (entry.build)(&settings);
+                // A search wants its grid, and has stages of its own; by force everybody meets the same.
+                if force.laws().iter().any(|law| matches!(law.over, Over::Near { .. } | Over::Nearest { .. })) {
+                    continue;
+                }
+                let problem = Problem::new(u32::try_from(FEW).expect("few"), machine);
+                for kernel in kernels(force.as_ref(), &problem) {
+                    stages.push(stage(entry.name, resting(device, machine, Bounds::default()), kernel));
+                }
+            }
+        }
+    }
+}
+
+/// A cloud where it began, with some at rest, one of them in the middle, two at one place, and some who are alone, or meet head on, far away.
+fn resting(device: &Device, machine: Machine, bounds: Bounds) -> Simulation<Gpu> {
+    let mut simulation = moving(device, FEW, Some(machine));
+    let cloud = support::cloud(FEW, 11);
+    let join = |v: &[DVec3], w: &[f64]| -> Vec<Vec4> { v.iter().zip(w).map(|(v, w)| v.extend(*w).as_vec4()).collect() };
+    let mut positions = join(&cloud.position, &cloud.mass);
+    let mut velocities = join(&cloud.velocity, &cloud.radius);
+    for v in &mut velocities {
+        *v *= Vec4::splat(1.7).with_w(1.0);
+    }
+    velocities[13] *= Vec4::splat(0.03).with_w(1.0);
+    positions[6] = Vec4::ZERO.with_w(positions[6].w);
+    for id in [5, 6, 7] {
+        velocities[id] = Vec4::ZERO.with_w(velocities[id].w);
+    }
+    positions[9] = positions[8];
+    positions[7] = positions[7].with_x(9.0);
+    positions[10] = positions[10].with_x(-9.0);
+    positions[11] = positions[10].with_y(positions[10].y + 0.1);
+    velocities[11] = (-velocities[10]).with_w(velocities[11].w);
+    simulation.write(POSITION, &positions).expect("places");
+    simulation.write(VELOCITY, &velocities).expect("velocities");
+    let gpu = simulation.backend();
+    let world = pollster::block_on(gpu.world()).expect("a clock");
+    gpu.set_world(World { bounds, ..world }).expect("a clock");
+    simulation
+}
+
+/// Laws that ask how many dimensions there are, in the plane.
+pub fn planes(device: &Device, stages: &mut Vec<Stage>) {
+    let machine = Machine { software: true, subgroup: 0, invocations: 1 };
+    let flat = Bounds { dimensions: 2, ..Bounds::default() };
+    for entry in forces::FORCES {
+        let force = (entry.build)(&choices::variants(entry.keys).swap_remove(0));
+        if force.laws().iter().any(|law| law.wgsl.text.contains("world.dimensions")) {
+            let kernel = kernel(force.as_ref(), FEW, &machine);
+            stages.push(stage(&format!("{}, flat", entry.name), resting(device, machine, flat), kernel));
+        }
+    }
+}
