@@ -6,6 +6,8 @@
 
 // Candidates of one search, at most: lavapipe ends an invocation's loops after 65 535 turns, without a word.
 override MOST: u32 = 240000u;
+// What a stretch costs beside its candidates, in candidates: the turns of the loops around it, and one that is not full.
+const STRETCH: u32 = 16u;
 
 // My cell, how far I look, and how many rows and cells that is.
 struct Around { cell: vec3u, reach: vec3u, span: vec3u }

@@ -64,7 +64,7 @@ fn near(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
             let line = i / parts;
             var own = stretch(led, low, high, line / led.span.y, line % led.span.y, select(i % parts, 1u, parts == 1u));
             if i >= rows { own.end = own.start; }
-            seen += subgroupAdd(own.end - own.start);
+            seen += subgroupAdd(STRETCH + own.end - own.start);
             var left = subgroupBallot(own.end > own.start && seen <= MOST).x;
             var slot = 0u;
             var end = 0u;

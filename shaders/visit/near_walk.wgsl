@@ -13,7 +13,7 @@ fn walk(k: u32, me: Particle, sum: ptr<function, Sum>) {
         for (var y = 0u; y < a.span.y; y += 1u) {
             for (var part = parts.x; part < parts.y; part += 1u) {
                 let s = stretch(a, a.cell.x, a.cell.x, z, y, part);
-                seen += s.end - s.start;
+                seen += STRETCH + s.end - s.start;
                 let end = select(s.start, s.end, seen <= MOST);
                 for (var slot = s.start; slot < end; slot += 4u) {
                     consider(k, slot, s, me, sum);

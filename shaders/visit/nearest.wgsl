@@ -102,7 +102,7 @@ fn nearest(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups:
                     for (var y = 0u; y < a.span.y; y += 1u) {
                         for (var part = parts.x; part < parts.y; part += 1u) {
                             let s = stretch(a, c.x, c.x, z, y, part);
-                            seen += 8u + s.end - s.start;
+                            seen += STRETCH + s.end - s.start;
                             let end = select(s.start, s.end, seen <= MOST);
                             for (var slot = s.start; slot < end; slot += 4u) {
                                 look(me, slot, s, &list);

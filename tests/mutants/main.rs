@@ -1,6 +1,7 @@
 //! Mutation: every operator and literal of every shader is changed once, and the lockstep with the twins must notice.
 
 mod boundary;
+mod curious;
 mod equivalent_neighbors;
 mod equivalent_primitives;
 mod equivalents;

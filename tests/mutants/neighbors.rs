@@ -2,11 +2,12 @@
 
 #![allow(clippy::cast_possible_truncation, reason = "numbers are rounded to what f32 holds")]
 
-use glam::{DVec3, DVec4, Vec4};
-use motes::forces::{Body, Law, Over, Problem};
-use motes::kernel::{ALARM, Backend, Machine, Plan, Source, World};
+use glam::{DVec3, Vec4};
+use motes::forces::{Law, Over, Problem};
+use motes::kernel::{ALARM, Backend, Machine, Plan, World};
 use motes::{Bounds, Gpu, POSITION, SPECIES, Side, Simulation};
 
+use crate::curious::{CHOOSY, MOVING, OTHERS, STILL, TOUCHING, law};
 use crate::stages::{Device, FEW, Stage, fill, moving};
 use crate::support::machines::{alone, subgroups_of_eight};
 use crate::support::{Random, Shared};
@@ -15,56 +16,6 @@ use Side::{Open, Periodic};
 
 const LANES: Machine = Machine { software: false, subgroup: 0, invocations: 1 << 18 };
 const EIGHT: Machine = Machine { software: true, subgroup: 8, invocations: 256 };
-/// Who is not put into a filtered grid.
-const OTHERS: u32 = 1;
-
-/// A law that looks at everything that a visit passes to it, and vanishes at no edge.
-const MOVING: &str = "fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
-    let v = velocity_of(you) - velocity_of(me);
-    let near = 1.0 / (1.0 + dot(r, r));
-    (*sum).acceleration += (you.mass * near) * (v + f32(you.index % 7u) * r);
-    (*sum).potential += you.mass * me.mass * near;
-}
-fn finish(me: Particle, sum: Sum) -> vec4f { return vec4f(sum.acceleration, sum.potential); }";
-/// One that asks for no velocities, and leaves some out.
-const STILL: &str = "fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
-    let near = you.mass / (1.0 + dot(r, r));
-    (*sum).acceleration += near * f32(you.index % 7u + 1u) * r;
-    (*sum).potential += me.mass * near;
-}
-fn acts_on(me: Particle) -> bool { return me.index % 5u != 2u; }
-fn finish(me: Particle, sum: Sum) -> vec4f { return vec4f(sum.acceleration, sum.potential); }";
-/// One that does not leave anybody out.
-const TOUCHING: &str = "fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
-    let near = you.mass / (1.0 + dot(r, r));
-    (*sum).acceleration += near * f32(you.index % 7u + 1u) * r;
-    (*sum).potential += me.mass * near;
-}
-fn finish(me: Particle, sum: Sum) -> vec4f { return vec4f(sum.acceleration, sum.potential); }";
-/// One that meets one species, and says so itself.
-const CHOOSY: &str = "fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
-    if species[you.index] == 2u {
-        let near = you.mass / (1.0 + dot(r, r));
-        (*sum).acceleration += near * f32(you.index % 7u + 1u) * r;
-        (*sum).potential += me.mass * near;
-    }
-}
-fn finish(me: Particle, sum: Sum) -> vec4f { return vec4f(sum.acceleration, sum.potential); }";
-
-fn law(text: &'static str, over: Over) -> Law {
-    let gather = move |me: &Body, you: &Body, r: DVec3, sum: &mut DVec4| {
-        let near = you.mass / (1.0 + r.length_squared());
-        let weight = (you.index % 7) as f64;
-        let met = text != CHOOSY || you.species == OTHERS + 1;
-        let part = if text == MOVING { you.velocity - me.velocity + weight * r } else { (weight + 1.0) * r };
-        *sum += f64::from(u8::from(met)) * (near * part).extend(me.mass * near);
-    };
-    let finish = move |me: &Body, sum: &DVec4, _: &World| {
-        if text == STILL && me.index % 5 == 2 { DVec4::ZERO } else { *sum }
-    };
-    Law::gathering("curious", over, Source::ours("curious", text), Vec::new(), gather, finish)
-}
-
 /// The grid of a law, and the law.
 fn plan(law: Law, problem: &Problem) -> Plan {
     let (grid, moving) = law.grid(problem).expect("a range").expect("a grid");
@@ -231,8 +182,11 @@ fn open(device: &Device, machines: &[Machine], stages: &mut Vec<Stage>) {
     let clump = (0..47).map(|i| DVec3::new(if i < 7 { 0.5 } else { 4.5 }, 0.5, 0.5)).collect();
     let here = Place::new(device, Bounds::default(), clump);
     for machine in machines {
-        stages.push(here.stage("near, all but crowded", law(STILL, near(UNIT)), *machine, |plan, _| most(plan, 40.0)));
-        let stage = here.stage("near, crowded", law(STILL, near(UNIT)), *machine, |plan, _| most(plan, 39.0));
+        // Four rows around each, or eight lanes with one each.
+        let all = 40.0 + 16.0 * if machine.software { 8.0 } else { 4.0 };
+        let still = || law(STILL, near(UNIT));
+        stages.push(here.stage("near, all but crowded", still(), *machine, |plan, _| most(plan, all)));
+        let stage = here.stage("near, crowded", still(), *machine, |plan, _| most(plan, all - 1.0));
         stages.push(stage.told(ALARM.name, [u32::MAX, u32::MAX, 8].map(f32::from_bits).to_vec()));
     }
 }

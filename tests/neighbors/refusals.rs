@@ -60,13 +60,8 @@ struct Half(Over);
 impl Force for Half {
     fn laws(&self) -> Vec<Law> {
         let wgsl = "fn finish(me: Particle, sum: Sum) -> vec4f { return vec4f(); }";
-        vec![Law {
-            name: "half".into(),
-            over: self.0,
-            wgsl: Source::ours("half", wgsl),
-            params: Vec::new(),
-            twin: None,
-        }]
+        let whole = Whole(self.0).laws().remove(0);
+        vec![Law { wgsl: Source::ours("half", wgsl), ..whole }]
     }
 }
 
@@ -135,16 +130,16 @@ fn a_crowd_is_named() {
     let shared = support::device();
     // Ids from 30 on stand at one place.
     let place = |i: i32| if i < 30 { DVec3::X * f64::from(i) / 10.0 } else { DVec3::Y * 10.0 };
-    let positions: Vec<DVec3> = (0..130).map(place).collect();
+    let positions: Vec<DVec3> = (0..1030).map(place).collect();
     for over in [Over::Near { range: 1.0, of: None }, Over::Nearest { count: 5 }] {
         for (name, machine) in variants(&shared) {
             let mut gpu = machines::gpu(&shared, positions.len());
             gpu.pretend(machine);
-            let problem = Problem::new(130, machine).at(&positions, Bounds::default());
+            let problem = Problem::new(1030, machine).at(&positions, Bounds::default());
             let law = Whole(over).laws().remove(0);
             let (grid, moving) = law.grid(&problem).expect("a range").expect("a grid");
             let mut kernel = law.kernel(&problem).expect("a law");
-            kernel.passes[0].constants.push(("MOST", 90.0));
+            kernel.passes[0].constants.push(("MOST", 900.0));
             let kernels = vec![grid.kernel(&problem, moving).expect("a grid"), kernel];
             let plan = Plan { kernels, order: vec![0, 1] };
             let mut simulation = simulation(gpu, &positions, Bounds::default(), over);

@@ -30,7 +30,8 @@ fn problems() -> impl Iterator<Item = Problem> {
 /// What a device can index, bind and count.
 fn sound(grid: &Grid, problem: &Problem) {
     let [x, y, z] = grid.cells.map(u64::from);
-    assert!([x, y, z].iter().all(|n| (1..=8192).contains(n)), "{grid:?} for {problem:?}");
+    let fits = |(n, fine): (u64, u32)| (1..=8192 * u64::from(fine)).contains(&n);
+    assert!([x, y, z].into_iter().zip(grid.fine).all(fits), "{grid:?} for {problem:?}");
     assert!(x * y * z <= 1 << 24, "{grid:?} for {problem:?}");
     assert_eq!(u64::from(grid.count()), x * y * z);
     assert!((grid.count() + 1) * 4 <= 128 << 20);
