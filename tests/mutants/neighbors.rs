@@ -182,8 +182,8 @@ fn open(device: &Device, machines: &[Machine], stages: &mut Vec<Stage>) {
     let clump = (0..47).map(|i| DVec3::new(if i < 7 { 0.5 } else { 4.5 }, 0.5, 0.5)).collect();
     let here = Place::new(device, Bounds::default(), clump);
     for machine in machines {
-        // Four rows around each, or eight lanes with one each.
-        let all = 40.0 + 16.0 * if machine.software { 8.0 } else { 4.0 };
+        // One row, or eight lanes with one each.
+        let all = 40.0 + 16.0 * if machine.software { 8.0 } else { 1.0 };
         let still = || law(STILL, near(UNIT));
         stages.push(here.stage("near, all but crowded", still(), *machine, |plan, _| most(plan, all)));
         let stage = here.stage("near, crowded", still(), *machine, |plan, _| most(plan, all - 1.0));

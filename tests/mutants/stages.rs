@@ -79,9 +79,6 @@ impl Stage {
             return Self::tells(gpu, plan, field, want).unwrap_or(false);
         }
         let verdicts = pollster::block_on(compare(gpu, plan, count));
-        if std::env::var("SHOW").is_ok() {
-            eprintln!("{}: {verdicts:?}", self.name);
-        }
         verdicts.is_ok_and(|all| !all.is_empty() && all.iter().all(Verdict::good))
     }
     /// Whether a file is part of what runs here.

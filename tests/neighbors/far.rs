@@ -122,7 +122,7 @@ fn fewer_than_asked_for_are_all_met() {
         let positions = cloud(count, DVec3::ZERO, DVec3::ONE, 6);
         for bounds in [Bounds::default(), Bounds::new(DVec3::ZERO, DVec3::ONE, motes::Side::Periodic)] {
             let want = by_sort(&positions, &bounds, 16);
-            assert!(want.iter().all(|met| f64::from(met.x) == (count.min(17) - 1) as f64));
+            assert!(want.iter().all(|met| (f64::from(met.x) - (count.min(17) - 1) as f64).abs() < 0.5));
             same(&found(&shared, None, &positions, bounds, Over::Nearest { count: 16 }), &want, "few");
         }
     }

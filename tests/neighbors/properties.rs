@@ -49,7 +49,7 @@ impl Case {
         let place = |i: usize| match self.input {
             Input::Random => unit(),
             // A clump, and strays all over the box.
-            Input::Clustered if i % 9 == 0 => unit(),
+            Input::Clustered if i.is_multiple_of(9) => unit(),
             Input::Clustered => center + (unit() - center) * 0.03,
             Input::Lattice => DVec3::new((i % 8) as f64, (i / 8 % 8) as f64, (i / 64) as f64) / 8.0,
             Input::Line => unit() * DVec3::X + DVec3::new(0.0, 0.25, 0.5),
@@ -92,7 +92,7 @@ fn config(cases: u32) -> ProptestConfig {
 
 #[test]
 fn near_is_within_to_the_bit() {
-    proptest!(config(60), |(case in case())| {
+    proptest!(config(32), |(case in case())| {
         let shared = support::device();
         let (positions, bounds, range) = (case.positions(), case.bounds(), case.range);
         let want = by_force(&positions, &bounds, range);
@@ -106,7 +106,7 @@ fn near_is_within_to_the_bit() {
 
 #[test]
 fn nearest_is_a_sort_to_the_bit() {
-    proptest!(config(60), |(case in case())| {
+    proptest!(config(32), |(case in case())| {
         let shared = support::device();
         let (positions, bounds, count) = (case.positions(), case.bounds(), case.nearest);
         let want = by_sort(&positions, &bounds, count as usize);

@@ -34,7 +34,9 @@ fn run(shared: &Shared, setup: &Setup, batches: &[u32], scratch: bool) -> Vec<u8
             simulation.backend().write_bytes(name, 0, &vec![0xA7; size]).expect("a field");
         }
     }
-    batches.iter().for_each(|steps| simulation.step(*steps).expect("steps"));
+    for steps in batches {
+        simulation.step(*steps).expect("steps");
+    }
     pollster::block_on(simulation.check()).expect("no alarm");
     let fields = [POSITION, VELOCITY].map(|field| pollster::block_on(simulation.read(field)).expect("a field"));
     fields.iter().flat_map(|field| bytemuck::cast_slice::<Vec4, u8>(field)).copied().collect()
