@@ -49,7 +49,7 @@ fn stretch(a: Around, low: u32, high: u32, z: u32, y: u32, part: u32) -> Stretch
         last = select(max(top, n.x) - n.x, 0, whole);
     }
     let turns = vec3i(i32(part) - 1, turn(c.y, n.y), turn(c.z, n.z));
-    if first >= last { return Stretch(0u, 0u, vec3f()); }
+    if first >= last { return Stretch(); }
     return Stretch(starts[row + first], starts[row + last], vec3f(turns) * world.period);
 }
 

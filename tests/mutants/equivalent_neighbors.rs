@@ -12,7 +12,7 @@ const AT_THE_SIDE: &str = "who is at the lower side stays there, by one way or t
 const HIDDEN: &str = "the first of four is never moved on, and takes nobody's place";
 const UNUSED: &str = "more of the list is kept than is used, or waited for: slower, and the same";
 const ROUNDED: &str = "what rounding moves over a cell's side is a millionth of a cell away from it";
-const REACH: &str = "return select(select(vec3u(1u)";
+const REACH: &str = "select(select(vec3u(1u), vec3u(2u)";
 const BREAK: &str = "if seen > MOST || all(";
 
 pub const EQUIVALENT: &[Equivalent] = &[
@@ -26,6 +26,7 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("", "override MOST: u32 = 240000u;", "240000u", "240001u", IN_RESERVE),
     same("order.wgsl", "start + MOST", "+", "-", WORTHLESS),
     same("scatter.wgsl", "if i < world.count {", "<", "<=", "behind the last key stands one that leads nowhere"),
+    same("near_rows", "let d = abs(away(x)) / ", "/", "*", FURTHER),
     same("near_rows", REACH, "2u", "3u", FURTHER),
     same("near_rows", REACH, "4u", "5u", FURTHER),
     same("near_rows", REACH, ">", ">=", "just there one cell, or two, is enough"),
@@ -51,6 +52,7 @@ pub const EQUIVALENT: &[Equivalent] = &[
         "the host reads the size of a workgroup by reflection, and any will do",
     ),
     same("near_subgroup", "const APART", "3u", "4u", "more walk together, and look further"),
+    same("near_subgroup", "let most = ", "*", "/", "fewer walk together"),
     same("near_subgroup", "return rows &&", "<=", "<", "fewer walk together"),
     same("near_subgroup", "return rows &&", "2u", "3u", "fewer walk together"),
     same("near_subgroup", "return rows &&", "+", "-", "fewer walk together"),
@@ -67,7 +69,6 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("near_subgroup", "var slot = 0u", "0u", "1u", "it is behind the end, which is 0"),
     same("near_subgroup", "if slot >= end {", ">=", ">", EMPTY),
     same("near_subgroup", "end - 1u));", "-", "+", "who is loaded behind the end is met by nobody"),
-    same("near_walk", "let parts = ", "2u", "3u", EMPTY),
     same("near_walk", "slot < end; slot", "<", "<=", EMPTY),
     same("nearest", "let tied = ", "<", "<=", "nobody comes twice"),
     same("nearest", "let new_d = ", "0.0", "1.0", HIDDEN),
@@ -83,7 +84,6 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("nearest", "var seen = 0u", "0u", "1u", IN_RESERVE),
     same("nearest", "var reach = 1u", "1u", "2u", FURTHER),
     same("nearest", "let parts = ", "2u", "3u", EMPTY),
-    same("near_rows", "const STRETCH", "16u", "17u", IN_RESERVE),
     same("nearest", "seen += STRETCH", "-", "+", IN_RESERVE),
     same("nearest", "seen <= MOST", "<=", "<", IN_RESERVE),
     same("nearest", "slot < end; slot", "<", "<=", EMPTY),

@@ -108,8 +108,8 @@ pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
         Bounds { low, high: low + DVec3::from_array(size), sides, dimensions: 3 }
     };
     for (place, machine) in machines.iter().enumerate() {
-        // Three, four and twelve cells, with seams everywhere; eight workgroups in two rows.
-        let wide = bounds([Periodic; 3], [[3.0, 12.0, 4.0], [12.0, 3.0, 4.0]][place]);
+        // Few ranges and more, with seams everywhere; along x nine cells, of which each is in reach. Eight workgroups in two rows.
+        let wide = bounds([Periodic; 3], [[2.3, 12.0, 4.0], [12.0, 3.0, 4.0]][place]);
         let here = Place::new(device, wide, scattered(FEW, &wide, 2.0));
         stages.push(here.stage("near, periodic", law(MOVING, near(UNIT)), *machine, nothing));
         // Two cells and one, and no end.
@@ -260,8 +260,8 @@ fn nearest(device: &Device, stages: &mut Vec<Stage>) {
     let here = Place::new(device, bounds, scattered(FEW, &bounds, 0.5));
     stages.push(here.stage("nearest, periodic", nearest(3), LANES, nothing));
     // Fewer than asked for, and more than can be visited.
-    let here = Place::new(device, Bounds::default(), lattice()[..5].to_vec());
-    stages.push(here.stage("nearest, few", nearest(7), LANES, nothing));
-    let stage = here.stage("nearest, crowded", nearest(7), LANES, |plan, _| most(plan, 9.0));
+    let here = Place::new(device, Bounds::default(), lattice()[..12].to_vec());
+    stages.push(here.stage("nearest, few", nearest(13), LANES, nothing));
+    let stage = here.stage("nearest, crowded", nearest(13), LANES, |plan, _| most(plan, 9.0));
     stages.push(stage.told(ALARM.name, [u32::MAX, u32::MAX, 0].map(f32::from_bits).to_vec()));
 }
