@@ -71,10 +71,12 @@ pub fn planes(device: &Device, stages: &mut Vec<Stage>) {
     let machine = Machine { software: true, subgroup: 0, invocations: 1 };
     let flat = Bounds { dimensions: 2, ..Bounds::default() };
     for entry in forces::FORCES {
-        let force = (entry.build)(&choices::variants(entry.keys).swap_remove(0));
-        if force.laws().iter().any(|law| law.wgsl.text.contains("world.dimensions")) {
-            let kernel = kernel(force.as_ref(), FEW, &machine);
-            stages.push(stage(&format!("{}, flat", entry.name), resting(device, machine, flat), kernel));
+        for settings in choices::variants(entry.keys) {
+            let force = (entry.build)(&settings);
+            if force.laws().iter().any(|law| law.wgsl.text.contains("world.dimensions")) {
+                let kernel = kernel(force.as_ref(), FEW, &machine);
+                stages.push(stage(&format!("{}, flat", entry.name), resting(device, machine, flat), kernel));
+            }
         }
     }
 }
