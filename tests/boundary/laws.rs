@@ -33,10 +33,10 @@ fn every_law_in_a_periodic_box() {
                     simulation.step(2).expect("steps");
                     // Unwrapped, as within a Runge-Kutta step.
                     let meet = pick().laws().iter().any(|law| law.over != motes::forces::Over::Each);
-                    // Directions of small ways are not to be had out of large numbers, nor that of prey all round: these
-                    // places have it to one side of everybody.
+                    // Directions of small ways are not to be had out of large numbers, nor the direction
+                    // of prey that is all round: here no hunter is in the very middle of its prey.
                     let nearby = meet && !pairs;
-                    let far = if nearby { crate::inside(count, &bounds, 12) } else { scattered(count, &bounds, 9) };
+                    let far = if nearby { crate::inside(count, &bounds, 17) } else { scattered(count, &bounds, 9) };
                     let far: Vec<_> = far.position.iter().zip(&far.mass).map(|(x, m)| x.extend(*m).as_vec4()).collect();
                     simulation.write(motes::POSITION, &far).expect("places");
                     let problem = Problem::new(333, machine)
