@@ -67,6 +67,10 @@ impl Gpu {
     pub fn pace(&mut self, submission: Duration, patience: Duration) {
         self.queue.pace(submission, patience);
     }
+    /// Lets go of pipelines that no program keeps: whoever compiles thousands of different plans wants their memory back.
+    pub fn forget_pipelines(&mut self) {
+        self.pipelines.forget();
+    }
     /// Submissions so far.
     #[must_use]
     pub fn submissions(&self) -> u64 {

@@ -26,6 +26,11 @@ impl Pipelines {
         Self { device, made: HashMap::new() }
     }
 
+    /// Lets go of all of them; programs keep theirs.
+    pub fn forget(&mut self) {
+        self.made.clear();
+    }
+
     /// The pipeline of a pass.
     pub fn get(&mut self, pass: &Pass) -> Result<Pipeline, Error> {
         let constants = pass.constants.iter().map(|(name, value)| (*name, value.to_bits())).collect();

@@ -79,6 +79,7 @@ impl Stage {
             return Self::tells(gpu, plan, field, want).unwrap_or(false);
         }
         let verdicts = pollster::block_on(compare(gpu, plan, count));
+        gpu.forget_pipelines();
         verdicts.is_ok_and(|all| !all.is_empty() && all.iter().all(Verdict::good))
     }
     /// Whether a file is part of what runs here.
