@@ -10,13 +10,14 @@ struct Params {
 
 // ∇φ and φ. In the very middle of a sphere, and of a box, all ways out are as long: one goes along x.
 fn surface(x: vec3f) -> vec4f {
+    // A plane has no images.
+    if params.shape == 2u { return vec4f(params.normal, dot(params.normal, x - params.position)); }
     let d = shortest(x - params.position);
     if params.shape == 0u {
         let distance = length(d);
         if distance > 0.0 { return vec4f(d / distance, distance - params.radius); }
         return vec4f(1.0, 0.0, 0.0, -params.radius);
     }
-    if params.shape == 2u { return vec4f(params.normal, dot(params.normal, d)); }
     let side = select(vec3f(-1.0), vec3f(1.0), d >= vec3f());
     var depth = abs(d) - 0.5 * params.size;
     // In the plane there is no way out above it.

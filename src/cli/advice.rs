@@ -35,9 +35,10 @@ fn strangers(kernel: &Kernel) -> Result<(), Error> {
     let theirs = |pass: &&Pass| !pass.shader.trusted();
     for pass in kernel.passes.iter().filter(theirs) {
         let file = pass.shader.sources().iter().find(|s| !s.ours).map_or("", |s| &s.file);
-        for (name, _) in pass.bindings().filter(|(_, b)| b.access == Access::Read) {
+        for (name, binding) in pass.bindings().filter(|(_, b)| b.access == Access::Read) {
             let written = kernel.bindings().any(|(field, b)| b.access == Access::Write && field == name);
-            if FIELDS.contains(&name) || written {
+            // What goes by another name in the shader is a visit's own: a grid, which a kernel before this one fills.
+            if FIELDS.contains(&name) || written || name != binding.name {
                 continue;
             }
             let near =
@@ -114,6 +115,11 @@ pub fn advice(scene: &Scene, setup: &Setup) -> Result<Vec<String>, Error> {
                 "`{name}` in a periodic box comes from the nearest image of everybody alone: there is no Ewald sum"
             ));
         }
+        if let Over::Near { of: Some(kind), .. } = over
+            && !setup.particles.species.contains(&kind)
+        {
+            remarks.push(format!("`{name}` looks for species {kind}, and nobody is of that"));
+        }
         if untwinned {
             remarks.push(format!("`{name}` has no f64 twin: nothing checks it, and it needs a device"));
         }
@@ -124,6 +130,12 @@ pub fn advice(scene: &Scene, setup: &Setup) -> Result<Vec<String>, Error> {
         if !its.contains(&name) {
             let law = force.laws().first().map(|law| law.name.clone()).unwrap_or_default();
             remarks.push(format!("`{law}` is a rule for whole steps: it wants {}, not {name}", its.join(" or ")));
+        }
+        if setup.forces.iter().filter(|force| !force.laws().is_empty()).count() > 1 {
+            remarks.push(format!(
+                "{} sets velocities by itself: beside other forces it is no more than a pull towards them",
+                force.laws().first().map_or_else(String::new, |law| format!("`{}`", law.name))
+            ));
         }
     }
     if name == "forward_euler" && setup.forces.iter().all(|force| !force.integrators().contains(&name)) {

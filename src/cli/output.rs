@@ -29,7 +29,7 @@ pub struct Output {
     energy: Table,
     rows: Vec<Measure>,
     /// Of a flock: its table, how far one looks for company, and in which box.
-    flock: Option<(Table, f64, Bounds)>,
+    flock: Option<(Table, (f64, Option<u32>), Bounds)>,
     company: Vec<Flock>,
     /// Where a few particles have been.
     pub trail: Trail,
@@ -42,7 +42,7 @@ impl Output {
         folder: &Path,
         scene: &Scene,
         count: usize,
-        company: Option<f64>,
+        company: Option<(f64, Option<u32>)>,
         precision: Precision,
         device: &str,
     ) -> Result<Self, Error> {
@@ -52,7 +52,7 @@ impl Output {
         let resolved = format!("{}\n# Run by motes {} on {device}.\n", scene.resolved, env!("CARGO_PKG_VERSION"));
         atomically(&folder.join("scene.toml"), |out| out.write_all(resolved.as_bytes()))?;
         let energy = Table::new(folder.join("energy.csv"), HEADER)?;
-        let flock = company.map(|range| Ok((Table::new(folder.join("flock.csv"), FLOCK)?, range, scene.bounds)));
+        let flock = company.map(|of| Ok((Table::new(folder.join("flock.csv"), FLOCK)?, of, scene.bounds)));
         Ok(Self {
             folder: folder.to_owned(),
             name: scene.name.clone(),
@@ -80,8 +80,8 @@ impl Output {
         let numbers = [row.time, row.kinetic, row.potential, row.total(), p.x, p.y, p.z, l.x, l.y, l.z];
         self.energy.row(row.step, &numbers)?;
         self.rows.push(row);
-        if let Some((table, range, bounds)) = &mut self.flock {
-            let f = Flock::of(snapshot, *bounds, Some(*range))?;
+        if let Some((table, (range, species), bounds)) = &mut self.flock {
+            let f = Flock::of(snapshot, *bounds, Some(*range), *species)?;
             let numbers = [f.time, f.order, f.speed, f.neighbors, f64::from(f.crowd), f64::from(f.clusters), f.largest];
             table.row(f.step, &numbers)?;
             self.company.push(f);

@@ -62,7 +62,7 @@ struct Run {
     film: Option<Film>,
     count: usize,
     /// How far somebody looks for company, if anybody does.
-    company: Option<f64>,
+    company: Option<(f64, Option<u32>)>,
     /// What should stay as it is.
     conserved: Conserved,
     progress: Progress,
@@ -230,7 +230,10 @@ impl Run {
         ));
         let (energy, change) =
             (last.drift_from(&first), if self.conserved.energy { "error" } else { "not conserved, change" });
-        say(format!("energy {:.6e} → {:.6e}, {change} {energy:+.1e}", first.total(), last.total()));
+        // Birds are driven: what their energy does tells nobody anything.
+        if self.conserved.energy || output.company().is_none() {
+            say(format!("energy {:.6e} → {:.6e}, {change} {energy:+.1e}", first.total(), last.total()));
+        }
         if self.conserved.momentum {
             let (p, l) = (last.momentum - first.momentum, last.angular_momentum - first.angular_momentum);
             let turning = format!(", angular momentum by {:.1e}", l.length());

@@ -54,8 +54,8 @@ impl Boids {
 }
 
 impl Force for Boids {
-    fn company(&self) -> Option<f64> {
-        Some(self.0.number("range"))
+    fn company(&self) -> Option<(f64, Option<u32>)> {
+        Some((self.0.number("range"), self.0.species("species")))
     }
     fn laws(&self) -> Vec<Law> {
         let number = |name| self.0.number(name);

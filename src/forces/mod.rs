@@ -14,8 +14,9 @@ pub use crate::visit::{Body, Law, Over};
 
 /// What pushes particles.
 pub trait Force: Send + Sync {
-    /// How far one looks for company \[length\]: where a force says so, runs are measured for order and clusters.
-    fn company(&self) -> Option<f64> {
+    /// How far one looks for company \[length\], and of which species, if not of all: where a force says so, runs are
+    /// measured for order and clusters.
+    fn company(&self) -> Option<(f64, Option<u32>)> {
         None
     }
     /// Its laws, in the order in which they are visited; a later one may read what an earlier one wrote.

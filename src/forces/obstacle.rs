@@ -91,7 +91,10 @@ impl Force for Obstacle {
             let heading = me.velocity.normalize_or_zero();
             let ahead = ahead * me.velocity.length();
             let at = |s: f64| {
-                surface.at(world.bounds.shortest(me.position + s * heading - position), world.bounds.dimensions)
+                let d = me.position + s * heading - position;
+                // A plane has no images.
+                let plane = matches!(surface, Surface::Plane(_));
+                surface.at(if plane { d } else { world.bounds.shortest(d) }, world.bounds.dimensions)
             };
             let s = (0..MARCHES).fold(0.0, |s, _| s + (at(s).1 - clearance).max(0.0));
             let out = at(s).0;

@@ -49,8 +49,8 @@ fn heading(v: DVec3) -> DVec2 {
 }
 
 impl Force for Vicsek {
-    fn company(&self) -> Option<f64> {
-        Some(self.0.number("range"))
+    fn company(&self) -> Option<(f64, Option<u32>)> {
+        Some((self.0.number("range"), None))
     }
     fn laws(&self) -> Vec<Law> {
         let (speed, eta, vectorial) = (self.0.number("speed"), self.0.number("noise"), self.0.text("noise_kind") == "vectorial");

@@ -34,12 +34,17 @@ pub struct Flock {
 const CHUNK: usize = 16_384;
 
 impl Flock {
-    /// Measures a state; who is within `range` of whom, if that is given.
+    /// Measures a state; who is within `range` of whom, if that is given; of one species, if that is given.
     ///
     /// # Errors
     /// [`Error::Scene`] when the range is not a positive number.
-    pub fn of(snapshot: &Snapshot, bounds: Bounds, range: Option<f64>) -> Result<Self, Error> {
-        let velocities = &snapshot.particles.velocity;
+    pub fn of(snapshot: &Snapshot, bounds: Bounds, range: Option<f64>, species: Option<u32>) -> Result<Self, Error> {
+        let all = &snapshot.particles;
+        let of = |list: &[DVec3]| -> Vec<DVec3> {
+            let chosen = |i: &usize| species.is_none_or(|kind| all.species.get(*i) == Some(&kind));
+            (0..list.len()).filter(chosen).map(|i| list[i]).collect()
+        };
+        let (positions, velocities) = (of(&all.position), of(&all.velocity));
         let headings: Vec<DVec3> = velocities.iter().map(|v| v.normalize_or_zero()).collect();
         let moving = headings.iter().filter(|h| **h != DVec3::ZERO).count();
         let count = velocities.len().max(1) as f64;
@@ -51,7 +56,7 @@ impl Flock {
             ..Self::default()
         };
         let Some(range) = range else { return Ok(flock) };
-        let cells = Cells::new(&snapshot.particles.position, bounds, range)?;
+        let cells = Cells::new(&positions, bounds, range)?;
         let mut sets = Sets::new(velocities.len());
         let (mut pairs, mut crowd) = (0, 0);
         for first in (0..velocities.len()).step_by(CHUNK) {
@@ -131,7 +136,7 @@ mod tests {
     fn order_is_that_of_headings_not_of_speeds() {
         let right = DVec3::X;
         let state = snapshot(&[DVec3::ZERO; 4], &[right * 9.0, right * 0.1, -right, DVec3::ZERO]);
-        let flock = Flock::of(&state, Bounds::default(), None).expect("a measurement");
+        let flock = Flock::of(&state, Bounds::default(), None, None).expect("a measurement");
         assert!((flock.order - 1.0 / 3.0).abs() < 1e-12 && (flock.speed - 10.1 / 4.0).abs() < 1e-12, "{flock:?}");
     }
     #[test]
@@ -139,10 +144,14 @@ mod tests {
         // 0–1 across the seam, 2–3–4 in a chain of which the ends are out of each other's range, 5 alone.
         let x = [0.1, 9.9, 3.0, 3.8, 4.6, 7.0].map(|x| DVec3::new(x, 5.0, 0.0));
         let bounds = Bounds::new(DVec3::ZERO, DVec3::new(10.0, 10.0, 0.0), Side::Periodic);
-        let flock = Flock::of(&snapshot(&x, &[DVec3::X; 6]), bounds, Some(1.0)).expect("a measurement");
+        let flock = Flock::of(&snapshot(&x, &[DVec3::X; 6]), bounds, Some(1.0), None).expect("a measurement");
         assert_eq!((flock.clusters, flock.crowd), (3, 2));
         assert!((flock.largest - 0.5).abs() < 1e-12 && (flock.neighbors - 1.0).abs() < 1e-12, "{flock:?}");
-        let open = Flock::of(&snapshot(&x, &[DVec3::X; 6]), Bounds::default(), Some(1.0)).expect("a measurement");
+        let open = Flock::of(&snapshot(&x, &[DVec3::X; 6]), Bounds::default(), Some(1.0), None).expect("a measurement");
         assert_eq!(open.clusters, 4);
+        let mut two = snapshot(&x, &[DVec3::X; 6]);
+        two.particles.species = vec![0, 0, 5, 5, 0, 5];
+        let some = Flock::of(&two, bounds, Some(1.0), Some(5)).expect("a measurement");
+        assert_eq!((some.clusters, some.crowd), (2, 1));
     }
 }

@@ -156,7 +156,7 @@ fn smaller(name: &str, overrides: &[&str], steps: u32) -> [motes::measure::Flock
     let overrides: Vec<_> = overrides.iter().map(|text| (*text).to_owned()).collect();
     let source = Source::find(name).expect("a built-in scene");
     let scene = Scene::load(&source, &overrides, &Options::default()).unwrap_or_else(|faults| panic!("{faults}"));
-    let range = scene.forces.iter().find_map(|force| force.company()).expect("a flock");
+    let (range, species) = scene.forces.iter().find_map(|force| force.company()).expect("a flock");
     let setup = Setup {
         particles: scene.particles,
         forces: scene.forces,
@@ -169,7 +169,7 @@ fn smaller(name: &str, overrides: &[&str], steps: u32) -> [motes::measure::Flock
     let mut measure = |steps| {
         simulation.step(steps).expect("steps");
         let snapshot = pollster::block_on(simulation.snapshot()).expect("a state");
-        motes::measure::Flock::of(&snapshot, setup.bounds, Some(range)).expect("a measurement")
+        motes::measure::Flock::of(&snapshot, setup.bounds, Some(range), species).expect("a measurement")
     };
     [measure(0), measure(steps)]
 }

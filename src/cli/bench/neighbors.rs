@@ -161,7 +161,7 @@ fn company(setup: &Setup, range: f64) -> Result<(f64, f64), Failure> {
     let particles = setup.particles.clone();
     let cells = Cells::new(&particles.position, setup.bounds, range)?;
     let snapshot = Snapshot { step: 0, time: 0.0, potential: Vec::new(), particles };
-    Ok((cells.candidates(), Flock::of(&snapshot, setup.bounds, Some(range))?.neighbors))
+    Ok((cells.candidates(), Flock::of(&snapshot, setup.bounds, Some(range), None)?.neighbors))
 }
 
 /// The search by force, at one size: how much longer it takes, and how much longer it should by what both look at.

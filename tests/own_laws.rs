@@ -1,0 +1,56 @@
+//! A law of one's own, over every visit, by the command.
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+/// What two particles do to each other that are near: it names velocities and species, which a search must bring along.
+const LAW: &str = "fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
+    if species[you.index] == 0u { (*sum).acceleration += 0.1 * (velocity_of(you) - velocity_of(me)) + 0.01 * r; }
+}
+fn finish(me: Particle, sum: Sum) -> vec4f { return vec4f(sum.acceleration, sum.potential); }
+";
+
+fn run(folder: &Path, over: &str) -> Output {
+    let scene = format!(
+        "[simulation]\ndt = 0.01\nsteps = 3\n[box]\nsize = [2, 2, 2]\n[[particles]]\nshape = \"box\"\ncount = 300\n\
+         size = [2, 2, 2]\ncenter = [1, 1, 1]\nspeed = 0.5\n[[force]]\nwgsl = \"law.wgsl\"\n{over}\n[output]\nformats = [\"csv\"]\n"
+    );
+    std::fs::write(folder.join("scene.toml"), scene).expect("written");
+    let program = env!("CARGO_BIN_EXE_motes");
+    let arguments = ["run", "scene.toml", "-o", "out", "--backend", "gpu"];
+    Command::new(program).args(arguments).current_dir(folder).output().expect("the program runs")
+}
+
+#[test]
+fn it_runs_over_every_visit_and_means_the_same() {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("law.wgsl"), LAW).expect("written");
+    let mut last = Vec::new();
+    for over in ["over = \"within\"\nrange = 0.4", "over = \"near\"\nrange = 0.4", "over = \"nearest\"\nneighbors = 7"]
+    {
+        let output = run(folder.path(), over);
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "{over}: {said}");
+        let states = std::fs::read_to_string(folder.path().join("out/snapshot_3.csv")).expect("a state");
+        last.push(states);
+    }
+    let numbers = |text: &str| -> Vec<f64> {
+        let row = |line: &str| line.split(',').map(|n| n.parse().expect("a number")).collect::<Vec<f64>>();
+        text.lines().skip(1).flat_map(row).collect()
+    };
+    let (force, grid, few) = (numbers(&last[0]), numbers(&last[1]), numbers(&last[2]));
+    // Three steps, each a few units in the last place of numbers up to 2.
+    assert!(force.iter().zip(&grid).all(|(a, b)| (a - b).abs() < 3e-6), "through the grid it is another law");
+    assert!(force.iter().zip(&few).any(|(a, b)| (a - b).abs() > 1e-4), "the nearest seven are everybody in range");
+}
+
+#[test]
+fn a_name_that_nobody_fills_is_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let law = LAW.replace("species[you.index]", "colour[you.index]");
+    let law = format!("@group(3) @binding(1) var<storage, read> colour: array<u32>;\n{law}");
+    std::fs::write(folder.path().join("law.wgsl"), law).expect("written");
+    let output = run(folder.path(), "over = \"near\"\nrange = 0.4");
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(!output.status.success() && said.contains("nobody fills the field `colour`"), "{said}");
+}
