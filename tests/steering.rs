@@ -82,6 +82,11 @@ fn obstacles_turn_away_who_heads_into_them() {
     near(alone(obstacle("box", &[]), [-0.1, 1.5, 1.0], [5.0; 3]), [0.0, 8.0, 0.0, 0.0]);
     near(alone(obstacle("box", &[]), [-1.3, -2.4, 0.0], [0.0; 3]), [-4.8, -6.4, 0.0, 0.0]);
     // A bird that flies at a pillar does not fly through it.
+    // A plane has no images: far on its free side in a periodic box there is none behind one's back.
+    let around = Bounds::new(DVec3::splat(-2.0), DVec3::splat(2.0), Side::Periodic);
+    let world = World { dt: 0.1, bounds: around, ..World::default() };
+    let wall = obstacle("plane", &[("normal", vector(1.0, 0.0, 0.0)), ("position", vector(-2.0, 0.0, 0.0))]);
+    near(felt(&[wall], &one(DVec3::X, DVec3::ZERO), world).0[0], [0.0; 4]);
     let start = one(DVec3::new(-4.0, 0.3, 0.0), DVec3::X);
     let mut simulation = cpu(&start, vec![obstacle("sphere", &[])], "leapfrog", 0.01);
     let mut nearest = f64::INFINITY;
