@@ -86,7 +86,7 @@ fn obstacles_turn_away_who_heads_into_them() {
     let around = Bounds::new(DVec3::splat(-2.0), DVec3::splat(2.0), Side::Periodic);
     let world = World { dt: 0.1, bounds: around, ..World::default() };
     let wall = obstacle("plane", &[("normal", vector(1.0, 0.0, 0.0)), ("position", vector(-2.0, 0.0, 0.0))]);
-    near(felt(&[wall], &one(DVec3::X, DVec3::ZERO), world).0[0], [0.0; 4]);
+    near(support::states::felt(&[wall], &one(DVec3::X, DVec3::ZERO), world).0[0], [0.0; 4]);
     let start = one(DVec3::new(-4.0, 0.3, 0.0), DVec3::X);
     let mut simulation = cpu(&start, vec![obstacle("sphere", &[])], "leapfrog", 0.01);
     let mut nearest = f64::INFINITY;
