@@ -54,3 +54,26 @@ fn a_name_that_nobody_fills_is_refused() {
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     assert!(!output.status.success() && said.contains("nobody fills the field `colour`"), "{said}");
 }
+
+#[test]
+fn a_force_across_the_plane_is_refused_in_two_dimensions() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let scene = |force: &str| {
+        format!(
+            "[simulation]\ndt = 0.01\nsteps = 3\n[box]\nsize = [2, 2, 0]\n[[particles]]\nshape = \"box\"\ncount = 30\n\
+             size = [2, 2, 0]\nspeed = 0.5\n[[force]]\n{force}\n"
+        )
+    };
+    let check = |force: &str| {
+        std::fs::write(folder.path().join("flat.toml"), scene(force)).expect("written");
+        let program =
+            Command::new(env!("CARGO_BIN_EXE_motes")).args(["check", "flat.toml"]).current_dir(folder.path()).output();
+        let output = program.expect("the program runs");
+        (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
+    };
+    for force in ["kind = \"goal\"\nposition = [0, 0, 3]", "kind = \"uniform\"\nacceleration = [0, 0, -1]"] {
+        let (code, said) = check(force);
+        assert!(code == Some(3) && said.contains("pushes across the plane"), "{force}: {code:?} {said}");
+    }
+    assert_eq!(check("kind = \"goal\"\nposition = [0.3, 0.2, 0]").0, Some(0));
+}

@@ -2,7 +2,9 @@
 
 use glam::{DVec3, DVec4};
 use motes::forces::{Law, Over, Problem};
-use motes::kernel::{ACCELERATION, Access, Array, Host, Kernel, Machine, POSITION, Pass, Plan, Twin, VELOCITY, World};
+use motes::kernel::{
+    ACCELERATION, Access, Array, Host, Kernel, Machine, POSITION, Pass, Plan, SPECIES, Twin, VELOCITY, World,
+};
 use motes::scene::Scene;
 use motes::{Bounds, Error, Setup, Side};
 
@@ -25,6 +27,29 @@ fn keeps_energy(twin: &Twin, bounds: &Bounds) -> Result<bool, Error> {
     // Images are where they are up to rounding; time takes part or does not.
     let alike = (here - image).abs().max_element() <= 1e-9 * here.abs().max_element();
     Ok(alike && here == felt(twin, (0.7, 3), x, *bounds)?)
+}
+
+/// Whether a law leaves the first particles of a flat world in their plane.
+fn in_the_plane(name: &str, twin: &Twin, setup: &Setup) -> Result<(), Error> {
+    let particles = &setup.particles;
+    let some = particles.len().min(64);
+    let mut host = Host::default();
+    let places = particles.position[..some].iter().zip(&particles.mass).map(|(x, m)| x.extend(*m)).collect();
+    let ways = particles.velocity[..some].iter().zip(&particles.radius).map(|(v, r)| v.extend(*r)).collect();
+    host.insert(POSITION.name, Array::Vec4(places));
+    host.insert(VELOCITY.name, Array::Vec4(ways));
+    host.insert(SPECIES.name, Array::Uint(particles.species[..some].to_vec()));
+    host.insert(ACCELERATION.name, Array::Vec4(vec![DVec4::ZERO; some]));
+    let count = u32::try_from(some).unwrap_or(0);
+    host.set_world(World { time: 0.0, dt: setup.dt, step: 0, count, bounds: setup.bounds });
+    twin(&host)?;
+    let across = host.read(ACCELERATION)?.iter().map(|a| a.z).find(|z| z.abs() > 0.0);
+    across.map_or(Ok(()), |z| {
+        Err(Error::Scene(format!(
+            "`{name}` pushes across the plane (by {z:e}), and in 2 dimensions nobody leaves it: give its vectors no z, or \
+             say dimensions = 3 in [box]"
+        )))
+    })
 }
 
 /// Fields that a shader of a user may read: what a simulation has, and what the file itself writes.
@@ -101,6 +126,9 @@ pub fn advice(scene: &Scene, setup: &Setup) -> Result<Vec<String>, Error> {
     for law in laws {
         let name = law.name.clone();
         let (untwinned, over) = (law.twin.is_none(), law.over);
+        if let Some(twin) = law.twin.as_ref().filter(|_| setup.bounds.dimensions == 2) {
+            in_the_plane(&name, twin, setup)?;
+        }
         let kernel = law.kernel(&Problem::new(1, MACHINE))?;
         strangers(&kernel)?;
         if kernel.names("velocity") && reduced < order {
