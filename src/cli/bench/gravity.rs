@@ -6,7 +6,7 @@ use motes::{Bounds, Error, Particles, Setup, Simulation, forces, gpu, integrator
 use serde_json::json;
 
 use super::bodies::Bodies;
-use super::{median, repeats, time};
+use super::{median, time};
 use crate::cli::args::BenchArgs;
 use crate::cli::failure::Failure;
 use crate::cli::progress::{duration, large};
@@ -50,31 +50,10 @@ fn measure(args: &BenchArgs, found: &gpu::Found, count: u32, last: Option<&Row>)
         .map(|(x, m)| x.extend(*m).as_vec4().to_array())
         .collect();
     let bodies = Bodies::new(&bodies);
-    // Both are warm before they count, and take turns, so that what else the machine does falls on both.
-    let mut turns = [1, 1];
-    let mut row = Row { count, device: Vec::new(), plain: Vec::new() };
     let plain = last.is_none_or(|row| 4.0 * median(&row.plain) <= args.longest && !row.plain.is_empty());
-    for turn in 0..=args.repeat.max(1) {
-        let device = time(turns[0], || simulation.step(turns[0]).and_then(|()| simulation.backend().wait()))?;
-        let loops = if plain {
-            time(turns[1], || {
-                (0..turns[1]).for_each(|_| drop(std::hint::black_box(bodies.evaluate(SOFTENING_F32))));
-                Ok(())
-            })?
-        } else {
-            f64::NAN
-        };
-        if turn == 0 {
-            let second = time(1, || simulation.step(1).and_then(|()| simulation.backend().wait()))?;
-            turns = [second.min(device), loops].map(repeats);
-        } else {
-            row.device.push(device);
-            if plain {
-                row.plain.push(loops);
-            }
-        }
-    }
-    Ok(row)
+    let mut baseline = |turns| (0..turns).for_each(|_| drop(std::hint::black_box(bodies.evaluate(SOFTENING_F32))));
+    let (device, plain) = super::in_turns(args, &mut simulation, plain.then_some(&mut baseline))?;
+    Ok(Row { count, device, plain })
 }
 
 const SOFTENING_F32: f32 = 0.02;

@@ -8,7 +8,7 @@ mod plot;
 
 use std::time::Instant;
 
-use motes::{Error, gpu};
+use motes::{Error, Gpu, Simulation, gpu};
 use serde_json::json;
 
 use super::args::{BenchArgs, Topic};
@@ -85,6 +85,37 @@ where
         count = count.saturating_mul(2);
     }
     Ok(rows)
+}
+
+/// Seconds of a step of a simulation and of its baseline, where there is one. Both are warm before they count, and take
+/// turns, so that what else the machine does falls on both.
+fn in_turns(
+    args: &BenchArgs,
+    simulation: &mut Simulation<Gpu>,
+    mut baseline: Option<&mut dyn FnMut(u32)>,
+) -> Result<(Vec<f64>, Vec<f64>), Failure> {
+    let mut step = |turns| time(turns, || simulation.step(turns).and_then(|()| simulation.backend().wait()));
+    let mut turns = [1, 1];
+    let (mut device, mut plain) = (Vec::new(), Vec::new());
+    for turn in 0..=args.repeat.max(1) {
+        let steps = step(turns[0])?;
+        let loops = match &mut baseline {
+            Some(run) => time(turns[1], || {
+                run(turns[1]);
+                Ok(())
+            })?,
+            None => f64::NAN,
+        };
+        if turn == 0 {
+            turns = [step(1)?.min(steps), loops].map(repeats);
+            continue;
+        }
+        device.push(steps);
+        if baseline.is_some() {
+            plain.push(loops);
+        }
+    }
+    Ok((device, plain))
 }
 
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small whole number")]

@@ -13,7 +13,7 @@ use motes::{Bounds, Error, POSITION, Particles, Setup, Side, Simulation, Snapsho
 use serde_json::json;
 
 use super::agents::{Agents, RADIUS};
-use super::{median, repeats, time};
+use super::{median, time};
 use crate::cli::args::BenchArgs;
 use crate::cli::failure::Failure;
 use crate::cli::progress::{duration, large};
@@ -127,33 +127,14 @@ fn measure(
     #[expect(clippy::cast_possible_truncation, reason = "the baseline is in single precision")]
     let mut agents = Agents::new(positions, side as f32);
     let plain = plain && last.is_none_or(|row| 2.0 * median(&row.plain) <= args.longest && !row.plain.is_empty());
-    let mut row = Row { count, device: Vec::new(), plain: Vec::new(), candidates: 0.0, neighbors: 0.0 };
-    (row.candidates, row.neighbors) = company(setup, *range)?;
-    // Both are warm before they count, and take turns, so that what else the machine does falls on both.
-    let mut turns = [1, 1];
-    for turn in 0..=args.repeat.max(1) {
-        let device = time(turns[0], || simulation.step(turns[0]).and_then(|()| simulation.backend().wait()))?;
-        #[expect(clippy::cast_possible_truncation, reason = "the baseline is in single precision")]
-        let loops = if plain {
-            time(turns[1], || {
-                (0..turns[1]).for_each(|_| agents.step(DT as f32));
-                std::hint::black_box(agents.positions());
-                Ok(())
-            })?
-        } else {
-            f64::NAN
-        };
-        if turn == 0 {
-            let second = time(1, || simulation.step(1).and_then(|()| simulation.backend().wait()))?;
-            turns = [second.min(device), loops].map(repeats);
-        } else {
-            row.device.push(device);
-            if plain {
-                row.plain.push(loops);
-            }
-        }
-    }
-    Ok(row)
+    let (candidates, neighbors) = company(setup, *range)?;
+    #[expect(clippy::cast_possible_truncation, reason = "the baseline is in single precision")]
+    let mut baseline = |turns| {
+        (0..turns).for_each(|_| agents.step(DT as f32));
+        std::hint::black_box(agents.positions());
+    };
+    let (device, plain) = super::in_turns(args, &mut simulation, plain.then_some(&mut baseline))?;
+    Ok(Row { count, device, plain, candidates, neighbors })
 }
 
 /// Candidates and neighbours of an agent, on average.
