@@ -12,7 +12,7 @@ const INK: RGBColor = RGBColor(38, 42, 51);
 const FAINT: RGBColor = RGBColor(226, 229, 235);
 /// What is drawn: the rows, the times in them, what it is called, its colour.
 const LINES: [(&str, &str, &str, RGBColor); 3] = [
-    ("circles", "seconds_per_step", "circles, 204 candidates each", RGBColor(36, 104, 196)),
+    ("circles", "seconds_per_step", "circles, 33 neighbours each", RGBColor(36, 104, 196)),
     ("circles", "plain_seconds_per_step", "circles in plain Rust", RGBColor(150, 156, 168)),
     ("boids", "seconds_per_step", "boids, 7 neighbours each", RGBColor(214, 112, 32)),
 ];
