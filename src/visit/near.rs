@@ -28,8 +28,7 @@ pub fn grid(law: &Law, problem: &Problem) -> Result<Option<(Grid, bool)>, Error>
 }
 
 /// What a law searches its neighbours with.
-fn files(law: &Law, grid: &Grid, machine: &Machine) -> Vec<Source> {
-    let moving = law.wgsl.says(&["velocity_of", "("]);
+fn files(law: &Law, grid: &Grid, moving: bool, machine: &Machine) -> Vec<Source> {
     let mut files = match law.over {
         Over::Nearest { .. } => vec![crate::shader!("particle.wgsl"), crate::shader!("visit/nearest.wgsl")],
         _ if moving => vec![crate::shader!("visit/near_moving.wgsl")],
@@ -50,7 +49,7 @@ fn files(law: &Law, grid: &Grid, machine: &Machine) -> Vec<Source> {
 
 pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
     law.requires_meetings()?;
-    let Some((grid, _)) = grid(&law, problem)? else {
+    let Some((grid, moving)) = grid(&law, problem)? else {
         return Err(Error::Scene(format!("`{}` searches no grid", law.name)));
     };
     let mut sources = vec![
@@ -59,7 +58,7 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
         crate::shader!("neighbors/cell.wgsl"),
         crate::shader!("visit/near_rows.wgsl"),
     ];
-    sources.extend(files(&law, &grid, &problem.machine));
+    sources.extend(files(&law, &grid, moving, &problem.machine));
     sources.extend(law.files());
     let shader = Shader::join(&sources)?;
     let (params, mut constants) = (law.uniforms(&shader)?, problem.constants(&shader));
