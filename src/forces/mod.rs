@@ -42,6 +42,21 @@ pub trait Force: Send + Sync {
     fn limit(&self, _plan: &mut Plan, _problem: &Problem) -> Result<(), Error> {
         Ok(())
     }
+    /// Adds kernels that keep positions lawful: nobody inside of a solid. They run after every drift, by `factor` of the
+    /// step, and with `factor` 1 at the end of a Runge–Kutta step.
+    ///
+    /// # Errors
+    /// When there is no such place.
+    fn confine(&self, _plan: &mut Plan, _problem: &Problem, _factor: f64) -> Result<(), Error> {
+        Ok(())
+    }
+    /// Adds kernels that run once at the end of each step: what breaks, breaks there.
+    ///
+    /// # Errors
+    /// When it cannot.
+    fn conclude(&self, _plan: &mut Plan, _problem: &Problem) -> Result<(), Error> {
+        Ok(())
+    }
     /// The integrators under which it is what its paper says; none: under all.
     fn integrators(&self) -> &'static [&'static str] {
         &[]
