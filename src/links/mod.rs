@@ -2,8 +2,10 @@
 //! wind. Plain lists, by the particles' ids; kernels see them as tables, each element from each of its particles.
 
 mod check;
+mod half;
 mod network;
 
+pub use half::{Corner, Half, WORDS};
 pub use network::{MOST_LINKS, Network};
 
 /// A spring between two particles, or a rope, which only pulls.
