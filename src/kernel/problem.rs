@@ -24,6 +24,8 @@ pub struct Problem {
     pub species: Vec<(u32, u32)>,
     /// What ties them together.
     pub network: Arc<Network>,
+    /// Whether that changes as it goes: springs that break.
+    pub breaks: bool,
     /// Those that forces do not move.
     pub held: Arc<Vec<Held>>,
 }
@@ -39,6 +41,7 @@ impl Problem {
             extent: (DVec3::ZERO, DVec3::ONE),
             species: Vec::new(),
             network: Arc::new(Network::new(count, &Links::default())),
+            breaks: false,
             held: Arc::default(),
         }
     }
@@ -62,6 +65,11 @@ impl Problem {
     #[must_use]
     pub fn tied(self, links: &Links, held: &[Held]) -> Self {
         Self { network: Arc::new(Network::new(self.count, links)), held: Arc::new(held.to_vec()), ..self }
+    }
+    /// The same with links that may break.
+    #[must_use]
+    pub fn breaking(self, breaks: bool) -> Self {
+        Self { breaks, ..self }
     }
     /// How many are of a species; of none in particular: all.
     #[must_use]

@@ -47,7 +47,8 @@ impl Setup {
         let problem = Problem::new(self.check()?, machine)
             .at(&self.particles.position, self.bounds)
             .of_species(&self.particles.species)
-            .tied(&self.particles.links, &self.particles.held);
+            .tied(&self.particles.links, &self.particles.held)
+            .breaking(self.forces.iter().any(|force| force.breaks()));
         let mut start = Step::new(&self.forces, problem.clone());
         start.enclose();
         self.integrator.start(&mut start);
