@@ -1,7 +1,7 @@
 //! The kernels of the sides, and all others in a box, against their twins.
 
 use glam::Vec4;
-use motes::kernel::{Backend, Plan};
+use motes::kernel::{Backend, Machine, Plan, Problem};
 use motes::lockstep::{Verdict, compare};
 use motes::{Bounds, Error, POSITION, Side, Simulation, VELOCITY};
 
