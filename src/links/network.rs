@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use super::{Joint, Link, Links, WORDS};
+use super::{Half, Joint, Link, Links, WORDS};
 
 /// Links that one particle may have: one invocation loops over them, and 65 535 trips are the most that every driver does.
 pub const MOST_LINKS: u32 = 60_000;
@@ -72,6 +72,20 @@ impl Network {
     #[must_use]
     pub fn ends(&self) -> u32 {
         self.link_start.last().copied().unwrap_or(0)
+    }
+}
+
+impl Links {
+    /// The same without springs that broke, by the words of the table of a network of these.
+    #[must_use]
+    pub fn intact(&self, network: &Network, table: &[u32]) -> Self {
+        let holds = |link: &&Link| {
+            let [a, b] = link.ends;
+            let row = |id: u32| network.link_start.get(id as usize).map_or(0, |n| *n as usize);
+            let words = table.get(row(a) * WORDS..row(a + 1) * WORDS).unwrap_or_default().chunks_exact(WORDS);
+            words.map(Half::new).any(|half| half.partner == b as usize && !half.is_broken())
+        };
+        Self { springs: self.springs.iter().filter(holds).copied().collect(), ..self.clone() }
     }
 }
 
