@@ -87,6 +87,8 @@ fn every_law_alone() {
                     simulation.write(POSITION, &places.collect::<Vec<_>>()).expect("places");
                     let laws = plan.order.len();
                     law[0].limit(&mut plan, &problem).expect("limits");
+                    law[0].confine(&mut plan, &problem, 0.8).expect("places");
+                    law[0].conclude(&mut plan, &problem).expect("an end");
                     if plan.order.len() > laws {
                         // Faster than the limit has left them.
                         let mut velocity = pollster::block_on(simulation.read(VELOCITY)).expect("velocities");
