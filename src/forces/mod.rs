@@ -102,6 +102,7 @@ register! {
     boids: Boids, "a flock: separation, alignment and cohesion within a field of view (Reynolds 1987, 1999)";
     speed_limit: SpeedLimit, "the least and the greatest speed of a species";
     obstacle: Obstacle, "a sphere, a box or a plane that is seen ahead and avoided (after Reynolds 1999)";
+    solid: Solid, "a sphere, a box, a plane or a capsule that lets nobody in, or out: bounces and friction";
     flee: Flee, "prey flee from predators";
     chase: Chase, "predators chase prey";
     goal: Goal, "a place to steer to and arrive at, or a roost to keep to (Reynolds 1999)";
