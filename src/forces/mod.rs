@@ -57,6 +57,10 @@ pub trait Force: Send + Sync {
     fn conclude(&self, _plan: &mut Plan, _problem: &Problem) -> Result<(), Error> {
         Ok(())
     }
+    /// Whether rods keep their lengths by it.
+    fn keeps_rods(&self) -> bool {
+        false
+    }
     /// The integrators under which it is what its paper says; none: under all.
     fn integrators(&self) -> &'static [&'static str] {
         &[]
@@ -103,6 +107,7 @@ register! {
     goal: Goal, "a place to steer to and arrive at, or a roost to keep to (Reynolds 1999)";
     wander: Wander, "a random walk of velocities, the same numbers on every device";
     soft_turn: SoftTurn, "a box with soft walls that turn back";
+    rod: Rod, "rigid rods in chains keep their lengths, whatever the other forces do (RATTLE: Andersen 1983)";
     vicsek: Vicsek, "everybody takes the mean heading around it, with noise, in the plane (Vicsek et al. 1995)";
 }
 

@@ -5,6 +5,7 @@ use crate::error::Error;
 use crate::forces::{Force, Problem};
 use crate::integrators::{Integrator, Step};
 use crate::kernel::{Bounds, Machine, Plan};
+use crate::motion::Hold;
 use crate::particles::Particles;
 
 /// What a simulation is made of.
@@ -62,7 +63,7 @@ impl Setup {
     /// [`Error::Scene`] when there are none or too many, when dt is not a positive number, when a particle has a number
     /// that is none, or a negative mass, when there can be no such box, or when it does not hold them.
     pub fn check(&self) -> Result<u32, Error> {
-        let Particles { position, velocity, mass, radius, species, links, held: _ } = &self.particles;
+        let Particles { position, velocity, mass, radius, species, links, held } = &self.particles;
         let count = position.len();
         let lengths = [velocity.len(), mass.len(), radius.len(), species.len()];
         if lengths.iter().any(|l| *l != count) {
@@ -91,6 +92,13 @@ impl Setup {
         }
         links.check(mass)?;
         boundary::check(&self.bounds)?;
+        if !links.rods.is_empty() && !self.forces.iter().any(|force| force.keeps_rods()) {
+            let text = format!("nothing keeps the lengths of the rods (of which there are {}): add a [[force]] of kind = \"rod\"", links.rods.len());
+            return Err(Error::Scene(text));
+        }
+        let still = held.iter().filter(|held| held.by == Hold::Fixed).map(|held| held.id).collect();
+        let held: Vec<u32> = held.iter().map(|held| held.id).collect();
+        links.check_rods([position, velocity], &held, &still, |r| self.bounds.shortest(r))?;
         boundary::holds(&self.bounds, position, velocity)?;
         u32::try_from(count)
             .ok()
