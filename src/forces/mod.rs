@@ -43,12 +43,19 @@ pub trait Force: Send + Sync {
         Ok(())
     }
     /// Adds kernels that keep positions lawful: nobody inside of a solid. They run after every drift, by `factor` of the
-    /// step, and with `factor` 1 at the end of a Runge–Kutta step.
+    /// step.
     ///
     /// # Errors
     /// When there is no such place.
     fn confine(&self, _plan: &mut Plan, _problem: &Problem, _factor: f64) -> Result<(), Error> {
         Ok(())
+    }
+    /// The same where a whole step was no drift, as that of a Runge–Kutta method: x − v dt is not where it began.
+    ///
+    /// # Errors
+    /// When there is no such place.
+    fn settle(&self, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
+        self.confine(plan, problem, 1.0)
     }
     /// Adds kernels that run once at the end of each step: what breaks, breaks there.
     ///

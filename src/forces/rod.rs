@@ -17,19 +17,20 @@ pub const KEYS: &[Key] = &[];
 /// `rod`: the particles' rods keep their lengths (RATTLE; Andersen 1983), in chains of any shape that hang from held particles
 /// or fly free; who is held is infinitely heavy to them.
 ///
-/// It is written as two projections, so that every integrator has it. After a drift by c dt positions go along the rods as they
-/// were before it, x ← x + δ and v ← v + δ / c dt, until the lengths are right, and what is left of velocities along the rods
-/// is taken away: this is a step of RATTLE for particles that no force pulls. After a kick velocities along the rods are
-/// taken away alone. Kick-drift-kick of these *is* RATTLE: to project after the first kick as well changes nothing, because
-/// what it takes away lies along the rods before the drift, and the drift would take the rest of it. So `leapfrog` is
-/// symplectic and reversible, and its energy stays in bounds. `symplectic_euler` is its companion of order 1. All other
-/// methods are held to order 2: `forest_ruth` and `pefrl`, whose drifts along curves are of that order, reversible still;
-/// and the Runge–Kutta methods, which go a whole step without rods before they are brought back, and whose energy drifts.
+/// It is written as two projections, so that every integrator has it. After a drift by c dt velocities change along the rods as
+/// they were before it, v ← v + δ, and positions with them, x ← x + c dt δ, until no length has changed; and what is left of
+/// velocities along the rods is taken away: this is a step of RATTLE for particles that no force pulls. After a kick velocities
+/// along the rods are taken away alone. Kick-drift-kick of these *is* RATTLE: to project after the first kick as well changes
+/// nothing, because what it takes away lies along the rods before the drift, and the drift would take the rest of it. So
+/// `leapfrog` is symplectic and reversible, and its energy stays in bounds. `symplectic_euler` is its companion of order 1. All
+/// other methods are held to order 2: `forest_ruth` and `pefrl`, whose drifts along curves are of that order, reversible
+/// still; and the Runge–Kutta methods, which go a whole step without rods before they are brought back, and whose energy
+/// drifts.
 ///
-/// Lengths hold to rounding, which is about 1e-7 of the larger of the length and the distance from the origin, in every
-/// step anew. A chain that turns by more than about a radian in one drift is not found again: its particles then are no
-/// numbers, which stops the run. In a scene it stands behind the forces that limit speeds or move particles out of
-/// solids, because the last word is right.
+/// What rounding makes of the lengths is taken back from positions alone, in every step anew: lengths hold to about 1e-7 of the
+/// larger of the length and the distance from the origin, and speeds know nothing of it. A chain that turns by about a radian
+/// in one drift is not found again: its particles then are no numbers, which stops the run. In a scene it stands behind the
+/// forces that limit speeds or move particles out of solids, because the last word is right.
 pub struct Rod;
 
 impl Rod {
@@ -45,23 +46,30 @@ impl Force for Rod {
         Vec::new()
     }
     fn limit(&self, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
-        self.confine(plan, problem, 0.0)
+        add(plan, problem, 0.0, false)
     }
     fn confine(&self, plan: &mut Plan, problem: &Problem, factor: f64) -> Result<(), Error> {
-        let held: Vec<u32> = problem.held.iter().map(|held| held.id).collect();
-        let chains = Chains::new(&problem.network.rods, &held)?;
-        if !chains.is_empty() {
-            plan.add(kernel(chains, factor)?);
-        }
-        Ok(())
+        add(plan, problem, factor, false)
+    }
+    fn settle(&self, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
+        add(plan, problem, 1.0, true)
     }
     fn keeps_rods(&self) -> bool {
         true
     }
 }
 
-/// The kernel behind a drift by a part of the step, or with 0 behind a kick.
-fn kernel(chains: Chains, factor: f64) -> Result<Kernel, Error> {
+fn add(plan: &mut Plan, problem: &Problem, factor: f64, settles: bool) -> Result<(), Error> {
+    let held: Vec<u32> = problem.held.iter().map(|held| held.id).collect();
+    let chains = Chains::new(&problem.network.rods, &held)?;
+    if !chains.is_empty() {
+        plan.add(kernel(chains, factor, settles)?);
+    }
+    Ok(())
+}
+
+/// The kernel behind a drift by a part of the step, or with 0 behind a kick; or behind a step that `settles`.
+fn kernel(chains: Chains, factor: f64, settles: bool) -> Result<Kernel, Error> {
     let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("forces/rod.wgsl")])?;
     let count = u32::try_from(chains.len()).unwrap_or(u32::MAX);
     let nodes = chains.0.iter().map(|chain| chain.len() as u64).sum();
@@ -85,7 +93,7 @@ fn kernel(chains: Chains, factor: f64) -> Result<Kernel, Error> {
                 length: chain[1..].iter().map(|node| node.length).collect(),
                 bounds: world.bounds,
             };
-            chain.rattle(h);
+            chain.rattle(h, settles);
             chain
         };
         let all: Vec<Chain> = chains.0.par_iter().map(right).collect();
@@ -98,7 +106,7 @@ fn kernel(chains: Chains, factor: f64) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    let constants = vec![("FACTOR", factor), ("CHAINS", f64::from(count))];
+    let constants = vec![("FACTOR", factor), ("CHAINS", f64::from(count)), ("SETTLES", f64::from(u8::from(settles)))];
     let mut kernel = Kernel::new("rod", shader, constants, count, Arc::new(twin));
     for pass in &mut kernel.passes {
         // Each particle of a chain is looked at about as often as it would be in meetings with so many.
@@ -120,52 +128,47 @@ impl Chain {
     fn ways(&self) -> Vec<DVec3> {
         self.x.windows(2).map(|x| self.bounds.shortest(x[1] - x[0])).collect()
     }
-    /// The whole of it: the change of places is δ = W Gᵀ λ with G along the rods before the drift, and all of λ is found anew
-    /// from where the drift has led.
-    fn rattle(&mut self, h: f64) {
+    /// The whole of it, after a drift by h.
+    fn rattle(&mut self, h: f64, settles: bool) {
         if h != 0.0 {
             let growth: Vec<DVec3> = self.v.windows(2).map(|v| v[1] - v[0]).collect();
             let old: Vec<DVec3> = self.ways().iter().zip(growth).map(|(r, v)| *r - h * v).collect();
-            let (drifted, fast) = (self.x.clone(), self.v.clone());
-            let mut lambda = vec![0.0; old.len()];
-            let mut worst = f64::INFINITY;
-            for _ in 0..50 {
-                let ways = self.ways();
-                let misses: Vec<f64> =
-                    ways.iter().zip(&self.length).map(|(r, l)| 0.5 * (l * l - r.length_squared())).collect();
-                let parts = misses.iter().zip(&self.length).map(|(miss, l)| miss.abs() / (l * l));
-                let before = std::mem::replace(&mut worst, parts.fold(0.0, f64::max));
-                // Until it is exact, or rounding takes as much as is gained.
-                if worst == 0.0 || worst < 1e-9 && worst >= before {
-                    break;
-                }
-                for (l, more) in lambda.iter_mut().zip(self.solve(&ways, &old, misses)) {
-                    *l += more;
-                }
-                for (n, change) in self.changes(&old, &lambda).into_iter().enumerate() {
-                    self.x[n] = drifted[n] + change;
-                    self.v[n] = fast[n] + change / h;
-                }
-            }
-            if worst.is_nan() || worst > 1e-9 {
-                self.x.fill(DVec3::NAN);
-            }
+            let lengths = if settles { self.length.clone() } else { old.iter().map(|r| r.length()).collect() };
+            let changes = self.reach(&old, &lengths);
+            self.v.iter_mut().zip(changes).for_each(|(v, change)| *v += change / h);
+            self.reach(&self.ways(), &self.length.clone());
         }
         let ways = self.ways();
         let growth = ways.iter().zip(self.v.windows(2)).map(|(r, v)| -r.dot(v[1] - v[0])).collect();
         let lambda = self.solve(&ways, &ways, growth);
-        for (n, change) in self.changes(&ways, &lambda).into_iter().enumerate() {
-            self.v[n] += change;
+        for (v, change) in self.v.iter_mut().zip(changes(&self.w, &ways, &lambda)) {
+            *v += change;
         }
     }
-    /// W Gᵀ λ
-    fn changes(&self, along: &[DVec3], lambda: &[f64]) -> Vec<DVec3> {
-        let mut changes = vec![DVec3::ZERO; self.x.len()];
-        for (n, (r, lambda)) in along.iter().zip(lambda).enumerate() {
-            changes[n] -= self.w[n] * *lambda * *r;
-            changes[n + 1] += self.w[n + 1] * *lambda * *r;
+    /// Goes to where the rods have these lengths, by changes W Gᵀ λ with G along some directions, and says which. All of λ is
+    /// counted from the start.
+    fn reach(&mut self, along: &[DVec3], lengths: &[f64]) -> Vec<DVec3> {
+        let start = self.x.clone();
+        let mut lambda = vec![0.0; along.len()];
+        let mut worst = f64::INFINITY;
+        for _ in 0..50 {
+            let ways = self.ways();
+            let misses: Vec<f64> = ways.iter().zip(lengths).map(|(r, l)| 0.5 * (l * l - r.length_squared())).collect();
+            let parts = misses.iter().zip(lengths).map(|(miss, l)| miss.abs() / (l * l));
+            let before = std::mem::replace(&mut worst, parts.fold(0.0, f64::max));
+            // Until it is exact, or rounding takes as much as is gained.
+            if worst == 0.0 || worst < 1e-9 && worst >= before {
+                break;
+            }
+            for (l, more) in lambda.iter_mut().zip(self.solve(&ways, along, misses)) {
+                *l += more;
+            }
+            self.x = start.iter().zip(changes(&self.w, along, &lambda)).map(|(x, change)| *x + change).collect();
         }
-        changes
+        if worst.is_nan() || worst > 1e-9 {
+            self.x.fill(DVec3::NAN);
+        }
+        changes(&self.w, along, &lambda)
     }
     /// Solves R W Gᵀ λ = b, which ties a rod to the two beside it, by rotations (Givens 1958).
     fn solve(&self, ways: &[DVec3], along: &[DVec3], mut b: Vec<f64>) -> Vec<f64> {
@@ -192,4 +195,14 @@ impl Chain {
         }
         b
     }
+}
+
+/// W Gᵀ λ: what the forces along the rods change.
+fn changes(w: &[f64], along: &[DVec3], lambda: &[f64]) -> Vec<DVec3> {
+    let mut changes = vec![DVec3::ZERO; w.len()];
+    for (n, (r, lambda)) in along.iter().zip(lambda).enumerate() {
+        changes[n] -= w[n] * *lambda * *r;
+        changes[n + 1] += w[n + 1] * *lambda * *r;
+    }
+    changes
 }

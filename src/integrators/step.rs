@@ -95,7 +95,7 @@ impl<'a> Step<'a> {
         self.add(runge_kutta::finish(self.problem.count, weight));
         self.limit();
         self.enclose();
-        self.each_force(|force, plan, problem| force.confine(plan, problem, 1.0));
+        self.each_force(|force, plan, problem| force.settle(plan, problem));
     }
 
     /// The plan of what is done once: what the integrator wrote, and a look for numbers that are broken from the start,

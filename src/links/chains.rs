@@ -3,8 +3,8 @@
 use super::Rod;
 use crate::error::Error;
 
-/// Rods of one chain: one invocation walks 16 times along it, and 65 535 trips are the most that every driver does.
-pub const MOST_RODS: u32 = 4_000;
+/// Rods of one chain: one invocation walks 24 times along it, and 65 535 trips are the most that every driver does.
+pub const MOST_RODS: u32 = 2_700;
 
 /// A particle in a chain.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -8,6 +8,7 @@ mod equivalents;
 mod laws;
 mod neighbors;
 mod primitives;
+mod rods;
 mod stages;
 #[path = "../support/mod.rs"]
 mod support;
