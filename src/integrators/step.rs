@@ -112,6 +112,7 @@ impl<'a> Step<'a> {
         self.enclose();
         self.drifted = 1.0;
         self.confine(1.0);
+        self.each_force(|force, plan, problem| force.settle(plan, problem));
     }
 
     /// The plan of what is done once: what the integrator wrote, and a look for numbers that are broken from the start,

@@ -9,6 +9,7 @@ mod held;
 mod laws;
 mod neighbors;
 mod primitives;
+mod rods;
 mod stages;
 #[path = "../support/mod.rs"]
 mod support;
