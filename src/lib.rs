@@ -20,6 +20,7 @@ pub mod scene;
 pub mod selftest;
 pub mod settings;
 pub mod simulation;
+pub mod stability;
 pub mod visit;
 
 pub use cpu::Cpu;
