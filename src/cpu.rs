@@ -52,7 +52,9 @@ impl Backend for Cpu {
                     continue;
                 }
                 let elements = kernel.size(field).map_or(self.count, |n| usize::try_from(n).unwrap_or(usize::MAX));
-                self.host.insert(field, binding.zeros(elements));
+                let zeros = binding.zeros(elements);
+                let table = plan.table(field).map(|words| zeros.like(bytemuck::cast_slice(words)));
+                self.host.insert(field, table.unwrap_or(zeros));
             }
         }
         Ok(plan.clone())

@@ -9,8 +9,10 @@ pub mod integrators;
 #[cfg(feature = "scene")]
 pub mod io;
 pub mod kernel;
+pub mod links;
 pub mod lockstep;
 pub mod measure;
+pub mod motion;
 pub mod neighbors;
 pub mod particles;
 pub mod primitives;

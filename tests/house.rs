@@ -135,9 +135,11 @@ fn no_binding_number_is_written_in_rust() {
 }
 
 /// A module may name only what stands before it.
-const ORDER: [&str; 21] = [
+const ORDER: [&str; 23] = [
     "error",
     "settings",
+    "links",
+    "motion",
     "kernel",
     "boundary",
     "primitives",

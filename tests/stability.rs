@@ -3,7 +3,8 @@
 mod support;
 
 use glam::DVec3;
-use motes::stability::{Bound, Network, Oscillator, Spring, largest_step};
+use motes::links::Link;
+use motes::stability::{Bound, Network, Oscillator, largest_step};
 use motes::{Bounds, Gpu};
 use pollster::block_on;
 use support::states::integrator;
@@ -101,7 +102,7 @@ fn growth_is_the_same_on_the_device() {
 }
 
 /// A sheet of n² particles, `1 / (n − 1)` apart: edges and diagonals of the squares, and the next but one in a row.
-fn cloth(n: u32, stiffness: f64, bend: f64) -> (Vec<Spring>, Vec<DVec3>) {
+fn cloth(n: u32, stiffness: f64, bend: f64) -> (Vec<Link>, Vec<DVec3>) {
     let apart = 1.0 / f64::from(n - 1);
     let place = |x: u32, y: u32| y * n + x;
     let mut springs = Vec::new();
@@ -113,7 +114,7 @@ fn cloth(n: u32, stiffness: f64, bend: f64) -> (Vec<Spring>, Vec<DVec3>) {
                 if v < n {
                     let rest = apart * f64::from(dx).hypot(f64::from(dy));
                     let ends = [place(x, y), place(u, v)];
-                    springs.push(Spring { ends, rest, stiffness: part * stiffness, damping: 10.0, rope: false });
+                    springs.push(Link { ends, rest, stiffness: part * stiffness, damping: 10.0, rope: false });
                 }
             }
         }
@@ -146,8 +147,8 @@ fn a_cloth_is_between_its_bounds() {
 fn a_chain_is_at_its_bound() {
     let (count, stiffness, mass) = (20u32, 100.0, 0.1);
     let ends = 0..=count;
-    let spring = |i: u32| Spring { ends: [i, i + 1], rest: 1.0, stiffness, damping: 0.3, rope: false };
-    let springs: Vec<Spring> = ends.map(spring).collect();
+    let spring = |i: u32| Link { ends: [i, i + 1], rest: 1.0, stiffness, damping: 0.3, rope: false };
+    let springs: Vec<Link> = ends.map(spring).collect();
     let positions: Vec<DVec3> = (0..count + 2).map(|i| DVec3::X * f64::from(i)).collect();
     let mut masses = vec![mass; positions.len()];
     (masses[0], masses[count as usize + 1]) = (f64::INFINITY, f64::INFINITY);
@@ -169,8 +170,8 @@ fn a_chain_is_at_its_bound() {
 /// Unlike masses, one stiff spring among soft ones: the row and the spring are named.
 #[test]
 fn the_stiffest_is_named() {
-    let mut springs: Vec<Spring> = (0..9)
-        .map(|i| Spring { ends: [i, i + 1], rest: 1.0, stiffness: 10.0, damping: 0.0, rope: false })
+    let mut springs: Vec<Link> = (0..9)
+        .map(|i| Link { ends: [i, i + 1], rest: 1.0, stiffness: 10.0, damping: 0.0, rope: false })
         .collect();
     (springs[6].stiffness, springs[2].damping) = (500.0, 4.0);
     let mut masses = vec![1.0; 10];
@@ -190,7 +191,7 @@ fn the_stiffest_is_named() {
 #[test]
 fn springs_resist_across_when_drawn_out() {
     let across = |length: f64, rest: f64, rope: bool| {
-        let springs = [Spring { ends: [0, 1], rest, stiffness: 8.0, damping: 0.0, rope }];
+        let springs = [Link { ends: [0, 1], rest, stiffness: 8.0, damping: 0.0, rope }];
         // Fast along, and held there: only the way across is left, by a second spring that is soft along x.
         let bound = Network::new(&springs, &[1.0, f64::INFINITY], &[DVec3::ZERO, DVec3::X * length], &Bounds::default());
         bound.product_of(&[DVec3::Y, DVec3::ZERO])[0].y

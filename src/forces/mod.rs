@@ -42,6 +42,21 @@ pub trait Force: Send + Sync {
     fn limit(&self, _plan: &mut Plan, _problem: &Problem) -> Result<(), Error> {
         Ok(())
     }
+    /// Adds kernels that keep positions lawful: nobody inside of a solid. They run after every drift, by `factor` of the
+    /// step, and with `factor` 1 at the end of a Runge–Kutta step.
+    ///
+    /// # Errors
+    /// When there is no such place.
+    fn confine(&self, _plan: &mut Plan, _problem: &Problem, _factor: f64) -> Result<(), Error> {
+        Ok(())
+    }
+    /// Adds kernels that run once at the end of each step: what breaks, breaks there.
+    ///
+    /// # Errors
+    /// When it cannot.
+    fn conclude(&self, _plan: &mut Plan, _problem: &Problem) -> Result<(), Error> {
+        Ok(())
+    }
     /// The integrators under which it is what its paper says; none: under all.
     fn integrators(&self) -> &'static [&'static str] {
         &[]
@@ -89,6 +104,10 @@ register! {
     wander: Wander, "a random walk of velocities, the same numbers on every device";
     soft_turn: SoftTurn, "a box with soft walls that turn back";
     vicsek: Vicsek, "everybody takes the mean heading around it, with noise, in the plane (Vicsek et al. 1995)";
+    spring: Spring, "springs and ropes, damped along themselves (Hooke 1678)";
+    tear: Tear, "springs that are stretched too far break, for ever";
+    joint: Joint, "joints that resist bending: elastic rods, hair (Euler 1744)";
+    air: Air, "drag and lift on every triangle of a cloth, in gusts (Ling, Damodaran & Gay 1996)";
 }
 
 /// The force of a scene's word.

@@ -71,5 +71,5 @@ pub fn kernel(problem: &Problem, [least, most]: [f64; 2], who: Who) -> Result<Ke
         Ok(())
     };
     let name = "speed_limit".to_owned();
-    Ok(Kernel { name, passes: vec![pass], twin: Some(Arc::new(twin)), sizes: Vec::new(), scratch: Vec::new() })
+    Ok(Kernel { name, passes: vec![pass], twin: Some(Arc::new(twin)), sizes: Vec::new(), scratch: Vec::new(), tables: Vec::new() })
 }

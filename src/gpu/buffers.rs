@@ -25,15 +25,15 @@ impl Buffers {
     pub fn forget(&mut self, name: &str) {
         self.named.remove(name);
     }
-    /// Makes a field of at least so many bytes, unless there is one.
-    pub fn require(&mut self, name: &str, bytes: u64) -> Result<(), Error> {
+    /// Makes a field of at least so many bytes, unless there is one. Whether it is new.
+    pub fn require(&mut self, name: &str, bytes: u64) -> Result<bool, Error> {
         if let Some((_, have)) = self.named.get(name) {
             if *have < bytes {
                 return Err(Error::Device(format!(
                     "the field `{name}` was made with {have} bytes; a later plan wants {bytes}"
                 )));
             }
-            return Ok(());
+            return Ok(false);
         }
         let limits = self.device.limits();
         let limit = limits.max_buffer_size.min(limits.max_storage_buffer_binding_size);
@@ -49,7 +49,7 @@ impl Buffers {
         let buffer = fault::scoped(&self.device, || self.device.create_buffer(&descriptor))
             .map_err(|e| with_size(e, name, size))?;
         self.named.insert(name.to_owned(), (buffer, bytes));
-        Ok(())
+        Ok(true)
     }
 }
 

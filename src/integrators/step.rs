@@ -66,6 +66,7 @@ impl<'a> Step<'a> {
     pub fn drift(&mut self, factor: f64) {
         self.add(drift::kernel(self.problem.count, factor));
         self.enclose();
+        self.each_force(|force, plan, problem| force.confine(plan, problem, factor));
     }
     /// Whoever has left the box by a closed side comes in again.
     pub fn enclose(&mut self) {
@@ -94,6 +95,7 @@ impl<'a> Step<'a> {
         self.add(runge_kutta::finish(self.problem.count, weight));
         self.limit();
         self.enclose();
+        self.each_force(|force, plan, problem| force.confine(plan, problem, 1.0));
     }
 
     /// The plan of what is done once: what the integrator wrote, and a look for numbers that are broken from the start,
@@ -113,6 +115,7 @@ impl<'a> Step<'a> {
     /// # Errors
     /// The first thing that went wrong while the step was written.
     pub fn done(mut self) -> Result<Plan, Error> {
+        self.each_force(|force, plan, problem| force.conclude(plan, problem));
         self.add(tick::kernel());
         self.add(watch::kernel(self.problem.count));
         self.finished()
@@ -151,9 +154,12 @@ impl<'a> Step<'a> {
 
     /// What forces make of velocities that are not allowed.
     fn limit(&mut self) {
+        self.each_force(|force, plan, problem| force.limit(plan, problem));
+    }
+    fn each_force(&mut self, write: impl Fn(&dyn Force, &mut Plan, &Problem) -> Result<(), Error>) {
         for force in self.forces {
             if self.error.is_none() {
-                self.error = force.limit(&mut self.plan, &self.problem).err();
+                self.error = write(force.as_ref(), &mut self.plan, &self.problem).err();
             }
         }
     }

@@ -58,6 +58,7 @@ pub fn read(path: &Path) -> Result<Snapshot, Error> {
             Some(species) => species.iter().map(|of| *of as u32).collect(),
             None => vec![0; rows.unwrap_or(0)],
         },
+        ..Particles::default()
     };
     if let Some(ids) = ids {
         let ids: Vec<u64> = ids.iter().map(|id| whole(*id)).collect();

@@ -14,7 +14,7 @@ mod world;
 
 pub use backend::{Backend, Machine};
 pub use bounds::{Bounds, Side};
-pub use field::{ACCELERATION, ALARM, ALARM_WORDS, Array, Element, Field, POSITION, SPECIES, VELOCITY};
+pub use field::{ACCELERATION, ALARM, ALARM_WORDS, Array, Element, Field, POSITION, QUIET, SPECIES, VELOCITY};
 pub use host::Host;
 pub use pack::{Member, Packed, Scalar};
 pub use plan::{Kernel, Name, Pass, Plan, Threads, Twin};

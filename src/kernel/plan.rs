@@ -86,6 +86,8 @@ pub struct Kernel {
     pub sizes: Vec<(Name, u64)>,
     /// Fields that hold nothing of worth after the last dispatch; the twin does without them.
     pub scratch: Vec<Name>,
+    /// What fields hold from the start that nobody else fills: the words of their elements.
+    pub tables: Vec<(Name, Arc<Vec<u32>>)>,
 }
 
 impl Kernel {
@@ -98,7 +100,14 @@ impl Kernel {
             let _ = write!(label, " {key}={}", short(*value));
         }
         let pass = Pass { constants, ..Pass::new(shader, count) };
-        Self { name: label, passes: vec![pass], twin: Some(twin), sizes: Vec::new(), scratch: Vec::new() }
+        Self {
+            name: label,
+            passes: vec![pass],
+            twin: Some(twin),
+            sizes: Vec::new(),
+            scratch: Vec::new(),
+            tables: Vec::new(),
+        }
     }
     /// The fields that it writes, by name, without its scratch.
     #[must_use]
@@ -186,6 +195,12 @@ impl Plan {
     /// The kernels in order.
     pub fn steps(&self) -> impl Iterator<Item = &Kernel> {
         self.order.iter().filter_map(|i| self.kernels.get(*i))
+    }
+    /// What a field holds from the start, if any kernel says so.
+    #[must_use]
+    pub fn table(&self, field: &str) -> Option<&Arc<Vec<u32>>> {
+        let tables = self.kernels.iter().flat_map(|kernel| &kernel.tables);
+        tables.into_iter().find(|(name, _)| name == field).map(|(_, words)| words)
     }
     /// Dispatches in one run.
     #[must_use]

@@ -1,8 +1,12 @@
 //! What a plan is written for.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 
 use super::{Bounds, Machine, Shader, Side};
+use crate::links::{Links, Network};
+use crate::motion::Held;
 
 /// The machine, the particles' number and place at the start, and their box. What a plan makes of the place are
 /// guesses of speed alone: particles may go anywhere.
@@ -18,13 +22,25 @@ pub struct Problem {
     pub extent: (DVec3, DVec3),
     /// How many are of each species; nothing where there is but one.
     pub species: Vec<(u32, u32)>,
+    /// What ties them together.
+    pub network: Arc<Network>,
+    /// Those that forces do not move.
+    pub held: Arc<Vec<Held>>,
 }
 
 impl Problem {
     /// So many particles in open space, somewhere in a cube of unit sides.
     #[must_use]
     pub fn new(count: u32, machine: Machine) -> Self {
-        Self { count, machine, bounds: Bounds::default(), extent: (DVec3::ZERO, DVec3::ONE), species: Vec::new() }
+        Self {
+            count,
+            machine,
+            bounds: Bounds::default(),
+            extent: (DVec3::ZERO, DVec3::ONE),
+            species: Vec::new(),
+            network: Arc::new(Network::new(count, &Links::default())),
+            held: Arc::default(),
+        }
     }
     /// The same with particles at these places, in this box.
     #[must_use]
@@ -41,6 +57,11 @@ impl Problem {
             *counts.entry(*kind).or_insert(0) += 1;
         }
         Self { species: counts.into_iter().collect(), ..self }
+    }
+    /// The same with these links, between these held ones.
+    #[must_use]
+    pub fn tied(self, links: &Links, held: &[Held]) -> Self {
+        Self { network: Arc::new(Network::new(self.count, links)), held: Arc::new(held.to_vec()), ..self }
     }
     /// How many are of a species; of none in particular: all.
     #[must_use]

@@ -49,6 +49,7 @@ impl Grid {
             twin: Some(Arc::new(twin)),
             sizes: vec![(starts, u64::from(bins)), (sums, scan::blocks(bins, machine))],
             scratch,
+            tables: Vec::new(),
         })
     }
 

@@ -1,9 +1,13 @@
 //! Particles on the host: what files and generators give, and what a simulation starts from.
 
 mod build;
+pub mod chain;
+pub mod cloth;
 pub mod disk;
 mod exponential_disk;
+pub mod hair;
 mod hernquist;
+pub mod jelly;
 pub mod lattice;
 pub mod plummer;
 pub mod random;
@@ -15,6 +19,8 @@ pub mod spray;
 use glam::DVec3;
 
 use crate::error::Error;
+use crate::links::Links;
+use crate::motion::Held;
 use crate::settings::{Key, Settings};
 
 /// Particles, one entry per id in every array. Units are the scene's own.
@@ -30,6 +36,10 @@ pub struct Particles {
     pub radius: Vec<f64>,
     /// Of which kind they are: numbers that laws may tell apart; 0 where nobody cares.
     pub species: Vec<u32>,
+    /// What ties them together.
+    pub links: Links,
+    /// Those that forces do not move.
+    pub held: Vec<Held>,
 }
 
 /// A named generator: what a scene's `shape = "…"` may say.
@@ -45,8 +55,18 @@ pub struct Shape {
 }
 
 /// Every generator.
-pub const SHAPES: &[Shape] =
-    &[plummer::PLUMMER, sphere::SPHERE, disk::DISK, lattice::LATTICE, random_box::RANDOM_BOX, spray::SPRAY];
+pub const SHAPES: &[Shape] = &[
+    plummer::PLUMMER,
+    sphere::SPHERE,
+    disk::DISK,
+    lattice::LATTICE,
+    random_box::RANDOM_BOX,
+    spray::SPRAY,
+    chain::CHAIN,
+    cloth::CLOTH,
+    jelly::JELLY,
+    hair::HAIR,
+];
 
 /// The generator of a name.
 #[must_use]
@@ -85,6 +105,9 @@ impl Particles {
         self.velocity.extend_from_slice(&other.velocity);
         self.mass.extend_from_slice(&other.mass);
         self.radius.extend_from_slice(&other.radius);
+        let first = u32::try_from(self.len() - other.len()).unwrap_or(u32::MAX);
         self.species.extend_from_slice(&other.species);
+        self.links.append(&other.links, first);
+        self.held.extend(other.held.iter().map(|held| Held { id: held.id.saturating_add(first), ..*held }));
     }
 }

@@ -66,6 +66,7 @@ pub fn counting_sort(fields: &Fields, elements: u32, bins: u32, machine: &Machin
             (sums.clone(), scan::blocks(bins + 1, machine)),
         ],
         scratch: vec![ranks, arrivals, sums],
+        tables: Vec::new(),
     })
 }
 

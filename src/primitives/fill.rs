@@ -22,6 +22,7 @@ pub fn fill(field: &Name, elements: u32, value: u32) -> Result<Kernel, Error> {
         twin: Some(Arc::new(twin)),
         sizes: vec![(field.clone(), u64::from(elements))],
         scratch: Vec::new(),
+        tables: Vec::new(),
     })
 }
 

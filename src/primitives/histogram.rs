@@ -43,5 +43,6 @@ pub fn histogram(keys: &Name, counts: &Name, elements: u32, bins: u32, machine: 
         twin: Some(Arc::new(twin)),
         sizes: vec![(keys.clone(), elements.into()), (counts.clone(), u64::from(bins) + 1)],
         scratch: Vec::new(),
+        tables: Vec::new(),
     })
 }

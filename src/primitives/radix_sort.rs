@@ -80,6 +80,7 @@ pub fn radix_sort(keys: &Name, values: &Name, elements: u32, bits: u32, machine:
             (sums.clone(), scan::blocks(cells, machine)),
         ],
         scratch: vec![other_keys, other_values, table, sums],
+        tables: Vec::new(),
     })
 }
 

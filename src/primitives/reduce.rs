@@ -94,6 +94,7 @@ pub fn reduce(
         twin: Some(twin(operation, items, field, into, elements)),
         sizes: vec![(field.clone(), elements.into()), (into.clone(), 1), (parts.clone(), blocks.max(1).into())],
         scratch: vec![parts],
+        tables: Vec::new(),
     })
 }
 

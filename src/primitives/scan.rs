@@ -36,6 +36,7 @@ pub fn scan(field: &Name, elements: u32, machine: &Machine) -> Result<Kernel, Er
         twin: Some(Arc::new(twin)),
         sizes: vec![(field.clone(), u64::from(elements)), (sums.clone(), blocks(elements, machine))],
         scratch: vec![sums],
+        tables: Vec::new(),
     })
 }
 

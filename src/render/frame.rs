@@ -197,7 +197,14 @@ impl Frame {
         twin: impl Fn(&Host) -> Result<(), Error> + Send + Sync + 'static,
     ) -> Kernel {
         let sizes = self.sizes().into_iter().map(|(name, elements)| (name.into(), elements)).collect();
-        Kernel { name: name.to_owned(), passes, twin: Some(Arc::new(twin)), sizes, scratch: Vec::new() }
+        Kernel {
+            name: name.to_owned(),
+            passes,
+            twin: Some(Arc::new(twin)),
+            sizes,
+            scratch: Vec::new(),
+            tables: Vec::new(),
+        }
     }
 }
 

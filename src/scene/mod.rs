@@ -18,6 +18,7 @@ mod color;
 mod diagnostic;
 mod files;
 mod force;
+mod links;
 mod output;
 mod overrides;
 mod particles;
@@ -42,6 +43,7 @@ use crate::settings::Settings;
 pub use bounds::BOX_KEYS;
 pub use builtin::{Builtin, SCENES};
 pub use diagnostic::{Diagnostic, Diagnostics, Excerpt, Mended};
+pub use links::LINKS_KEYS;
 pub use output::{Format, Output};
 pub use particles::EVERY as PARTICLES_KEYS;
 pub use source::Source;
@@ -163,6 +165,10 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
             groups.push(Group { ids: start..ids(&particles), color: block.color });
             out.0 += &block.resolved;
         }
+    }
+
+    for table in all("links") {
+        links::read(table, &mut particles, files, &mut out, report);
     }
 
     let mut forces: Vec<Box<dyn Force>> = Vec::new();

@@ -6,7 +6,7 @@ use crate::particles::SHAPES;
 use crate::render;
 use crate::settings::Key;
 
-use super::{bounds, force, output, particles, simulation};
+use super::{bounds, force, links, output, particles, simulation};
 
 /// A section.
 pub(super) struct Section {
@@ -33,6 +33,7 @@ pub(super) const SECTIONS: &[Section] = &[
         own: particles::OWN,
         kinds: || SHAPES.iter().map(|s| s.keys).chain([particles::OFFSETS]).collect(),
     },
+    Section { name: "links", many: true, keys: links::LINKS_KEYS, own: links::OWN, kinds: Vec::new },
     Section {
         name: "force",
         many: true,

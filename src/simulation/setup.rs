@@ -46,7 +46,8 @@ impl Setup {
     pub fn plans(&self, machine: Machine) -> Result<Plans, Error> {
         let problem = Problem::new(self.check()?, machine)
             .at(&self.particles.position, self.bounds)
-            .of_species(&self.particles.species);
+            .of_species(&self.particles.species)
+            .tied(&self.particles.links, &self.particles.held);
         let mut start = Step::new(&self.forces, problem.clone());
         start.enclose();
         self.integrator.start(&mut start);
@@ -61,7 +62,7 @@ impl Setup {
     /// [`Error::Scene`] when there are none or too many, when dt is not a positive number, when a particle has a number
     /// that is none, or a negative mass, when there can be no such box, or when it does not hold them.
     pub fn check(&self) -> Result<u32, Error> {
-        let Particles { position, velocity, mass, radius, species } = &self.particles;
+        let Particles { position, velocity, mass, radius, species, links, held: _ } = &self.particles;
         let count = position.len();
         let lengths = [velocity.len(), mass.len(), radius.len(), species.len()];
         if lengths.iter().any(|l| *l != count) {
@@ -88,6 +89,7 @@ impl Setup {
                 "particle {bad} has a number that is NaN, infinite or beyond single precision, or a negative mass or radius"
             )));
         }
+        links.check(mass)?;
         boundary::check(&self.bounds)?;
         boundary::holds(&self.bounds, position, velocity)?;
         u32::try_from(count)

@@ -1,19 +1,6 @@
 //! How stiff a network can be at most: the disks of Gershgorin (1931) about the blocks of M^(−1/2) K M^(−1/2).
 
-/// A spring, as far as it matters for how fast a network swings.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Spring {
-    /// The ids of the two that it joins.
-    pub ends: [u32; 2],
-    /// Its length at rest \[length\].
-    pub rest: f64,
-    /// k \[mass / time²\]
-    pub stiffness: f64,
-    /// The resistance along it \[mass / time\].
-    pub damping: f64,
-    /// Whether it only pulls.
-    pub rope: bool,
-}
+use crate::links::Link;
 
 /// The particle whose springs weigh most upon it.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -39,9 +26,9 @@ impl Bound {
     /// Of springs between particles of these masses; who is held is infinitely heavy ([`f64::INFINITY`]), and so has no row.
     /// Springs with an end that is not in the list of masses count for nothing.
     #[must_use]
-    pub fn of(springs: &[Spring], masses: &[f64]) -> Self {
+    pub fn of(springs: &[Link], masses: &[f64]) -> Self {
         let weight = |mine: f64, other: f64| 1.0 / mine + 1.0 / (mine * other).sqrt();
-        let row = |value: fn(&Spring) -> f64| {
+        let row = |value: fn(&Link) -> f64| {
             let mut sums = vec![(0.0, 0, 0.0); masses.len()];
             for (place, spring) in springs.iter().enumerate() {
                 let [i, j] = spring.ends.map(|id| id as usize);

@@ -5,6 +5,6 @@ mod bound;
 mod mode;
 mod oscillator;
 
-pub use bound::{Bound, Row, Spring};
+pub use bound::{Bound, Row};
 pub use mode::{Mode, Network};
 pub use oscillator::{Oscillator, largest_step};

@@ -3,12 +3,12 @@
 
 use glam::DVec3;
 
-use super::bound::Spring;
 use crate::kernel::Bounds;
+use crate::links::Link;
 
 /// A network at some places: its springs' directions, and how much they resist across.
 pub struct Network<'a> {
-    springs: &'a [Spring],
+    springs: &'a [Link],
     /// 1 / √m; 0 for who is held.
     light: Vec<f64>,
     /// The direction of a spring, and max(0, 1 − L / l): its resistance across, in parts of that along it. The exact one
@@ -31,9 +31,9 @@ const ITERATIONS: usize = 40;
 impl<'a> Network<'a> {
     /// Of springs between particles of these masses (infinite for who is held) and places.
     #[must_use]
-    pub fn new(springs: &'a [Spring], masses: &[f64], positions: &[DVec3], bounds: &Bounds) -> Self {
+    pub fn new(springs: &'a [Link], masses: &[f64], positions: &[DVec3], bounds: &Bounds) -> Self {
         let light = masses.iter().map(|m| 1.0 / m.sqrt()).collect();
-        let along = |spring: &Spring| {
+        let along = |spring: &Link| {
             let [Some(a), Some(b)] = spring.ends.map(|id| positions.get(id as usize)) else { return (DVec3::ZERO, 0.0) };
             let r = bounds.shortest(*b - *a);
             let length = r.length();

@@ -17,5 +17,12 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
     let uniforms = law.uniforms(&shader)?;
     let constants = problem.constants(&shader);
     let pass = Pass { constants, uniforms, ..Pass::new(shader, problem.count) };
-    Ok(Kernel { name: law.name, passes: vec![pass], twin: law.twin, sizes: Vec::new(), scratch: Vec::new() })
+    Ok(Kernel {
+        name: law.name,
+        passes: vec![pass],
+        twin: law.twin,
+        sizes: Vec::new(),
+        scratch: Vec::new(),
+        tables: Vec::new(),
+    })
 }

@@ -3,6 +3,7 @@
 mod body;
 mod each;
 mod law;
+mod links;
 mod near;
 mod over;
 mod pairs;
@@ -11,4 +12,5 @@ mod twin;
 
 pub use body::{Body, bodies};
 pub use law::Law;
+pub use links::{LINK, LINK_START, bind};
 pub use over::Over;

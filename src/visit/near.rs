@@ -23,7 +23,7 @@ pub fn grid(law: &Law, problem: &Problem) -> Result<Option<(Grid, bool)>, Error>
             // So many that the first cube of 27 cells holds about three times the list.
             Ok(Some((Grid::sparse(f64::from(count) / 3.0, problem), false)))
         }
-        Over::Each | Over::Pairs | Over::Within { .. } => Ok(None),
+        _ => Ok(None),
     }
 }
 
@@ -86,5 +86,5 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
     // The law does not make these, but it binds them: they are as long as the grid makes them.
     let sizes: Vec<(Name, u64)> =
         vec![(grid.field(STARTS).1, u64::from(grid.count()) + 1), (ALARM.name.into(), ALARM_WORDS as u64)];
-    Ok(Kernel { name: law.name, passes, twin: law.twin, sizes, scratch: Vec::new() })
+    Ok(Kernel { name: law.name, passes, twin: law.twin, sizes, scratch: Vec::new(), tables: Vec::new() })
 }

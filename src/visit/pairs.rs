@@ -108,6 +108,7 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
         twin: law.twin,
         sizes: vec![("parts".into(), parts)],
         scratch: vec!["parts".into()],
+        tables: Vec::new(),
     })
 }
 

@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use super::Over;
 use super::body::{Body, bodies};
 use crate::kernel::{ACCELERATION, Bounds, Twin, World};
+use crate::links::{Corner, Half, WORDS};
 
 /// Each particle alone.
 pub fn each(rule: impl Fn(&Body, &World) -> DVec4 + Send + Sync + 'static) -> Twin {
@@ -48,6 +49,50 @@ pub fn meetings<S: Default>(
         });
         Ok(())
     })
+}
+
+/// Those that are linked, in the order of the table.
+pub fn links<S: Default>(
+    gather: impl Fn(&Body, &Body, DVec3, &Half, &mut S) + Send + Sync + 'static,
+    finish: impl Fn(&Body, &S) -> DVec4 + Send + Sync + 'static,
+) -> Twin {
+    Arc::new(move |host| {
+        let (bodies, bounds) = (bodies(host)?, host.world().bounds);
+        let (start, link) = (host.reading::<u32>("link_start")?, host.reading::<u32>("link")?);
+        let mut acceleration = host.write(ACCELERATION)?;
+        acceleration.par_iter_mut().zip(&bodies).for_each(|(a, me)| {
+            let mut sum = S::default();
+            for words in row(&start, &link, me.index, WORDS) {
+                let half = Half::new(words);
+                let you = &bodies[half.partner];
+                gather(me, you, bounds.shortest(you.position - me.position), &half, &mut sum);
+            }
+            *a += finish(me, &sum) * DVec4::new(1.0, 1.0, 1.0, 0.5);
+        });
+        Ok(())
+    })
+}
+
+/// Those that are corners of a joint or a triangle, in the order of the table.
+pub fn corners(over: Over, rule: impl Fn([&Body; 3], &Corner, &World) -> DVec4 + Send + Sync + 'static) -> Twin {
+    let names = if over == Over::Joints { ["joint_start", "joint"] } else { ["triangle_start", "triangle"] };
+    Arc::new(move |host| {
+        let (bodies, world) = (bodies(host)?, host.world());
+        let (start, corner) = (host.reading::<u32>(names[0])?, host.reading::<u32>(names[1])?);
+        let mut acceleration = host.write(ACCELERATION)?;
+        acceleration.par_iter_mut().zip(&bodies).for_each(|(a, me)| {
+            let corners = row(&start, &corner, me.index, Corner::WORDS).map(Corner::new);
+            let sum: DVec4 = corners.map(|corner| rule(corner.ids.map(|id| &bodies[id]), &corner, &world)).sum();
+            *a += sum / me.mass * DVec4::new(1.0, 1.0, 1.0, 1.0 / 3.0);
+        });
+        Ok(())
+    })
+}
+
+/// The elements of a particle.
+fn row<'a>(start: &[u32], table: &'a [u32], id: usize, words: usize) -> impl Iterator<Item = &'a [u32]> {
+    let [from, to] = [id, id + 1].map(|place| start.get(place).map_or(0, |n| *n as usize) * words);
+    table.get(from..to).unwrap_or_default().chunks_exact(words)
 }
 
 /// The nearest by the device's own distances, the lower id first where two are the same.

@@ -133,7 +133,7 @@ pub fn fill(simulation: &mut Simulation<Gpu>, plan: &Plan) {
     gpu.compile(plan).expect("a good plan");
     let mut random = support::Random::new(23);
     let kept = [POSITION.name, VELOCITY.name, SPECIES.name, ALARM.name, "world"];
-    for name in plan.fields(1).keys().filter(|n| !kept.contains(&n.as_str())) {
+    for name in plan.fields(1).keys().filter(|n| !kept.contains(&n.as_str()) && plan.table(n).is_none()) {
         let words: Vec<f32> = (0..gpu.size(name) / 4).map(|_| random.narrow()).collect();
         gpu.write_bytes(name, 0, bytemuck::cast_slice(&words)).expect("a field");
     }

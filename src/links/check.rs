@@ -1,0 +1,93 @@
+//! What links must be.
+
+use std::collections::BTreeSet;
+
+use super::{Links, MOST_LINKS};
+use crate::error::Error;
+
+impl Links {
+    /// Whether all of them tie particles that there are, once, with numbers that make sense.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] with the number of the first link that is at fault, counted from 0, and of its kind.
+    pub fn check(&self, masses: &[f64]) -> Result<(), Error> {
+        let mut pairs = BTreeSet::new();
+        let mut degrees = vec![0u32; masses.len()];
+        for (n, link) in self.springs.iter().enumerate() {
+            let what = format!("spring {n}");
+            apart(&what, &link.ends, masses)?;
+            let numbers = [("rest length", link.rest), ("stiffness", link.stiffness), ("damping", link.damping)];
+            numbers.iter().try_for_each(|(name, x)| not_negative(&what, name, *x))?;
+            if link.stiffness == 0.0 && link.damping == 0.0 {
+                return Err(Error::Scene(format!(
+                    "{what} has neither stiffness nor damping: it does nothing; remove it"
+                )));
+            }
+            if link.rope && link.rest == 0.0 {
+                return Err(Error::Scene(format!(
+                    "{what} is a rope of no length: it never is slack; make it a spring"
+                )));
+            }
+            twice(&what, link.ends, &mut pairs)?;
+            for id in link.ends {
+                degrees[id as usize] += 1;
+            }
+        }
+        if let Some(id) = degrees.iter().position(|degree| *degree > MOST_LINKS) {
+            let degree = degrees[id];
+            return Err(Error::Scene(format!(
+                "particle {id} has {degree} springs: {MOST_LINKS} are the most that one invocation sums"
+            )));
+        }
+        let mut pairs = BTreeSet::new();
+        for (n, rod) in self.rods.iter().enumerate() {
+            let what = format!("rod {n}");
+            apart(&what, &rod.ends, masses)?;
+            not_negative(&what, "length", rod.length)?;
+            if rod.length == 0.0 {
+                return Err(Error::Scene(format!("{what} has no length: make its two particles one")));
+            }
+            twice(&what, rod.ends, &mut pairs)?;
+        }
+        for (n, joint) in self.joints.iter().enumerate() {
+            let what = format!("joint {n}");
+            apart(&what, &joint.ids, masses)?;
+            not_negative(&what, "stiffness", joint.stiffness)?;
+        }
+        for (n, triangle) in self.triangles.iter().enumerate() {
+            apart(&format!("triangle {n}"), triangle, masses)?;
+        }
+        Ok(())
+    }
+}
+
+/// Different particles, that are there and have a mass.
+fn apart(what: &str, ids: &[u32], masses: &[f64]) -> Result<(), Error> {
+    for (place, id) in ids.iter().enumerate() {
+        let Some(mass) = masses.get(*id as usize) else {
+            let text = format!("{what} ties particle {id}, and there are {}: ids go from 0", masses.len());
+            return Err(Error::Scene(text));
+        };
+        if ids[..place].contains(id) {
+            return Err(Error::Scene(format!("{what} ties particle {id} to itself")));
+        }
+        if *mass == 0.0 {
+            return Err(Error::Scene(format!("{what} ties particle {id}, which has no mass that a force could move")));
+        }
+    }
+    Ok(())
+}
+
+fn twice(what: &str, [a, b]: [u32; 2], pairs: &mut BTreeSet<[u32; 2]>) -> Result<(), Error> {
+    if pairs.insert([a.min(b), a.max(b)]) {
+        return Ok(());
+    }
+    Err(Error::Scene(format!("{what} ties particles {a} and {b}, which another one ties already: make them one")))
+}
+
+fn not_negative(what: &str, name: &str, x: f64) -> Result<(), Error> {
+    if (0.0..=f64::from(f32::MAX)).contains(&x) {
+        return Ok(());
+    }
+    Err(Error::Scene(format!("{what} has the {name} {x}, not a finite number, zero or above")))
+}

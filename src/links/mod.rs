@@ -1,0 +1,73 @@
+//! What ties particles together: springs and ropes, rigid rods, joints that resist bending, and triangles that feel the
+//! wind. Plain lists, by the particles' ids; kernels see them as tables, each element from each of its particles.
+
+mod check;
+mod half;
+mod network;
+
+pub use half::{Corner, Half, WORDS};
+pub use network::{MOST_LINKS, Network};
+
+/// A spring between two particles, or a rope, which only pulls.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Link {
+    /// The ids of the two.
+    pub ends: [u32; 2],
+    /// How long it is at rest \[length\]; zero makes a spring that pulls its ends together in all directions alike.
+    pub rest: f64,
+    /// Hooke's constant \[mass / time²\].
+    pub stiffness: f64,
+    /// What resists a change of its length, and nothing else \[mass / time\].
+    pub damping: f64,
+    /// Whether it is slack when it is shorter than at rest.
+    pub rope: bool,
+}
+
+/// A distance between two particles that does not change.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rod {
+    /// The ids of the two.
+    pub ends: [u32; 2],
+    /// How long it is \[length\].
+    pub length: f64,
+}
+
+/// A joint at the second of three particles, straight at rest: its energy is ½ k θ², with θ the angle by which the way
+/// turns there.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Joint {
+    /// The ids of the three, in order.
+    pub ids: [u32; 3],
+    /// k \[mass length² / time²\]; for a rod of bending stiffness EI with joints ds apart it is EI / ds.
+    pub stiffness: f64,
+}
+
+/// All that ties particles together.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Links {
+    /// Springs and ropes.
+    pub springs: Vec<Link>,
+    /// Rigid rods.
+    pub rods: Vec<Rod>,
+    /// Joints.
+    pub joints: Vec<Joint>,
+    /// Triangles of cloth, by the ids of their corners.
+    pub triangles: Vec<[u32; 3]>,
+}
+
+impl Links {
+    /// Whether nothing is tied.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.springs.is_empty() && self.rods.is_empty() && self.joints.is_empty() && self.triangles.is_empty()
+    }
+    /// Adds all of another set, whose ids begin at `first` here.
+    pub fn append(&mut self, other: &Self, first: u32) {
+        let two = |ends: [u32; 2]| ends.map(|id| id.saturating_add(first));
+        let three = |ids: [u32; 3]| ids.map(|id| id.saturating_add(first));
+        self.springs.extend(other.springs.iter().map(|link| Link { ends: two(link.ends), ..*link }));
+        self.rods.extend(other.rods.iter().map(|rod| Rod { ends: two(rod.ends), ..*rod }));
+        self.joints.extend(other.joints.iter().map(|joint| Joint { ids: three(joint.ids), ..*joint }));
+        self.triangles.extend(other.triangles.iter().map(|ids| three(*ids)));
+    }
+}
