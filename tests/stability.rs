@@ -22,16 +22,16 @@ fn limit(name: &str, omega: f64, damping: f64, duration: f64) -> f64 {
 #[test]
 fn limits_on_the_oscillator() {
     let limits = [
-        // |eigenvalue| leaves 1 as the root of the distance from the limit: 1e-9 stands for 1e-18.
-        ("symplectic_euler", 2.0, 1e-12),
-        ("leapfrog", 2.0, 1e-12),
-        ("forest_ruth", 1.573_401_947_435, 1e-11),
-        ("pefrl", 2.989_449_545_907, 1e-11),
+        // |eigenvalue| leaves 1 as the root of the distance from the limit: 1e-6 stands for 1e-12; rounding does the rest.
+        ("symplectic_euler", 2.0, 3e6, 1e-10),
+        ("leapfrog", 2.0, 3e6, 1e-10),
+        ("forest_ruth", 1.573_401_947_435, 3e6, 1e-10),
+        ("pefrl", 2.989_449_545_907, 3e6, 1e-10),
         // It crosses 1 with a slope of about 2: 1e-9 per step counts.
-        ("rk4", 8f64.sqrt(), 4e-9),
+        ("rk4", 8f64.sqrt(), LONG, 4e-9),
     ];
-    for (name, want, allowed) in limits {
-        let got = OMEGA * limit(name, OMEGA, 0.0, LONG);
+    for (name, want, duration, allowed) in limits {
+        let got = OMEGA * limit(name, OMEGA, 0.0, duration);
         assert!((got - want).abs() < allowed, "{name} bears hω = {got:.13}, not {want:.13}");
     }
 }
@@ -41,7 +41,7 @@ fn limits_on_the_oscillator() {
 fn some_have_no_limit_at_all() {
     // E grows by 1 + y² a step, which is e^(h ω² t) over a time: amplitudes reach 10 at h = 2 ln 10 / (ω² t).
     let want = |t: f64| 2.0 * 10f64.ln() / (OMEGA * OMEGA * t);
-    for t in [1e4, 1e6] {
+    for t in [1e2, 1e4] {
         let got = limit("forward_euler", OMEGA, 0.0, t);
         // 1 + y² stands for e^(y²): y² / 2 is what that leaves.
         assert!((got / want(t) - 1.0).abs() < (OMEGA * got).powi(2), "{got:e}, not {:e}", want(t));
