@@ -60,7 +60,7 @@ pub enum BackendChoice {
     Cpu,
 }
 
-#[derive(Debug, ClapArgs)]
+#[derive(Debug, Clone, ClapArgs)]
 pub struct DeviceArgs {
     /// Where kernels run
     #[arg(long, value_enum, default_value = "auto")]
@@ -86,6 +86,9 @@ pub struct SceneArgs {
     /// Let the scene name files outside of its own folder
     #[arg(long)]
     pub allow_outside: bool,
+    /// Divide steps that are too long for the scene's springs into as many as its integrator needs
+    #[arg(long)]
+    pub auto_substeps: bool,
     #[command(flatten)]
     pub device: DeviceArgs,
 }

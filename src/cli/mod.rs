@@ -16,6 +16,7 @@ macro_rules! note {
 }
 
 mod advice;
+mod aftermath;
 mod args;
 mod bench;
 mod check;
@@ -31,6 +32,7 @@ mod progress;
 mod run;
 mod scenes;
 mod stop;
+mod substeps;
 mod table;
 
 use std::process::ExitCode;

@@ -4,7 +4,9 @@
 mod bound;
 mod mode;
 mod oscillator;
+mod verdict;
 
 pub use bound::{Bound, Row};
 pub use mode::{Mode, Network};
 pub use oscillator::{Oscillator, largest_step};
+pub use verdict::{Build, Verdict};

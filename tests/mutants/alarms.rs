@@ -45,13 +45,13 @@ fn words([step, id]: [u32; 2], [now, before]: [f32; 2], doubled: u32) -> [u32; Q
 pub fn runaways(device: &Device, stages: &mut Vec<Stage>) {
     let (watch, tick) = (known("watch", stages), known("tick", stages));
     let speed = |v: &glam::Vec4| v.truncate().abs().max_element();
-    // Along each axis somebody is the fastest.
+    // Along each axis 377 is the fastest, by far.
     for axis in 0..3 {
         let mut simulation = moving(device, FEW, None);
         let mut v = pollster::block_on(simulation.read(VELOCITY)).expect("velocities");
-        v[377][axis] = -3.7 - 0.1 * f32::from(u8::try_from(axis).expect("few"));
+        v[377][axis] = -25.7 - 0.1 * f32::from(u8::try_from(axis).expect("few"));
         let most = v.iter().map(speed).fold(0.0, f32::max);
-        assert!(most < 4.0 && v.iter().filter(|v| speed(v) > 0.8 * most).count() == 1, "377 is by far the fastest");
+        assert!(most < 27.0 && v.iter().filter(|v| speed(v) > 0.8 * most).count() == 1, "377 is by far the fastest");
         let nobody = [u32::MAX; 2];
         let cases = [
             words(nobody, [0.0, most / 2.5], 7),
