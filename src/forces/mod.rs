@@ -57,6 +57,10 @@ pub trait Force: Send + Sync {
     fn conclude(&self, _plan: &mut Plan, _problem: &Problem) -> Result<(), Error> {
         Ok(())
     }
+    /// Whether links change as it acts.
+    fn breaks(&self) -> bool {
+        false
+    }
     /// The integrators under which it is what its paper says; none: under all.
     fn integrators(&self) -> &'static [&'static str] {
         &[]

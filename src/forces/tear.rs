@@ -52,6 +52,9 @@ impl Force for Tear {
     fn laws(&self) -> Vec<Law> {
         Vec::new()
     }
+    fn breaks(&self) -> bool {
+        true
+    }
     fn conclude(&self, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
         let shader = Shader::join(&[
             crate::shader!("world.wgsl"),

@@ -8,5 +8,5 @@ mod verdict;
 
 pub use bound::{Bound, Row};
 pub use mode::{Mode, Network};
-pub use oscillator::{Oscillator, largest_step};
+pub use oscillator::{Oscillator, largest_step, oscillator, spectral_radius};
 pub use verdict::{Build, Verdict};

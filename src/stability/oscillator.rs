@@ -49,7 +49,7 @@ impl<B: Backend> Oscillator<B> {
     /// # Errors
     /// What making a simulation there says.
     pub fn on(backend: B, integrator: Box<dyn Integrator>, omega: f64, damping: f64) -> Result<Self, Error> {
-        let setup = setup(integrator, omega, damping, 1.0);
+        let setup = oscillator(integrator, omega, damping, 1.0);
         let mut simulation = Simulation::on(backend, &setup)?;
         // What is done once before the first step is done with.
         simulation.step(1)?;
@@ -83,7 +83,7 @@ impl<B: Backend> Oscillator<B> {
     /// # Errors
     /// When the device is lost.
     pub async fn growth(&mut self, dt: f64) -> Result<f64, Error> {
-        Ok(radius(self.step(dt).await?))
+        Ok(spectral_radius(self.step(dt).await?))
     }
     /// Whether steps of dt over a time let nothing grow tenfold.
     async fn bears(&mut self, dt: f64, duration: f64) -> Result<bool, Error> {
@@ -139,7 +139,8 @@ pub async fn largest_step(
 
 /// The largest |eigenvalue|: lim ‖Mⁿ‖^(1/n) (Gelfand 1941), with n doubled until nothing is left to gain. It asks for no
 /// formula of roots, and is as exact as the matrix.
-fn radius(mut matrix: DMat3) -> f64 {
+#[must_use]
+pub fn spectral_radius(mut matrix: DMat3) -> f64 {
     let (mut logarithm, mut part) = (0.0, 1.0);
     for _ in 0..60 {
         if !matrix.is_finite() {
@@ -157,8 +158,9 @@ fn radius(mut matrix: DMat3) -> f64 {
     logarithm.exp()
 }
 
-/// One particle of mass 1 at x = 1 that swings with ω, damped by c.
-pub(super) fn setup(integrator: Box<dyn Integrator>, omega: f64, damping: f64, dt: f64) -> Setup {
+/// One particle of mass 1 at x = 1, at rest, that swings with `omega` and is damped by `damping` \[1 / time\].
+#[must_use]
+pub fn oscillator(integrator: Box<dyn Integrator>, omega: f64, damping: f64, dt: f64) -> Setup {
     let mut particles = Particles::default();
     particles.push(DVec3::X, DVec3::ZERO, 1.0, 0.0);
     let spring = [
