@@ -23,6 +23,7 @@ pub mod selftest;
 pub mod settings;
 pub mod simulation;
 pub mod solids;
+pub mod stability;
 pub mod visit;
 
 pub use cpu::Cpu;

@@ -100,6 +100,12 @@ pub fn conserved(setup: &Setup) -> Result<Conserved, Error> {
         conserved.angular_momentum &= law.reciprocal;
         // What some do to others, and not others to them, keeps nothing.
         conserved.energy &= law.over == Over::Each || law.reciprocal;
+        if matches!(law.over, Over::Links | Over::Joints | Over::Triangles) {
+            // It goes by those that are tied, and by nothing else; what resists takes energy.
+            let damped = setup.particles.links.springs.iter().any(|spring| spring.damping > 0.0);
+            conserved.energy &= law.name != "spring" || !damped;
+            continue;
+        }
         conserved.energy &= match &law.twin {
             Some(twin) => keeps_energy(twin, &setup.bounds)?,
             None => false,

@@ -1,5 +1,6 @@
 //! Mutation: every operator and literal of every shader is changed once, and the lockstep with the twins must notice.
 
+mod alarms;
 mod boundary;
 mod curious;
 mod equivalent_neighbors;
