@@ -1,12 +1,15 @@
 //! A simulation: particles, forces and an integrator on a backend.
 
 mod setup;
+mod solves;
 
 pub use setup::{Plans, Setup};
+pub use solves::{Outcome, Solves};
 
 use crate::boundary;
 use crate::error::Error;
 use crate::gpu::Gpu;
+use crate::integrators::SOLVE_REPORT;
 use crate::kernel::{
     ACCELERATION, ALARM, ALARM_WORDS, Array, Backend, Element, Field, POSITION, SPECIES, VELOCITY, World,
 };
@@ -35,6 +38,8 @@ pub struct Simulation<B: Backend> {
     step: B::Program,
     measure: (B::Program, B::Program),
     plan: String,
+    /// Whether a step keeps a report of its solves.
+    solves: bool,
     count: u32,
     /// As the setup gave them: nothing changes them.
     species: Vec<u32>,
@@ -51,6 +56,7 @@ impl<B: Backend> Simulation<B> {
         let count = setup.check()?;
         let plans = setup.plans(backend.machine())?;
         let plan = plans.step.to_string();
+        let solves = plans.step.kernels.iter().any(|kernel| kernel.names(SOLVE_REPORT));
         let start = backend.compile(&plans.start)?;
         let step = backend.compile(&plans.step)?;
         let measure = (backend.compile(&plans.measure.0)?, backend.compile(&plans.measure.1)?);
@@ -67,7 +73,7 @@ impl<B: Backend> Simulation<B> {
         if plans.all().any(|plan| plan.fields(count).contains_key(SPECIES.name)) {
             backend.write(SPECIES.name, &Array::Uint(species.clone()))?;
         }
-        Ok(Self { backend, start, begun: false, step, measure, plan, count, species, dt: setup.dt, steps: 0 })
+        Ok(Self { backend, start, begun: false, step, measure, plan, solves, count, species, dt: setup.dt, steps: 0 })
     }
     /// Advances. May return before the device is done; reading waits.
     ///

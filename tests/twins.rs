@@ -25,6 +25,7 @@ fn moving(gpu: Gpu, count: usize, forces: Vec<Box<dyn forces::Force>>, name: &st
         integrator: integrator(name),
         dt: DT,
         bounds: motes::Bounds::default(),
+        solver: motes::Solver::default(),
     };
     let mut simulation = Simulation::on(gpu, &setup).expect("a simulation");
     simulation.step(3).expect("three steps");
@@ -126,6 +127,7 @@ fn every_integrator_whole() {
                 integrator: (entry.build)(),
                 dt: DT,
                 bounds: motes::Bounds::default(),
+                solver: motes::Solver::default(),
             };
             let plans = setup.plans(machine).expect("plans");
             fill(simulation.backend(), &plans.step, count);
@@ -152,6 +154,7 @@ fn what_surrounds_a_measurement() {
             integrator: integrator("leapfrog"),
             dt: DT,
             bounds: motes::Bounds::default(),
+            solver: motes::Solver::default(),
         };
         let (before, after) = setup.plans(machine).expect("plans").measure;
         judge(&verdicts(simulation.backend(), &before, count, &"before"), count, &"before", |_| false);
@@ -173,6 +176,7 @@ fn the_watch_sees_what_is_broken() {
                 integrator: integrator("symplectic_euler"),
                 dt: DT,
                 bounds: motes::Bounds::default(),
+                solver: motes::Solver::default(),
             };
             let machine = simulation.backend().machine();
             let plan = setup.plans(machine).expect("plans").step;
@@ -214,6 +218,7 @@ fn dispatches_fold_over_two_dimensions() {
                 integrator: integrator("rk4"),
                 dt: DT,
                 bounds: motes::Bounds::default(),
+                solver: motes::Solver::default(),
             };
             let plan = setup.plans(machine).expect("plans").step;
             judge(&verdicts(simulation.backend(), &plan, count, &name), count, &name, |v| v.field == "alarm");
@@ -269,6 +274,7 @@ fn more_than_one_dispatch_can_meet() {
         integrator: integrator("symplectic_euler"),
         dt: DT,
         bounds: motes::Bounds::default(),
+        solver: motes::Solver::default(),
     };
     let mut simulation = Simulation::on(gpu, &setup).expect("a simulation");
     let program = simulation.backend().compile(&alone(kernel)).expect("a program");

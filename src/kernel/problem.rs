@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{Bounds, Machine, Shader, Side};
+use super::{Bounds, Machine, Shader, Side, Solver};
 use crate::links::{Links, Network};
 use crate::motion::Held;
 
@@ -26,6 +26,8 @@ pub struct Problem {
     pub network: Arc<Network>,
     /// Those that forces do not move.
     pub held: Arc<Vec<Held>>,
+    /// How well implicit integrators solve.
+    pub solver: Solver,
 }
 
 impl Problem {
@@ -40,6 +42,7 @@ impl Problem {
             species: Vec::new(),
             network: Arc::new(Network::new(count, &Links::default())),
             held: Arc::default(),
+            solver: Solver::default(),
         }
     }
     /// The same with particles at these places, in this box.
@@ -62,6 +65,11 @@ impl Problem {
     #[must_use]
     pub fn tied(self, links: &Links, held: &[Held]) -> Self {
         Self { network: Arc::new(Network::new(self.count, links)), held: Arc::new(held.to_vec()), ..self }
+    }
+    /// The same with equations solved so well.
+    #[must_use]
+    pub fn solved(self, solver: Solver) -> Self {
+        Self { solver, ..self }
     }
     /// How many are of a species; of none in particular: all.
     #[must_use]

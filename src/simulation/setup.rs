@@ -4,7 +4,7 @@ use crate::boundary;
 use crate::error::Error;
 use crate::forces::{Force, Problem};
 use crate::integrators::{Integrator, Step};
-use crate::kernel::{Bounds, Machine, Plan};
+use crate::kernel::{Bounds, Machine, Plan, Solver};
 use crate::particles::Particles;
 
 /// What a simulation is made of.
@@ -19,6 +19,8 @@ pub struct Setup {
     pub dt: f64,
     /// Where particles may be.
     pub bounds: Bounds,
+    /// How well implicit integrators solve their equations; others have none.
+    pub solver: Solver,
 }
 
 /// The plans of a simulation: what runs once, what runs in every step, and what surrounds a measurement.
@@ -47,7 +49,8 @@ impl Setup {
         let problem = Problem::new(self.check()?, machine)
             .at(&self.particles.position, self.bounds)
             .of_species(&self.particles.species)
-            .tied(&self.particles.links, &self.particles.held);
+            .tied(&self.particles.links, &self.particles.held)
+            .solved(self.solver);
         let mut start = Step::new(&self.forces, problem.clone());
         start.enclose();
         self.integrator.start(&mut start);
@@ -90,6 +93,7 @@ impl Setup {
             )));
         }
         links.check(mass)?;
+        self.solver.check()?;
         boundary::check(&self.bounds)?;
         boundary::holds(&self.bounds, position, velocity)?;
         u32::try_from(count)

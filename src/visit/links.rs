@@ -50,7 +50,11 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
     };
     law.requires(&[("gather", gather), ("finish", "fn finish(me: Particle, sum: Sum) -> vec4f")])?;
     let mut files = vec![crate::shader!("world.wgsl"), crate::shader!("fields.wgsl"), crate::shader!("particle.wgsl")];
-    files.push(if corners { crate::shader!("visit/corners.wgsl") } else { crate::shader!("visit/links.wgsl") });
+    if corners {
+        files.push(crate::shader!("visit/corners.wgsl"));
+    } else {
+        files.extend([crate::shader!("visit/link_table.wgsl"), crate::shader!("visit/links.wgsl")]);
+    }
     files.extend(law.files().into_iter().filter(|file| file.file != "shaders/visit/everybody.wgsl"));
     let shader = Shader::join(&files)?;
     let (uniforms, constants) = (law.uniforms(&shader)?, problem.constants(&shader));
