@@ -1,7 +1,6 @@
 // The rows of the system, expanded about where particles are: mass, ties, and h² K v where the step begins.
 // Laws of each particle alone add to its block afterwards.
 @group(1) @binding(4) var<storage, read_write> rows: array<Row>;
-@group(1) @binding(5) var<storage, read> held_row: array<u32>;
 
 override FACTOR: f32 = 1.0;
 override START: bool = true;
@@ -16,7 +15,7 @@ fn solve_rows(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) grou
         let me = particle(i);
         let weight = select(1.0, me.mass, me.mass > 0.0);
         let ties = expansion(me, FACTOR * world.dt);
-        let way = select(select(ALONE, TIED, is_tied(i)), HELD, held_row[i] > 0u);
+        let way = select(select(ALONE, TIED, is_tied(i)), HELD, is_held(i));
         rows[i] = Row(
             vec4f(vec3f(weight), way),
             vec4f(vec3f(), weight),

@@ -1,7 +1,7 @@
 //! Every kernel of an implicit step with springs against its f64 twin.
 
 use motes::forces::Force;
-use motes::kernel::{Backend, Machine};
+use motes::kernel::Machine;
 use motes::lockstep::compare;
 use motes::settings::Value;
 use motes::{Gpu, Simulation, Solver};

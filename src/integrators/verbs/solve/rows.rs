@@ -10,9 +10,6 @@ use crate::kernel::{Bounds, Host, Kernel};
 use crate::links::{Half, WORDS};
 use crate::visit::{Jacobian, LINK, LINK_START, ROW, ROWS, bodies};
 
-/// Whom forces do not move: one word for each particle.
-const HELD_ROW: &str = "held_row";
-
 /// What ties particles, as the twins read it.
 pub struct Ties<'a> {
     pub jacobian: &'a Jacobian,
@@ -42,11 +39,11 @@ impl Ties<'_> {
 
 /// The rows before laws of each particle alone add theirs; `start` where the step is expanded about its start.
 pub fn kernel(system: &System<'_>, start: bool) -> Result<Kernel, Error> {
+    let mask = system.problem.mask.clone();
     let (factor, jacobian) = (system.factor, system.links.as_ref().and_then(|law| law.jacobian.clone()));
     let run = move |host: &Host| {
         let (bodies, world) = (bodies(host)?, host.world());
         let h = factor * world.dt;
-        let held = host.reading::<u32>(HELD_ROW)?;
         let tables = match &jacobian {
             Some(_) => Some((host.reading::<u32>(LINK_START)?, host.reading::<u32>(LINK)?)),
             None => None,
@@ -68,7 +65,7 @@ pub fn kernel(system: &System<'_>, start: bool) -> Result<Kernel, Error> {
                 pull = ties.sum(i, |you| (h * h * (bodies[you].velocity - me.velocity), DVec3::ZERO));
                 way = if ties.start[i] < ties.start[i + 1] { TIED } else { ALONE };
             }
-            way = if held.get(i).is_some_and(|held| *held > 0) { HELD } else { way };
+            way = if mask.get(i).is_some_and(|held| *held > 0) { HELD } else { way };
             row[0] = DVec3::splat(weight).extend(way);
             row[1] = DVec4::W * weight;
             row[2] = own.extend(0.0);
@@ -76,14 +73,9 @@ pub fn kernel(system: &System<'_>, start: bool) -> Result<Kernel, Error> {
         });
         Ok(())
     };
-    let kernel = system.tied("rows", &[crate::shader!("integrators/solve_rows.wgsl")], twin(run))?;
+    let (holding, tables) = system.problem.holding();
+    let kernel = system.tied("rows", &[crate::shader!("integrators/solve_rows.wgsl"), holding], twin(run))?;
     let mut kernel = with(kernel, &[("FACTOR", factor), ("START", f64::from(u8::from(start)))]);
-    let mut held = vec![0u32; system.problem.count as usize];
-    for one in system.problem.held.iter() {
-        if let Some(word) = held.get_mut(one.id as usize) {
-            *word = 1;
-        }
-    }
-    kernel.tables.push((HELD_ROW.into(), held.into()));
+    kernel.tables.extend(tables);
     Ok(kernel)
 }
