@@ -36,5 +36,5 @@ fn strand(color: vec3f, along: vec3f, view: vec3f, light: f32) -> vec3f {
     let v = dot(along, view);
     let day = sqrt(max(1.0 - l * l, 0.0));
     let shine = pow(max(day * sqrt(max(1.0 - v * v, 0.0)) - l * v, 0.0), 30.0);
-    return color * (0.18 + 0.62 * day * light) + 0.3 * shine * light * (0.3 + 0.7 * color);
+    return color * (0.25 + (0.2 + 0.45 * light) * day) + (0.1 + 0.35 * light) * shine * (0.3 + 0.7 * color);
 }

@@ -60,16 +60,19 @@ fn shade(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: v
     let i = folded(group, groups) * WORKGROUP + lane;
     if i < frame.width * frame.height {
         let corner = vec2u(i % frame.width, i / frame.width) * frame.fine;
-        let samples = frame.fine * frame.fine;
         var sum = vec4f();
         var depth = NEVER;
-        for (var k = 0u; k < samples; k += 1u) {
-            let at = corner + vec2u(k % frame.fine, k / frame.fine);
-            let place = (vec2f(at) + 0.5) / f32(frame.fine);
-            let one = look_at(place, holder[at.y * frame.width * frame.fine + at.x], fract(place) - 0.5);
-            sum += one.cover * vec4f(one.color, 1.0);
-            depth = min(depth, one.depth);
+        for (var y = corner.y; y < corner.y + frame.fine; y += 1u) {
+            for (var x = corner.x; x < corner.x + frame.fine; x += 1u) {
+                let id = holder[y * frame.width * frame.fine + x];
+                if id == NOBODY && frame.solids == 0u { continue; }
+                let place = vec2f(f32(x) + 0.5, f32(y) + 0.5) / f32(frame.fine);
+                let one = look_at(place, id, fract(place) - 0.5);
+                sum += one.cover * vec4f(one.color, 1.0);
+                depth = min(depth, one.depth);
+            }
         }
+        let samples = frame.fine * frame.fine;
         scenery[i] = pack4x8unorm(vec4f(sum.rgb / max(sum.a, 1e-30), sum.a / f32(samples)));
         // What covers half of a pixel hides what is behind it.
         if sum.a >= 0.5 * f32(samples) { front[i] = key(depth); }

@@ -68,5 +68,5 @@ pub fn strand(color: DVec3, along: DVec3, view: DVec3, light: f64) -> DVec3 {
     let (l, v) = (along.dot(LAMP), along.dot(view));
     let day = (1.0 - l * l).max(0.0).sqrt();
     let shine = (day * (1.0 - v * v).max(0.0).sqrt() - l * v).max(0.0).powi(30);
-    color * (0.18 + 0.62 * day * light) + 0.3 * shine * light * (0.3 + 0.7 * color)
+    color * (0.25 + (0.2 + 0.45 * light) * day) + (0.1 + 0.35 * light) * shine * (0.3 + 0.7 * color)
 }

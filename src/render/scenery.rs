@@ -8,6 +8,7 @@ use super::solid::Solid;
 use crate::error::Error;
 use crate::kernel::{Kernel, Name};
 use crate::links::{Links, MOST_LINKS, Network};
+use crate::particles::Particles;
 
 /// What a picture shows beside particles.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -16,6 +17,14 @@ pub struct Scenery {
     pub links: Arc<Links>,
     /// Solids.
     pub solids: Vec<Solid>,
+}
+
+impl Scenery {
+    /// What ties particles together, and no solids.
+    #[must_use]
+    pub fn of(particles: &Particles) -> Self {
+        Self { links: Arc::new(particles.links.clone()), solids: Vec::new() }
+    }
 }
 
 /// The field of springs that a simulation holds, and breaks.
