@@ -4,12 +4,15 @@ mod setup;
 
 pub use setup::{Plans, Setup};
 
+use glam::DVec3;
+
 use crate::boundary;
 use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::kernel::{
-    ACCELERATION, ALARM, ALARM_WORDS, Array, Backend, Element, Field, POSITION, SPECIES, VELOCITY, World,
+    ACCELERATION, ALARM, ALARM_WORDS, Array, Backend, Element, Field, HOME, POSITION, SPECIES, TARGET, VELOCITY, World,
 };
+use crate::motion;
 use crate::particles::Particles;
 use crate::render::{self, Film, Image, Picture};
 
@@ -58,7 +61,13 @@ impl<B: Backend> Simulation<B> {
         let particles = &setup.particles;
         let inside = |x| boundary::wrapped(&setup.bounds, x);
         let position = particles.position.iter().zip(&particles.mass).map(|(x, m)| inside(*x).extend(*m)).collect();
-        let velocity = particles.velocity.iter().zip(&particles.radius).map(|(v, r)| v.extend(*r)).collect();
+        let velocity = particles.velocity.iter().zip(&particles.radius).map(|(v, r)| v.extend(*r));
+        let mut velocity: Vec<_> = velocity.collect();
+        let held = motion::sorted(&particles.held);
+        for one in &held {
+            let v = &mut velocity[one.id as usize];
+            *v = DVec3::ZERO.extend(v.w);
+        }
         backend.write(POSITION.name, &Array::Vec4(position))?;
         backend.write(VELOCITY.name, &Array::Vec4(velocity))?;
         backend.write(ACCELERATION.name, &Array::Vec4(Vec::new()).zeros(count as usize))?;
@@ -66,6 +75,17 @@ impl<B: Backend> Simulation<B> {
         let species = particles.species.clone();
         if plans.all().any(|plan| plan.fields(count).contains_key(SPECIES.name)) {
             backend.write(SPECIES.name, &Array::Uint(species.clone()))?;
+        }
+        // A target for everybody, by id; those that are not held have no use for it.
+        let places = |ids: &mut dyn Iterator<Item = usize>| {
+            Array::Vec4(ids.map(|id| inside(particles.position[id]).extend(0.0)).collect())
+        };
+        let named = |field: &str| plans.all().any(|plan| plan.fields(count).contains_key(field));
+        if named(HOME.name) {
+            backend.write(HOME.name, &places(&mut held.iter().map(|one| one.id as usize)))?;
+        }
+        if named(TARGET.name) {
+            backend.write(TARGET.name, &places(&mut (0..particles.len())))?;
         }
         Ok(Self { backend, start, begun: false, step, measure, plan, count, species, dt: setup.dt, steps: 0 })
     }

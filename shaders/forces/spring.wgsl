@@ -1,5 +1,7 @@
 // Hooke's law, damped along the spring:  F = (k (l − L) + c (v_you − v_me) · u) u,  with r = l u from me to you.
 // A rope (L below zero) is slack while it is shorter than −L, and never pushes.
+override DAMPED: bool = true; // whether any spring is
+
 struct Sum { force: vec3f, energy: f32 }
 
 fn gather(me: Particle, you: Particle, r: vec3f, link: Link, sum: ptr<function, Sum>) {
@@ -8,7 +10,8 @@ fn gather(me: Particle, you: Particle, r: vec3f, link: Link, sum: ptr<function, 
     let inverse = select(0.0, inverseSqrt(square), square > 0.0);
     let u = r * inverse;
     let stretch = square * inverse - abs(link.rest);
-    let tension = link.stiffness * stretch + link.damping * dot(velocity_of(you) - velocity_of(me), u);
+    var tension = link.stiffness * stretch;
+    if DAMPED { tension += link.damping * dot(velocity_of(you) - velocity_of(me), u); }
     let rope = link.rest < 0.0;
     let taut = !rope || stretch > 0.0;
     (*sum).force += select(0.0, select(tension, max(tension, 0.0), rope), taut) * u;

@@ -5,6 +5,7 @@ use motes::forces::{Law, Over, Problem};
 use motes::kernel::{
     ACCELERATION, Access, Array, Host, Kernel, Machine, POSITION, Pass, Plan, SPECIES, Twin, VELOCITY, World,
 };
+use motes::motion::Hold;
 use motes::scene::Scene;
 use motes::{Bounds, Error, Setup, Side};
 
@@ -105,10 +106,17 @@ pub fn conserved(setup: &Setup) -> Result<Conserved, Error> {
         };
         conserved.energy &= !law.kernel(&Problem::new(1, MACHINE))?.names("velocity");
     }
+    // Who is held takes momentum; who is led does work as well.
+    let held = &setup.particles.held;
+    conserved.momentum &= held.is_empty();
+    conserved.angular_momentum &= held.is_empty();
+    conserved.energy &= held.iter().all(|one| one.by == Hold::Fixed);
     // Who holds a speed takes energy and momentum, or gives some.
     let mut limits = Plan::default();
     for force in &setup.forces {
-        force.limit(&mut limits, &Problem::new(1, MACHINE))?;
+        let problem = Problem::new(1, MACHINE).moved(&setup.particles.motions, setup.dt);
+        force.limit(&mut limits, &problem)?;
+        force.confine(&mut limits, &problem, 1.0)?;
     }
     if !limits.order.is_empty() {
         conserved = Conserved { energy: false, momentum: false, angular_momentum: false };

@@ -148,6 +148,8 @@ pub enum Topic {
     Gravity,
     /// Searches for neighbours
     Neighbors,
+    /// Sheets of springs
+    Springs,
 }
 
 #[derive(Debug, ClapArgs)]

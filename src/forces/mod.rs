@@ -57,6 +57,10 @@ pub trait Force: Send + Sync {
     fn conclude(&self, _plan: &mut Plan, _problem: &Problem) -> Result<(), Error> {
         Ok(())
     }
+    /// Whether links change as it acts.
+    fn breaks(&self) -> bool {
+        false
+    }
     /// The integrators under which it is what its paper says; none: under all.
     fn integrators(&self) -> &'static [&'static str] {
         &[]
@@ -105,6 +109,7 @@ register! {
     soft_turn: SoftTurn, "a box with soft walls that turn back";
     vicsek: Vicsek, "everybody takes the mean heading around it, with noise, in the plane (Vicsek et al. 1995)";
     spring: Spring, "springs and ropes, damped along themselves (Hooke 1678)";
+    tear: Tear, "springs that are stretched too far break, for ever";
     joint: Joint, "joints that resist bending: elastic rods, hair (Euler 1744)";
     air: Air, "drag and lift on every triangle of a cloth, in gusts (Ling, Damodaran & Gay 1996)";
 }

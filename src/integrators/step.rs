@@ -1,6 +1,6 @@
 //! A step as it is being written: each verb adds kernels to a plan.
 
-use super::verbs::{at, clear, drift, keep, kick, runge_kutta, tick, watch};
+use super::verbs::{at, clear, drift, held, keep, kick, runge_kutta, tick, watch};
 use crate::boundary;
 use crate::error::Error;
 use crate::forces::{Force, Problem};
@@ -37,6 +37,18 @@ impl<'a> Step<'a> {
                 self.error = force.evaluate(&mut self.plan, earlier, &self.problem).err();
             }
         }
+        if !self.problem.held.is_empty() {
+            self.add(held::hold(&self.problem));
+        }
+    }
+    /// Who is held gets the velocity that brings it where it shall be at the end of the step.
+    pub fn lead(&mut self) {
+        match held::lead(&self.problem) {
+            Ok(kernels) => kernels.into_iter().for_each(|kernel| self.plan.add(kernel)),
+            Err(error) => {
+                self.error.get_or_insert(error);
+            }
+        }
     }
     /// The grids that laws search: each once, however many laws do.
     fn neighbors(&mut self) {
@@ -70,7 +82,7 @@ impl<'a> Step<'a> {
     }
     /// Whoever has left the box by a closed side comes in again.
     pub fn enclose(&mut self) {
-        match boundary::kernels(self.problem.count, &self.problem.bounds) {
+        match boundary::kernels(&self.problem) {
             Ok(kernels) => kernels.into_iter().for_each(|kernel| self.plan.add(kernel)),
             Err(error) => {
                 self.error.get_or_insert(error);

@@ -13,6 +13,13 @@ pub const VELOCITY: Field<Vec4> = Field::new("velocity");
 pub const ACCELERATION: Field<Vec4> = Field::new("acceleration");
 /// Of which kind a particle is: predator or prey, one phase or another. A number that scenes choose.
 pub const SPECIES: Field<u32> = Field::new("species");
+/// Where held particles with a target shall be, by id: `xyz` the place \[length\], `w` the time at which they shall be there
+/// \[time\]. They go there at one pace, and stay; who is late is there after the next step. At the start it is where they
+/// are. Write it with [`Simulation::write`](crate::simulation::Simulation::write) whenever a new place is known. It is there
+/// where somebody is held by [`Hold::Target`](crate::motion::Hold::Target). `target` is a word of WGSL's own.
+pub const TARGET: Field<Vec4> = Field::new("kinematic_target");
+/// Where held particles were at the start, in the order of [`Problem::held`](super::Problem::held).
+pub const HOME: Field<Vec4> = Field::new("home");
 /// After how many steps a particle is first seen not to be finite, and its id, the lowest of them; and the lowest id of
 /// one that has more others within reach than a search can visit; `u32::MAX` while all is well.
 pub const ALARM: Field<u32> = Field::new("alarm");

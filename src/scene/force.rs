@@ -3,9 +3,11 @@
 use std::path::Path;
 
 use crate::forces::{self, Custom, FORCES, Force, Over};
+use crate::motion::Motion;
 use crate::settings::{Kind, Settings, Value};
 
 use super::files::Files;
+use super::held;
 use super::report::{Fault, Report};
 use super::resolved::{self, Writer};
 use super::tree::{Data, Entry};
@@ -20,7 +22,7 @@ pub(super) enum Chosen {
     Own { law: Custom, path: String },
 }
 
-pub(super) fn read(table: &Table<'_>, files: &Files, report: &mut Report) -> Option<Chosen> {
+pub(super) fn read(table: &Table<'_>, (files, motions): (&Files, &[Motion]), report: &mut Report) -> Option<Chosen> {
     let entry = table.one_of(&["kind", "wgsl"], report)?;
     if entry.key == "wgsl" {
         return read_own(&table.named(format!("{} wgsl", table.name)), entry, files, report);
@@ -28,7 +30,12 @@ pub(super) fn read(table: &Table<'_>, files: &Files, report: &mut Report) -> Opt
     let names: Vec<_> = FORCES.iter().map(|f| f.name).collect();
     let name = walk::choice(entry, "force", &names, report)?;
     let force = FORCES.iter().find(|f| f.name == name)?;
-    let settings = table.named(format!("{} {name}", table.name)).settings(force.keys, &["kind"], report);
+    let table = table.named(format!("{} {name}", table.name));
+    let settings = table.settings(force.keys, &["kind"], report);
+    if !settings.text("motion").is_empty() {
+        let names: Vec<_> = motions.iter().map(|motion| motion.name.as_str()).collect();
+        held::motion(&table, &names, report);
+    }
     Some(Chosen::Known(force, settings))
 }
 

@@ -1,32 +1,39 @@
 //! Everybody meets those that it is tied to: by springs, or as corners of joints and triangles.
 
+use std::sync::Arc;
+
 use super::{Law, Over};
 use crate::error::Error;
 use crate::kernel::{Kernel, Name, Pass, Problem, Shader};
+use crate::links::Network;
 
 /// Where each particle's links begin, and the links; for joints and triangles the names in the shader stand for others.
 pub const LINK_START: &str = "link_start";
 /// See [`LINK_START`].
 pub const LINK: &str = "link";
 
-/// The tables that a visit reads, as shader and plan know them, with the words of an element.
-fn tables(over: Over) -> [(&'static str, &'static str); 2] {
+/// The tables that a visit may read: as shaders and as plans know them, and their words.
+fn tables(over: Over, network: &Network) -> Vec<(&'static str, &'static str, &Arc<Vec<u32>>)> {
     match over {
-        Over::Joints => [("corner_start", "joint_start"), ("corner", "joint")],
-        Over::Triangles => [("corner_start", "triangle_start"), ("corner", "triangle")],
-        _ => [(LINK_START, LINK_START), (LINK, LINK)],
+        Over::Joints => {
+            vec![("corner_start", "joint_start", &network.joint_start), ("corner", "joint", &network.joint)]
+        }
+        Over::Triangles => {
+            vec![("corner_start", "triangle_start", &network.triangle_start), ("corner", "triangle", &network.triangle)]
+        }
+        _ => vec![
+            (LINK_START, LINK_START, &network.link_start),
+            (LINK, LINK, &network.link),
+            ("partner_start", "partner_start", &network.partner_start),
+            ("partner", "partner", &network.partner),
+            ("link_kind", "link_kind", &network.kind),
+        ],
     }
 }
 
 /// Binds the tables that a visit reads to a kernel.
 pub fn bind(mut kernel: Kernel, over: Over, problem: &Problem) -> Kernel {
-    let network = &problem.network;
-    let words = match over {
-        Over::Joints => [&network.joint_start, &network.joint],
-        Over::Triangles => [&network.triangle_start, &network.triangle],
-        _ => [&network.link_start, &network.link],
-    };
-    for ((inside, field), words) in tables(over).into_iter().zip(words) {
+    for (inside, field, words) in tables(over, &problem.network) {
         let stride = kernel.passes.iter().flat_map(|pass| &pass.shader.reflection().bindings);
         let stride = stride.filter(|binding| binding.name == inside).map(|binding| binding.stride).max();
         // A law may have no use for a table.
@@ -50,10 +57,19 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
     };
     law.requires(&[("gather", gather), ("finish", "fn finish(me: Particle, sum: Sum) -> vec4f")])?;
     let mut files = vec![crate::shader!("world.wgsl"), crate::shader!("fields.wgsl"), crate::shader!("particle.wgsl")];
-    files.push(if corners { crate::shader!("visit/corners.wgsl") } else { crate::shader!("visit/links.wgsl") });
+    let alike = !problem.breaks && problem.network.alike();
+    files.push(match (corners, alike) {
+        (true, _) => crate::shader!("visit/corners.wgsl"),
+        (false, true) => crate::shader!("visit/links_alike.wgsl"),
+        (false, false) => crate::shader!("visit/links.wgsl"),
+    });
     files.extend(law.files().into_iter().filter(|file| file.file != "shaders/visit/everybody.wgsl"));
     let shader = Shader::join(&files)?;
-    let (uniforms, constants) = (law.uniforms(&shader)?, problem.constants(&shader));
+    let (uniforms, mut constants) = (law.uniforms(&shader)?, problem.constants(&shader));
+    let has = |name: &str| shader.reflection().overrides.contains_key(name);
+    if has("DAMPED") && !problem.network.damped() {
+        constants.push(("DAMPED", 0.0));
+    }
     let network = &problem.network;
     let elements = match law.over {
         Over::Joints => network.joint_start.last(),

@@ -8,6 +8,7 @@ mod near;
 mod over;
 mod pairs;
 pub mod random;
+mod tied;
 mod twin;
 
 pub use body::{Body, bodies};

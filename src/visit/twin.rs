@@ -7,8 +7,9 @@ use rayon::prelude::*;
 
 use super::Over;
 use super::body::{Body, bodies};
+use super::tied::{Tied, row};
 use crate::kernel::{ACCELERATION, Bounds, Twin, World};
-use crate::links::{Corner, Half, WORDS};
+use crate::links::{Corner, Half};
 
 /// Each particle alone.
 pub fn each(rule: impl Fn(&Body, &World) -> DVec4 + Send + Sync + 'static) -> Twin {
@@ -58,12 +59,11 @@ pub fn links<S: Default>(
 ) -> Twin {
     Arc::new(move |host| {
         let (bodies, bounds) = (bodies(host)?, host.world().bounds);
-        let (start, link) = (host.reading::<u32>("link_start")?, host.reading::<u32>("link")?);
+        let tied = Tied::of(host)?;
         let mut acceleration = host.write(ACCELERATION)?;
         acceleration.par_iter_mut().zip(&bodies).for_each(|(a, me)| {
             let mut sum = S::default();
-            for words in row(&start, &link, me.index, WORDS) {
-                let half = Half::new(words);
+            for half in tied.halves(me.index) {
                 let you = &bodies[half.partner];
                 gather(me, you, bounds.shortest(you.position - me.position), &half, &mut sum);
             }
@@ -78,6 +78,9 @@ pub fn corners(over: Over, rule: impl Fn([&Body; 3], &Corner, &World) -> DVec4 +
     let names = if over == Over::Joints { ["joint_start", "joint"] } else { ["triangle_start", "triangle"] };
     Arc::new(move |host| {
         let (bodies, world) = (bodies(host)?, host.world());
+        if !host.contains(names[1]) {
+            return Ok(());
+        }
         let (start, corner) = (host.reading::<u32>(names[0])?, host.reading::<u32>(names[1])?);
         let mut acceleration = host.write(ACCELERATION)?;
         acceleration.par_iter_mut().zip(&bodies).for_each(|(a, me)| {
@@ -87,12 +90,6 @@ pub fn corners(over: Over, rule: impl Fn([&Body; 3], &Corner, &World) -> DVec4 +
         });
         Ok(())
     })
-}
-
-/// The elements of a particle.
-fn row<'a>(start: &[u32], table: &'a [u32], id: usize, words: usize) -> impl Iterator<Item = &'a [u32]> {
-    let [from, to] = [id, id + 1].map(|place| start.get(place).map_or(0, |n| *n as usize) * words);
-    table.get(from..to).unwrap_or_default().chunks_exact(words)
 }
 
 /// The nearest by the device's own distances, the lower id first where two are the same.

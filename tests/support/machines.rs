@@ -48,6 +48,7 @@ pub fn kernels(force: &dyn Force, problem: &Problem) -> Vec<Kernel> {
     let mut all: Vec<_> = force.laws().into_iter().map(|law| law.kernel(problem).expect("a kernel")).collect();
     let mut limits = Plan::default();
     force.limit(&mut limits, problem).expect("limits");
+    force.conclude(&mut limits, problem).expect("an end");
     all.extend(limits.kernels);
     all
 }
