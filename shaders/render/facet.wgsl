@@ -12,8 +12,10 @@ struct Facet { ids: vec3u, line: bool, a: vec4f, b: vec4f, c: vec4f }
 
 // The third corner of a line is its second.
 fn facet_of(i: u32) -> Facet {
-    let line = facet[3u * i + 2u] == NOBODY;
-    let ids = vec3u(facet[3u * i], facet[3u * i + 1u], select(facet[3u * i + 2u], facet[3u * i + 1u], line));
+    var third = facet[3u * i + 2u];
+    let line = third == NOBODY;
+    if line { third = facet[3u * i + 1u]; }
+    let ids = vec3u(facet[3u * i], facet[3u * i + 1u], third);
     return Facet(ids, line, vertex[2u * ids.x], vertex[2u * ids.y], vertex[2u * ids.z]);
 }
 

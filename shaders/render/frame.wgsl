@@ -30,6 +30,7 @@ struct Frame {
     facets: u32,   // triangles, and lines behind them
     solids: u32,
     lamp: f32,     // half the height of what the lamp sees [length]
+    map: u32,      // pixels of what the lamp sees, each way
 }
 @group(3) @binding(0) var<uniform> frame: Frame;
 

@@ -5,7 +5,6 @@
 const LAMP: vec3f = vec3f(-0.48, 0.6, 0.64); // right, up, towards the eye; of length 1, as are the other two
 const LAMP_RIGHT: vec3f = vec3f(0.8, 0.0, 0.6);
 const LAMP_UP: vec3f = vec3f(0.36, 0.8, -0.48);
-const MAP: u32 = 1024u;
 // A surface is in nobody's shadow that is so near [pixels of the map].
 const BIAS: f32 = 2.5;
 // The shadow's rim [pixels of the map]; and the lamp's own width, as seen from here.
@@ -14,11 +13,11 @@ const WIDTH: f32 = 0.09;
 
 // The part of the lamp that `jitter` stands for, from −½ to ½ each way: 1 when it is seen, 0 when not.
 fn sees_lamp(p: vec3f, normal: vec3f, jitter: vec2f) -> f32 {
-    let texel = 2.0 * frame.lamp / f32(MAP);
+    let texel = 2.0 * frame.lamp / f32(frame.map);
     let q = p + BIAS * texel * normal;
-    let at = 0.5 * f32(MAP) + vec2f(dot(q, LAMP_RIGHT), -dot(q, LAMP_UP)) / texel + RIM * jitter;
-    let inside = all(at >= vec2f(0.0)) && all(at < vec2f(f32(MAP)));
-    if inside && lit[u32(at.y) * MAP + u32(at.x)] < key(-dot(q, LAMP) - BIAS * texel) { return 0.0; }
+    let at = 0.5 * f32(frame.map) + vec2f(dot(q, LAMP_RIGHT), -dot(q, LAMP_UP)) / texel + RIM * jitter;
+    let inside = all(at >= vec2f(0.0)) && all(at < vec2f(f32(frame.map)));
+    if inside && lit[u32(at.y) * frame.map + u32(at.x)] < key(-dot(q, LAMP) - BIAS * texel) { return 0.0; }
     let way = LAMP + WIDTH * (jitter.x * LAMP_RIGHT + jitter.y * LAMP_UP);
     return select(0.0, 1.0, meet(q, way, 0.0).way >= NEVER);
 }

@@ -71,8 +71,6 @@ pub const NEVER: f64 = 1e30;
 pub const BINS: usize = 256;
 /// So many pixels of the picture are one of the halo, each way.
 pub const SHRINK: u32 = 4;
-/// Pixels of the map of shadows, each way.
-pub const MAP: u32 = 1024;
 pub const NEAR: f64 = 0.05;
 const FAR_OUT: f64 = 1e6;
 
@@ -129,6 +127,8 @@ pub struct Frame {
     pub solids: u32,
     /// Half the height of what is in the map of shadows \[length\].
     pub lamp: f64,
+    /// Pixels of the map of shadows, each way.
+    pub map: u32,
 }
 
 /// Where a place is seen.
@@ -183,7 +183,7 @@ impl Frame {
     pub(super) fn pixel(&self, x: u32, y: u32) -> usize {
         y as usize * self.width as usize + x as usize
     }
-    fn values(&self) -> [(&'static str, Scalar); 30] {
+    fn values(&self) -> [(&'static str, Scalar); 31] {
         let camera = &self.camera;
         let float = Scalar::Float;
         [
@@ -217,6 +217,7 @@ impl Frame {
             ("facets", Scalar::Uint(self.facets)),
             ("solids", Scalar::Uint(self.solids)),
             ("lamp", float(self.lamp)),
+            ("map", Scalar::Uint(self.map)),
         ]
     }
     /// Elements of the fields that do not have one for each particle.
@@ -241,7 +242,7 @@ impl Frame {
             (LIT_VERTEX.name, 2 * u64::from(self.count)),
             (NEAREST.name, u64::from(self.samples())),
             (HOLDER.name, u64::from(self.samples())),
-            (LIT.name, u64::from(MAP * MAP)),
+            (LIT.name, u64::from(self.map * self.map)),
             (SOLID.name, u64::from(self.solids.max(1))),
             (SCENERY.name, area),
         ]

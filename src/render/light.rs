@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::Camera;
-use super::frame::{Frame, MAP, NEVER, key, whole};
+use super::frame::{Frame, NEVER, key, whole};
 use super::solid::{Body, meet};
 
 pub const LAMP: DVec3 = DVec3::new(-0.48, 0.6, 0.64);
@@ -29,7 +29,7 @@ pub fn from_lamp(frame: &Frame) -> Frame {
         distance: 0.0,
     };
     // A line is as wide as the map can hold without gaps.
-    Frame { camera, width: MAP, height: MAP, fine: 1, thread: 0.75, ..*frame }
+    Frame { camera, width: frame.map, height: frame.map, fine: 1, thread: 0.75, ..*frame }
 }
 
 /// What shadows are made of.
@@ -37,17 +37,18 @@ pub struct Lamp<'a> {
     pub bodies: &'a [Body],
     pub lit: &'a [u32],
     pub extent: f64,
+    pub map: u32,
 }
 
 impl Lamp<'_> {
     /// Whether a part of the lamp is seen: 1 or 0.
     pub fn seen(&self, p: DVec3, normal: DVec3, jitter: DVec2) -> f64 {
-        let map = f64::from(MAP);
+        let map = f64::from(self.map);
         let texel = 2.0 * self.extent / map;
         let q = p + BIAS * texel * normal;
         let at = 0.5 * map + DVec2::new(q.dot(LAMP_RIGHT), -q.dot(LAMP_UP)) / texel + RIM * jitter;
         let inside = at.min_element() >= 0.0 && at.max_element() < map;
-        if inside && self.lit[(whole(at.y) * MAP + whole(at.x)) as usize] < key(-q.dot(LAMP) - BIAS * texel) {
+        if inside && self.lit[(whole(at.y) * self.map + whole(at.x)) as usize] < key(-q.dot(LAMP) - BIAS * texel) {
             return 0.0;
         }
         let way = LAMP + WIDTH * (jitter.x * LAMP_RIGHT + jitter.y * LAMP_UP);

@@ -126,6 +126,7 @@ impl Picture {
             triangles: facets.triangles,
             facets: facets.count,
             solids: facets.solids(),
+            map: 1024,
             lamp: LAMP_VIEW * camera.extent * (width / height).max(1.0),
         };
         Ok(Self { frame, color, trail, exposure: settings.number("exposure"), facets })

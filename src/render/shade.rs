@@ -35,7 +35,7 @@ pub fn kernel(frame: &Frame, facets: &Facets) -> Result<Kernel, Error> {
         let (facet, vertex, color) = (host.read(FACET)?, host.read(VERTEX)?, host.read(COLOR)?);
         let (holder, lit, solid) = (host.read(HOLDER)?, host.read(LIT)?, host.read(SOLID)?);
         let bodies: Vec<Body> = Body::all(&solid).into_iter().take(on.solids as usize).collect();
-        let lamp = Lamp { bodies: &bodies, lit: &lit, extent: on.lamp };
+        let lamp = Lamp { bodies: &bodies, lit: &lit, extent: on.lamp, map: on.map };
         let stage = Stage { frame: on, facet: &facet, vertex: &vertex, color: &color, lamp };
         let holder: &[u32] = &holder;
         let (mut scenery, mut front) = (host.write(SCENERY)?, host.write(FRONT)?);
