@@ -10,7 +10,8 @@ use crate::boundary;
 use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::kernel::{
-    ACCELERATION, ALARM, ALARM_WORDS, Array, Backend, Element, Field, HOME, POSITION, QUIET, SPECIES, TARGET, VELOCITY, World,
+    ACCELERATION, ALARM, ALARM_WORDS, Array, Backend, Element, Field, HOME, POSITION, QUIET, SPECIES, TARGET, VELOCITY,
+    World,
 };
 use crate::motion;
 use crate::particles::Particles;

@@ -44,7 +44,9 @@ fn too_long_a_step_is_noticed() {
     for x in [0.2, 1.0, 0.5] {
         particles.push(DVec3::new(0.1 * x, x, 0.0), DVec3::ZERO, 1.0, 0.0);
     }
-    for (name, y) in [("leapfrog", 2.02), ("symplectic_euler", 2.02), ("forward_euler", 0.4), ("rk4", 2.9), ("pefrl", 2.995)] {
+    for (name, y) in
+        [("leapfrog", 2.02), ("symplectic_euler", 2.02), ("forward_euler", 0.4), ("rk4", 2.9), ("pefrl", 2.995)]
+    {
         let mut twins = cpu(&particles, spring(1.0), name, y);
         let mut seen = None;
         for step in 0..400 {
@@ -80,7 +82,9 @@ fn too_long_a_step_is_noticed() {
 /// Just below the limit speeds are high, and stay.
 #[test]
 fn what_stays_is_left_alone() {
-    for (name, y) in [("leapfrog", 1.99), ("symplectic_euler", 1.99), ("rk4", 2.8), ("pefrl", 2.98), ("forward_euler", 0.05)] {
+    for (name, y) in
+        [("leapfrog", 1.99), ("symplectic_euler", 1.99), ("rk4", 2.8), ("pefrl", 2.98), ("forward_euler", 0.05)]
+    {
         let mut twins = cpu(&one(DVec3::new(1.0, 0.3, -0.2), DVec3::ZERO), spring(1.0), name, y);
         for _ in 0..20 {
             twins.step(100).expect("steps");
@@ -109,9 +113,12 @@ fn what_grows_for_a_reason_is_left_alone() {
     let hill: Vec<Box<dyn Force>> = spring(-1.0);
     let top = one(DVec3::X * 1e-9, DVec3::ZERO);
     let start = one(DVec3::ZERO, DVec3::ZERO);
-    for (what, particles, forces, dt) in
-        [("fall", &start, fall, 0.01), ("drag", &start, drag, 0.01), ("collapse", &ball, gravity, 2e-3), ("hill", &top, hill, 0.02)]
-    {
+    for (what, particles, forces, dt) in [
+        ("fall", &start, fall, 0.01),
+        ("drag", &start, drag, 0.01),
+        ("collapse", &ball, gravity, 2e-3),
+        ("hill", &top, hill, 0.02),
+    ] {
         let mut twins = cpu(particles, forces, "leapfrog", dt);
         for _ in 0..20 {
             twins.step(100).expect("steps");

@@ -69,9 +69,7 @@ fn damping_shortens_the_step() {
     }
     assert!(limit("symplectic_euler", 1.0, 1.0, LONG) > 1.236 && limit("leapfrog", 1.0, 1.0, LONG) < 1.237);
     // u′ = −c u: 2 for Euler and Runge–Kutta 2, 2.785 for Runge–Kutta 4.
-    for (name, want) in
-        [("forward_euler", 2.0), ("midpoint", 2.0), ("heun", 2.0), ("rk4", 2.785_293_563_405)]
-    {
+    for (name, want) in [("forward_euler", 2.0), ("midpoint", 2.0), ("heun", 2.0), ("rk4", 2.785_293_563_405)] {
         let got = 1.7 * limit(name, 0.0, 1.7, LONG);
         assert!((got - want).abs() < 1e-8, "{name} bears hc = {got}, not {want}");
     }
@@ -170,9 +168,8 @@ fn a_chain_is_at_its_bound() {
 /// Unlike masses, one stiff spring among soft ones: the row and the spring are named.
 #[test]
 fn the_stiffest_is_named() {
-    let mut springs: Vec<Link> = (0..9)
-        .map(|i| Link { ends: [i, i + 1], rest: 1.0, stiffness: 10.0, damping: 0.0, rope: false })
-        .collect();
+    let mut springs: Vec<Link> =
+        (0..9).map(|i| Link { ends: [i, i + 1], rest: 1.0, stiffness: 10.0, damping: 0.0, rope: false }).collect();
     (springs[6].stiffness, springs[2].damping) = (500.0, 4.0);
     let mut masses = vec![1.0; 10];
     masses[7] = 0.25;
@@ -193,7 +190,8 @@ fn springs_resist_across_when_drawn_out() {
     let across = |length: f64, rest: f64, rope: bool| {
         let springs = [Link { ends: [0, 1], rest, stiffness: 8.0, damping: 0.0, rope }];
         // Fast along, and held there: only the way across is left, by a second spring that is soft along x.
-        let bound = Network::new(&springs, &[1.0, f64::INFINITY], &[DVec3::ZERO, DVec3::X * length], &Bounds::default());
+        let bound =
+            Network::new(&springs, &[1.0, f64::INFINITY], &[DVec3::ZERO, DVec3::X * length], &Bounds::default());
         bound.product_of(&[DVec3::Y, DVec3::ZERO])[0].y
     };
     assert_eq!(across(1.0, 1.0, false), 0.0);

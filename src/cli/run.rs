@@ -54,10 +54,9 @@ pub async fn run(args: &RunArgs) -> Result<(), Failure> {
         Err(Failure::Error(error)) => {
             run.progress.event("error", json!({ "code": error.exit_code(), "text": error.to_string() }));
         }
-        Err(Failure::Explained(error, more)) => run.progress.event(
-            "error",
-            json!({ "code": error.exit_code(), "text": error.to_string(), "more": more }),
-        ),
+        Err(Failure::Explained(error, more)) => {
+            run.progress.event("error", json!({ "code": error.exit_code(), "text": error.to_string(), "more": more }))
+        }
         _ => {}
     }
     if let (Err(Failure::Error(Error::Timeout { .. })), Engine::Gpu(_)) = (&result, &engine) {

@@ -89,7 +89,10 @@ fn culprit(verdict: &Verdict, setup: &Setup) -> String {
     match setup.particles.links.springs.get(row.spring) {
         Some(spring) => {
             let ([a, b], k, c) = (spring.ends, spring.stiffness, spring.damping);
-            format!("the {what} of the springs at particle {}, most of all of spring {a}–{b} (stiffness {k}, damping {c})", row.particle)
+            format!(
+                "the {what} of the springs at particle {}, most of all of spring {a}–{b} (stiffness {k}, damping {c})",
+                row.particle
+            )
         }
         None => format!("the {what} of the springs"),
     }
@@ -108,7 +111,11 @@ fn limit(verdict: &Verdict) -> String {
 fn digits(x: f64) -> String {
     let scale = 10f64.powf(2.0 - x.abs().log10().floor());
     let down = if x > 0.0 { (x * scale).floor() / scale } else { x };
-    if down == 0.0 || (1e-3..1e5).contains(&down) { format!("{}", (down * 1e9).round() / 1e9) } else { format!("{down:.2e}") }
+    if down == 0.0 || (1e-3..1e5).contains(&down) {
+        format!("{}", (down * 1e9).round() / 1e9)
+    } else {
+        format!("{down:.2e}")
+    }
 }
 
 /// What is wrong with the steps of a scene, and the way out; nothing where they are safe.

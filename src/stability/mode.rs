@@ -34,7 +34,9 @@ impl<'a> Network<'a> {
     pub fn new(springs: &'a [Link], masses: &[f64], positions: &[DVec3], bounds: &Bounds) -> Self {
         let light = masses.iter().map(|m| 1.0 / m.sqrt()).collect();
         let along = |spring: &Link| {
-            let [Some(a), Some(b)] = spring.ends.map(|id| positions.get(id as usize)) else { return (DVec3::ZERO, 0.0) };
+            let [Some(a), Some(b)] = spring.ends.map(|id| positions.get(id as usize)) else {
+                return (DVec3::ZERO, 0.0);
+            };
             let r = bounds.shortest(*b - *a);
             let length = r.length();
             if spring.rest == 0.0 {

@@ -163,10 +163,7 @@ pub fn spectral_radius(mut matrix: DMat3) -> f64 {
 pub fn oscillator(integrator: Box<dyn Integrator>, omega: f64, damping: f64, dt: f64) -> Setup {
     let mut particles = Particles::default();
     particles.push(DVec3::X, DVec3::ZERO, 1.0, 0.0);
-    let spring = [
-        ("profile", Value::Text(Cow::Borrowed("harmonic"))),
-        ("strength", Value::Number(omega * omega)),
-    ];
+    let spring = [("profile", Value::Text(Cow::Borrowed("harmonic"))), ("strength", Value::Number(omega * omega))];
     let drag = [("linear", Value::Number(damping))];
     let mut forces: Vec<Box<dyn Force>> = Vec::new();
     forces.extend(force("attractor", &spring).filter(|_| omega != 0.0));

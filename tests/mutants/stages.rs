@@ -5,9 +5,7 @@ use std::time::Duration;
 
 use motes::forces::{Force, Law};
 use motes::integrators::INTEGRATORS;
-use motes::kernel::{
-    ALARM, Backend, Kernel, Machine, POSITION, Plan, SPECIES, Shader, Source, VELOCITY, World,
-};
+use motes::kernel::{ALARM, Backend, Kernel, Machine, POSITION, Plan, SPECIES, Shader, Source, VELOCITY, World};
 use motes::lockstep::{Verdict, compare};
 use motes::settings::Value;
 use motes::{Gpu, Setup, Simulation, wgpu};

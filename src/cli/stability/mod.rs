@@ -43,10 +43,20 @@ pub async fn stability(args: &StabilityArgs) -> Result<(), Failure> {
         courses.push(course);
     }
     out!("on {}", engine.describe());
-    out!("x″ = −ω² x at hω = {}: growth of the energy per step; u′ = −a u at ha = {}: of |u|\n", args.omega_step, args.decay_step);
+    out!(
+        "x″ = −ω² x at hω = {}: growth of the energy per step; u′ = −a u at ha = {}: of |u|\n",
+        args.omega_step,
+        args.decay_step
+    );
     out!(
         "{:<24}{:>12}{:>12}{:>12}  {:>12}{:>12}{:>12}",
-        "", "energy", "by theory", "hω up to", "|u|", "by theory", "ha up to"
+        "",
+        "energy",
+        "by theory",
+        "hω up to",
+        "|u|",
+        "by theory",
+        "ha up to"
     );
     for course in &courses {
         let theory = [theory::energy(course.name, args.omega_step), theory::decay(course.name, args.decay_step)];
@@ -77,7 +87,8 @@ async fn course<B: Backend>(
     step.x_axis = DVec3::ZERO;
     step.y_axis.x = 0.0;
     step.z_axis.x = 0.0;
-    let limits = [largest_step((entry.build)(), 1.0, 0.0, LONG).await?, largest_step((entry.build)(), 0.0, 1.0, LONG).await?];
+    let limits =
+        [largest_step((entry.build)(), 1.0, 0.0, LONG).await?, largest_step((entry.build)(), 0.0, 1.0, LONG).await?];
     Ok(Course {
         name: entry.name,
         energy: energy.await?,

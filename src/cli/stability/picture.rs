@@ -50,8 +50,13 @@ pub fn draw(path: &Path, courses: &[Course], args: &StabilityArgs) -> Result<(),
     write(path, SIZE, |root| {
         root.fill(&WHITE).map_err(|e| e.to_string())?;
         let (above, below) = root.split_vertically(fine(520));
-        let swings = (curves(courses, |c| &c.energy), format!("x″ = −ω² x,  h ω = {}", args.omega_step), "energy / energy at the start");
-        let decays = (curves(courses, |c| &c.size), format!("u′ = −a u,  h a = {}", args.decay_step), "|u| / |u| at the start");
+        let swings = (
+            curves(courses, |c| &c.energy),
+            format!("x″ = −ω² x,  h ω = {}", args.omega_step),
+            "energy / energy at the start",
+        );
+        let decays =
+            (curves(courses, |c| &c.size), format!("u′ = −a u,  h a = {}", args.decay_step), "|u| / |u| at the start");
         panel(&above, &swings.0, &swings.1, swings.2, args.steps)?;
         panel(&below, &decays.0, &decays.1, decays.2, args.steps)
     })
@@ -144,7 +149,7 @@ fn inside(values: &[f64]) -> Vec<(f64, f64)> {
             continue;
         }
         let before = points.last().map_or(0.0, |(_, value)| value.log10());
-        let part = (edge - before.abs().copysign(before * level)).abs() / (level - before).abs();
+        let part = (edge.copysign(level) - before) / (level - before);
         let at = f64::from(step.max(1)) - 1.0 + part.clamp(0.0, 1.0);
         points.push((at, 10f64.powf(edge.copysign(level))));
         break;
@@ -154,39 +159,73 @@ fn inside(values: &[f64]) -> Vec<(f64, f64)> {
 
 /// Names to the right of where curves end, moved apart; of those that leave the picture, beside that place.
 fn label(area: &Area, mut names: Vec<((i32, i32), bool, &Curve)>) -> Result<(), String> {
-    let write = |text_of: &str, color: RGBColor, at: (i32, i32)| {
+    let write = |name: &str, color: RGBColor, at: (i32, i32)| {
         let style = text(15).color(&color).pos(Pos::new(HPos::Left, VPos::Center));
-        area.draw_text(text_of, &style, at).map_err(|e| e.to_string())
+        // Other curves may pass here.
+        let width = i32::try_from(name.chars().count()).unwrap_or(0) * fine(9);
+        let corners = [(at.0 - fine(3), at.1 - fine(9)), (at.0 + width, at.1 + fine(9))];
+        area.draw(&Rectangle::new(corners, WHITE.filled())).map_err(|e| e.to_string())?;
+        area.draw_text(name, &style, at).map_err(|e| e.to_string())
     };
-    // Who leaves: at the edge, one below the other where they leave together.
-    let mut gone: Vec<(i32, i32)> = Vec::new();
     names.sort_by_key(|((x, y), ..)| (*y, *x));
-    for ((x, y), _, curve) in names.iter().filter(|(_, whole, _)| !whole) {
-        let inward = if gone.iter().any(|(_, other)| (other - y).abs() < fine(60)) || *y < fine(260) { 1 } else { -1 };
+    let (ends, leaving): (Vec<_>, Vec<_>) = names.into_iter().partition(|(_, whole, _)| *whole);
+    let mut taken: Vec<(i32, i32)> = Vec::new();
+    for ((x, y), _, curve) in leaving {
+        let inward = if y < fine(260) { 1 } else { -1 };
         let mut at = (x + fine(10), y + inward * fine(14));
-        while gone.iter().any(|(u, v)| (v - at.1).abs() < fine(APART) && (u - at.0).abs() < fine(330)) {
+        while taken.iter().any(|(u, v)| (v - at.1).abs() < fine(APART) && (u - at.0).abs() < fine(330)) {
             at.1 += inward * fine(APART);
         }
-        gone.push(at);
+        taken.push(at);
         write(&curve.name, curve.color, at)?;
     }
-    let mut ends: Vec<_> = names.into_iter().filter(|(_, whole, _)| *whole).collect();
-    ends.sort_by_key(|((_, y), ..)| *y);
-    // As low as the one above pushes it; then all up by half of what the last was pushed.
-    let mut places: Vec<i32> = Vec::new();
-    for ((_, y), ..) in &ends {
-        let least = places.last().map_or(i32::MIN, |above| above + fine(APART));
-        places.push((*y).max(least));
-    }
-    let mean = |list: &mut dyn Iterator<Item = i32>| -> i64 { list.map(i64::from).sum() };
-    let count = i64::try_from(ends.len().max(1)).unwrap_or(1);
-    let shift = (mean(&mut places.iter().copied()) - mean(&mut ends.iter().map(|((_, y), ..)| *y))) / count;
-    let shift = i32::try_from(shift).unwrap_or(0);
-    for (((x, y), _, curve), place) in ends.into_iter().zip(places) {
-        let at = (x + fine(26), place - shift);
-        let thread = PathElement::new([(x + fine(3), y), (x + fine(20), at.1)], line(curve.color, 1));
+    let wanted: Vec<i32> = ends.iter().map(|((_, y), ..)| *y).collect();
+    for (((x, y), _, curve), place) in ends.into_iter().zip(apart(&wanted, fine(APART))) {
+        let at = (x + fine(26), place);
+        let thread = PathElement::new([(x + fine(3), y), (x + fine(20), place)], line(curve.color, 1));
         area.draw(&thread).map_err(|e| e.to_string())?;
         write(&curve.name, curve.color, at)?;
     }
     Ok(())
+}
+
+/// Places in order, moved apart to a distance: those that would overlap stand about their middle.
+fn apart(wanted: &[i32], distance: i32) -> Vec<i32> {
+    // First place and number of each group.
+    let mut groups: Vec<(i32, i32)> = Vec::new();
+    for place in wanted {
+        groups.push((*place, 1));
+        while let [.., (above, many), (below, few)] = groups[..] {
+            if above + many * distance <= below {
+                break;
+            }
+            let middle = |first: i32, count: i32| first + (count - 1) * distance / 2;
+            let both = many + few;
+            let center = (many * middle(above, many) + few * middle(below, few)) / both;
+            groups.truncate(groups.len() - 2);
+            groups.push((center - (both - 1) * distance / 2, both));
+        }
+    }
+    groups.into_iter().flat_map(|(first, count)| (0..count).map(move |i| first + i * distance)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_stand_apart_and_near() {
+        assert_eq!(apart(&[], 10), Vec::<i32>::new());
+        assert_eq!(apart(&[0, 50, 100], 10), [0, 50, 100]);
+        assert_eq!(apart(&[50, 50, 50], 10), [40, 50, 60]);
+        assert_eq!(apart(&[0, 98, 102], 10), [0, 95, 105]);
+    }
+    #[test]
+    fn curves_end_at_the_edge() {
+        assert_eq!(inside(&[1.0, 1e2, 1e3]), [(0.0, 1.0), (1.0, 1e2), (2.0, 1e3)]);
+        assert_eq!(inside(&[1.0, 1e3, 1e5]), [(0.0, 1.0), (1.0, 1e3), (1.5, 1e4)]);
+        assert_eq!(inside(&[1.0, 1e-3, 0.0]), [(0.0, 1.0), (1.0, 1e-3), (1.5, 1e-4)]);
+        assert_eq!(inside(&[1.0, f64::NAN]), [(0.0, 1.0), (0.8, 1e4)]);
+        assert_eq!([1.0, 1e4, 1e-3].map(power), ["1", "10⁴", "10⁻³"]);
+    }
 }
