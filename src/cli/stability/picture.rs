@@ -11,6 +11,8 @@ use crate::cli::args::StabilityArgs;
 use crate::cli::plot::{Area, FAINT, INK, fine, line, text, write};
 
 const SIZE: (u32, u32) = (1040, 1000);
+/// Pixels above what is drawn: a title, and a row of names.
+const TOP: i32 = 72;
 /// Pixels between two names.
 const APART: i32 = 19;
 /// So many decades up and down are shown.
@@ -85,11 +87,11 @@ fn shown(x: f64) -> f64 {
 
 fn panel(area: &Area, curves: &[Curve], title: &str, what: &str, steps: u32) -> Result<(), String> {
     let style = text(20).pos(Pos::new(HPos::Left, VPos::Center));
-    area.draw_text(title, &style, (fine(86), fine(26))).map_err(|e| e.to_string())?;
+    area.draw_text(title, &style, (fine(86), fine(24))).map_err(|e| e.to_string())?;
     let (low, high) = (10f64.powi(-DECADES), 10f64.powi(DECADES));
     let mut chart = ChartBuilder::on(area)
         .margin(fine(14))
-        .margin_top(fine(48))
+        .margin_top(fine(TOP))
         .margin_right(fine(310))
         .x_label_area_size(fine(46))
         .y_label_area_size(fine(76))
@@ -157,33 +159,35 @@ fn inside(values: &[f64]) -> Vec<(f64, f64)> {
     points
 }
 
-/// Names to the right of where curves end, moved apart; of those that leave the picture, beside that place.
+/// Names to the right of where curves end, moved apart; of those that leave by the top, in a row above it; of those that
+/// leave below, beside that place.
 fn label(area: &Area, mut names: Vec<((i32, i32), bool, &Curve)>) -> Result<(), String> {
     let write = |name: &str, color: RGBColor, at: (i32, i32)| {
         let style = text(15).color(&color).pos(Pos::new(HPos::Left, VPos::Center));
-        // Other curves may pass here.
-        let width = i32::try_from(name.chars().count()).unwrap_or(0) * fine(9);
-        let corners = [(at.0 - fine(3), at.1 - fine(9)), (at.0 + width, at.1 + fine(9))];
-        area.draw(&Rectangle::new(corners, WHITE.filled())).map_err(|e| e.to_string())?;
         area.draw_text(name, &style, at).map_err(|e| e.to_string())
+    };
+    let join = |color: RGBColor, from: (i32, i32), to: (i32, i32)| {
+        area.draw(&PathElement::new([from, to], line(color, 1))).map_err(|e| e.to_string())
     };
     names.sort_by_key(|((x, y), ..)| (*y, *x));
     let (ends, leaving): (Vec<_>, Vec<_>) = names.into_iter().partition(|(_, whole, _)| *whole);
-    let mut taken: Vec<(i32, i32)> = Vec::new();
+    let (mut free, mut lowest) = (0, i32::MAX);
     for ((x, y), _, curve) in leaving {
-        let inward = if y < fine(260) { 1 } else { -1 };
-        let mut at = (x + fine(10), y + inward * fine(14));
-        while taken.iter().any(|(u, v)| (v - at.1).abs() < fine(APART) && (u - at.0).abs() < fine(330)) {
-            at.1 += inward * fine(APART);
+        let width = i32::try_from(curve.name.chars().count()).unwrap_or(0) * fine(8);
+        if y < fine(TOP + 9) {
+            let at = ((x - fine(12)).max(free), fine(TOP - 18));
+            join(curve.color, (x, y - fine(2)), (at.0 + fine(12), at.1 + fine(9)))?;
+            write(&curve.name, curve.color, at)?;
+            free = at.0 + width + fine(12);
+        } else {
+            lowest = (y - fine(14)).min(lowest - fine(APART));
+            write(&curve.name, curve.color, (x + fine(10), lowest))?;
         }
-        taken.push(at);
-        write(&curve.name, curve.color, at)?;
     }
     let wanted: Vec<i32> = ends.iter().map(|((_, y), ..)| *y).collect();
     for (((x, y), _, curve), place) in ends.into_iter().zip(apart(&wanted, fine(APART))) {
         let at = (x + fine(26), place);
-        let thread = PathElement::new([(x + fine(3), y), (x + fine(20), place)], line(curve.color, 1));
-        area.draw(&thread).map_err(|e| e.to_string())?;
+        join(curve.color, (x + fine(3), y), (x + fine(20), place))?;
         write(&curve.name, curve.color, at)?;
     }
     Ok(())
