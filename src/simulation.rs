@@ -1,6 +1,7 @@
 //! A simulation: particles, forces and an integrator on a backend.
 
 mod setup;
+mod ties;
 
 pub use setup::{Plans, Setup};
 
@@ -13,6 +14,7 @@ use crate::kernel::{
     ACCELERATION, ALARM, ALARM_WORDS, Array, Backend, Element, Field, HOME, POSITION, QUIET, SPECIES, TARGET, VELOCITY,
     World,
 };
+use crate::links::Links;
 use crate::motion;
 use crate::particles::Particles;
 use crate::render::{self, Film, Image, Picture};
@@ -42,6 +44,9 @@ pub struct Simulation<B: Backend> {
     count: u32,
     /// As the setup gave them: nothing changes them.
     species: Vec<u32>,
+    /// As the setup gave them, and whether springs may have broken since.
+    links: Links,
+    breaks: bool,
     dt: f64,
     steps: u64,
 }
@@ -88,7 +93,9 @@ impl<B: Backend> Simulation<B> {
         if named(TARGET.name) {
             backend.write(TARGET.name, &places(&mut (0..particles.len())))?;
         }
-        Ok(Self { backend, start, begun: false, step, measure, plan, count, species, dt: setup.dt, steps: 0 })
+        let (links, breaks) = (particles.links.clone(), setup.forces.iter().any(|force| force.breaks()));
+        let (begun, dt, steps) = (false, setup.dt, 0);
+        Ok(Self { backend, start, begun, step, measure, plan, count, species, links, breaks, dt, steps })
     }
     /// Advances. May return before the device is done; reading waits.
     ///

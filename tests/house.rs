@@ -140,6 +140,7 @@ const ORDER: [&str; 23] = [
     "settings",
     "links",
     "motion",
+    "solids",
     "kernel",
     "boundary",
     "primitives",

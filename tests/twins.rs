@@ -92,6 +92,7 @@ fn every_law_alone() {
                     simulation.write(VELOCITY, &ways.collect::<Vec<_>>()).expect("velocities");
                     let laws = plan.order.len();
                     law[0].limit(&mut plan, &problem).expect("limits");
+                    law[0].confine(&mut plan, &problem, 0.8).expect("places");
                     law[0].conclude(&mut plan, &problem).expect("an end");
                     if plan.order.len() > laws {
                         // Faster than the limit has left them.

@@ -180,6 +180,9 @@ pub fn advice(scene: &Scene, setup: &Setup) -> Result<Vec<String>, Error> {
             ));
         }
     }
+    if !setup.particles.links.rods.is_empty() && order > 2 {
+        remarks.push(format!("with rods {name} is of order 2, as leapfrog is, which costs less"));
+    }
     if name == "forward_euler" && setup.forces.iter().all(|force| !force.integrators().contains(&name)) {
         remarks
             .push("forward_euler gains energy in every step, whatever the step: it is here to show why not".to_owned());

@@ -6,9 +6,11 @@ mod curious;
 mod equivalent_neighbors;
 mod equivalent_primitives;
 mod equivalents;
+mod held;
 mod laws;
 mod neighbors;
 mod primitives;
+mod rods;
 mod stages;
 #[path = "../support/mod.rs"]
 mod support;

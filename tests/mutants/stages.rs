@@ -152,6 +152,8 @@ pub fn all(shared: &Shared) -> Vec<Stage> {
     crate::boundary::boundary(&device, &mut stages);
     laws::all(&device, &mut stages);
     laws::planes(&device, &mut stages);
+    crate::held::all(&device, &mut stages);
+    crate::rods::rods(&device, &mut stages);
     pairs(shared, &device, &mut stages);
     crate::neighbors::all(shared, &device, &mut stages);
     primitives::all(&device, &mut stages);
