@@ -65,14 +65,14 @@ pub fn draw(path: &Path, courses: &[Course], args: &StabilityArgs) -> Result<(),
 }
 
 /// One curve for all that differ by less than a line's width everywhere.
-fn curves<'a>(courses: &'a [Course], values: fn(&Course) -> &Vec<f64>) -> Vec<Curve<'a>> {
+fn curves(courses: &[Course], values: fn(&Course) -> &Vec<f64>) -> Vec<Curve<'_>> {
     let mut list: Vec<Curve> = Vec::new();
     for course in courses {
         let own = values(course);
         let level = |x: f64| shown(x).log10();
         let same = |curve: &&mut Curve| curve.values.iter().zip(own).all(|(a, b)| (level(*a) - level(*b)).abs() < 0.02);
         match list.iter_mut().find(same) {
-            Some(curve) => curve.name += &format!(", {}", course.name),
+            Some(curve) => curve.name.extend([", ", course.name]),
             None => list.push(Curve { name: course.name.to_owned(), color: color(course.name), values: own }),
         }
     }
