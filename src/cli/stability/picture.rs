@@ -173,7 +173,7 @@ fn label(area: &Area, mut names: Vec<((i32, i32), bool, &Curve)>) -> Result<(), 
     let (ends, leaving): (Vec<_>, Vec<_>) = names.into_iter().partition(|(_, whole, _)| *whole);
     let (mut free, mut lowest) = (0, i32::MAX);
     for ((x, y), _, curve) in leaving {
-        let width = i32::try_from(curve.name.chars().count()).unwrap_or(0) * fine(8);
+        let width = i32::try_from(curve.name.chars().count()).unwrap_or(0) * fine(7);
         if y < fine(TOP + 9) {
             let at = ((x - fine(12)).max(free), fine(TOP - 18));
             join(curve.color, (x, y - fine(2)), (at.0 + fine(12), at.1 + fine(9)))?;
