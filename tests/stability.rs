@@ -219,7 +219,14 @@ fn a_setup_is_judged() {
     let judged = |forces: Vec<Box<dyn motes::forces::Force>>, name: &str, dt: f64| {
         let entry = motes::integrators::entry(name).expect("an integrator");
         let (particles, bounds) = (particles.clone(), Bounds::default());
-        let setup = motes::Setup { particles, forces, integrator: (entry.build)(), dt, bounds };
+        let setup = motes::Setup {
+            particles,
+            forces,
+            integrator: (entry.build)(),
+            dt,
+            bounds,
+            solver: motes::Solver::default(),
+        };
         block_on(Verdict::of(&setup, entry.build, 1_000_000)).expect("a verdict")
     };
     assert_eq!(judged(Vec::new(), "leapfrog", 0.1), None);

@@ -10,7 +10,7 @@ use super::Course;
 use crate::cli::args::StabilityArgs;
 use crate::cli::plot::{Area, FAINT, INK, fine, line, text, write};
 
-const SIZE: (u32, u32) = (1040, 1000);
+const SIZE: (u32, u32) = (1080, 1000);
 /// Pixels above what is drawn: a title, and a row of names.
 const TOP: i32 = 72;
 /// Pixels between two names.
@@ -64,19 +64,37 @@ pub fn draw(path: &Path, courses: &[Course], args: &StabilityArgs) -> Result<(),
     })
 }
 
-/// One curve for all that differ by less than a line's width everywhere.
+/// One curve for all of a kind that differ by less than a line's width everywhere.
 fn curves(courses: &[Course], values: fn(&Course) -> &Vec<f64>) -> Vec<Curve<'_>> {
-    let mut list: Vec<Curve> = Vec::new();
+    let mut list: Vec<(bool, Vec<&str>, &[f64])> = Vec::new();
     for course in courses {
-        let own = values(course);
+        let (own, kind) = (values(course), implicit(course.name));
         let level = |x: f64| shown(x).log10();
-        let same = |curve: &&mut Curve| curve.values.iter().zip(own).all(|(a, b)| (level(*a) - level(*b)).abs() < 0.02);
-        match list.iter_mut().find(same) {
-            Some(curve) => curve.name.extend([", ", course.name]),
-            None => list.push(Curve { name: course.name.to_owned(), color: color(course.name), values: own }),
+        let alike = |known: &[f64]| known.iter().zip(own).all(|(a, b)| (level(*a) - level(*b)).abs() < 0.02);
+        match list.iter_mut().find(|(other, _, known)| *other == kind && alike(known)) {
+            Some((_, names, _)) => names.push(course.name),
+            None => list.push((kind, vec![course.name], own)),
         }
     }
-    list
+    let curve =
+        |(_, names, values): (bool, Vec<&str>, _)| Curve { name: together(&names), color: color(names[0]), values };
+    list.into_iter().map(curve).collect()
+}
+
+/// Whether it solves for the end of a step.
+fn implicit(name: &str) -> bool {
+    ["backward_euler", "trapezoid", "implicit_midpoint"].iter().any(|end| name.ends_with(end))
+}
+
+/// All names; one that is solved once and to the end alike appears once.
+fn together(names: &[&str]) -> String {
+    let solved = |name: &str| names.iter().any(|other| other.strip_prefix("linear_") == Some(name));
+    let once = |name: &&&str| !name.strip_prefix("linear_").is_some_and(|whole| names.contains(&whole));
+    let words = names
+        .iter()
+        .filter(once)
+        .map(|name| if solved(name) { format!("(linear_){name}") } else { (*name).to_owned() });
+    words.collect::<Vec<_>>().join(", ")
 }
 
 /// Within a decade of what is shown, so that equal curves are equal where nobody sees them.
@@ -92,7 +110,7 @@ fn panel(area: &Area, curves: &[Curve], title: &str, what: &str, steps: u32) -> 
     let mut chart = ChartBuilder::on(area)
         .margin(fine(14))
         .margin_top(fine(TOP))
-        .margin_right(fine(310))
+        .margin_right(fine(350))
         .x_label_area_size(fine(46))
         .y_label_area_size(fine(76))
         .build_cartesian_2d(0.0..f64::from(steps), (low..high).log_scale())
@@ -223,6 +241,11 @@ mod tests {
         assert_eq!(apart(&[0, 50, 100], 10), [0, 50, 100]);
         assert_eq!(apart(&[50, 50, 50], 10), [40, 50, 60]);
         assert_eq!(apart(&[0, 98, 102], 10), [0, 95, 105]);
+    }
+    #[test]
+    fn names_stand_together() {
+        assert_eq!(together(&["midpoint", "heun"]), "midpoint, heun");
+        assert_eq!(together(&["linear_trapezoid", "trapezoid", "linear_b"]), "(linear_)trapezoid, linear_b");
     }
     #[test]
     fn curves_end_at_the_edge() {
