@@ -83,7 +83,12 @@ fn a_fixed_one_keeps_every_bit() {
         simulation.step(1000).expect("steps");
         let (after, velocity) = (read(&mut simulation, POSITION), read(&mut simulation, VELOCITY));
         for id in [0, 1] {
-            assert_eq!(before[id].to_array().map(f32::to_bits), after[id].to_array().map(f32::to_bits), "{}", entry.name);
+            assert_eq!(
+                before[id].to_array().map(f32::to_bits),
+                after[id].to_array().map(f32::to_bits),
+                "{}",
+                entry.name
+            );
             assert_eq!(velocity[id].truncate(), glam::Vec3::ZERO, "{}", entry.name);
         }
         for id in [10, 11] {
@@ -319,7 +324,11 @@ fn sets_of_particles_keep_their_own_motions() {
 fn a_motion_is_what_its_keys_say() {
     let all = motions();
     let half = all[2].pose(0.2);
-    assert!((half.turn * DVec3::X - DVec3::new(0.0, 0.0, -1.0)).length() < 1e-12, "2.5 π about y: {}", half.turn * DVec3::X);
+    assert!(
+        (half.turn * DVec3::X - DVec3::new(0.0, 0.0, -1.0)).length() < 1e-12,
+        "2.5 π about y: {}",
+        half.turn * DVec3::X
+    );
     assert!((half.spin - DVec3::Y * 12.5 * PI).length() < 1e-12);
     assert!((all[0].pose(0.18).shift - 0.5 * DVec3::new(0.7, -0.2, 0.4)).length() < 1e-12);
     assert_eq!(all[0].pose(9.0).velocity, DVec3::ZERO);

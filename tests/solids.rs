@@ -82,7 +82,10 @@ fn on_an_incline_it_sticks_or_slides() {
         let normal = DVec3::new(angle.sin(), 0.0, angle.cos());
         let down = DVec3::new(angle.cos(), 0.0, -angle.sin());
         for name in ["leapfrog", "symplectic_euler", "pefrl", "rk4"] {
-            let ramp = solid("plane", &[("normal", Value::Vector(normal)), ("friction", number(friction)), ("thickness", number(0.1))]);
+            let ramp = solid(
+                "plane",
+                &[("normal", Value::Vector(normal)), ("friction", number(friction)), ("thickness", number(0.1))],
+            );
             let start = 0.1 * normal;
             let mut simulation = twins(&setup(one(start, DVec3::ZERO), vec![weight(), ramp], name, dt));
             simulation.step(steps).expect("steps");
@@ -94,7 +97,11 @@ fn on_an_incline_it_sticks_or_slides() {
             // Kicks of both signs lift it off for a part of a step.
             let sticks = if name == "pefrl" { 0.02 * late } else { 1e-10 };
             let allowed = if pull > 0.0 { 1.5 * late } else { sticks };
-            assert!((way.dot(down) - want).abs() < allowed, "{name}, {degrees}°, μ {friction}: {} is not {want}", way.dot(down));
+            assert!(
+                (way.dot(down) - want).abs() < allowed,
+                "{name}, {degrees}°, μ {friction}: {} is not {want}",
+                way.dot(down)
+            );
             assert!(way.dot(normal).abs() < 1e-5, "{name}, {degrees}°: {} off the ramp", way.dot(normal));
         }
     }
@@ -105,7 +112,10 @@ fn on_an_incline_it_sticks_or_slides() {
 fn a_bounce_comes_back_to_e_squared() {
     let dt = 1e-4;
     for e in [0.3, 0.8, 1.0] {
-        let floor = solid("plane", &[("restitution", number(e)), ("position", vector(0.0, 0.0, -1.0)), ("thickness", number(0.05))]);
+        let floor = solid(
+            "plane",
+            &[("restitution", number(e)), ("position", vector(0.0, 0.0, -1.0)), ("thickness", number(0.05))],
+        );
         let drop = one(DVec3::new(0.3, 0.2, -0.95 + 0.7), DVec3::X);
         let mut simulation = twins(&setup(drop, vec![weight(), floor], "leapfrog", dt));
         let fall = (2.0 * 0.7 / G).sqrt();
@@ -123,7 +133,8 @@ fn what_lies_still_does_not_jitter() {
     let dt = 0.01;
     let shared = support::device();
     for e in [0.0, 0.4, 0.9] {
-        let floor = || solid("plane", &[("restitution", number(e)), ("thickness", number(0.1)), ("friction", number(0.6))]);
+        let floor =
+            || solid("plane", &[("restitution", number(e)), ("thickness", number(0.1)), ("friction", number(0.6))]);
         let rest = one(DVec3::new(0.37, 0.0, 0.1), DVec3::ZERO);
         let setup = setup(rest, vec![weight(), floor()], "leapfrog", dt);
         let mut simulation = Simulation::new(&shared.found.device, &shared.found.queue, &setup).expect("a simulation");
@@ -141,7 +152,10 @@ fn what_lies_still_does_not_jitter() {
 #[test]
 fn a_moving_sphere_pushes() {
     for (e, name) in [(0.0, "leapfrog"), (0.0, "rk4"), (0.5, "pefrl")] {
-        let ball = solid("sphere", &[("motion", word("slide")), ("position", vector(-1.0, 0.0, 0.0)), ("restitution", number(e))]);
+        let ball = solid(
+            "sphere",
+            &[("motion", word("slide")), ("position", vector(-1.0, 0.0, 0.0)), ("restitution", number(e))],
+        );
         let mut particles = one(DVec3::ZERO, DVec3::ZERO);
         particles.motions = vec![slide(0.0, 1.0, 2.0)];
         let mut simulation = twins(&setup(particles, vec![ball], name, 1e-3));
@@ -221,7 +235,8 @@ fn nobody_is_inside_after_any_step() {
             run(places, f64::from(step) * 0.02, 1e-12);
         }
         if case % 6 == 0 {
-            let mut simulation = Simulation::new(&shared.found.device, &shared.found.queue, &setup).expect("a simulation");
+            let mut simulation =
+                Simulation::new(&shared.found.device, &shared.found.queue, &setup).expect("a simulation");
             simulation.step(10).expect("steps");
             let places = pollster::block_on(simulation.read(POSITION)).expect("places");
             // Sums of a few numbers up to 2, each rounded by 1e-7.
@@ -240,7 +255,8 @@ fn from_the_very_middle_there_is_a_way_out() {
             let mut both = one(DVec3::ZERO, DVec3::ZERO);
             both.push(DVec3::ZERO, DVec3::X * 0.2, 1.0, 0.0);
             let setup = setup(both, vec![force], "leapfrog", 0.1);
-            let mut simulation = Simulation::new(&shared.found.device, &shared.found.queue, &setup).expect("a simulation");
+            let mut simulation =
+                Simulation::new(&shared.found.device, &shared.found.queue, &setup).expect("a simulation");
             simulation.step(1).expect("a step");
             let x: Vec<Vec4> = pollster::block_on(simulation.read(POSITION)).expect("places");
             let out = if *shape == "plane" { 0.1 } else { 0.6 };

@@ -21,7 +21,10 @@ pub fn check(held: &[Held], motions: &[Motion], count: usize, dimensions: u32, d
     for motion in motions {
         motion.check(dimensions, dt).map_err(|why| Error::Scene(format!("the motion \"{}\" {why}", motion.name)))?;
         if !names.insert(&motion.name) {
-            return Err(Error::Scene(format!("two motions are called \"{}\": name one of them otherwise", motion.name)));
+            return Err(Error::Scene(format!(
+                "two motions are called \"{}\": name one of them otherwise",
+                motion.name
+            )));
         }
     }
     let mut ids = BTreeSet::new();
@@ -63,8 +66,10 @@ impl Motion {
             }
             let across = key.shift.z != 0.0 || key.turn.x != 0.0 || key.turn.y != 0.0;
             if dimensions == 2 && across {
-                return Err("leads out of the plane, and in 2 dimensions nobody leaves it: shift along x and y, turn about z"
-                    .to_owned());
+                return Err(
+                    "leads out of the plane, and in 2 dimensions nobody leaves it: shift along x and y, turn about z"
+                        .to_owned(),
+                );
             }
         }
         if let Some(pair) = self.keys.windows(2).find(|pair| pair[1].time <= pair[0].time) {

@@ -40,7 +40,11 @@ pub fn tables(motions: &[Motion], dt: f64) -> Tables {
         let number = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
         // A start before the run counts as steps below zero.
         let whole = (first.time / dt).floor();
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the sign comes back on the device")]
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "the sign comes back on the device"
+        )]
         let start = whole as i64 as u32;
         let period = if motion.repeat { (last.time - first.time) / dt } else { 0.0 };
         let (period, period_rest) = split(period);
@@ -60,8 +64,9 @@ const KEY_WORDS: usize = 20;
 
 fn row(key: &Keyframe, next: Option<&Keyframe>, start: f64, dt: f64) -> [u32; KEY_WORDS] {
     // Behind the last key nothing moves, however long that takes.
-    let (length, way, turn) =
-        next.map_or((1.0, DVec3::ZERO, DVec3::ZERO), |n| ((n.time - key.time) / dt, n.shift - key.shift, pose::turn(key, n)));
+    let (length, way, turn) = next.map_or((1.0, DVec3::ZERO, DVec3::ZERO), |n| {
+        ((n.time - key.time) / dt, n.shift - key.shift, pose::turn(key, n))
+    });
     let (step, rest) = split((key.time - start) / dt);
     let facing = DQuat::from_scaled_axis(key.turn).to_array().map(bits);
     let (shift, way) = (key.shift.to_array().map(bits), way.to_array().map(bits));

@@ -22,11 +22,7 @@ pub(super) enum Chosen {
     Own { law: Custom, path: String },
 }
 
-pub(super) fn read(
-    table: &Table<'_>,
-    (files, motions): (&Files, &[Motion]),
-    report: &mut Report,
-) -> Option<Chosen> {
+pub(super) fn read(table: &Table<'_>, (files, motions): (&Files, &[Motion]), report: &mut Report) -> Option<Chosen> {
     let entry = table.one_of(&["kind", "wgsl"], report)?;
     if entry.key == "wgsl" {
         return read_own(&table.named(format!("{} wgsl", table.name)), entry, files, report);

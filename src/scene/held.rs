@@ -16,7 +16,13 @@ pub(super) const OWN: &[&str] = &["fixed", "motion"];
 
 /// Holds the particles that the entry's `fixed` names, beside those that its shape or its bodies hold already; `motion`
 /// leads all of them.
-pub(super) fn read(table: &Table<'_>, motions: &[Motion], particles: &mut Particles, out: &mut Writer, report: &mut Report) {
+pub(super) fn read(
+    table: &Table<'_>,
+    motions: &[Motion],
+    particles: &mut Particles,
+    out: &mut Writer,
+    report: &mut Report,
+) {
     let faults = report.len();
     fixed(table, particles, out, report);
     let Some(entry) = table.get("motion") else { return };
@@ -55,7 +61,8 @@ fn fixed(table: &Table<'_>, particles: &mut Particles, out: &mut Writer, report:
     let mut known: BTreeSet<u32> = particles.held.iter().map(|held| held.id).collect();
     let mut ids = Vec::new();
     for node in list {
-        let Some(id) = value::number(node, "fixed", Kind::Whole, "a list of whole numbers, zero or above", report) else {
+        let Some(id) = value::number(node, "fixed", Kind::Whole, "a list of whole numbers, zero or above", report)
+        else {
             continue;
         };
         let count = particles.len();

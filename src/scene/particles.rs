@@ -138,8 +138,7 @@ fn from_shape(table: &Table<'_>, entry: &Entry, room: u32, out: &mut Writer, rep
     let name = walk::choice(entry, "shape", &names, report)?;
     let shape = SHAPES.iter().find(|s| s.name == name)?;
     let faults = report.len();
-    let settings =
-        table.named(format!("{} {name}", table.name)).settings(shape.keys, &beside("shape"), report);
+    let settings = table.named(format!("{} {name}", table.name)).settings(shape.keys, &beside("shape"), report);
     if report.len() > faults {
         return None;
     }
@@ -175,8 +174,7 @@ fn wanted_count(settings: &Settings) -> (&'static str, f64) {
 }
 
 fn from_bodies(table: &Table<'_>, entry: &Entry, out: &mut Writer, report: &mut Report) -> Option<Particles> {
-    let offsets =
-        table.named(format!("{} bodies", table.name)).settings(OFFSETS, &beside("bodies"), report);
+    let offsets = table.named(format!("{} bodies", table.name)).settings(OFFSETS, &beside("bodies"), report);
     let Data::List(list) = &entry.node.data else {
         return value::refuse(&entry.node, "bodies", "a list of tables, as in [{ position = [1, 0, 0] }]", report);
     };
@@ -198,8 +196,10 @@ fn from_bodies(table: &Table<'_>, entry: &Entry, out: &mut Writer, report: &mut 
         let [position, velocity] = [position, velocity].map(resolved::vector);
         let [mass, radius] = [mass, radius].map(resolved::number);
         // Writing to a String cannot fail.
-        let _ =
-            writeln!(text, "  {{ position = {position}, velocity = {velocity}, mass = {mass}, radius = {radius}{fixed} }},");
+        let _ = writeln!(
+            text,
+            "  {{ position = {position}, velocity = {velocity}, mass = {mass}, radius = {radius}{fixed} }},"
+        );
     }
     out.line("bodies", &(text + "]"));
     out.settings(OFFSETS, &offsets);

@@ -53,7 +53,9 @@ pub fn boundary(device: &Device, stages: &mut Vec<Stage>) {
     let machine = Machine { software: true, subgroup: 0, invocations: 1 };
     for sides in [[Periodic, Reflecting, Open], [Reflecting, Open, Periodic], [Open, Periodic, Reflecting]] {
         let bounds = box_of(sides);
-        let kernels = motes::boundary::kernels(&Problem::new(u32::try_from(FEW).expect("few"), machine).at(&[], bounds)).expect("kernels");
+        let kernels =
+            motes::boundary::kernels(&Problem::new(u32::try_from(FEW).expect("few"), machine).at(&[], bounds))
+                .expect("kernels");
         for kernel in kernels {
             let name = format!("{} {sides:?}", kernel.name);
             stages.push(stage(&name, in_a_box(device, bounds), kernel));

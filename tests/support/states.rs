@@ -69,7 +69,9 @@ pub fn accelerations_in(bounds: &Bounds, forces: &[Box<dyn Force>], particles: &
 pub fn felt(forces: &[Box<dyn Force>], particles: &Particles, world: World) -> (Vec<DVec4>, Vec<DVec4>, Vec<DVec4>) {
     let count = u32::try_from(particles.len()).expect("few");
     let mut cpu = Cpu::new(count).expect("some");
-    let problem = motes::forces::Problem::new(count, cpu.machine()).at(&particles.position, world.bounds).moved(&[super::choices::swing()], world.dt);
+    let problem = motes::forces::Problem::new(count, cpu.machine())
+        .at(&particles.position, world.bounds)
+        .moved(&[super::choices::swing()], world.dt);
     let mut step = Step::new(forces, problem.clone());
     step.evaluate();
     let mut plan = step.finished().expect("a plan");

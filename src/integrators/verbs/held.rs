@@ -13,11 +13,8 @@ pub fn lead(problem: &Problem) -> Result<Vec<Kernel>, Error> {
     let held = &problem.held;
     let fixed = held.partition_point(|one| one.by < Hold::Target);
     let aimed = held.partition_point(|one| one.by < Hold::Motion(0));
-    let path = [
-        crate::shader!("motion/turned.wgsl"),
-        crate::shader!("motion/pose.wgsl"),
-        crate::shader!("motion/path.wgsl"),
-    ];
+    let path =
+        [crate::shader!("motion/turned.wgsl"), crate::shader!("motion/pose.wgsl"), crate::shader!("motion/path.wgsl")];
     let kinds = [
         (0, fixed, "fixed", vec![crate::shader!("motion/fixed.wgsl")]),
         (fixed, aimed, "target", vec![crate::shader!("motion/target.wgsl")]),
@@ -28,11 +25,8 @@ pub fn lead(problem: &Problem) -> Result<Vec<Kernel>, Error> {
 }
 
 fn kernel(problem: &Problem, first: usize, end: usize, kind: &str, files: Vec<Source>) -> Result<Kernel, Error> {
-    let mut all = vec![
-        crate::shader!("world.wgsl"),
-        crate::shader!("nearest_image.wgsl"),
-        crate::shader!("motion/lead.wgsl"),
-    ];
+    let mut all =
+        vec![crate::shader!("world.wgsl"), crate::shader!("nearest_image.wgsl"), crate::shader!("motion/lead.wgsl")];
     all.extend(files);
     let shader = Shader::join(&all)?;
     let constants = vec![("FIRST", first as f64), ("END", end as f64)];
