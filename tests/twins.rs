@@ -90,10 +90,10 @@ fn every_law_alone() {
                     law[0].confine(&mut plan, &problem, 0.8).expect("places");
                     law[0].conclude(&mut plan, &problem).expect("an end");
                     if plan.order.len() > laws {
-                        // Faster than the limit has left them.
+                        // Faster than the limit has left them, and back to where a solid has turned them away.
                         let mut velocity = pollster::block_on(simulation.read(VELOCITY)).expect("velocities");
                         for v in &mut velocity {
-                            *v *= glam::Vec4::splat(2.3).with_w(1.0);
+                            *v *= glam::Vec4::splat(-2.3).with_w(1.0);
                         }
                         simulation.write(VELOCITY, &velocity).expect("velocities");
                     }
