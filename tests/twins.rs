@@ -25,6 +25,7 @@ fn moving(gpu: Gpu, count: usize, forces: Vec<Box<dyn forces::Force>>, name: &st
         integrator: integrator(name),
         dt: DT,
         bounds: motes::Bounds::default(),
+        solver: motes::Solver::default(),
     };
     let mut simulation = Simulation::on(gpu, &setup).expect("a simulation");
     simulation.step(3).expect("three steps");
@@ -49,7 +50,8 @@ fn judge(verdicts: &[Verdict], count: usize, of: &impl Display, idle: impl Fn(&V
 /// What an earlier step left in the fields that a step only uses.
 fn fill(gpu: &mut Gpu, plan: &Plan, count: usize) {
     let kept = ["world", "alarm", POSITION.name, VELOCITY.name];
-    for name in plan.fields(u32::try_from(count).expect("few")).keys().filter(|name| !kept.contains(&name.as_str())) {
+    let filled = |name: &&String| !kept.contains(&name.as_str()) && plan.table(name).is_none();
+    for name in plan.fields(u32::try_from(count).expect("few")).keys().filter(filled) {
         let words = vec![0.7f32; usize::try_from(gpu.size(name) / 4).expect("small")];
         gpu.write_bytes(name, 0, bytemuck::cast_slice(&words)).expect("a field");
     }
@@ -78,13 +80,17 @@ fn every_law_alone() {
                     let cloud = support::cloud(count, 7);
                     let problem = forces::Problem::new(simulation.count(), machine)
                         .at(&cloud.position, motes::Bounds::default())
-                        .of_species(&cloud.species);
+                        .of_species(&cloud.species)
+                        .tied(&cloud.links, &cloud.held);
                     let mut step = Step::new(&law, problem.clone());
                     step.evaluate();
                     let mut plan = step.finished().expect("a plan");
-                    // Back to where they began: what pushes away leaves nobody to be pushed.
+                    // Back to where they began: what pushes away leaves nobody to be pushed, and what brakes in steps as long
+                    // as these throws them away.
                     let places = cloud.position.iter().zip(&cloud.mass).map(|(x, m)| x.extend(*m).as_vec4());
                     simulation.write(POSITION, &places.collect::<Vec<_>>()).expect("places");
+                    let ways = cloud.velocity.iter().zip(&cloud.radius).map(|(v, r)| v.extend(*r).as_vec4());
+                    simulation.write(VELOCITY, &ways.collect::<Vec<_>>()).expect("velocities");
                     let laws = plan.order.len();
                     law[0].limit(&mut plan, &problem).expect("limits");
                     law[0].confine(&mut plan, &problem, 0.8).expect("places");
@@ -123,6 +129,7 @@ fn every_integrator_whole() {
                 integrator: (entry.build)(),
                 dt: DT,
                 bounds: motes::Bounds::default(),
+                solver: motes::Solver::default(),
             };
             let plans = setup.plans(machine).expect("plans");
             fill(simulation.backend(), &plans.step, count);
@@ -149,6 +156,7 @@ fn what_surrounds_a_measurement() {
             integrator: integrator("leapfrog"),
             dt: DT,
             bounds: motes::Bounds::default(),
+            solver: motes::Solver::default(),
         };
         let (before, after) = setup.plans(machine).expect("plans").measure;
         judge(&verdicts(simulation.backend(), &before, count, &"before"), count, &"before", |_| false);
@@ -170,6 +178,7 @@ fn the_watch_sees_what_is_broken() {
                 integrator: integrator("symplectic_euler"),
                 dt: DT,
                 bounds: motes::Bounds::default(),
+                solver: motes::Solver::default(),
             };
             let machine = simulation.backend().machine();
             let plan = setup.plans(machine).expect("plans").step;
@@ -211,6 +220,7 @@ fn dispatches_fold_over_two_dimensions() {
                 integrator: integrator("rk4"),
                 dt: DT,
                 bounds: motes::Bounds::default(),
+                solver: motes::Solver::default(),
             };
             let plan = setup.plans(machine).expect("plans").step;
             judge(&verdicts(simulation.backend(), &plan, count, &name), count, &name, |v| v.field == "alarm");
@@ -266,6 +276,7 @@ fn more_than_one_dispatch_can_meet() {
         integrator: integrator("symplectic_euler"),
         dt: DT,
         bounds: motes::Bounds::default(),
+        solver: motes::Solver::default(),
     };
     let mut simulation = Simulation::on(gpu, &setup).expect("a simulation");
     let program = simulation.backend().compile(&alone(kernel)).expect("a program");

@@ -10,15 +10,19 @@ mod plan;
 mod problem;
 mod reflect;
 mod shader;
+mod solver;
 mod world;
 
 pub use backend::{Backend, Machine};
 pub use bounds::{Bounds, Side};
-pub use field::{ACCELERATION, ALARM, ALARM_WORDS, Array, Element, Field, HOME, POSITION, SPECIES, TARGET, VELOCITY};
-pub use host::Host;
+pub use field::{
+    ACCELERATION, ALARM, ALARM_WORDS, Array, Element, Field, HOME, POSITION, QUIET, SPECIES, TARGET, VELOCITY,
+};
+pub use host::{Host, Reading, Writing};
 pub use pack::{Member, Packed, Scalar};
 pub use plan::{Kernel, Name, Pass, Plan, Threads, Twin};
 pub use problem::Problem;
 pub use reflect::{Access, Binding, Reflection};
 pub use shader::{Shader, Source};
+pub use solver::{LEAST_TOLERANCE, MOST_ITERATIONS, MOST_SOLVES, Solver};
 pub use world::World;

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{Bounds, Machine, Name, Shader, Side, Source};
+use super::{Bounds, Machine, Name, Shader, Side, Solver, Source};
 use crate::links::{Links, Network};
 use crate::motion::{self, Held, Motion};
 
@@ -24,6 +24,8 @@ pub struct Problem {
     pub species: Vec<(u32, u32)>,
     /// What ties them together.
     pub network: Arc<Network>,
+    /// Whether that changes as it goes: springs that break.
+    pub breaks: bool,
     /// Those that forces do not move, as [`motion::sorted`] has them.
     pub held: Arc<Vec<Held>>,
     /// One word for each particle, 1 where it is held; nothing where nobody is.
@@ -34,6 +36,8 @@ pub struct Problem {
     pub dt: f64,
     /// How much of the step positions have been advanced by, where a plan is being written: when a drift ends.
     pub reached: f64,
+    /// How well implicit integrators solve.
+    pub solver: Solver,
 }
 
 impl Problem {
@@ -47,11 +51,13 @@ impl Problem {
             extent: (DVec3::ZERO, DVec3::ONE),
             species: Vec::new(),
             network: Arc::new(Network::new(count, &Links::default())),
+            breaks: false,
             held: Arc::default(),
             mask: Arc::default(),
             motions: Arc::default(),
             dt: 1.0,
             reached: 1.0,
+            solver: Solver::default(),
         }
     }
     /// The same with particles at these places, in this box.
@@ -94,6 +100,16 @@ impl Problem {
     #[must_use]
     pub fn is_held(&self, id: usize) -> bool {
         self.mask.get(id).is_some_and(|word| *word > 0)
+    }
+    /// The same with links that may break.
+    #[must_use]
+    pub fn breaking(self, breaks: bool) -> Self {
+        Self { breaks, ..self }
+    }
+    /// The same with equations solved so well.
+    #[must_use]
+    pub fn solved(self, solver: Solver) -> Self {
+        Self { solver, ..self }
     }
     /// How many are of a species; of none in particular: all.
     #[must_use]

@@ -1,9 +1,13 @@
 //! Particles on the host: what files and generators give, and what a simulation starts from.
 
 mod build;
+pub mod chain;
+pub mod cloth;
 pub mod disk;
 mod exponential_disk;
+pub mod hair;
 mod hernquist;
+pub mod jelly;
 pub mod lattice;
 pub mod plummer;
 pub mod random;
@@ -53,8 +57,18 @@ pub struct Shape {
 }
 
 /// Every generator.
-pub const SHAPES: &[Shape] =
-    &[plummer::PLUMMER, sphere::SPHERE, disk::DISK, lattice::LATTICE, random_box::RANDOM_BOX, spray::SPRAY];
+pub const SHAPES: &[Shape] = &[
+    plummer::PLUMMER,
+    sphere::SPHERE,
+    disk::DISK,
+    lattice::LATTICE,
+    random_box::RANDOM_BOX,
+    spray::SPRAY,
+    chain::CHAIN,
+    cloth::CLOTH,
+    jelly::JELLY,
+    hair::HAIR,
+];
 
 /// The generator of a name.
 #[must_use]

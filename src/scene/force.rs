@@ -81,7 +81,15 @@ fn over(table: &Table<'_>, report: &mut Report) -> Option<Over> {
             report.push(fault.label("remove it, or change `over`"));
         }
     }
-    let Some(wanted) = wanted else { return Some(if word == "each" { Over::Each } else { Over::Pairs }) };
+    let Some(wanted) = wanted else {
+        return Some(match word {
+            "each" => Over::Each,
+            "links" => Over::Links,
+            "joints" => Over::Joints,
+            "triangles" => Over::Triangles,
+            _ => Over::Pairs,
+        });
+    };
     let kind = if wanted == "range" { Kind::Positive } else { Kind::Count };
     let Some(given) = table.get(wanted) else {
         let about = if wanted == "range" { "how far one meets another [length]" } else { "how many are met" };
@@ -135,7 +143,7 @@ impl Chosen {
                 match law.over {
                     Over::Within { range } | Over::Near { range, .. } => out.number("range", range),
                     Over::Nearest { count } => out.line("neighbors", &count.to_string()),
-                    Over::Each | Over::Pairs => {}
+                    _ => {}
                 }
                 let params: Vec<_> =
                     law.params.iter().map(|(k, v)| format!("{} = {}", resolved::bare(k), resolved::value(v))).collect();

@@ -165,10 +165,14 @@ fn from_shape(table: &Table<'_>, entry: &Entry, room: u32, out: &mut Writer, rep
     }
 }
 
-/// How many particles a shape will make, known before the memory is taken: its `count`, or else (a lattice) the product of its `size`.
+/// How many particles a shape will make, known before the memory is taken: its `count`, or else the product
+/// of what it counts.
 fn wanted_count(settings: &Settings) -> (&'static str, f64) {
-    match settings.0.get("count") {
-        Some(_) => ("count", settings.number("count")),
+    let product = |a, b| settings.number(a) * settings.number(b);
+    match ["count", "columns", "strands"].into_iter().find(|key| settings.0.contains_key(key)) {
+        Some("columns") => ("columns", product("columns", "rows")),
+        Some("strands") => ("strands", product("strands", "points")),
+        Some(count) => (count, settings.number(count)),
         None => ("size", settings.vector("size").element_product()),
     }
 }

@@ -4,8 +4,8 @@ use crate::boundary;
 use crate::error::Error;
 use crate::forces::{Force, Problem};
 use crate::integrators::{Integrator, Step};
-use crate::kernel::{Bounds, Machine, Plan};
-use crate::motion;
+use crate::kernel::{Bounds, Machine, Plan, Solver};
+use crate::motion::{self, Hold};
 use crate::particles::Particles;
 
 /// What a simulation is made of.
@@ -20,6 +20,8 @@ pub struct Setup {
     pub dt: f64,
     /// Where particles may be.
     pub bounds: Bounds,
+    /// How well implicit integrators solve their equations; others have none.
+    pub solver: Solver,
 }
 
 /// The plans of a simulation: what runs once, what runs in every step, and what surrounds a measurement.
@@ -49,7 +51,9 @@ impl Setup {
             .at(&self.particles.position, self.bounds)
             .of_species(&self.particles.species)
             .tied(&self.particles.links, &self.particles.held)
-            .moved(&self.particles.motions, self.dt);
+            .moved(&self.particles.motions, self.dt)
+            .breaking(self.forces.iter().any(|force| force.breaks()))
+            .solved(self.solver);
         let mut start = Step::new(&self.forces, problem.clone());
         start.enclose();
         start.lead();
@@ -94,8 +98,19 @@ impl Setup {
             )));
         }
         links.check(mass)?;
+        self.solver.check()?;
         boundary::check(&self.bounds)?;
         motion::check(held, motions, count, self.bounds.dimensions, self.dt)?;
+        if !links.rods.is_empty() && !self.forces.iter().any(|force| force.keeps_rods()) {
+            let text = format!(
+                "nothing keeps the lengths of the rods (of which there are {}): add a [[force]] of kind = \"rod\"",
+                links.rods.len()
+            );
+            return Err(Error::Scene(text));
+        }
+        let still = held.iter().filter(|held| held.by == Hold::Fixed).map(|held| held.id).collect();
+        let held: Vec<u32> = held.iter().map(|held| held.id).collect();
+        links.check_rods([position, velocity], &held, &still, |r| self.bounds.shortest(r))?;
         boundary::holds(&self.bounds, position, velocity)?;
         u32::try_from(count)
             .ok()

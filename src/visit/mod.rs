@@ -2,13 +2,18 @@
 
 mod body;
 mod each;
+mod jacobian;
 mod law;
+mod links;
 mod near;
 mod over;
 mod pairs;
 pub mod random;
+mod tied;
 mod twin;
 
 pub use body::{Body, bodies};
+pub use jacobian::{Jacobian, ROW, ROWS};
 pub use law::Law;
+pub use links::{LINK, LINK_START, bind};
 pub use over::Over;

@@ -60,6 +60,7 @@ pub const EQUIVALENT: &[Equivalent] = &[
         "<=",
         "behind the last element stands a finite number, or the last one again",
     ),
+    same("watch.wgsl", "if bitcast<u32>(speed) > atomicLoad", ">", ">=", "the largest stays the largest"),
     same(
         "boids.wgsl",
         "const COINCIDENT: f32 = 1e-30;",

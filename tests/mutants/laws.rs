@@ -29,7 +29,7 @@ pub fn all(device: &Device, stages: &mut Vec<Stage>) {
                 if force.laws().iter().any(|law| matches!(law.over, Over::Near { .. } | Over::Nearest { .. })) {
                     continue;
                 }
-                let problem = Problem::new(u32::try_from(FEW).expect("few"), machine);
+                let problem = Problem::new(u32::try_from(FEW).expect("few"), machine).tied(&support::links(FEW), &[]);
                 for kernel in kernels(force.as_ref(), &problem) {
                     stages.push(stage(entry.name, resting(device, machine, Bounds::default()), kernel));
                 }

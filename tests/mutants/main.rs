@@ -1,5 +1,6 @@
 //! Mutation: every operator and literal of every shader is changed once, and the lockstep with the twins must notice.
 
+mod alarms;
 mod boundary;
 mod curious;
 mod equivalent_neighbors;
@@ -9,6 +10,7 @@ mod held;
 mod laws;
 mod neighbors;
 mod primitives;
+mod rods;
 mod stages;
 #[path = "../support/mod.rs"]
 mod support;

@@ -39,7 +39,8 @@ pub fn gpu(shared: &Shared, count: usize) -> Gpu {
 /// The kernels of a force's first law on a machine.
 pub fn kernel(force: &dyn Force, count: usize, machine: &Machine) -> Kernel {
     let law = force.laws().into_iter().next().expect("a law");
-    law.kernel(&Problem::new(u32::try_from(count).expect("few"), *machine)).expect("a kernel")
+    law.kernel(&Problem::new(u32::try_from(count).expect("few"), *machine).tied(&super::links(count), &[]))
+        .expect("a kernel")
 }
 
 /// The kernels of a force: those of its laws, those that keep velocities and positions lawful, and those that end a step.
@@ -57,7 +58,8 @@ pub fn kernels(force: &dyn Force, problem: &Problem) -> Vec<Kernel> {
 /// The same in a box.
 pub fn kernel_in(bounds: Bounds, force: &dyn Force, count: usize, machine: &Machine) -> Kernel {
     let law = force.laws().into_iter().next().expect("a law");
-    let problem = Problem::new(u32::try_from(count).expect("few"), *machine).at(&[], bounds);
+    let problem =
+        Problem::new(u32::try_from(count).expect("few"), *machine).at(&[], bounds).tied(&super::links(count), &[]);
     law.kernel(&problem).expect("a kernel")
 }
 

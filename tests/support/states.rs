@@ -41,8 +41,14 @@ pub fn one(position: DVec3, velocity: DVec3) -> Particles {
 /// A simulation by the twins.
 pub fn cpu(particles: &Particles, forces: Vec<Box<dyn Force>>, name: &str, dt: f64) -> Simulation<Cpu> {
     let count = u32::try_from(particles.len()).expect("few");
-    let setup =
-        Setup { particles: particles.clone(), forces, integrator: integrator(name), dt, bounds: Bounds::default() };
+    let setup = Setup {
+        particles: particles.clone(),
+        forces,
+        integrator: integrator(name),
+        dt,
+        bounds: Bounds::default(),
+        solver: motes::Solver::default(),
+    };
     Simulation::on(Cpu::new(count).expect("some"), &setup).expect("a simulation")
 }
 
@@ -65,12 +71,18 @@ pub fn accelerations_in(bounds: &Bounds, forces: &[Box<dyn Force>], particles: &
     felt(forces, particles, World { time, dt: 0.01, bounds: *bounds, ..World::default() }).0
 }
 
-/// The same with all that is to be known of the world; and the velocities and positions that the forces then allow.
-pub fn felt(forces: &[Box<dyn Force>], particles: &Particles, world: World) -> (Vec<DVec4>, Vec<DVec4>, Vec<DVec4>) {
+/// The same with all that is to be known of the world; the velocities and places that the forces
+/// then allow; and what is left of the links.
+pub fn felt(
+    forces: &[Box<dyn Force>],
+    particles: &Particles,
+    world: World,
+) -> (Vec<DVec4>, [Vec<DVec4>; 2], Option<Array>) {
     let count = u32::try_from(particles.len()).expect("few");
     let mut cpu = Cpu::new(count).expect("some");
     let problem = motes::forces::Problem::new(count, cpu.machine())
         .at(&particles.position, world.bounds)
+        .tied(&particles.links, &particles.held)
         .moved(&[super::choices::swing()], world.dt);
     let mut step = Step::new(forces, problem.clone());
     step.evaluate();
@@ -90,7 +102,7 @@ pub fn felt(forces: &[Box<dyn Force>], particles: &Particles, world: World) -> (
     cpu.set_world(World { count, ..world }).expect("clock");
     cpu.run(&program, 1).expect("twins run");
     match [ACCELERATION, VELOCITY, POSITION].map(|field| cpu.host().get(field.name)) {
-        [Some(Array::Vec4(a)), Some(Array::Vec4(v)), Some(Array::Vec4(x))] => (a, v, x),
+        [Some(Array::Vec4(a)), Some(Array::Vec4(v)), Some(Array::Vec4(x))] => (a, [v, x], cpu.host().get("link")),
         _ => panic!("forces give accelerations"),
     }
 }
