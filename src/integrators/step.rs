@@ -123,8 +123,7 @@ impl<'a> Step<'a> {
         self.add(runge_kutta::finish(self.problem.count, weight));
         self.limit();
         self.enclose();
-        self.drifted = 1.0;
-        self.confine(1.0);
+        self.problem.reached = 1.0;
         self.each_force(|force, plan, problem| force.settle(plan, problem));
     }
 
