@@ -47,7 +47,16 @@ impl Network {
         let (joint_start, joint) = rows(count, joints.collect());
         let triangles = links.triangles.iter().flat_map(|ids| corners(*ids, 0.0));
         let (triangle_start, triangle) = rows(count, triangles.collect());
-        Self { count, link_start, link, joint_start, joint, triangle_start, triangle, rods: Arc::new(links.rods.clone()) }
+        Self {
+            count,
+            link_start,
+            link,
+            joint_start,
+            joint,
+            triangle_start,
+            triangle,
+            rods: Arc::new(links.rods.clone()),
+        }
     }
     /// How many springs there are, each counted from both ends.
     #[must_use]

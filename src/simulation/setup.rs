@@ -93,7 +93,10 @@ impl Setup {
         links.check(mass)?;
         boundary::check(&self.bounds)?;
         if !links.rods.is_empty() && !self.forces.iter().any(|force| force.keeps_rods()) {
-            let text = format!("nothing keeps the lengths of the rods (of which there are {}): add a [[force]] of kind = \"rod\"", links.rods.len());
+            let text = format!(
+                "nothing keeps the lengths of the rods (of which there are {}): add a [[force]] of kind = \"rod\"",
+                links.rods.len()
+            );
             return Err(Error::Scene(text));
         }
         let still = held.iter().filter(|held| held.by == Hold::Fixed).map(|held| held.id).collect();

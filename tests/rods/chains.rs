@@ -1,11 +1,11 @@
 //! Many rods: chains that hang, fly and are pulled.
 
 use glam::{DVec3, DVec4};
+use motes::Particles;
 use motes::forces::{Force, Law};
 use motes::kernel::Source;
 use motes::links::Rod;
 use motes::settings::Value;
-use motes::Particles;
 use support::Random;
 use support::states::{force, phase};
 
@@ -14,10 +14,8 @@ use crate::{HELD, Weight, chain, device, down, forces, read, state, stretch, sup
 /// The equilibrium of links of mass 1 at their joints, 1.5 long in all, between two points 1 apart: the lowest joint, and the
 /// first behind the left end. Statics: every joint carries the same pull across, and the slopes grow by one weight each.
 #[expect(clippy::unreadable_literal, reason = "as it was computed")]
-const CATENARIES: [(usize, f64, Option<[f64; 2]>); 2] = [
-    (10, -0.5059459315710845, Some([0.06221109051911371, -0.13649095287389065])),
-    (20, -0.5034466343401924, None),
-];
+const CATENARIES: [(usize, f64, Option<[f64; 2]>); 2] =
+    [(10, -0.5059459315710845, Some([0.06221109051911371, -0.13649095287389065])), (20, -0.5034466343401924, None)];
 
 /// Straight down to the middle and up again.
 fn valley(links: usize) -> Particles {
@@ -118,7 +116,8 @@ struct Pull;
 
 impl Force for Pull {
     fn laws(&self) -> Vec<Law> {
-        let wgsl = "fn force(me: Particle) -> vec4f { return select(vec4f(), vec4f(3.0, 0.0, 4.0, 0.0), me.index == 0u); }";
+        let wgsl =
+            "fn force(me: Particle) -> vec4f { return select(vec4f(), vec4f(3.0, 0.0, 4.0, 0.0), me.index == 0u); }";
         vec![Law::each("pull", Source::ours("pull", wgsl), Vec::new(), |me, _| {
             if me.index == 0 { DVec4::new(3.0, 0.0, 4.0, 0.0) } else { DVec4::ZERO }
         })]

@@ -55,8 +55,7 @@ fn device_and_twins_solve_alike() {
             let plan = setup.plans(machine).expect("plans").step;
             let mut simulation = Simulation::on(gpu, &setup).expect("a simulation");
             let mut random = Random::new(9);
-            let velocity: Vec<Vec4> =
-                (0..count).map(|_| (random.vector() * 0.2).as_vec3().extend(0.4)).collect();
+            let velocity: Vec<Vec4> = (0..count).map(|_| (random.vector() * 0.2).as_vec3().extend(0.4)).collect();
             simulation.write(VELOCITY, &velocity).expect("velocities");
             let verdicts = pollster::block_on(compare(simulation.backend(), &plan, setup.check().expect("some")));
             let mut seen = 0;

@@ -47,7 +47,11 @@ fn rods_make_open_chains() {
 fn rods_have_their_lengths_at_the_start() {
     let mut wrong = pendulum(&[0.4, 0.9]);
     wrong.links.rods[1].length = 1.000_02;
-    assert!(said(&wrong).starts_with("rod 1 has the length 1.00002, and its particles 1 and 2 are "), "{}", said(&wrong));
+    assert!(
+        said(&wrong).starts_with("rod 1 has the length 1.00002, and its particles 1 and 2 are "),
+        "{}",
+        said(&wrong)
+    );
     wrong.links.rods[1].length = 0.999_99;
     assert_eq!(said(&wrong), "");
 
