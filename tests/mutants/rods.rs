@@ -30,7 +30,7 @@ fn tied(device: &Device, back: f64) -> (Simulation<Gpu>, Links, Vec<Held>) {
         places.push(place.as_vec3().as_dvec3());
         if !starts {
             // On the way back they are found too long and too short as well.
-            let wrong = if back < 0.0 { [0.9, 1.1][id % 2] } else { 1.0 };
+            let wrong = if back < 0.0 { [0.95, 1.05][id % 2] } else { 1.0 };
             let length = f64::from((wrong * places[id].distance(places[id - 1])) as f32);
             links.rods.push(Rod { ends: [id as u32, id as u32 - 1], length });
         }
