@@ -22,12 +22,14 @@ pub mod scene;
 pub mod selftest;
 pub mod settings;
 pub mod simulation;
+pub mod solids;
+pub mod stability;
 pub mod visit;
 
 pub use cpu::Cpu;
 pub use error::Error;
 pub use gpu::Gpu;
-pub use kernel::{ACCELERATION, Bounds, POSITION, SPECIES, Side, VELOCITY};
+pub use kernel::{ACCELERATION, Bounds, POSITION, SPECIES, Side, TARGET, VELOCITY};
 pub use measure::Measure;
 pub use particles::Particles;
 pub use simulation::{Setup, Simulation, Snapshot};

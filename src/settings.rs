@@ -41,6 +41,8 @@ pub enum Kind {
     Choice(&'static [&'static str]),
     /// Yes or no.
     Flag,
+    /// The name of a motion of the scene, or an empty text: none.
+    Motion,
 }
 
 /// A key: its name in the scene, what it accepts, what it is when left out (`None`: it must be given), and what it means.

@@ -49,7 +49,8 @@ fn judge(verdicts: &[Verdict], count: usize, of: &impl Display, idle: impl Fn(&V
 /// What an earlier step left in the fields that a step only uses.
 fn fill(gpu: &mut Gpu, plan: &Plan, count: usize) {
     let kept = ["world", "alarm", POSITION.name, VELOCITY.name];
-    for name in plan.fields(u32::try_from(count).expect("few")).keys().filter(|name| !kept.contains(&name.as_str())) {
+    let filled = |name: &&String| !kept.contains(&name.as_str()) && plan.table(name).is_none();
+    for name in plan.fields(u32::try_from(count).expect("few")).keys().filter(filled) {
         let words = vec![0.7f32; usize::try_from(gpu.size(name) / 4).expect("small")];
         gpu.write_bytes(name, 0, bytemuck::cast_slice(&words)).expect("a field");
     }
@@ -78,15 +79,21 @@ fn every_law_alone() {
                     let cloud = support::cloud(count, 7);
                     let problem = forces::Problem::new(simulation.count(), machine)
                         .at(&cloud.position, motes::Bounds::default())
-                        .of_species(&cloud.species);
+                        .of_species(&cloud.species)
+                        .tied(&cloud.links, &cloud.held);
                     let mut step = Step::new(&law, problem.clone());
                     step.evaluate();
                     let mut plan = step.finished().expect("a plan");
-                    // Back to where they began: what pushes away leaves nobody to be pushed.
+                    // Back to where they began: what pushes away leaves nobody to be pushed, and what brakes in steps as long
+                    // as these throws them away.
                     let places = cloud.position.iter().zip(&cloud.mass).map(|(x, m)| x.extend(*m).as_vec4());
                     simulation.write(POSITION, &places.collect::<Vec<_>>()).expect("places");
+                    let ways = cloud.velocity.iter().zip(&cloud.radius).map(|(v, r)| v.extend(*r).as_vec4());
+                    simulation.write(VELOCITY, &ways.collect::<Vec<_>>()).expect("velocities");
                     let laws = plan.order.len();
                     law[0].limit(&mut plan, &problem).expect("limits");
+                    law[0].confine(&mut plan, &problem, 0.8).expect("places");
+                    law[0].conclude(&mut plan, &problem).expect("an end");
                     if plan.order.len() > laws {
                         // Faster than the limit has left them.
                         let mut velocity = pollster::block_on(simulation.read(VELOCITY)).expect("velocities");

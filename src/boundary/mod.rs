@@ -8,19 +8,19 @@ pub use check::{check, holds};
 pub use periodic::wrapped;
 
 use crate::error::Error;
-use crate::kernel::{Bounds, Kernel, Side};
+use crate::kernel::{Kernel, Problem, Side};
 
-/// What runs where positions have been advanced; nothing in open space.
+/// What runs where positions have been advanced; nothing in open space. No mirror throws back who is held.
 ///
 /// # Errors
 /// When a shader does not compile.
-pub fn kernels(count: u32, bounds: &Bounds) -> Result<Vec<Kernel>, Error> {
+pub fn kernels(problem: &Problem) -> Result<Vec<Kernel>, Error> {
     let mut kernels = Vec::new();
-    if bounds.has(Side::Periodic) {
-        kernels.push(periodic::kernel(count)?);
+    if problem.bounds.has(Side::Periodic) {
+        kernels.push(periodic::kernel(problem.count)?);
     }
-    if bounds.has(Side::Reflecting) {
-        kernels.push(reflecting::kernel(count)?);
+    if problem.bounds.has(Side::Reflecting) {
+        kernels.push(reflecting::kernel(problem)?);
     }
     Ok(kernels)
 }

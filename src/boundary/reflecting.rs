@@ -3,19 +3,23 @@
 use std::sync::Arc;
 
 use crate::error::Error;
-use crate::kernel::{Host, Kernel, POSITION, Shader, Side, VELOCITY};
+use crate::kernel::{Host, Kernel, POSITION, Problem, Shader, Side, VELOCITY};
 
 /// The kernel.
-pub fn kernel(count: u32) -> Result<Kernel, Error> {
+pub fn kernel(problem: &Problem) -> Result<Kernel, Error> {
+    let (holding, tables) = problem.holding();
     let shader = Shader::join(&[
+        holding,
         crate::shader!("world.wgsl"),
         crate::shader!("broken.wgsl"),
         crate::shader!("boundary/reflecting.wgsl"),
     ])?;
-    let twin = |host: &Host| {
+    let who = problem.clone();
+    let twin = move |host: &Host| {
         let bounds = host.world().bounds;
         let (mut position, mut velocity) = (host.write(POSITION)?, host.write(VELOCITY)?);
-        for (x, v) in position.iter_mut().zip(velocity.iter_mut()).filter(|(x, _)| x.is_finite()) {
+        let free = position.iter_mut().zip(velocity.iter_mut()).enumerate().filter(|(id, _)| !who.is_held(*id));
+        for (_, (x, v)) in free.filter(|(_, (x, _))| x.is_finite()) {
             for axis in (0..3).filter(|axis| bounds.sides[*axis] == Side::Reflecting) {
                 let (place, thrown_back) = folded(x[axis], bounds.low[axis], bounds.high[axis]);
                 x[axis] = place;
@@ -26,7 +30,7 @@ pub fn kernel(count: u32) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    Ok(Kernel::new("reflecting", shader, Vec::new(), count, Arc::new(twin)))
+    Ok(Kernel { tables, ..Kernel::new("reflecting", shader, Vec::new(), problem.count, Arc::new(twin)) })
 }
 
 /// The way of a particle to and fro between two sides, unrolled, is a straight line: where on it x is, and whether the

@@ -5,6 +5,7 @@ use motes::forces::{Law, Over, Problem};
 use motes::kernel::{
     ACCELERATION, Access, Array, Host, Kernel, Machine, POSITION, Pass, Plan, SPECIES, Twin, VELOCITY, World,
 };
+use motes::motion::Hold;
 use motes::scene::Scene;
 use motes::{Bounds, Error, Setup, Side};
 
@@ -99,16 +100,29 @@ pub fn conserved(setup: &Setup) -> Result<Conserved, Error> {
         conserved.angular_momentum &= law.reciprocal;
         // What some do to others, and not others to them, keeps nothing.
         conserved.energy &= law.over == Over::Each || law.reciprocal;
+        if matches!(law.over, Over::Links | Over::Joints | Over::Triangles) {
+            // It goes by those that are tied, and by nothing else; what resists takes energy.
+            let damped = setup.particles.links.springs.iter().any(|spring| spring.damping > 0.0);
+            conserved.energy &= law.name != "spring" || !damped;
+            continue;
+        }
         conserved.energy &= match &law.twin {
             Some(twin) => keeps_energy(twin, &setup.bounds)?,
             None => false,
         };
         conserved.energy &= !law.kernel(&Problem::new(1, MACHINE))?.names("velocity");
     }
+    // Who is held takes momentum; who is led does work as well.
+    let held = &setup.particles.held;
+    conserved.momentum &= held.is_empty();
+    conserved.angular_momentum &= held.is_empty();
+    conserved.energy &= held.iter().all(|one| one.by == Hold::Fixed);
     // Who holds a speed takes energy and momentum, or gives some.
     let mut limits = Plan::default();
     for force in &setup.forces {
-        force.limit(&mut limits, &Problem::new(1, MACHINE))?;
+        let problem = Problem::new(1, MACHINE).moved(&setup.particles.motions, setup.dt);
+        force.limit(&mut limits, &problem)?;
+        force.confine(&mut limits, &problem, 1.0)?;
     }
     if !limits.order.is_empty() {
         conserved = Conserved { energy: false, momentum: false, angular_momentum: false };

@@ -9,14 +9,14 @@ use motes::{Bounds, Cpu, Gpu, Simulation};
 
 use super::advice::advice;
 use super::args::SceneArgs;
-use super::engine::{self, Engine};
+use super::engine::Engine;
 use super::failure::Failure;
 use super::progress::duration;
+use super::substeps::{self, Loaded};
 
 /// Checks a scene: its faults, its memory, and the time that a run would take.
 pub async fn check(args: &SceneArgs) -> Result<(), Failure> {
-    let mut scene = engine::load(args)?;
-    let setup = engine::setup(&mut scene);
+    let Loaded { scene, setup, .. } = substeps::load(args, None).await?;
     let count = setup.check()?;
     Picture::new(&scene.picture, &setup.particles, &[], Trail::new(0))?;
     let engine = Engine::choose(&args.device).await?;

@@ -16,6 +16,7 @@ macro_rules! note {
 }
 
 mod advice;
+mod aftermath;
 mod args;
 mod bench;
 mod check;
@@ -30,7 +31,9 @@ mod plot;
 mod progress;
 mod run;
 mod scenes;
+mod stability;
 mod stop;
+mod substeps;
 mod table;
 
 use std::process::ExitCode;
@@ -63,6 +66,7 @@ async fn dispatch(command: Command) -> Result<(), Failure> {
         Command::Explain(args) => explain::explain(&args).await,
         Command::Compare(args) => compare::compare(&args).await,
         Command::Scenes(args) => scenes::scenes(&args),
+        Command::Stability(args) => stability::stability(&args).await,
         Command::Bench(args) => bench::bench(&args).await,
         Command::Doctor(args) => doctor::doctor(&args).await,
     }

@@ -7,17 +7,20 @@ use motes::io::Precision;
 use motes::kernel::Backend;
 use motes::render::{Image, Picture, Trail};
 use motes::scene::Scene;
-use motes::{Cpu, Error, Measure, POSITION, Setup, Simulation};
+use motes::stability::Verdict;
+use motes::{Cpu, Error, Measure, POSITION, Setup, Simulation, Snapshot};
 use serde_json::json;
 
 use super::advice::{Conserved, advice, conserved};
+use super::aftermath;
 use super::args::RunArgs;
-use super::engine::{self, Engine};
+use super::engine::Engine;
 use super::failure::Failure;
 use super::film::Film;
 use super::output::Output;
 use super::progress::{Progress, duration, large};
 use super::stop::Stop;
+use super::substeps::{self, Loaded};
 
 /// How long one batch of steps should take: Ctrl-C is heard between two.
 const BATCH: Duration = Duration::from_millis(250);
@@ -28,13 +31,13 @@ const TRAIL: u64 = 1000;
 
 /// Runs a scene.
 pub async fn run(args: &RunArgs) -> Result<(), Failure> {
-    let mut scene = engine::load_with(&args.scene, args.frames.map(|n| format!("output.frames={n}")))?;
-    let setup = engine::setup(&mut scene);
+    let frames = args.frames.map(|n| format!("output.frames={n}"));
+    let Loaded { scene, setup, verdict } = substeps::load(&args.scene, frames).await?;
     let count = setup.check()?;
     let engine = Engine::choose(&args.scene.device).await?;
     let mut run = Run::new(args, scene, &setup, &engine)?;
     // Everything that can be refused is refused before the first file is written.
-    let result = match &engine {
+    let mut result = match &engine {
         Engine::Gpu(found) => {
             let simulation = Simulation::new(&found.device, &found.queue, &setup)?;
             let result = run.drive(simulation, Precision::Single).await;
@@ -44,8 +47,17 @@ pub async fn run(args: &RunArgs) -> Result<(), Failure> {
         }
         Engine::Cpu(_) => run.drive(Simulation::on(Cpu::new(count)?, &setup)?, Precision::Double).await,
     };
-    if let Err(Failure::Error(error)) = &result {
-        run.progress.event("error", json!({ "code": error.exit_code(), "text": error.to_string() }));
+    if let Err(Failure::Error(error)) = result {
+        result = Err(run.explain(error, &setup, verdict.as_ref(), &engine));
+    }
+    match &result {
+        Err(Failure::Error(error)) => {
+            run.progress.event("error", json!({ "code": error.exit_code(), "text": error.to_string() }));
+        }
+        Err(Failure::Explained(error, more)) => {
+            run.progress.event("error", json!({ "code": error.exit_code(), "text": error.to_string(), "more": more }))
+        }
+        _ => {}
     }
     if let (Err(Failure::Error(Error::Timeout { .. })), Engine::Gpu(_)) = (&result, &engine) {
         // A device that hangs hangs whoever drops it.
@@ -67,6 +79,8 @@ struct Run {
     conserved: Conserved,
     progress: Progress,
     stop: Stop,
+    /// The last state that was read, and so the last that is known to be good.
+    last: Option<Snapshot>,
 }
 
 impl Run {
@@ -93,7 +107,7 @@ impl Run {
         }
         let company = setup.forces.iter().find_map(|force| force.company());
         let (conserved, stop) = (conserved(setup)?, Stop::listen());
-        Ok(Self { scene, device, folder, film, count, company, conserved, progress, stop })
+        Ok(Self { scene, device, folder, film, count, company, conserved, progress, stop, last: None })
     }
 
     async fn drive<B: Backend>(&mut self, mut simulation: Simulation<B>, precision: Precision) -> Result<(), Failure> {
@@ -139,8 +153,9 @@ impl Run {
             } else if self.progress.watched() && looked.elapsed() > LOOK.max(look * 20) {
                 // The energy between two outputs, for whoever looks, and for a twentieth of the time at most.
                 let start = Instant::now();
-                let row = Measure::of(&simulation.snapshot().await?);
-                self.progress.energy(&row, &output.first());
+                let snapshot = simulation.snapshot().await?;
+                self.progress.energy(&Measure::of(&snapshot), &output.first());
+                self.last = Some(snapshot);
                 (looked, look) = (Instant::now(), start.elapsed());
             }
             self.shoot(&mut simulation, &output).await?;
@@ -187,7 +202,19 @@ impl Run {
         if let Some(row) = output.rows().last() {
             self.progress.measured(row, &output.first());
         }
+        self.last = Some(snapshot);
         Ok(image)
+    }
+
+    /// What is to be said, and kept, when numbers are lost.
+    fn explain(&self, error: Error, setup: &Setup, verdict: Option<&Verdict>, engine: &Engine) -> Failure {
+        let precision = match engine {
+            Engine::Gpu(_) => Precision::Single,
+            Engine::Cpu(_) => Precision::Double,
+        };
+        let way = verdict.and_then(|verdict| substeps::way_out(verdict, &self.scene, setup));
+        let to = (&*self.folder, &*self.scene.output.formats, precision);
+        aftermath::explain(error, setup, way.as_deref(), self.last.as_ref(), to)
     }
 
     fn conclude(

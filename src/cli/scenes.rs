@@ -1,6 +1,6 @@
 //! `motes scenes`
 
-use motes::scene::{BOX_KEYS, PARTICLES_KEYS, SCENES, Source};
+use motes::scene::{BOX_KEYS, LINKS_KEYS, PARTICLES_KEYS, SCENES, Source};
 use motes::settings::Value;
 
 use super::args::ScenesArgs;
@@ -45,6 +45,7 @@ fn keys(wanted: Option<&str>) -> Result<(), Failure> {
             BOX_KEYS,
         ),
         ("section", "particles", "what every [[particles]] may say", PARTICLES_KEYS),
+        ("section", "links", "what ties particles: a file, or pairs of ids", LINKS_KEYS),
         ("section", "picture", "how pictures are made", motes::render::KEYS),
     ];
     let all: Vec<_> = forces.chain(shapes).chain(sections).filter(|e| wanted.is_none_or(|name| name == e.1)).collect();

@@ -64,6 +64,10 @@ pub trait Force: Send + Sync {
     fn conclude(&self, _plan: &mut Plan, _problem: &Problem) -> Result<(), Error> {
         Ok(())
     }
+    /// Whether links change as it acts.
+    fn breaks(&self) -> bool {
+        false
+    }
     /// Whether rods keep their lengths by it.
     fn keeps_rods(&self) -> bool {
         false
@@ -109,6 +113,7 @@ register! {
     boids: Boids, "a flock: separation, alignment and cohesion within a field of view (Reynolds 1987, 1999)";
     speed_limit: SpeedLimit, "the least and the greatest speed of a species";
     obstacle: Obstacle, "a sphere, a box or a plane that is seen ahead and avoided (after Reynolds 1999)";
+    solid: Solid, "a sphere, a box, a plane or a capsule that lets nobody in, or out: bounces and friction";
     flee: Flee, "prey flee from predators";
     chase: Chase, "predators chase prey";
     goal: Goal, "a place to steer to and arrive at, or a roost to keep to (Reynolds 1999)";
@@ -116,6 +121,10 @@ register! {
     soft_turn: SoftTurn, "a box with soft walls that turn back";
     rod: Rod, "rigid rods in chains keep their lengths, whatever the other forces do (RATTLE: Andersen 1983)";
     vicsek: Vicsek, "everybody takes the mean heading around it, with noise, in the plane (Vicsek et al. 1995)";
+    spring: Spring, "springs and ropes, damped along themselves (Hooke 1678)";
+    tear: Tear, "springs that are stretched too far break, for ever";
+    joint: Joint, "joints that resist bending: elastic rods, hair (Euler 1744)";
+    air: Air, "drag and lift on every triangle of a cloth, in gusts (Ling, Damodaran & Gay 1996)";
 }
 
 /// The force of a scene's word.

@@ -46,7 +46,9 @@ pub fn kernel(problem: &Problem, [least, most]: [f64; 2], who: Who) -> Result<Ke
         let text = format!("the least speed, {least}, is above the greatest, {most}: lower one or raise the other");
         return Err(Error::Scene(text));
     }
+    let (holding, tables) = problem.holding();
     let shader = Shader::join(&[
+        holding,
         crate::shader!("world.wgsl"),
         crate::shader!("law/species.wgsl"),
         crate::shader!("forces/speed_limit.wgsl"),
@@ -55,10 +57,11 @@ pub fn kernel(problem: &Problem, [least, most]: [f64; 2], who: Who) -> Result<Ke
     let params = shader.reflection().binding("params");
     let params = params.map_or(Ok(Vec::new()), |binding| binding.packed.pack("speed_limit", &values))?;
     let pass = Pass { uniforms: vec![("params", params)], ..Pass::new(shader, problem.count) };
+    let problem = problem.clone();
     let twin = move |host: &Host| {
         let bodies = crate::visit::bodies(host)?;
         let mut velocity = host.write(VELOCITY)?;
-        for (v, _) in velocity.iter_mut().zip(&bodies).filter(|(_, body)| who.has(body)) {
+        for (v, _) in velocity.iter_mut().zip(&bodies).filter(|(_, body)| who.has(body) && !problem.is_held(body.index)) {
             let speed = v.truncate().length();
             if speed > most {
                 *v *= DVec4::splat(most / speed).with_w(1.0);
@@ -71,5 +74,5 @@ pub fn kernel(problem: &Problem, [least, most]: [f64; 2], who: Who) -> Result<Ke
         Ok(())
     };
     let name = "speed_limit".to_owned();
-    Ok(Kernel { name, passes: vec![pass], twin: Some(Arc::new(twin)), sizes: Vec::new(), scratch: Vec::new(), tables: Vec::new() })
+    Ok(Kernel { name, passes: vec![pass], twin: Some(Arc::new(twin)), sizes: Vec::new(), scratch: Vec::new(), tables })
 }

@@ -1,6 +1,6 @@
 //! A step as it is being written: each verb adds kernels to a plan.
 
-use super::verbs::{at, clear, drift, keep, kick, runge_kutta, tick, watch};
+use super::verbs::{at, clear, drift, held, keep, kick, runge_kutta, tick, watch};
 use crate::boundary;
 use crate::error::Error;
 use crate::forces::{Force, Problem};
@@ -13,6 +13,8 @@ pub struct Step<'a> {
     problem: Problem,
     plan: Plan,
     evaluated: bool,
+    /// How much of the step positions have been advanced by.
+    drifted: f64,
     error: Option<Error>,
 }
 
@@ -20,7 +22,7 @@ impl<'a> Step<'a> {
     /// An empty step of particles under some forces.
     #[must_use]
     pub fn new(forces: &'a [Box<dyn Force>], problem: Problem) -> Self {
-        Self { forces, problem, plan: Plan::default(), evaluated: false, error: None }
+        Self { forces, problem, plan: Plan::default(), evaluated: false, drifted: 0.0, error: None }
     }
 
     /// a ← forces(x, v, t), with all laws in the order of the scene.
@@ -35,6 +37,18 @@ impl<'a> Step<'a> {
                 self.forces[..place].iter().filter(|other| name(other.as_ref()) == name(force.as_ref())).count();
             if self.error.is_none() {
                 self.error = force.evaluate(&mut self.plan, earlier, &self.problem).err();
+            }
+        }
+        if !self.problem.held.is_empty() {
+            self.add(held::hold(&self.problem));
+        }
+    }
+    /// Who is held gets the velocity that brings it where it shall be at the end of the step.
+    pub fn lead(&mut self) {
+        match held::lead(&self.problem) {
+            Ok(kernels) => kernels.into_iter().for_each(|kernel| self.plan.add(kernel)),
+            Err(error) => {
+                self.error.get_or_insert(error);
             }
         }
     }
@@ -66,11 +80,12 @@ impl<'a> Step<'a> {
     pub fn drift(&mut self, factor: f64) {
         self.add(drift::kernel(self.problem.count, factor));
         self.enclose();
-        self.each_force(|force, plan, problem| force.confine(plan, problem, factor));
+        self.drifted += factor;
+        self.confine(factor);
     }
     /// Whoever has left the box by a closed side comes in again.
     pub fn enclose(&mut self) {
-        match boundary::kernels(self.problem.count, &self.problem.bounds) {
+        match boundary::kernels(&self.problem) {
             Ok(kernels) => kernels.into_iter().for_each(|kernel| self.plan.add(kernel)),
             Err(error) => {
                 self.error.get_or_insert(error);
@@ -95,6 +110,8 @@ impl<'a> Step<'a> {
         self.add(runge_kutta::finish(self.problem.count, weight));
         self.limit();
         self.enclose();
+        self.drifted = 1.0;
+        self.confine(1.0);
         self.each_force(|force, plan, problem| force.settle(plan, problem));
     }
 
@@ -152,6 +169,11 @@ impl<'a> Step<'a> {
         Ok((before.finished()?, after.finished()?))
     }
 
+    /// What forces make of positions that are not allowed, after an advance by a part of the step.
+    fn confine(&mut self, factor: f64) {
+        self.problem.reached = self.drifted;
+        self.each_force(|force, plan, problem| force.confine(plan, problem, factor));
+    }
     /// What forces make of velocities that are not allowed.
     fn limit(&mut self) {
         self.each_force(|force, plan, problem| force.limit(plan, problem));

@@ -9,6 +9,7 @@ mod archive;
 mod atomic;
 pub mod csv;
 mod line;
+pub mod links;
 mod npy;
 pub mod npz;
 mod problems;

@@ -14,8 +14,10 @@ mod world;
 
 pub use backend::{Backend, Machine};
 pub use bounds::{Bounds, Side};
-pub use field::{ACCELERATION, ALARM, ALARM_WORDS, Array, Element, Field, POSITION, SPECIES, VELOCITY};
-pub use host::Host;
+pub use field::{
+    ACCELERATION, ALARM, ALARM_WORDS, Array, Element, Field, HOME, POSITION, QUIET, SPECIES, TARGET, VELOCITY,
+};
+pub use host::{Host, Reading, Writing};
 pub use pack::{Member, Packed, Scalar};
 pub use plan::{Kernel, Name, Pass, Plan, Threads, Twin};
 pub use problem::Problem;

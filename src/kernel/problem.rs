@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{Bounds, Machine, Shader, Side};
+use super::{Bounds, Machine, Name, Shader, Side, Source};
 use crate::links::{Links, Network};
-use crate::motion::Held;
+use crate::motion::{self, Held, Motion};
 
 /// The machine, the particles' number and place at the start, and their box. What a plan makes of the place are
 /// guesses of speed alone: particles may go anywhere.
@@ -24,8 +24,18 @@ pub struct Problem {
     pub species: Vec<(u32, u32)>,
     /// What ties them together.
     pub network: Arc<Network>,
-    /// Those that forces do not move.
+    /// Whether that changes as it goes: springs that break.
+    pub breaks: bool,
+    /// Those that forces do not move, as [`motion::sorted`] has them.
     pub held: Arc<Vec<Held>>,
+    /// One word for each particle, 1 where it is held; nothing where nobody is.
+    pub mask: Arc<Vec<u32>>,
+    /// What leads some of them, and solids.
+    pub motions: Arc<Vec<Motion>>,
+    /// The step size \[time\]: motions are told in steps.
+    pub dt: f64,
+    /// How much of the step positions have been advanced by, where a plan is being written: when a drift ends.
+    pub reached: f64,
 }
 
 impl Problem {
@@ -39,7 +49,12 @@ impl Problem {
             extent: (DVec3::ZERO, DVec3::ONE),
             species: Vec::new(),
             network: Arc::new(Network::new(count, &Links::default())),
+            breaks: false,
             held: Arc::default(),
+            mask: Arc::default(),
+            motions: Arc::default(),
+            dt: 1.0,
+            reached: 1.0,
         }
     }
     /// The same with particles at these places, in this box.
@@ -61,7 +76,32 @@ impl Problem {
     /// The same with these links, between these held ones.
     #[must_use]
     pub fn tied(self, links: &Links, held: &[Held]) -> Self {
-        Self { network: Arc::new(Network::new(self.count, links)), held: Arc::new(held.to_vec()), ..self }
+        let mask = if held.is_empty() { Vec::new() } else { motion::mask(self.count, held) };
+        let (held, network) = (Arc::new(motion::sorted(held)), Arc::new(Network::new(self.count, links)));
+        Self { network, held, mask: Arc::new(mask), ..self }
+    }
+    /// The same with these motions, in steps of `dt`.
+    #[must_use]
+    pub fn moved(self, motions: &[Motion], dt: f64) -> Self {
+        Self { motions: Arc::new(motions.to_vec()), dt, ..self }
+    }
+    /// The file with `fn is_held(id: u32) -> bool`, and the table that it reads.
+    #[must_use]
+    pub fn holding(&self) -> (Source, Vec<(Name, Arc<Vec<u32>>)>) {
+        if self.mask.is_empty() {
+            return (crate::shader!("motion/free.wgsl"), Vec::new());
+        }
+        (crate::shader!("motion/held.wgsl"), vec![("held".into(), self.mask.clone())])
+    }
+    /// Whether a particle is held.
+    #[must_use]
+    pub fn is_held(&self, id: usize) -> bool {
+        self.mask.get(id).is_some_and(|word| *word > 0)
+    }
+    /// The same with links that may break.
+    #[must_use]
+    pub fn breaking(self, breaks: bool) -> Self {
+        Self { breaks, ..self }
     }
     /// How many are of a species; of none in particular: all.
     #[must_use]

@@ -3,10 +3,12 @@
 
 mod chains;
 mod check;
+mod half;
 mod network;
 mod rods;
 
 pub use chains::{Chains, MOST_RODS, Node};
+pub use half::{Corner, Half, WORDS};
 pub use network::{MOST_LINKS, Network};
 
 /// A spring between two particles, or a rope, which only pulls.

@@ -3,10 +3,13 @@
 
 use std::sync::Arc;
 
-use super::{Joint, Link, Links, Rod};
+use super::{Half, Joint, Link, Links, Rod, WORDS};
 
 /// Links that one particle may have: one invocation loops over them, and 65 535 trips are the most that every driver does.
 pub const MOST_LINKS: u32 = 60_000;
+
+/// Kinds of springs that are kept apart; see `shaders/visit/links_alike.wgsl`.
+const MOST_KINDS: usize = 4;
 
 /// The tables of some links. A table of starts has one word for each particle, and one behind the last.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -17,6 +20,12 @@ pub struct Network {
     pub link_start: Arc<Vec<u32>>,
     /// Four words for each end of a spring: partner, and as `f32` the rest length (negative: a rope), stiffness, damping.
     pub link: Arc<Vec<u32>>,
+    /// Where each particle's springs of each of four kinds begin, where there are no more; else nothing.
+    pub partner_start: Arc<Vec<u32>>,
+    /// The partners, in that order.
+    pub partner: Arc<Vec<u32>>,
+    /// The kinds: four words as in `link`, of which the first says nothing.
+    pub kind: Arc<Vec<u32>>,
     /// Where each particle's joints begin.
     pub joint_start: Arc<Vec<u32>>,
     /// Five words for each corner: the three ids, which of them one is, and as `f32` the stiffness.
@@ -39,7 +48,9 @@ impl Network {
     #[must_use]
     pub fn new(count: u32, links: &Links) -> Self {
         let ends = links.springs.iter().flat_map(|link| [(link.ends[0], half(link, 1)), (link.ends[1], half(link, 0))]);
-        let (link_start, link) = rows(count, ends.collect());
+        let ends: Vec<_> = ends.collect();
+        let (partner_start, partner, kind) = alike(count, &ends);
+        let (link_start, link) = rows(count, ends);
         let corners = |ids: [u32; 3], stiffness: f64| {
             [0u32, 1, 2].map(|place| (ids[place as usize], [ids[0], ids[1], ids[2], place, bits(stiffness)]))
         };
@@ -47,16 +58,30 @@ impl Network {
         let (joint_start, joint) = rows(count, joints.collect());
         let triangles = links.triangles.iter().flat_map(|ids| corners(*ids, 0.0));
         let (triangle_start, triangle) = rows(count, triangles.collect());
+        let rods = Arc::new(links.rods.clone());
         Self {
             count,
             link_start,
             link,
+            partner_start,
+            partner,
+            kind,
             joint_start,
             joint,
             triangle_start,
             triangle,
-            rods: Arc::new(links.rods.clone()),
+            rods,
         }
+    }
+    /// Whether there are few kinds of springs.
+    #[must_use]
+    pub fn alike(&self) -> bool {
+        !self.partner.is_empty()
+    }
+    /// Whether any spring is damped.
+    #[must_use]
+    pub fn damped(&self) -> bool {
+        self.link.chunks_exact(WORDS).any(|words| words[3] != 0)
     }
     /// How many springs there are, each counted from both ends.
     #[must_use]
@@ -65,10 +90,61 @@ impl Network {
     }
 }
 
+impl Links {
+    /// The same without springs that broke, by the words of the table of a network of these.
+    #[must_use]
+    pub fn intact(&self, network: &Network, table: &[u32]) -> Self {
+        let holds = |link: &&Link| {
+            let [a, b] = link.ends;
+            let row = |id: u32| network.link_start.get(id as usize).map_or(0, |n| *n as usize);
+            let words = table.get(row(a) * WORDS..row(a + 1) * WORDS).unwrap_or_default().chunks_exact(WORDS);
+            words.map(Half::new).any(|half| half.partner == b as usize && !half.is_broken())
+        };
+        Self { springs: self.springs.iter().filter(holds).copied().collect(), ..self.clone() }
+    }
+}
+
 /// A spring from one of its ends.
 fn half(link: &Link, partner: usize) -> [u32; 4] {
     let rest = if link.rope { -link.rest } else { link.rest };
     [link.ends[partner], bits(rest), bits(link.stiffness), bits(link.damping)]
+}
+
+/// The tables of springs by their kind, if there are few.
+fn alike(count: u32, ends: &[(u32, [u32; WORDS])]) -> (Arc<Vec<u32>>, Arc<Vec<u32>>, Arc<Vec<u32>>) {
+    let mut kinds: Vec<[u32; 3]> = Vec::new();
+    let mut sorted = Vec::with_capacity(ends.len());
+    for (id, [partner, rest, stiffness, damping]) in ends {
+        let own = [*rest, *stiffness, *damping];
+        let kind = kinds.iter().position(|known| *known == own).unwrap_or_else(|| {
+            kinds.push(own);
+            kinds.len() - 1
+        });
+        if kind == MOST_KINDS {
+            return Default::default();
+        }
+        sorted.push((u64::from(*id) * MOST_KINDS as u64 + kind as u64, *partner));
+    }
+    sorted.sort_unstable();
+    // Kinds that there are not have no springs.
+    kinds.resize(MOST_KINDS, [0; 3]);
+    let mut start = vec![0; (count as usize + 1) * MOST_KINDS + 1];
+    for (key, _) in &sorted {
+        let [id, kind] = [key / MOST_KINDS as u64, key % MOST_KINDS as u64].map(|k| usize::try_from(k).unwrap_or(0));
+        start[id * MOST_KINDS + kind + 1] += 1;
+    }
+    accumulate(&mut start);
+    start.pop();
+    let words = kinds.into_iter().flat_map(|[rest, stiffness, damping]| [0, rest, stiffness, damping]).collect();
+    (Arc::new(start), Arc::new(sorted.into_iter().map(|(_, partner)| partner).collect()), Arc::new(words))
+}
+
+fn accumulate(start: &mut [u32]) {
+    let mut sum = 0;
+    for n in start {
+        sum += *n;
+        *n = sum;
+    }
 }
 
 /// Sorts elements by their particle, and within one by their words, of which the first are ids.
@@ -80,10 +156,6 @@ fn rows<const N: usize>(count: u32, mut elements: Vec<(u32, [u32; N])>) -> (Arc<
             *n += 1;
         }
     }
-    let mut sum = 0;
-    for n in &mut start {
-        sum += *n;
-        *n = sum;
-    }
+    accumulate(&mut start);
     (Arc::new(start), Arc::new(elements.into_iter().flat_map(|(_, words)| words).collect()))
 }

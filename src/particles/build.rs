@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::Particles;
 use crate::error::Error;
+use crate::motion::{Held, Hold};
 use crate::settings::{Key, Kind, Settings, Value};
 
 pub(super) const COUNT: Key = Key::required("count", Kind::Count, "number of particles");
@@ -14,12 +15,18 @@ pub(super) const CENTER: Key =
     Key::new("center", Kind::Vector, Value::Vector(DVec3::ZERO), "where the centre is put [length]");
 pub(super) const VELOCITY: Key =
     Key::new("velocity", Kind::Vector, Value::Vector(DVec3::ZERO), "how it moves as a whole [length / time]");
+pub(super) const MASS: Key = Key::new("mass", Kind::Positive, Value::Number(1.0), "mass of each particle [mass]");
 pub(super) const PARTICLE_RADIUS: Key = Key::new(
     "particle_radius",
     Kind::NotNegative,
     Value::Number(0.0),
     "how large each particle is drawn [length]; 0 lets the picture choose",
 );
+
+/// Holds particles of a shape where they are; the scene may lead them along a motion instead.
+pub(super) fn hold(particles: &mut Particles, ids: impl IntoIterator<Item = u32>) {
+    particles.held.extend(ids.into_iter().map(|id| Held { id, by: Hold::Fixed }));
+}
 
 /// The settings of one shape, read with checks, so that a caller who skips the scene's own checks gets an error, not NaN.
 pub(super) struct Reader<'a> {

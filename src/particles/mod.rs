@@ -1,9 +1,13 @@
 //! Particles on the host: what files and generators give, and what a simulation starts from.
 
 mod build;
+pub mod chain;
+pub mod cloth;
 pub mod disk;
 mod exponential_disk;
+pub mod hair;
 mod hernquist;
+pub mod jelly;
 pub mod lattice;
 pub mod plummer;
 pub mod random;
@@ -16,7 +20,7 @@ use glam::DVec3;
 
 use crate::error::Error;
 use crate::links::Links;
-use crate::motion::Held;
+use crate::motion::{Held, Hold, Motion};
 use crate::settings::{Key, Settings};
 
 /// Particles, one entry per id in every array. Units are the scene's own.
@@ -36,6 +40,8 @@ pub struct Particles {
     pub links: Links,
     /// Those that forces do not move.
     pub held: Vec<Held>,
+    /// What leads some of those, and solids: [`Hold::Motion`] counts them from 0.
+    pub motions: Vec<Motion>,
 }
 
 /// A named generator: what a scene's `shape = "…"` may say.
@@ -51,8 +57,18 @@ pub struct Shape {
 }
 
 /// Every generator.
-pub const SHAPES: &[Shape] =
-    &[plummer::PLUMMER, sphere::SPHERE, disk::DISK, lattice::LATTICE, random_box::RANDOM_BOX, spray::SPRAY];
+pub const SHAPES: &[Shape] = &[
+    plummer::PLUMMER,
+    sphere::SPHERE,
+    disk::DISK,
+    lattice::LATTICE,
+    random_box::RANDOM_BOX,
+    spray::SPRAY,
+    chain::CHAIN,
+    cloth::CLOTH,
+    jelly::JELLY,
+    hair::HAIR,
+];
 
 /// The generator of a name.
 #[must_use]
@@ -94,6 +110,10 @@ impl Particles {
         let first = u32::try_from(self.len() - other.len()).unwrap_or(u32::MAX);
         self.species.extend_from_slice(&other.species);
         self.links.append(&other.links, first);
-        self.held.extend(other.held.iter().map(|held| Held { id: held.id.saturating_add(first), ..*held }));
+        let motions = u32::try_from(self.motions.len()).unwrap_or(u32::MAX);
+        let by = |by| if let Hold::Motion(n) = by { Hold::Motion(n.saturating_add(motions)) } else { by };
+        let held = |held: &Held| Held { id: held.id.saturating_add(first), by: by(held.by) };
+        self.held.extend(other.held.iter().map(held));
+        self.motions.extend_from_slice(&other.motions);
     }
 }

@@ -3,9 +3,11 @@
 use std::path::Path;
 
 use crate::forces::{self, Custom, FORCES, Force, Over};
+use crate::motion::Motion;
 use crate::settings::{Kind, Settings, Value};
 
 use super::files::Files;
+use super::held;
 use super::report::{Fault, Report};
 use super::resolved::{self, Writer};
 use super::tree::{Data, Entry};
@@ -20,7 +22,7 @@ pub(super) enum Chosen {
     Own { law: Custom, path: String },
 }
 
-pub(super) fn read(table: &Table<'_>, files: &Files, report: &mut Report) -> Option<Chosen> {
+pub(super) fn read(table: &Table<'_>, (files, motions): (&Files, &[Motion]), report: &mut Report) -> Option<Chosen> {
     let entry = table.one_of(&["kind", "wgsl"], report)?;
     if entry.key == "wgsl" {
         return read_own(&table.named(format!("{} wgsl", table.name)), entry, files, report);
@@ -28,7 +30,12 @@ pub(super) fn read(table: &Table<'_>, files: &Files, report: &mut Report) -> Opt
     let names: Vec<_> = FORCES.iter().map(|f| f.name).collect();
     let name = walk::choice(entry, "force", &names, report)?;
     let force = FORCES.iter().find(|f| f.name == name)?;
-    let settings = table.named(format!("{} {name}", table.name)).settings(force.keys, &["kind"], report);
+    let table = table.named(format!("{} {name}", table.name));
+    let settings = table.settings(force.keys, &["kind"], report);
+    if !settings.text("motion").is_empty() {
+        let names: Vec<_> = motions.iter().map(|motion| motion.name.as_str()).collect();
+        held::motion(&table, &names, report);
+    }
     Some(Chosen::Known(force, settings))
 }
 
@@ -74,7 +81,15 @@ fn over(table: &Table<'_>, report: &mut Report) -> Option<Over> {
             report.push(fault.label("remove it, or change `over`"));
         }
     }
-    let Some(wanted) = wanted else { return Some(if word == "each" { Over::Each } else { Over::Pairs }) };
+    let Some(wanted) = wanted else {
+        return Some(match word {
+            "each" => Over::Each,
+            "links" => Over::Links,
+            "joints" => Over::Joints,
+            "triangles" => Over::Triangles,
+            _ => Over::Pairs,
+        });
+    };
     let kind = if wanted == "range" { Kind::Positive } else { Kind::Count };
     let Some(given) = table.get(wanted) else {
         let about = if wanted == "range" { "how far one meets another [length]" } else { "how many are met" };
@@ -128,7 +143,7 @@ impl Chosen {
                 match law.over {
                     Over::Within { range } | Over::Near { range, .. } => out.number("range", range),
                     Over::Nearest { count } => out.line("neighbors", &count.to_string()),
-                    Over::Each | Over::Pairs => {}
+                    _ => {}
                 }
                 let params: Vec<_> =
                     law.params.iter().map(|(k, v)| format!("{} = {}", resolved::bare(k), resolved::value(v))).collect();

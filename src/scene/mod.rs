@@ -18,6 +18,9 @@ mod color;
 mod diagnostic;
 mod files;
 mod force;
+mod held;
+mod links;
+mod motion;
 mod output;
 mod overrides;
 mod particles;
@@ -42,6 +45,8 @@ use crate::settings::Settings;
 pub use bounds::BOX_KEYS;
 pub use builtin::{Builtin, SCENES};
 pub use diagnostic::{Diagnostic, Diagnostics, Excerpt, Mended};
+pub use links::LINKS_KEYS;
+pub use motion::MOTION_KEYS;
 pub use output::{Format, Output};
 pub use particles::EVERY as PARTICLES_KEYS;
 pub use source::Source;
@@ -147,6 +152,11 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
     simulation.write(&mut out);
     let bounds = bounds::read(one("box"), &mut out, report);
 
+    let mut motions = Vec::new();
+    for table in all("motion") {
+        motions.extend(motion::read(table, &motions, (simulation.dt, &bounds), &mut out, report));
+    }
+
     let mut particles = Particles::default();
     let mut groups = Vec::new();
     if all("particles").next().is_none() {
@@ -158,23 +168,28 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
     for table in all("particles") {
         let start = ids(&particles);
         let room = options.most_particles.saturating_sub(start);
-        if let Some(block) = particles::read(table, room, files, report) {
+        if let Some(block) = particles::read(table, room, (files, &motions), report) {
             particles.append(&block.particles);
             groups.push(Group { ids: start..ids(&particles), color: block.color });
             out.0 += &block.resolved;
         }
     }
 
+    for table in all("links") {
+        links::read(table, &mut particles, files, &mut out, report);
+    }
+
     let mut forces: Vec<Box<dyn Force>> = Vec::new();
     for table in all("force") {
         let faults = report.len();
-        let chosen = force::read(table, files, report);
+        let chosen = force::read(table, (files, &motions), report);
         if let Some(chosen) = chosen.filter(|_| report.len() == faults) {
             chosen.write(&mut out);
             forces.push(chosen.build());
         }
     }
 
+    particles.motions = motions;
     let output = output::read(one("output"), simulation.steps, report);
     output.write(&mut out);
     let picture = match one("picture") {

@@ -6,18 +6,22 @@ use glam::DVec3;
 
 use crate::error::Error;
 use crate::io;
+use crate::motion::{Held, Hold, Motion};
 use crate::particles::{Particles, SHAPES};
 use crate::settings::{Key, Kind, Settings, Value};
 
 use super::color;
 use super::files::{Files, Located};
+use super::held;
 use super::report::{Fault, Place, Report};
 use super::resolved::{self, Writer};
 use super::tree::{Data, Entry};
 use super::value;
 use super::walk::{self, Table};
 
-pub(super) const OWN: &[&str] = &["file", "shape", "bodies", "color"];
+pub(super) const OWN: &[&str] = &["file", "shape", "bodies", "color", "fixed", "motion"];
+/// What any entry may say beside what it is of.
+const BESIDE: [&str; 4] = ["color", "species", held::OWN[0], held::OWN[1]];
 /// Where the particles of a file, or those written out, are put.
 pub(super) const OFFSETS: &[Key] = &[
     Key::new("center", Kind::Vector, Value::Vector(DVec3::ZERO), "is added to every position [length]"),
@@ -35,6 +39,7 @@ const BODY: &[Key] = &[
     Key::new("velocity", Kind::Vector, Value::Vector(DVec3::ZERO), "how it moves [length / time]"),
     Key::new("mass", Kind::NotNegative, Value::Number(1.0), "how heavy it is [mass]"),
     Key::new("radius", Kind::NotNegative, Value::Number(0.0), "how large it is drawn [length]"),
+    Key::new("fixed", Kind::Flag, Value::Flag(false), "whether it stays where it is"),
 ];
 
 /// One entry, read.
@@ -46,7 +51,12 @@ pub(super) struct Block {
 }
 
 /// Reads an entry that may bring up to `room` particles.
-pub(super) fn read(table: &Table<'_>, room: u32, files: &Files, report: &mut Report) -> Option<Block> {
+pub(super) fn read(
+    table: &Table<'_>,
+    room: u32,
+    (files, motions): (&Files, &[Motion]),
+    report: &mut Report,
+) -> Option<Block> {
     let color = table.get("color").and_then(|e| color::read(&e.node, report));
     let species = table.get("species").and_then(|e| species(e, report));
     let mut out = Writer::default();
@@ -71,8 +81,13 @@ pub(super) fn read(table: &Table<'_>, room: u32, files: &Files, report: &mut Rep
     if let Some(species) = species {
         out.line("species", &species.to_string());
     }
-    let particles = species.into_iter().fold(particles, Particles::of_species);
+    let mut particles = species.into_iter().fold(particles, Particles::of_species);
+    held::read(table, motions, &mut particles, &mut out, report);
     Some(Block { particles, color, resolved: out.0 })
+}
+
+fn beside(what: &'static str) -> Vec<&'static str> {
+    [&[what], &BESIDE[..]].concat()
 }
 
 fn species(entry: &Entry, report: &mut Report) -> Option<u32> {
@@ -95,7 +110,7 @@ fn from_file(
     out: &mut Writer,
     report: &mut Report,
 ) -> Option<Particles> {
-    let offsets = table.named(format!("{} file", table.name)).settings(OFFSETS, &["file", "color", "species"], report);
+    let offsets = table.named(format!("{} file", table.name)).settings(OFFSETS, &beside("file"), report);
     let name = value::text(&entry.node, "file", "the name of a file", report)?;
     let place = &entry.node.place;
     let located = files.locate("file", name, place).and_then(|located| match &located {
@@ -123,8 +138,7 @@ fn from_shape(table: &Table<'_>, entry: &Entry, room: u32, out: &mut Writer, rep
     let name = walk::choice(entry, "shape", &names, report)?;
     let shape = SHAPES.iter().find(|s| s.name == name)?;
     let faults = report.len();
-    let settings =
-        table.named(format!("{} {name}", table.name)).settings(shape.keys, &["shape", "color", "species"], report);
+    let settings = table.named(format!("{} {name}", table.name)).settings(shape.keys, &beside("shape"), report);
     if report.len() > faults {
         return None;
     }
@@ -151,17 +165,20 @@ fn from_shape(table: &Table<'_>, entry: &Entry, room: u32, out: &mut Writer, rep
     }
 }
 
-/// How many particles a shape will make, known before the memory is taken: its `count`, or else (a lattice) the product of its `size`.
+/// How many particles a shape will make, known before the memory is taken: its `count`, or else the product
+/// of what it counts.
 fn wanted_count(settings: &Settings) -> (&'static str, f64) {
-    match settings.0.get("count") {
-        Some(_) => ("count", settings.number("count")),
+    let product = |a, b| settings.number(a) * settings.number(b);
+    match ["count", "columns", "strands"].into_iter().find(|key| settings.0.contains_key(key)) {
+        Some("columns") => ("columns", product("columns", "rows")),
+        Some("strands") => ("strands", product("strands", "points")),
+        Some(count) => (count, settings.number(count)),
         None => ("size", settings.vector("size").element_product()),
     }
 }
 
 fn from_bodies(table: &Table<'_>, entry: &Entry, out: &mut Writer, report: &mut Report) -> Option<Particles> {
-    let offsets =
-        table.named(format!("{} bodies", table.name)).settings(OFFSETS, &["bodies", "color", "species"], report);
+    let offsets = table.named(format!("{} bodies", table.name)).settings(OFFSETS, &beside("bodies"), report);
     let Data::List(list) = &entry.node.data else {
         return value::refuse(&entry.node, "bodies", "a list of tables, as in [{ position = [1, 0, 0] }]", report);
     };
@@ -175,12 +192,18 @@ fn from_bodies(table: &Table<'_>, entry: &Entry, out: &mut Writer, report: &mut 
         let body = Table { entries, place: &node.place, name: "a body".to_owned() }.settings(BODY, &[], report);
         let [position, velocity] = ["position", "velocity"].map(|k| body.vector(k));
         let [mass, radius] = ["mass", "radius"].map(|k| body.number(k));
+        if body.flag("fixed") {
+            particles.held.push(Held { id: u32::try_from(particles.len()).unwrap_or(u32::MAX), by: Hold::Fixed });
+        }
         particles.push(position, velocity, mass, radius);
+        let fixed = if body.flag("fixed") { ", fixed = true" } else { "" };
         let [position, velocity] = [position, velocity].map(resolved::vector);
         let [mass, radius] = [mass, radius].map(resolved::number);
         // Writing to a String cannot fail.
-        let _ =
-            writeln!(text, "  {{ position = {position}, velocity = {velocity}, mass = {mass}, radius = {radius} }},");
+        let _ = writeln!(
+            text,
+            "  {{ position = {position}, velocity = {velocity}, mass = {mass}, radius = {radius}{fixed} }},"
+        );
     }
     out.line("bodies", &(text + "]"));
     out.settings(OFFSETS, &offsets);

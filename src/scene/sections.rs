@@ -6,7 +6,7 @@ use crate::particles::SHAPES;
 use crate::render;
 use crate::settings::Key;
 
-use super::{bounds, force, output, particles, simulation};
+use super::{bounds, force, links, motion, output, particles, simulation};
 
 /// A section.
 pub(super) struct Section {
@@ -26,6 +26,7 @@ pub(super) struct Section {
 pub(super) const SECTIONS: &[Section] = &[
     Section { name: "simulation", many: false, keys: simulation::KEYS, own: simulation::OWN, kinds: Vec::new },
     Section { name: "box", many: false, keys: bounds::BOX_KEYS, own: bounds::OWN, kinds: Vec::new },
+    Section { name: "motion", many: true, keys: motion::MOTION_KEYS, own: motion::OWN, kinds: Vec::new },
     Section {
         name: "particles",
         many: true,
@@ -33,6 +34,7 @@ pub(super) const SECTIONS: &[Section] = &[
         own: particles::OWN,
         kinds: || SHAPES.iter().map(|s| s.keys).chain([particles::OFFSETS]).collect(),
     },
+    Section { name: "links", many: true, keys: links::LINKS_KEYS, own: links::OWN, kinds: Vec::new },
     Section {
         name: "force",
         many: true,

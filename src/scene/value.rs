@@ -26,6 +26,7 @@ pub(super) fn wanted(kind: Kind) -> String {
         Kind::Choice([only]) => format!("\"{only}\""),
         Kind::Choice(known) => format!("one of {}", listed(known.iter().copied())),
         Kind::Flag => "true or false".to_owned(),
+        Kind::Motion => "the name of a motion".to_owned(),
     }
 }
 
@@ -43,6 +44,11 @@ pub(super) fn read(node: &Node, key: &str, kind: Kind, report: &mut Report) -> O
         Kind::Choice(known) => choice(node, key, key, known, report).map(|word| Value::Text(Cow::Borrowed(word))),
         Kind::Flag => match node.data {
             Data::Flag(flag) => Some(Value::Flag(flag)),
+            _ => refuse(node, key, &wanted(kind), report),
+        },
+        // Whether there is a motion of that name, the section says that knows them.
+        Kind::Motion => match &node.data {
+            Data::Text(name) => Some(Value::Text(Cow::Owned(name.clone()))),
             _ => refuse(node, key, &wanted(kind), report),
         },
     }

@@ -5,7 +5,7 @@ use crate::error::Error;
 use crate::forces::{Force, Problem};
 use crate::integrators::{Integrator, Step};
 use crate::kernel::{Bounds, Machine, Plan};
-use crate::motion::Hold;
+use crate::motion::{self, Hold};
 use crate::particles::Particles;
 
 /// What a simulation is made of.
@@ -48,11 +48,15 @@ impl Setup {
         let problem = Problem::new(self.check()?, machine)
             .at(&self.particles.position, self.bounds)
             .of_species(&self.particles.species)
-            .tied(&self.particles.links, &self.particles.held);
+            .tied(&self.particles.links, &self.particles.held)
+            .moved(&self.particles.motions, self.dt)
+            .breaking(self.forces.iter().any(|force| force.breaks()));
         let mut start = Step::new(&self.forces, problem.clone());
         start.enclose();
+        start.lead();
         self.integrator.start(&mut start);
         let mut step = Step::new(&self.forces, problem.clone());
+        step.lead();
         self.integrator.step(&mut step);
         let measure = Step::measurement(&self.forces, problem)?;
         Ok(Plans { start: start.begun()?, step: step.done()?, measure })
@@ -63,7 +67,7 @@ impl Setup {
     /// [`Error::Scene`] when there are none or too many, when dt is not a positive number, when a particle has a number
     /// that is none, or a negative mass, when there can be no such box, or when it does not hold them.
     pub fn check(&self) -> Result<u32, Error> {
-        let Particles { position, velocity, mass, radius, species, links, held } = &self.particles;
+        let Particles { position, velocity, mass, radius, species, links, held, motions } = &self.particles;
         let count = position.len();
         let lengths = [velocity.len(), mass.len(), radius.len(), species.len()];
         if lengths.iter().any(|l| *l != count) {
@@ -92,6 +96,7 @@ impl Setup {
         }
         links.check(mass)?;
         boundary::check(&self.bounds)?;
+        motion::check(held, motions, count, self.bounds.dimensions, self.dt)?;
         if !links.rods.is_empty() && !self.forces.iter().any(|force| force.keeps_rods()) {
             let text = format!(
                 "nothing keeps the lengths of the rods (of which there are {}): add a [[force]] of kind = \"rod\"",

@@ -2,9 +2,10 @@
 
 use glam::{DVec3, DVec4};
 
-use super::{Body, Over, each, near, pairs, twin};
+use super::{Body, Over, each, links, near, pairs, twin};
 use crate::error::Error;
 use crate::kernel::{Kernel, Problem, Scalar, Shader, Source, Twin, World};
+use crate::links::{Corner, Half};
 use crate::neighbors::Grid;
 
 /// A law: what happens between `me` and `you`, or to `me` alone.
@@ -25,10 +26,11 @@ pub struct Law {
 }
 
 /// Files that a law has by calling a function of theirs, and not having one of that name itself.
-const ON_CALL: [(&str, Source); 4] = [
+const ON_CALL: [(&str, Source); 5] = [
     ("is_of", crate::shader!("law/species.wgsl")),
     ("unit", crate::shader!("law/steering.wgsl")),
     ("truncated", crate::shader!("law/steering.wgsl")),
+    ("signed_distance", crate::shader!("solids/distance.wgsl")),
     ("pcg4d", crate::shader!("law/random.wgsl")),
 ];
 
@@ -76,6 +78,30 @@ impl Law {
         let twin = Some(twin::meetings(over, gather, finish));
         Self { name: name.to_owned(), over, wgsl, params, twin, reciprocal: false }
     }
+    /// A law of springs; `gather(me, you, r, link, sum)` takes one in, with r from me to you, and `finish(me, sum)` gives
+    /// acceleration and potential per unit mass, of which each end holds half.
+    pub fn links<S: Default>(
+        name: &str,
+        wgsl: Source,
+        params: Vec<(String, Scalar)>,
+        gather: impl Fn(&Body, &Body, DVec3, &Half, &mut S) + Send + Sync + 'static,
+        finish: impl Fn(&Body, &S) -> DVec4 + Send + Sync + 'static,
+    ) -> Self {
+        let twin = Some(twin::links(gather, finish));
+        Self { name: name.to_owned(), over: Over::Links, wgsl, params, twin, reciprocal: true }
+    }
+    /// A law of joints or triangles; `rule(corners, place, stiffness, world)` gives the force on the corner of that
+    /// place, and the energy of the whole, of which each corner holds a third.
+    pub fn corners(
+        name: &str,
+        over: Over,
+        wgsl: Source,
+        params: Vec<(String, Scalar)>,
+        rule: impl Fn([&Body; 3], &Corner, &World) -> DVec4 + Send + Sync + 'static,
+    ) -> Self {
+        let twin = Some(twin::corners(over, rule));
+        Self { name: name.to_owned(), over, wgsl, params, twin, reciprocal: false }
+    }
     /// Joins the law with its visit, for such a problem.
     ///
     /// # Errors
@@ -85,6 +111,7 @@ impl Law {
             Over::Each => each::kernel(self, problem),
             Over::Pairs | Over::Within { .. } => pairs::kernel(self, problem),
             Over::Near { .. } | Over::Nearest { .. } => near::kernel(self, problem),
+            Over::Links | Over::Joints | Over::Triangles => links::kernel(self, problem),
         }
     }
     /// The grid that it searches, if it searches one, and whether it asks there for velocities.

@@ -3,12 +3,15 @@
 mod body;
 mod each;
 mod law;
+mod links;
 mod near;
 mod over;
 mod pairs;
 pub mod random;
+mod tied;
 mod twin;
 
 pub use body::{Body, bodies};
 pub use law::Law;
+pub use links::{LINK, LINK_START, bind};
 pub use over::Over;

@@ -23,7 +23,7 @@ pub fn grid(law: &Law, problem: &Problem) -> Result<Option<(Grid, bool)>, Error>
             // So many that the first cube of 27 cells holds about three times the list.
             Ok(Some((Grid::sparse(f64::from(count) / 3.0, problem), false)))
         }
-        Over::Each | Over::Pairs | Over::Within { .. } => Ok(None),
+        _ => Ok(None),
     }
 }
 

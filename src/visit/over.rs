@@ -25,11 +25,18 @@ pub enum Over {
         /// How many.
         count: u32,
     },
+    /// Everybody meets those that it is linked to.
+    Links,
+    /// Everybody looks at the joints that it is a part of.
+    Joints,
+    /// Everybody looks at the triangles that it is a corner of.
+    Triangles,
 }
 
 impl Over {
     /// The scene's words for the visits.
-    pub const NAMES: &'static [&'static str] = &["each", "pairs", "within", "near", "nearest"];
+    pub const NAMES: &'static [&'static str] =
+        &["each", "pairs", "within", "near", "nearest", "links", "joints", "triangles"];
 
     /// The scene's word for it.
     #[must_use]
@@ -40,6 +47,9 @@ impl Over {
             Self::Within { .. } => "within",
             Self::Near { .. } => "near",
             Self::Nearest { .. } => "nearest",
+            Self::Links => "links",
+            Self::Joints => "joints",
+            Self::Triangles => "triangles",
         }
     }
     /// How far it looks \[length\]; `None` without an end.
@@ -47,7 +57,7 @@ impl Over {
     pub fn range(self) -> Option<f64> {
         match self {
             Self::Within { range } | Self::Near { range, .. } => Some(range),
-            Self::Each | Self::Pairs | Self::Nearest { .. } => None,
+            _ => None,
         }
     }
 }

@@ -7,7 +7,9 @@ use rayon::prelude::*;
 
 use super::Over;
 use super::body::{Body, bodies};
+use super::tied::{Tied, row};
 use crate::kernel::{ACCELERATION, Bounds, Twin, World};
+use crate::links::{Corner, Half};
 
 /// Each particle alone.
 pub fn each(rule: impl Fn(&Body, &World) -> DVec4 + Send + Sync + 'static) -> Twin {
@@ -45,6 +47,46 @@ pub fn meetings<S: Default>(
             }
             // Each of a pair holds half of its potential energy.
             *a += finish(me, &sum, &world) * DVec4::new(1.0, 1.0, 1.0, 0.5);
+        });
+        Ok(())
+    })
+}
+
+/// Those that are linked, in the order of the table.
+pub fn links<S: Default>(
+    gather: impl Fn(&Body, &Body, DVec3, &Half, &mut S) + Send + Sync + 'static,
+    finish: impl Fn(&Body, &S) -> DVec4 + Send + Sync + 'static,
+) -> Twin {
+    Arc::new(move |host| {
+        let (bodies, bounds) = (bodies(host)?, host.world().bounds);
+        let tied = Tied::of(host)?;
+        let mut acceleration = host.write(ACCELERATION)?;
+        acceleration.par_iter_mut().zip(&bodies).for_each(|(a, me)| {
+            let mut sum = S::default();
+            for half in tied.halves(me.index) {
+                let you = &bodies[half.partner];
+                gather(me, you, bounds.shortest(you.position - me.position), &half, &mut sum);
+            }
+            *a += finish(me, &sum) * DVec4::new(1.0, 1.0, 1.0, 0.5);
+        });
+        Ok(())
+    })
+}
+
+/// Those that are corners of a joint or a triangle, in the order of the table.
+pub fn corners(over: Over, rule: impl Fn([&Body; 3], &Corner, &World) -> DVec4 + Send + Sync + 'static) -> Twin {
+    let names = if over == Over::Joints { ["joint_start", "joint"] } else { ["triangle_start", "triangle"] };
+    Arc::new(move |host| {
+        let (bodies, world) = (bodies(host)?, host.world());
+        if !host.contains(names[1]) {
+            return Ok(());
+        }
+        let (start, corner) = (host.reading::<u32>(names[0])?, host.reading::<u32>(names[1])?);
+        let mut acceleration = host.write(ACCELERATION)?;
+        acceleration.par_iter_mut().zip(&bodies).for_each(|(a, me)| {
+            let corners = row(&start, &corner, me.index, Corner::WORDS).map(Corner::new);
+            let sum: DVec4 = corners.map(|corner| rule(corner.ids.map(|id| &bodies[id]), &corner, &world)).sum();
+            *a += sum / me.mass * DVec4::new(1.0, 1.0, 1.0, 1.0 / 3.0);
         });
         Ok(())
     })

@@ -40,6 +40,7 @@ fn every_law_in_a_periodic_box() {
                     let far: Vec<_> = far.position.iter().zip(&far.mass).map(|(x, m)| x.extend(*m).as_vec4()).collect();
                     simulation.write(motes::POSITION, &far).expect("places");
                     let problem = Problem::new(333, machine)
+                        .tied(&support::links(333), &[])
                         .at(&start.particles.position, bounds)
                         .of_species(&start.particles.species);
                     let law = [pick()];

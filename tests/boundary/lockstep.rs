@@ -1,7 +1,7 @@
 //! The kernels of the sides, and all others in a box, against their twins.
 
 use glam::Vec4;
-use motes::kernel::{Backend, Plan};
+use motes::kernel::{Backend, Machine, Plan, Problem};
 use motes::lockstep::{Verdict, compare};
 use motes::{Bounds, Error, POSITION, Side, Simulation, VELOCITY};
 
@@ -35,7 +35,9 @@ fn anywhere(shared: &Shared, count: usize, bounds: Bounds, name: &str) -> Simula
 /// What brings particles back.
 fn enclose(count: usize, bounds: &Bounds) -> Plan {
     let mut plan = Plan::default();
-    let kernels = motes::boundary::kernels(u32::try_from(count).expect("few"), bounds).expect("kernels");
+    let machine = Machine { software: true, subgroup: 0, invocations: 1 };
+    let problem = Problem::new(u32::try_from(count).expect("few"), machine).at(&[], *bounds);
+    let kernels = motes::boundary::kernels(&problem).expect("kernels");
     for kernel in kernels {
         plan.add(kernel);
     }

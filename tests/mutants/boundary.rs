@@ -2,7 +2,7 @@
 #![allow(clippy::cast_possible_truncation, reason = "numbers are rounded to what f32 holds")]
 
 use glam::{DVec3, Vec4};
-use motes::forces::Force;
+use motes::forces::{Force, Problem};
 use motes::kernel::{Backend, Machine, World};
 use motes::settings::Value;
 use motes::{Bounds, Gpu, POSITION, Side, Simulation};
@@ -50,16 +50,18 @@ fn in_a_box(device: &Device, bounds: Bounds) -> Simulation<Gpu> {
 
 /// Every kind of side at every axis, and the nearest image along one axis and along all.
 pub fn boundary(device: &Device, stages: &mut Vec<Stage>) {
+    let machine = Machine { software: true, subgroup: 0, invocations: 1 };
     for sides in [[Periodic, Reflecting, Open], [Reflecting, Open, Periodic], [Open, Periodic, Reflecting]] {
         let bounds = box_of(sides);
-        let kernels = motes::boundary::kernels(u32::try_from(FEW).expect("few"), &bounds).expect("kernels");
+        let kernels =
+            motes::boundary::kernels(&Problem::new(u32::try_from(FEW).expect("few"), machine).at(&[], bounds))
+                .expect("kernels");
         for kernel in kernels {
             let name = format!("{} {sides:?}", kernel.name);
             stages.push(stage(&name, in_a_box(device, bounds), kernel));
         }
     }
     let gravity: Box<dyn Force> = force("gravity", &[("softening", Value::Number(0.17))]);
-    let machine = Machine { software: true, subgroup: 0, invocations: 1 };
     let bounds = box_of([Periodic, Open, Periodic]);
     let kernel = kernel_in(bounds, gravity.as_ref(), FEW, &machine);
     stages.push(stage("nearest image", in_a_box(device, bounds), kernel));

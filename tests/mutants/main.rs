@@ -1,10 +1,12 @@
 //! Mutation: every operator and literal of every shader is changed once, and the lockstep with the twins must notice.
 
+mod alarms;
 mod boundary;
 mod curious;
 mod equivalent_neighbors;
 mod equivalent_primitives;
 mod equivalents;
+mod held;
 mod laws;
 mod neighbors;
 mod primitives;

@@ -39,14 +39,18 @@ pub fn gpu(shared: &Shared, count: usize) -> Gpu {
 /// The kernels of a force's first law on a machine.
 pub fn kernel(force: &dyn Force, count: usize, machine: &Machine) -> Kernel {
     let law = force.laws().into_iter().next().expect("a law");
-    law.kernel(&Problem::new(u32::try_from(count).expect("few"), *machine)).expect("a kernel")
+    law.kernel(&Problem::new(u32::try_from(count).expect("few"), *machine).tied(&super::links(count), &[]))
+        .expect("a kernel")
 }
 
-/// The kernels of a force: those of its laws, and those that keep velocities lawful.
+/// The kernels of a force: those of its laws, those that keep velocities and positions lawful, and those that end a step.
 pub fn kernels(force: &dyn Force, problem: &Problem) -> Vec<Kernel> {
     let mut all: Vec<_> = force.laws().into_iter().map(|law| law.kernel(problem).expect("a kernel")).collect();
     let mut limits = Plan::default();
     force.limit(&mut limits, problem).expect("limits");
+    // A setting that a test makes up may be refused, and then runs nowhere.
+    let _ = force.confine(&mut limits, problem, 0.8);
+    force.conclude(&mut limits, problem).expect("an end");
     all.extend(limits.kernels);
     all
 }
@@ -54,7 +58,8 @@ pub fn kernels(force: &dyn Force, problem: &Problem) -> Vec<Kernel> {
 /// The same in a box.
 pub fn kernel_in(bounds: Bounds, force: &dyn Force, count: usize, machine: &Machine) -> Kernel {
     let law = force.laws().into_iter().next().expect("a law");
-    let problem = Problem::new(u32::try_from(count).expect("few"), *machine).at(&[], bounds);
+    let problem =
+        Problem::new(u32::try_from(count).expect("few"), *machine).at(&[], bounds).tied(&super::links(count), &[]);
     law.kernel(&problem).expect("a kernel")
 }
 

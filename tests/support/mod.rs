@@ -12,6 +12,7 @@ use std::sync::{Mutex, MutexGuard, OnceLock};
 
 use glam::DVec3;
 use motes::gpu;
+use motes::links::{Joint, Link, Links};
 use motes::particles::Particles;
 
 /// One device for a whole test binary, used by one test at a time: a software device has only these cores.
@@ -86,5 +87,36 @@ pub fn cloud(count: usize, seed: u64) -> Particles {
         particles.push(x, v, mass, 0.01);
     }
     particles.species = species(count);
+    particles.links = links(count);
+    particles
+}
+
+/// Springs and ropes to the next and to the seventh, joints and triangles: all in a cloud that are not too near its end.
+/// Their numbers are those that f32 holds, and such that the cloud's masses of about 1 / n move at a rate of about 1.
+pub fn links(count: usize) -> Links {
+    let mut random = Random::new(31);
+    let (n, count) = (count as f64, count as u32);
+    let mut links = Links::default();
+    for i in 0..count {
+        for partner in [i + 1, i + 7].into_iter().filter(|id| *id < count) {
+            let mut next = |middle: f64, half: f64| f64::from((middle + half * random.next()) as f32);
+            let (rest, stiffness, damping) = (next(0.6, 0.5), next(1.3, 0.4) / n, next(0.3, 0.2) / n);
+            let rope = (i + partner) % 3 == 0;
+            let rest = if i % 11 == 4 && !rope { 0.0 } else { rest };
+            let [stiffness, damping] = [stiffness, damping].map(|x| f64::from(x as f32));
+            links.springs.push(Link { ends: [i, partner], rest, stiffness, damping, rope });
+        }
+        if i + 5 < count {
+            let stiffness = f64::from(((0.7 + 0.3 * random.next()) / n) as f32);
+            links.joints.push(Joint { ids: [i, i + 1, i + 2], stiffness });
+            links.triangles.push([i, i + 5, i + 1]);
+        }
+    }
+    links
+}
+
+/// The same with nothing that damps.
+pub fn elastic(mut particles: Particles) -> Particles {
+    particles.links.springs.iter_mut().for_each(|link| link.damping = 0.0);
     particles
 }

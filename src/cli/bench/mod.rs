@@ -5,6 +5,8 @@ mod bodies;
 mod gravity;
 mod neighbors;
 mod plot;
+mod sheet;
+mod springs;
 
 use std::time::Instant;
 
@@ -28,11 +30,12 @@ pub async fn bench(args: &BenchArgs) -> Result<(), Failure> {
     }
     let mut value = json!({ "device": found.describe(), "commit": commit(), "version": env!("CARGO_PKG_VERSION"),
         "cores": cores, "repeat": args.repeat });
-    for topic in [Topic::Gravity, Topic::Neighbors] {
+    for topic in [Topic::Gravity, Topic::Neighbors, Topic::Springs] {
         if args.topic.is_none_or(|wanted| wanted == topic) {
             let part = match topic {
                 Topic::Gravity => gravity::bench(args, &found).await?,
                 Topic::Neighbors => neighbors::bench(args, &found).await?,
+                Topic::Springs => springs::bench(args, &found)?,
             };
             if let (Some(all), serde_json::Value::Object(part)) = (value.as_object_mut(), part) {
                 all.extend(part);

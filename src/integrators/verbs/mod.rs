@@ -3,6 +3,7 @@
 pub mod at;
 pub mod clear;
 pub mod drift;
+pub mod held;
 pub mod keep;
 pub mod kick;
 pub mod runge_kutta;

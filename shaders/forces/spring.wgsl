@@ -1,0 +1,21 @@
+// Hooke's law, damped along the spring:  F = (k (1 − L / l) + c (v_you − v_me) · r / l²) r,  with r from me to you, l = |r|.
+// Without a length at rest it is k r, to the bit. A rope (L below zero) is slack while it is shorter than −L, and never pushes.
+override DAMPED: bool = true; // whether any spring is
+
+struct Sum { force: vec3f, energy: f32 }
+
+fn gather(me: Particle, you: Particle, r: vec3f, link: Link, sum: ptr<function, Sum>) {
+    let square = dot(r, r);
+    // Two at one place have no direction between them.
+    let inverse = select(0.0, inverseSqrt(square), square > 0.0);
+    let rest = abs(link.rest);
+    let stretch = square * inverse - rest;
+    var pull = link.stiffness * (1.0 - rest * inverse);
+    if DAMPED { pull += link.damping * dot(velocity_of(you) - velocity_of(me), r) * inverse * inverse; }
+    let rope = link.rest < 0.0;
+    let taut = !rope || stretch > 0.0;
+    (*sum).force += select(0.0, select(pull, max(pull, 0.0), rope), taut) * r;
+    (*sum).energy += select(0.0, 0.5 * link.stiffness * stretch * stretch, taut);
+}
+
+fn finish(me: Particle, sum: Sum) -> vec4f { return vec4f(sum.force, sum.energy) / me.mass; }

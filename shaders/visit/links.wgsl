@@ -1,0 +1,26 @@
+// Each particle meets those that it is linked to, in the order of their ids. The law says:
+// fn gather(me, you, r: vec3f, link: Link, sum: ptr<function, Sum>), with r from me to you, and fn finish(me, sum: Sum) -> vec4f,
+// acceleration and potential per unit mass. A link is stored from both of its ends, so nothing is written twice.
+struct Link { partner: u32, rest: f32, stiffness: f32, damping: f32 }
+
+@group(1) @binding(2) var<storage, read_write> acceleration: array<vec4f>;
+@group(2) @binding(0) var<storage, read> link_start: array<u32>; // one for each particle, and the end
+@group(2) @binding(1) var<storage, read> link: array<Link>;
+
+const WORKGROUP: u32 = 64u;
+
+@compute @workgroup_size(WORKGROUP)
+fn links(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let i = folded(group, groups) * WORKGROUP + lane;
+    if i >= world.count { return; }
+    let me = particle(i);
+    var sum = Sum();
+    let end = link_start[i + 1u];
+    for (var k = link_start[i]; k < end; k += 1u) {
+        let one = link[k];
+        let you = particle(one.partner);
+        gather(me, you, shortest(you.position - me.position), one, &sum);
+    }
+    // Each of the two holds half of the energy.
+    acceleration[i] += vec4f(1.0, 1.0, 1.0, 0.5) * finish(me, sum);
+}

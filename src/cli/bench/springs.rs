@@ -1,0 +1,128 @@
+//! Sheets of springs over sizes, beside plain Rust.
+
+use std::time::Duration;
+
+use glam::{DVec3, Vec4};
+use motes::settings::{Settings, Value};
+use motes::{Bounds, Error, POSITION, Setup, Simulation, forces, gpu, integrators, particles};
+use serde_json::json;
+
+use super::median;
+use super::sheet::Sheet;
+use crate::cli::args::BenchArgs;
+use crate::cli::failure::Failure;
+use crate::cli::progress::{duration, large};
+
+/// That of NVIDIA Warp's benchmark of cloth: 16 steps in a sixtieth of a second.
+const DT: f64 = 1.0 / 960.0;
+const GRAVITY: f64 = -9.81;
+
+struct Row {
+    count: u32,
+    springs: usize,
+    device: Vec<f64>,
+    plain: Vec<f64>,
+    apart: f64,
+}
+
+/// Measures sheets over sizes.
+pub fn bench(args: &BenchArgs, found: &gpu::Found) -> Result<serde_json::Value, Failure> {
+    if !args.json {
+        out!("\nsprings: a square sheet, about 6 springs to a particle, whole steps of symplectic Euler");
+        out!(
+            "{:>9}  {:>9}  {:>12}  {:>12}  {:>18}  {:>12}  {:>7}",
+            "particles",
+            "springs",
+            "step",
+            "springs/s",
+            "plain Rust, 1 thread",
+            "springs/s",
+            "ratio"
+        );
+    }
+    let rows = super::sizes(
+        args,
+        2.0,
+        |count, last| pollster::block_on(measure(args, found, count, last)),
+        |r: &Row| median(&r.device),
+    )?;
+    Ok(json!({ "springs": rows.iter().map(Row::json).collect::<Vec<_>>() }))
+}
+
+/// A square sheet of about so many particles: k 1000, damping 10, mass 0.1, as in Warp's benchmark.
+fn setup(count: u32) -> Result<Setup, Failure> {
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small whole number")]
+    let side = f64::from(f64::from(count).sqrt().round().max(2.0) as u32);
+    let cloth = particles::shape("cloth").ok_or_else(|| Error::Scene("there is no cloth".to_owned()))?;
+    let number = Value::Number;
+    let settings = Settings::defaults(cloth.keys)
+        .with("columns", number(side))
+        .with("rows", number(side))
+        .with("spacing", number(0.1))
+        .with("mass", number(0.1))
+        .with("stretch", number(1000.0))
+        .with("shear", number(1000.0))
+        .with("bend", number(1000.0))
+        .with("damping", number(10.0))
+        .with("jitter", number(0.05));
+    let build = |name: &str, settings: &[(&'static str, Value)]| {
+        let entry = forces::entry(name).ok_or_else(|| Error::Scene(format!("there is no {name}")))?;
+        let all = settings.iter().fold(Settings::defaults(entry.keys), |s, (key, value)| s.with(key, value.clone()));
+        Ok::<_, Failure>((entry.build)(&all))
+    };
+    let weight = [("acceleration", Value::Vector(DVec3::Z * GRAVITY))];
+    Ok(Setup {
+        particles: (cloth.build)(&settings)?,
+        forces: vec![build("uniform", &weight)?, build("spring", &[])?],
+        integrator: Box::new(integrators::SymplecticEuler),
+        dt: DT,
+        bounds: Bounds::default(),
+    })
+}
+
+async fn measure(args: &BenchArgs, found: &gpu::Found, count: u32, last: Option<&Row>) -> Result<Row, Failure> {
+    let setup = setup(count)?;
+    let count = setup.check()?;
+    let mut simulation = Simulation::new(&found.device, &found.queue, &setup)?;
+    let mut sheet = Sheet::new(&setup.particles);
+    #[expect(clippy::cast_possible_truncation, reason = "the baseline is in single precision")]
+    let mut step = |turns| (0..turns).for_each(|_| sheet.step(DT as f32, GRAVITY as f32));
+    // That they agree is for the tests; here a slip of the bench would show.
+    simulation.step(20)?;
+    step(20);
+    let there: Vec<Vec4> = simulation.read(POSITION).await?;
+    let plain = last.is_none_or(|row| 2.0 * median(&row.plain) <= args.longest && !row.plain.is_empty());
+    let (device, plain) = super::in_turns(args, &mut simulation, if plain { Some(&mut step) } else { None })?;
+    let mut again = Sheet::new(&setup.particles);
+    #[expect(clippy::cast_possible_truncation, reason = "the baseline is in single precision")]
+    (0..20).for_each(|_| again.step(DT as f32, GRAVITY as f32));
+    let apart = there.iter().zip(again.positions()).map(|(a, b)| (a.truncate() - Vec4::from(*b).truncate()).length());
+    let apart = f64::from(apart.fold(0.0, f32::max));
+    Ok(Row { count, springs: setup.particles.links.springs.len(), device, plain, apart })
+}
+
+#[expect(clippy::cast_precision_loss, reason = "a count")]
+impl Row {
+    fn ratio(&self) -> f64 {
+        median(&self.device.iter().zip(&self.plain).map(|(d, p)| p / d).collect::<Vec<_>>())
+    }
+    fn json(&self) -> serde_json::Value {
+        let rate = |times: &[f64]| self.springs as f64 / median(times);
+        json!({ "particles": self.count, "springs": self.springs, "seconds_per_step": self.device,
+            "plain_seconds_per_step": self.plain, "springs_per_second": rate(&self.device),
+            "plain_springs_per_second": rate(&self.plain), "ratio": self.ratio(), "positions_differ": self.apart })
+    }
+}
+
+#[expect(clippy::cast_precision_loss, reason = "a count")]
+impl std::fmt::Display for Row {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let text = |times: &[f64]| duration(Duration::from_secs_f64(median(times)));
+        let rate = |times: &[f64]| large(self.springs as f64 / median(times));
+        write!(f, "{:>9}  {:>9}  {:>12}  {:>12}", self.count, self.springs, text(&self.device), rate(&self.device))?;
+        if self.plain.is_empty() {
+            return write!(f, "  {:>18}", "-");
+        }
+        write!(f, "  {:>18}  {:>12}  {:>7.2}", text(&self.plain), rate(&self.plain), self.ratio())
+    }
+}

@@ -1,0 +1,49 @@
+//! Springs and ropes.
+
+use std::borrow::Cow;
+
+use glam::DVec4;
+
+use super::{Force, Law};
+use crate::settings::{Key, Kind, Settings, Value};
+
+/// What a scene may say.
+pub const KEYS: &[Key] = &[Key::new(
+    "over",
+    Kind::Choice(&["links"]),
+    Value::Text(Cow::Borrowed("links")),
+    "who meets whom: those that a spring or a rope ties; its length, stiffness and damping come with it",
+)];
+
+/// `spring`: Hooke's law along every link, F = k (l − L) + c dl/dt, with the damping along the spring alone: whoever moves
+/// or turns as a whole feels nothing of it. A rope pulls, and is slack while it is shorter than L.
+pub struct Spring;
+
+impl Spring {
+    /// From checked settings.
+    #[must_use]
+    pub fn new(_: &Settings) -> Self {
+        Self
+    }
+}
+
+impl Force for Spring {
+    fn laws(&self) -> Vec<Law> {
+        vec![Law::links(
+            "spring",
+            crate::shader!("forces/spring.wgsl"),
+            Vec::new(),
+            |me, you, r, link, sum: &mut DVec4| {
+                let stretch = r.length() - link.rest;
+                if link.rope && stretch <= 0.0 {
+                    return;
+                }
+                let along = r.normalize_or_zero();
+                let tension = link.stiffness * stretch + link.damping * (you.velocity - me.velocity).dot(along);
+                let tension = if link.rope { tension.max(0.0) } else { tension };
+                *sum += (tension * along).extend(0.5 * link.stiffness * stretch * stretch);
+            },
+            |me, sum| *sum / me.mass,
+        )]
+    }
+}

@@ -1,0 +1,96 @@
+//! What motions and held particles must be.
+
+use std::collections::BTreeSet;
+
+use glam::{DQuat, DVec3};
+
+use super::{Held, Hold, Keyframe, Motion};
+use crate::error::Error;
+
+/// The steps between two times of a motion are told apart by sign, in 32 bits.
+const MOST_STEPS: f64 = 2e9;
+/// By how much the first and the last pose of a motion that repeats may differ: degrees written with some digits.
+const SAME: f64 = 1e-6;
+
+/// Whether motions and held ones make sense, for `count` particles in so many dimensions and steps of `dt`.
+///
+/// # Errors
+/// [`Error::Scene`] that names the first motion or particle at fault.
+pub fn check(held: &[Held], motions: &[Motion], count: usize, dimensions: u32, dt: f64) -> Result<(), Error> {
+    let mut names = BTreeSet::new();
+    for motion in motions {
+        motion.check(dimensions, dt).map_err(|why| Error::Scene(format!("the motion \"{}\" {why}", motion.name)))?;
+        if !names.insert(&motion.name) {
+            return Err(Error::Scene(format!(
+                "two motions are called \"{}\": name one of them otherwise",
+                motion.name
+            )));
+        }
+    }
+    let mut ids = BTreeSet::new();
+    for one in held {
+        let id = one.id;
+        if id as usize >= count {
+            return Err(Error::Scene(format!("particle {id} is held, and there are {count}: ids go from 0")));
+        }
+        if !ids.insert(id) {
+            return Err(Error::Scene(format!("particle {id} is held twice: hold it once")));
+        }
+        if let Hold::Motion(number) = one.by
+            && number as usize >= motions.len()
+        {
+            let have = motions.len();
+            return Err(Error::Scene(format!(
+                "particle {id} goes along with motion {number}, and there are {have}: numbers go from 0"
+            )));
+        }
+    }
+    Ok(())
+}
+
+impl Motion {
+    fn check(&self, dimensions: u32, dt: f64) -> Result<(), String> {
+        let fits = |v: DVec3| v.to_array().into_iter().all(|x| x.abs() <= f64::from(f32::MAX));
+        let (Some(first), Some(last)) = (self.keys.first(), self.keys.last()) else {
+            return Err("has no keys: give it at least one".to_owned());
+        };
+        if !fits(self.about) {
+            return Err(format!("turns about {}: these must be finite numbers that fit single precision", self.about));
+        }
+        for key in &self.keys {
+            if !(key.time.is_finite() && fits(key.shift) && fits(key.turn)) {
+                return Err("has a key with a number that is NaN, infinite or beyond single precision".to_owned());
+            }
+            if (key.time / dt).abs() > MOST_STEPS {
+                return Err(format!("has a key at {}, more than {MOST_STEPS:e} steps away", key.time));
+            }
+            let across = key.shift.z != 0.0 || key.turn.x != 0.0 || key.turn.y != 0.0;
+            if dimensions == 2 && across {
+                return Err(
+                    "leads out of the plane, and in 2 dimensions nobody leaves it: shift along x and y, turn about z"
+                        .to_owned(),
+                );
+            }
+        }
+        if let Some(pair) = self.keys.windows(2).find(|pair| pair[1].time <= pair[0].time) {
+            return Err(format!("has a key at {} after one at {}: times must grow", pair[1].time, pair[0].time));
+        }
+        if self.repeat {
+            let period = last.time - first.time;
+            if period < dt {
+                return Err(format!("repeats after {period}, which is less than a step of {dt}: make it longer"));
+            }
+            if !same(first, last) {
+                return Err("repeats, and its last key is another pose than its first: it would jump".to_owned());
+            }
+        }
+        Ok(())
+    }
+}
+
+fn same(a: &Keyframe, b: &Keyframe) -> bool {
+    let turned = |key: &Keyframe| DQuat::from_scaled_axis(key.turn);
+    let size = a.shift.length().max(b.shift.length());
+    let apart = 1.0 - turned(a).dot(turned(b)).abs();
+    (a.shift - b.shift).length() <= SAME * size && apart <= SAME * SAME + 4.0 * f64::EPSILON
+}

@@ -1,0 +1,102 @@
+//! A chain: pendulums, ropes, strings and beams.
+
+use std::borrow::Cow;
+
+use glam::DVec3;
+
+use super::build::{MASS, PARTICLE_RADIUS, Reader, VELOCITY, hold};
+use super::{Particles, Shape};
+use crate::error::Error;
+use crate::links::{Joint, Link, Rod};
+use crate::settings::{Key, Kind, Settings, Value};
+
+/// The shape `chain`.
+pub const CHAIN: Shape = Shape {
+    name: "chain",
+    about: "particles in a row, tied one to the next by springs, ropes or rods: pendulums, strings, beams",
+    keys: KEYS,
+    build,
+};
+
+const KEYS: &[Key] = &[
+    Key::required("count", Kind::Count, "number of particles, 2 or above"),
+    Key::new("from", Kind::Vector, Value::Vector(DVec3::ZERO), "where the first is [length]"),
+    Key::new("to", Kind::Vector, Value::Vector(DVec3::X), "where the last is [length]"),
+    MASS,
+    Key::new("tie", Kind::Choice(&["spring", "rope", "rod"]), Value::Text(Cow::Borrowed("spring")), "what ties them"),
+    Key::new(
+        "stiffness",
+        Kind::NotNegative,
+        Value::Number(1000.0),
+        "springs, ropes: Hooke's constant of each [mass / time²]",
+    ),
+    Key::new(
+        "damping",
+        Kind::NotNegative,
+        Value::Number(0.0),
+        "springs, ropes: the damping of each, along itself [mass / time]",
+    ),
+    Key::new(
+        "rest",
+        Kind::NotNegative,
+        Value::Number(1.0),
+        "springs, ropes: the length at rest, as a part of the distance; 0 pulls alike in all directions",
+    ),
+    Key::new(
+        "bending",
+        Kind::NotNegative,
+        Value::Number(0.0),
+        "what the joints between three resist bending with, EI / ds [mass length² / time²]",
+    ),
+    Key::new(
+        "fixed",
+        Kind::Choice(&["none", "first", "ends"]),
+        Value::Text(Cow::Borrowed("none")),
+        "which of them forces do not move",
+    ),
+    VELOCITY,
+    PARTICLE_RADIUS,
+];
+
+/// `count` particles from `from` to `to`, evenly, in that order.
+fn build(settings: &Settings) -> Result<Particles, Error> {
+    let reader = Reader { shape: "chain", settings };
+    let (count, mut particles) = reader.room()?;
+    if count < 2 {
+        return Err(reader.error("count is 1; a chain has 2 particles or more"));
+    }
+    let (from, to) = (reader.vector("from")?, reader.vector("to")?);
+    let mass = reader.positive("mass")?;
+    let [stiffness, damping, rest, bending] =
+        ["stiffness", "damping", "rest", "bending"].map(|key| reader.not_negative(key));
+    let (stiffness, damping, rest, bending) = (stiffness?, damping?, rest?, bending?);
+    let velocity = reader.vector("velocity")?;
+    let radius = reader.not_negative("particle_radius")?;
+    let last = u32::try_from(count - 1).unwrap_or(u32::MAX);
+    let distance = from.distance(to) / f64::from(last);
+    if distance == 0.0 {
+        return Err(reader.error("from and to are one place"));
+    }
+    for i in 0..=last {
+        particles.push(from.lerp(to, f64::from(i) / f64::from(last)), velocity, mass, radius);
+    }
+    for i in 0..last {
+        let ends = [i, i + 1];
+        match settings.text("tie") {
+            "rod" => particles.links.rods.push(Rod { ends, length: distance }),
+            tie => {
+                let rope = tie == "rope";
+                particles.links.springs.push(Link { ends, rest: rest * distance, stiffness, damping, rope });
+            }
+        }
+        if bending > 0.0 && i > 0 {
+            particles.links.joints.push(Joint { ids: [i - 1, i, i + 1], stiffness: bending });
+        }
+    }
+    match settings.text("fixed") {
+        "first" => hold(&mut particles, [0]),
+        "ends" => hold(&mut particles, [0, last]),
+        _ => {}
+    }
+    reader.finished(particles)
+}

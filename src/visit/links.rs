@@ -1,0 +1,84 @@
+//! Everybody meets those that it is tied to: by springs, or as corners of joints and triangles.
+
+use std::sync::Arc;
+
+use super::{Law, Over};
+use crate::error::Error;
+use crate::kernel::{Kernel, Name, Pass, Problem, Shader};
+use crate::links::Network;
+
+/// Where each particle's links begin, and the links; for joints and triangles the names in the shader stand for others.
+pub const LINK_START: &str = "link_start";
+/// See [`LINK_START`].
+pub const LINK: &str = "link";
+
+/// The tables that a visit may read: as shaders and as plans know them, and their words.
+fn tables(over: Over, network: &Network) -> Vec<(&'static str, &'static str, &Arc<Vec<u32>>)> {
+    match over {
+        Over::Joints => {
+            vec![("corner_start", "joint_start", &network.joint_start), ("corner", "joint", &network.joint)]
+        }
+        Over::Triangles => {
+            vec![("corner_start", "triangle_start", &network.triangle_start), ("corner", "triangle", &network.triangle)]
+        }
+        _ => vec![
+            (LINK_START, LINK_START, &network.link_start),
+            (LINK, LINK, &network.link),
+            ("partner_start", "partner_start", &network.partner_start),
+            ("partner", "partner", &network.partner),
+            ("link_kind", "link_kind", &network.kind),
+        ],
+    }
+}
+
+/// Binds the tables that a visit reads to a kernel.
+pub fn bind(mut kernel: Kernel, over: Over, problem: &Problem) -> Kernel {
+    for (inside, field, words) in tables(over, &problem.network) {
+        let stride = kernel.passes.iter().flat_map(|pass| &pass.shader.reflection().bindings);
+        let stride = stride.filter(|binding| binding.name == inside).map(|binding| binding.stride).max();
+        // A law may have no use for a table.
+        let Some(stride) = stride else { continue };
+        kernel.sizes.push((field.into(), (4 * words.len() as u64) / stride.max(1)));
+        kernel.tables.push((field.into(), words.clone()));
+        if inside != field {
+            let renamed: [(&'static str, Name); 1] = [(inside, field.into())];
+            kernel.passes = kernel.passes.into_iter().map(|pass| pass.on(&renamed)).collect();
+        }
+    }
+    kernel
+}
+
+pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
+    let corners = law.over != Over::Links;
+    let gather = if corners {
+        "fn gather(me: Particle, corner: Corner, sum: ptr<function, Sum>)"
+    } else {
+        "fn gather(me: Particle, you: Particle, r: vec3f, link: Link, sum: ptr<function, Sum>)"
+    };
+    law.requires(&[("gather", gather), ("finish", "fn finish(me: Particle, sum: Sum) -> vec4f")])?;
+    let mut files = vec![crate::shader!("world.wgsl"), crate::shader!("fields.wgsl"), crate::shader!("particle.wgsl")];
+    let alike = !problem.breaks && problem.network.alike();
+    files.push(match (corners, alike) {
+        (true, _) => crate::shader!("visit/corners.wgsl"),
+        (false, true) => crate::shader!("visit/links_alike.wgsl"),
+        (false, false) => crate::shader!("visit/links.wgsl"),
+    });
+    files.extend(law.files().into_iter().filter(|file| file.file != "shaders/visit/everybody.wgsl"));
+    let shader = Shader::join(&files)?;
+    let (uniforms, mut constants) = (law.uniforms(&shader)?, problem.constants(&shader));
+    let has = |name: &str| shader.reflection().overrides.contains_key(name);
+    if has("DAMPED") && !problem.network.damped() {
+        constants.push(("DAMPED", 0.0));
+    }
+    let network = &problem.network;
+    let elements = match law.over {
+        Over::Joints => network.joint_start.last(),
+        Over::Triangles => network.triangle_start.last(),
+        _ => network.link_start.last(),
+    };
+    let work = u64::from(problem.count) + u64::from(elements.copied().unwrap_or(0));
+    let pass = Pass { constants, uniforms, work, ..Pass::new(shader, problem.count) };
+    let (name, twin, over) = (law.name, law.twin, law.over);
+    let (sizes, scratch, tables) = (Vec::new(), Vec::new(), Vec::new());
+    Ok(bind(Kernel { name, passes: vec![pass], twin, sizes, scratch, tables }, over, problem))
+}
