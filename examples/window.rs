@@ -229,6 +229,7 @@ fn setup(count: u32) -> Result<Setup, Error> {
         integrator: Box::new(integrators::Leapfrog),
         dt: 0.05,
         bounds: Bounds::default(),
+        solver: motes::Solver::default(),
     })
 }
 

@@ -29,7 +29,7 @@ pub mod visit;
 pub use cpu::Cpu;
 pub use error::Error;
 pub use gpu::Gpu;
-pub use kernel::{ACCELERATION, Bounds, POSITION, SPECIES, Side, TARGET, VELOCITY};
+pub use kernel::{ACCELERATION, Bounds, POSITION, SPECIES, Side, Solver, TARGET, VELOCITY};
 pub use measure::Measure;
 pub use particles::Particles;
 pub use simulation::{Setup, Simulation, Snapshot};

@@ -62,11 +62,11 @@ pub async fn compare(gpu: &mut Gpu, plan: &Plan, count: u32) -> Result<Vec<Verdi
         let mut fields = fields(kernel, count);
         // A twin may look at more of a particle than its shader does.
         for always in [POSITION.name, VELOCITY.name] {
-            if fields.iter().all(|(name, _, _)| name != always) && gpu.size(always) >= 16 * u64::from(count) {
-                fields.push((always.to_owned(), 16 * u64::from(count), Array::Vec4(Vec::new())));
+            if fields.iter().all(|(name, ..)| name != always) && gpu.size(always) >= 16 * u64::from(count) {
+                fields.push((always.to_owned(), 16 * u64::from(count), Array::Vec4(Vec::new()), 1));
             }
         }
-        for (place, (name, bytes, _)) in fields.iter().enumerate() {
+        for (place, (name, bytes, ..)) in fields.iter().enumerate() {
             behind(gpu, name, *bytes, sentinel(place))?;
         }
         // What is left of an earlier run must not matter.
@@ -76,13 +76,13 @@ pub async fn compare(gpu: &mut Gpu, plan: &Plan, count: u32) -> Result<Vec<Verdi
             behind(gpu, name, 0, sentinel(fields.len()))?;
         }
         let mut host = Host::default();
-        for (name, bytes, kind) in &fields {
+        for (name, bytes, kind, _) in &fields {
             host.insert(name, kind.like(&gpu.bytes(name, 0, *bytes).await?));
         }
         let world = gpu.world().await?;
         host.set_world(world);
         gpu.run(&program, 1)?;
-        let before: Vec<_> = fields.iter().map(|(name, _, _)| host.get(name)).collect();
+        let before: Vec<_> = fields.iter().map(|(name, ..)| host.get(name)).collect();
         twin(&host)?;
         if kernel.writes().iter().any(|name| name == "world") {
             verdicts.push(worlds(&kernel.name, world, gpu.world().await?, host.world()));
@@ -102,7 +102,7 @@ pub async fn compare(gpu: &mut Gpu, plan: &Plan, count: u32) -> Result<Vec<Verdi
                 });
             }
         }
-        for (place, ((name, bytes, kind), before)) in fields.iter().zip(before).enumerate() {
+        for (place, ((name, bytes, kind, parts), before)) in fields.iter().zip(before).enumerate() {
             if !kernel.writes().contains(name) {
                 continue;
             }
@@ -110,7 +110,7 @@ pub async fn compare(gpu: &mut Gpu, plan: &Plan, count: u32) -> Result<Vec<Verdi
             let (data, tail) = all.split_at(usize::try_from(*bytes).unwrap_or(0).min(all.len()));
             let spilled = tail.chunks_exact(4).any(|word| word != sentinel(place));
             let (Some(before), Some(want)) = (before, host.get(name)) else { continue };
-            let mut verdict = judge(&before, &want, &kind.like(data));
+            let mut verdict = judge(&before, &want, &kind.like(data), *parts);
             (verdict.kernel, verdict.field, verdict.spilled) = (kernel.name.clone(), name.clone(), spilled);
             verdicts.push(verdict);
         }
@@ -130,20 +130,21 @@ fn used(kernel: &Kernel, name: &str, count: u32) -> u64 {
     stride * kernel.size(name).unwrap_or(u64::from(count))
 }
 
-/// The fields that a kernel names, their bytes, and an empty array of their kind.
-fn fields(kernel: &Kernel, count: u32) -> Vec<(String, u64, Array)> {
-    let mut list: Vec<(String, u64, Array)> = Vec::new();
+/// The fields that a kernel names, their bytes, an empty array of their kind, and the parts of an element.
+fn fields(kernel: &Kernel, count: u32) -> Vec<(String, u64, Array, usize)> {
+    let mut list: Vec<(String, u64, Array, usize)> = Vec::new();
     for (field, binding) in kernel.bindings() {
-        let known = list.iter().any(|(name, _, _)| name == field);
+        let known = list.iter().any(|(name, ..)| name == field);
         if binding.access == Access::Uniform || !binding.array || known || kernel.is_scratch(field) {
             continue;
         }
-        list.push((field.to_owned(), used(kernel, field, count), binding.zeros(0)));
+        list.push((field.to_owned(), used(kernel, field, count), binding.zeros(0), binding.parts));
     }
     list
 }
 
-fn judge(before: &Array, want: &Array, got: &Array) -> Verdict {
+/// Compares what a kernel made. The members of a struct are different things, each with a usual change of its own.
+fn judge(before: &Array, want: &Array, got: &Array, members: usize) -> Verdict {
     let wide = |a: &Array| match a {
         Array::Float(a) => Array::Vec4(a.iter().map(|x| DVec4::X * *x).collect()),
         other => other.clone(),
@@ -158,14 +159,19 @@ fn judge(before: &Array, want: &Array, got: &Array) -> Verdict {
     };
     // The vector and its fourth component are two things; sums cancel, so that errors go with the usual change, not the own.
     let changes: Vec<[f64; 2]> = before.iter().zip(want).map(|(b, w)| parts(*w - *b)).collect();
-    let usual = [0, 1].map(|p| (changes.iter().map(|c| c[p] * c[p]).sum::<f64>() / changes.len().max(1) as f64).sqrt());
+    let usual: Vec<[f64; 2]> = (0..members)
+        .map(|member| {
+            let its = || changes.iter().skip(member).step_by(members);
+            [0, 1].map(|p| (its().map(|c| c[p] * c[p]).sum::<f64>() / its().count().max(1) as f64).sqrt())
+        })
+        .collect();
     let mut verdict = Verdict { changed: changes.iter().any(|c| c[0] > 0.0 || c[1] > 0.0), ..Verdict::none() };
     let mut relative = Vec::new();
     for (i, ((want, got), change)) in want.iter().zip(got).zip(&changes).enumerate() {
         let error = parts(*got - *want);
         let size = parts(*want);
         for p in 0..2 {
-            let allowed = TOLERANCE * change[p].max(usual[p])
+            let allowed = TOLERANCE * change[p].max(usual[i % members][p])
                 + LAST_PLACES * f64::from(f32::EPSILON) * size[p]
                 + f64::from(f32::MIN_POSITIVE);
             let ratio = if error[p].is_finite() { error[p] / allowed } else { f64::INFINITY };

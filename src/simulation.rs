@@ -1,15 +1,18 @@
 //! A simulation: particles, forces and an integrator on a backend.
 
 mod setup;
+mod solves;
 mod ties;
 
 pub use setup::{Plans, Setup};
+pub use solves::{Outcome, Solves};
 
 use glam::DVec3;
 
 use crate::boundary;
 use crate::error::Error;
 use crate::gpu::Gpu;
+use crate::integrators::SOLVE_REPORT;
 use crate::kernel::{
     ACCELERATION, ALARM, ALARM_WORDS, Array, Backend, Element, Field, HOME, POSITION, QUIET, SPECIES, TARGET, VELOCITY,
     World,
@@ -41,6 +44,8 @@ pub struct Simulation<B: Backend> {
     step: B::Program,
     measure: (B::Program, B::Program),
     plan: String,
+    /// Whether a step keeps a report of its solves.
+    solves: bool,
     count: u32,
     /// As the setup gave them: nothing changes them.
     species: Vec<u32>,
@@ -60,6 +65,7 @@ impl<B: Backend> Simulation<B> {
         let count = setup.check()?;
         let plans = setup.plans(backend.machine())?;
         let plan = plans.step.to_string();
+        let solves = plans.step.kernels.iter().any(|kernel| kernel.names(SOLVE_REPORT));
         let start = backend.compile(&plans.start)?;
         let step = backend.compile(&plans.step)?;
         let measure = (backend.compile(&plans.measure.0)?, backend.compile(&plans.measure.1)?);
@@ -95,7 +101,7 @@ impl<B: Backend> Simulation<B> {
         }
         let (links, breaks) = (particles.links.clone(), setup.forces.iter().any(|force| force.breaks()));
         let (begun, dt, steps) = (false, setup.dt, 0);
-        Ok(Self { backend, start, begun, step, measure, plan, count, species, links, breaks, dt, steps })
+        Ok(Self { backend, start, begun, step, measure, plan, solves, count, species, links, breaks, dt, steps })
     }
     /// Advances. May return before the device is done; reading waits.
     ///

@@ -34,6 +34,7 @@ fn setup(name: &str) -> Setup {
         integrator: integrator(name),
         dt: 0.013,
         bounds: motes::Bounds::default(),
+        solver: motes::Solver::default(),
     }
 }
 

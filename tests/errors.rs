@@ -13,7 +13,14 @@ use support::Shared;
 use support::states::{force, integrator, one};
 
 fn setup(particles: Particles, forces: Vec<Box<dyn Force>>, dt: f64) -> Setup {
-    Setup { particles, forces, integrator: integrator("leapfrog"), dt, bounds: motes::Bounds::default() }
+    Setup {
+        particles,
+        forces,
+        integrator: integrator("leapfrog"),
+        dt,
+        bounds: motes::Bounds::default(),
+        solver: motes::Solver::default(),
+    }
 }
 
 fn on_gpu(shared: &Shared, setup: &Setup) -> Result<Simulation<Gpu>, Error> {

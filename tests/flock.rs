@@ -164,6 +164,7 @@ fn what_is_degenerate_is_finite() {
                 integrator: integrator(integrator_name),
                 dt: 0.05,
                 bounds: Bounds::default(),
+                solver: motes::Solver::default(),
             };
             let device = (&shared.found.device, &shared.found.queue);
             let mut simulation = Simulation::new(device.0, device.1, &setup).expect("a simulation");
@@ -190,6 +191,7 @@ fn speeds_are_within_limits() {
             integrator: (entry.build)(),
             dt: 0.1,
             bounds: Bounds::default(),
+            solver: motes::Solver::default(),
         };
         let mut simulation = Simulation::new(&shared.found.device, &shared.found.queue, &setup).expect("a simulation");
         for _ in 0..6 {
@@ -227,6 +229,7 @@ fn limits_by_hand() {
         integrator: integrator("leapfrog"),
         dt: 0.1,
         bounds: Bounds::default(),
+        solver: motes::Solver::default(),
     };
     let machine = motes::kernel::Machine { software: true, subgroup: 0, invocations: 1 };
     let fault = setup.plans(machine).err().expect("no speed is above 3 and below 2").to_string();

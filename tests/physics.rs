@@ -22,6 +22,7 @@ fn on_gpu(shared: &Shared, particles: &Particles, softening: f64, name: &str, dt
         integrator: integrator(name),
         dt,
         bounds: motes::Bounds::default(),
+        solver: motes::Solver::default(),
     };
     Simulation::new(&shared.found.device, &shared.found.queue, &setup).expect("a simulation")
 }
@@ -108,6 +109,7 @@ fn an_ellipse_in_f32() {
         integrator: integrator("leapfrog"),
         dt: TAU / 1000.0,
         bounds: motes::Bounds::default(),
+        solver: motes::Solver::default(),
     };
     let mut simulation = Simulation::new(&shared.found.device, &shared.found.queue, &setup).expect("a simulation");
     simulation.step(1000).expect("steps");

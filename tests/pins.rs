@@ -63,7 +63,14 @@ fn setup(particles: Particles, name: &str) -> Setup {
         force("drag", &[("linear", Value::Number(0.3))]),
         force("speed_limit", &[("min", Value::Number(0.4)), ("max", Value::Number(0.9))]),
     ];
-    Setup { particles, forces, integrator: integrator(name), dt: DT, bounds: Bounds::default() }
+    Setup {
+        particles,
+        forces,
+        integrator: integrator(name),
+        dt: DT,
+        bounds: Bounds::default(),
+        solver: motes::Solver::default(),
+    }
 }
 
 fn simulation(shared: &Shared, setup: &Setup) -> Simulation<Gpu> {

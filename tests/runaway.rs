@@ -22,6 +22,7 @@ fn on_device(shared: &Shared, particles: &Particles, strength: f64, name: &str, 
         integrator: integrator(name),
         dt,
         bounds: motes::Bounds::default(),
+        solver: motes::Solver::default(),
     };
     Simulation::new(&shared.found.device, &shared.found.queue, &setup).expect("a simulation")
 }
@@ -152,6 +153,7 @@ fn scenes_do_not_run_away() {
             integrator: (scene.integrator.build)(),
             dt: scene.dt,
             bounds: scene.bounds,
+            solver: motes::Solver::default(),
         };
         let mut twins = Simulation::on(Cpu::new(count).expect("some"), &setup).expect("a simulation");
         twins.step(steps).expect("steps");

@@ -16,7 +16,14 @@ use support::states::{force, integrator, one, phase, vector, word};
 const G: f64 = 9.81;
 
 fn setup(particles: Particles, forces: Vec<Box<dyn Force>>, name: &str, dt: f64) -> Setup {
-    Setup { particles, forces, integrator: integrator(name), dt, bounds: Bounds::default() }
+    Setup {
+        particles,
+        forces,
+        integrator: integrator(name),
+        dt,
+        bounds: Bounds::default(),
+        solver: motes::Solver::default(),
+    }
 }
 
 fn twins(setup: &Setup) -> Simulation<Cpu> {

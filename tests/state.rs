@@ -18,6 +18,7 @@ fn pair() -> Setup {
         integrator: Box::new(integrators::Leapfrog),
         dt: 0.1,
         bounds: motes::Bounds::default(),
+        solver: motes::Solver::default(),
     }
 }
 

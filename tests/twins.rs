@@ -25,6 +25,7 @@ fn moving(gpu: Gpu, count: usize, forces: Vec<Box<dyn forces::Force>>, name: &st
         integrator: integrator(name),
         dt: DT,
         bounds: motes::Bounds::default(),
+        solver: motes::Solver::default(),
     };
     let mut simulation = Simulation::on(gpu, &setup).expect("a simulation");
     simulation.step(3).expect("three steps");
@@ -128,6 +129,7 @@ fn every_integrator_whole() {
                 integrator: (entry.build)(),
                 dt: DT,
                 bounds: motes::Bounds::default(),
+                solver: motes::Solver::default(),
             };
             let plans = setup.plans(machine).expect("plans");
             fill(simulation.backend(), &plans.step, count);
@@ -154,6 +156,7 @@ fn what_surrounds_a_measurement() {
             integrator: integrator("leapfrog"),
             dt: DT,
             bounds: motes::Bounds::default(),
+            solver: motes::Solver::default(),
         };
         let (before, after) = setup.plans(machine).expect("plans").measure;
         judge(&verdicts(simulation.backend(), &before, count, &"before"), count, &"before", |_| false);
@@ -175,6 +178,7 @@ fn the_watch_sees_what_is_broken() {
                 integrator: integrator("symplectic_euler"),
                 dt: DT,
                 bounds: motes::Bounds::default(),
+                solver: motes::Solver::default(),
             };
             let machine = simulation.backend().machine();
             let plan = setup.plans(machine).expect("plans").step;
@@ -216,6 +220,7 @@ fn dispatches_fold_over_two_dimensions() {
                 integrator: integrator("rk4"),
                 dt: DT,
                 bounds: motes::Bounds::default(),
+                solver: motes::Solver::default(),
             };
             let plan = setup.plans(machine).expect("plans").step;
             judge(&verdicts(simulation.backend(), &plan, count, &name), count, &name, |v| v.field == "alarm");
@@ -271,6 +276,7 @@ fn more_than_one_dispatch_can_meet() {
         integrator: integrator("symplectic_euler"),
         dt: DT,
         bounds: motes::Bounds::default(),
+        solver: motes::Solver::default(),
     };
     let mut simulation = Simulation::on(gpu, &setup).expect("a simulation");
     let program = simulation.backend().compile(&alone(kernel)).expect("a program");

@@ -53,7 +53,14 @@ impl Run {
         ];
         let bounds = Bounds::new(DVec3::ZERO, DVec3::new(self.side, self.side, 0.0), Side::Periodic);
         let forces = vec![force("vicsek", &settings)];
-        let setup = Setup { particles, forces, integrator: integrator(self.integrator), dt: 1.0, bounds };
+        let setup = Setup {
+            particles,
+            forces,
+            integrator: integrator(self.integrator),
+            dt: 1.0,
+            bounds,
+            solver: motes::Solver::default(),
+        };
         Simulation::new(&shared.found.device, &shared.found.queue, &setup).expect("a simulation")
     }
     /// The order parameter |Σ v| / N v₀, after a beginning, every few steps.

@@ -21,3 +21,6 @@ fn force(me: Particle) -> vec4f {
     }
     return vec4f(-pull * d, potential);
 }
+
+// Of the harmonic profile.
+fn jvp(me: Particle, dx: vec3f, dv: vec3f) -> vec3f { return -params.strength * dx; }

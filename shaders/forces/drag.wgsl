@@ -7,3 +7,11 @@ fn force(me: Particle) -> vec4f {
     let u = velocity[me.index].xyz - params.wind;
     return vec4f(-(params.linear + params.quadratic * length(u)) * u, 0.0);
 }
+
+fn jvp(me: Particle, dx: vec3f, dv: vec3f) -> vec3f {
+    let u = velocity[me.index].xyz - params.wind;
+    let speed = length(u);
+    var slope = (params.linear + params.quadratic * speed) * dv;
+    if speed > 0.0 { slope += (params.quadratic * dot(u, dv) / speed) * u; }
+    return -slope;
+}

@@ -11,3 +11,6 @@ fn force(me: Particle) -> vec4f {
     let flow = cross(params.axis, across) * (params.circulation / (TAU * (dot(across, across) + params.core * params.core)));
     return vec4f((flow - velocity[me.index].xyz) * params.rate, 0.0);
 }
+
+// How the flow changes from place to place is left out: it is not symmetric.
+fn jvp(me: Particle, dx: vec3f, dv: vec3f) -> vec3f { return -params.rate * dv; }

@@ -14,3 +14,12 @@ fn force(me: Particle) -> vec4f {
     let air = params.velocity * (1.0 + params.gust * sin(phase));
     return vec4f((air - velocity[me.index].xyz) * params.rate, 0.0);
 }
+
+fn jvp(me: Particle, dx: vec3f, dv: vec3f) -> vec3f {
+    let speed = length(params.velocity);
+    if speed <= 0.0 { return -params.rate * dv; }
+    let way = params.velocity / speed;
+    let phase = TAU * fract(world.time / params.period - dot(me.position, way) / params.wavelength);
+    let slope = -params.gust * cos(phase) * (TAU / params.wavelength) * dot(way, dx);
+    return params.rate * (slope * params.velocity - dv);
+}

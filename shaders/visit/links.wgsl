@@ -1,11 +1,7 @@
 // Each particle meets those that it is linked to, in the order of their ids. The law says:
 // fn gather(me, you, r: vec3f, link: Link, sum: ptr<function, Sum>), with r from me to you, and fn finish(me, sum: Sum) -> vec4f,
 // acceleration and potential per unit mass. A link is stored from both of its ends, so nothing is written twice.
-struct Link { partner: u32, rest: f32, stiffness: f32, damping: f32 }
-
 @group(1) @binding(2) var<storage, read_write> acceleration: array<vec4f>;
-@group(2) @binding(0) var<storage, read> link_start: array<u32>; // one for each particle, and the end
-@group(2) @binding(1) var<storage, read> link: array<Link>;
 
 const WORKGROUP: u32 = 64u;
 

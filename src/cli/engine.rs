@@ -89,5 +89,6 @@ pub fn setup(scene: &mut Scene) -> Setup {
         integrator: (scene.integrator.build)(),
         dt: scene.dt,
         bounds: scene.bounds,
+        solver: scene.solver,
     }
 }

@@ -1,10 +1,11 @@
 //! A centre that attracts.
 
 use std::borrow::Cow;
+use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{EACH, Force, Law};
+use super::{EACH, Force, Jacobian, Law};
 use crate::kernel::Scalar;
 use crate::settings::{Key, Kind, Settings, Value};
 
@@ -39,7 +40,7 @@ impl Force for Attractor {
         let profile = PROFILES.iter().position(|p| *p == self.0.text("profile")).unwrap_or(0);
         let mut values = super::params(&self.0, &["position", "velocity", "strength", "softening"]);
         values.push(("profile".to_owned(), Scalar::Uint(u32::try_from(profile).unwrap_or(0))));
-        vec![Law::each("attractor", crate::shader!("forces/attractor.wgsl"), values, move |me, world| {
+        let law = Law::each("attractor", crate::shader!("forces/attractor.wgsl"), values, move |me, world| {
             let d = world.bounds.shortest(me.position - (position + velocity * world.time));
             let soft = d.length_squared() + softening * softening;
             let (pull, potential) = match profile {
@@ -48,6 +49,9 @@ impl Force for Attractor {
                 _ => (strength / soft, 0.5 * strength * soft.ln()),
             };
             (-pull * d).extend(potential)
-        })]
+        });
+        // The others pull less the further away one is, which no matrix of an implicit step should be made of.
+        let linear = Jacobian::Each(Arc::new(move |_, _, dx, _| -strength * dx));
+        vec![if profile == 1 { law.with_jacobian(linear) } else { law }]
     }
 }

@@ -33,6 +33,7 @@ impl Force for Custom {
             params: self.params.iter().map(|(name, value)| (name.clone(), scalar(value))).collect(),
             twin: None,
             reciprocal: false,
+            jacobian: None,
         }]
     }
 }

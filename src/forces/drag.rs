@@ -1,8 +1,10 @@
 //! The resistance of a medium.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 
-use super::{EACH, Force, Law, params};
+use super::{EACH, Force, Jacobian, Law, params};
 use crate::settings::{Key, Kind, Settings, Value};
 
 /// What a scene may say.
@@ -31,6 +33,11 @@ impl Force for Drag {
         vec![Law::each("drag", crate::shader!("forces/drag.wgsl"), values, move |me, _| {
             let u = me.velocity - wind;
             (-(linear + quadratic * u.length()) * u).extend(0.0)
-        })]
+        })
+        .with_jacobian(Jacobian::Each(Arc::new(move |me, _, _, dv| {
+            let u = me.velocity - wind;
+            let along = u.normalize_or_zero();
+            -(linear + quadratic * u.length()) * dv - quadratic * u.dot(dv) * along
+        })))]
     }
 }

@@ -10,7 +10,7 @@ use crate::error::Error;
 pub use crate::kernel::Problem;
 use crate::kernel::{Plan, Scalar};
 use crate::settings::{Key, Settings, Value};
-pub use crate::visit::{Body, Law, Over};
+pub use crate::visit::{Body, Jacobian, Law, Over};
 
 /// What pushes particles.
 pub trait Force: Send + Sync {

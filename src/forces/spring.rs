@@ -1,10 +1,11 @@
 //! Springs and ropes.
 
 use std::borrow::Cow;
+use std::sync::Arc;
 
-use glam::DVec4;
+use glam::{DVec3, DVec4};
 
-use super::{Force, Law};
+use super::{Force, Jacobian, Law};
 use crate::settings::{Key, Kind, Settings, Value};
 
 /// What a scene may say.
@@ -44,6 +45,16 @@ impl Force for Spring {
                 *sum += (tension * along).extend(0.5 * link.stiffness * stretch * stretch);
             },
             |me, sum| *sum / me.mass,
-        )]
+        )
+        .with_jacobian(Jacobian::Links(Arc::new(|_, _, r, link, dx, dv| {
+            let length = r.length();
+            if link.rope && length <= link.rest {
+                return DVec3::ZERO;
+            }
+            let along = r.normalize_or_zero();
+            let across = if length > 0.0 { (1.0 - link.rest / length).max(0.0) } else { 1.0 };
+            link.stiffness * (across * dx + (1.0 - across) * along.dot(dx) * along)
+                + link.damping * along.dot(dv) * along
+        })))]
     }
 }

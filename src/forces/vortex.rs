@@ -1,8 +1,10 @@
 //! A whirl about an axis.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 
-use super::{EACH, Force, Law};
+use super::{EACH, Force, Jacobian, Law};
 use crate::kernel::Scalar;
 use crate::settings::{Key, Kind, Settings, Value};
 
@@ -38,6 +40,7 @@ impl Force for Vortex {
             let across = d - axis * axis.dot(d);
             let u = axis.cross(across) * (circulation / (std::f64::consts::TAU * (across.length_squared() + core * core)));
             ((u - me.velocity) * rate).extend(0.0)
-        })]
+        })
+        .with_jacobian(Jacobian::Each(Arc::new(move |_, _, _, dv| -rate * dv)))]
     }
 }

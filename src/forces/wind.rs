@@ -1,8 +1,11 @@
 //! A wind in gusts.
 
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
 use glam::DVec3;
 
-use super::{EACH, Force, Law, params};
+use super::{EACH, Force, Jacobian, Law, params};
 use crate::settings::{Key, Kind, Settings, Value};
 
 /// What a scene may say.
@@ -33,8 +36,13 @@ impl Force for Wind {
         let values = params(&self.0, &["velocity", "rate", "gust", "period", "wavelength"]);
         vec![Law::each("wind", crate::shader!("forces/wind.wgsl"), values, move |me, world| {
             let along = me.position.dot(wind.normalize_or_zero());
-            let phase = std::f64::consts::TAU * (world.time / period - along / wavelength).fract();
+            let phase = TAU * (world.time / period - along / wavelength).fract();
             ((wind * (1.0 + gust * phase.sin()) - me.velocity) * rate).extend(0.0)
-        })]
+        })
+        .with_jacobian(Jacobian::Each(Arc::new(move |me, world, dx, dv| {
+            let way = wind.normalize_or_zero();
+            let phase = TAU * (world.time / period - me.position.dot(way) / wavelength).fract();
+            rate * (-gust * phase.cos() * TAU / wavelength * way.dot(dx) * wind - dv)
+        })))]
     }
 }

@@ -3,7 +3,9 @@
 mod step;
 mod verbs;
 
-pub use step::Step;
+pub use step::{Explicit, Form, Implicit, Step, implicit};
+pub use verbs::solve::STATE as SOLVE_STATE;
+pub use verbs::solve::report::{NAME as SOLVE_REPORT, WORDS as SOLVE_REPORT_WORDS};
 
 /// How particles are advanced by one step.
 pub trait Integrator: Send + Sync {
@@ -12,6 +14,10 @@ pub trait Integrator: Send + Sync {
     /// The order when a force depends on velocity too. Kicks take the velocity at hand, so for the symplectic ones it is 1.
     fn order_with_velocity(&self) -> u32 {
         1
+    }
+    /// Whether laws that offer their Jacobian are solved for.
+    fn is_implicit(&self) -> bool {
+        false
     }
     /// What must be done once, before the first step.
     fn start(&self, _step: &mut Step) {}
@@ -47,6 +53,12 @@ register! {
     rk4: RungeKutta4, "order 4 (Runge-Kutta), four evaluations: accurate over short times";
     forest_ruth: ForestRuth, "order 4, symplectic, three evaluations";
     pefrl: Pefrl, "order 4, symplectic, four evaluations: the most accurate over long times";
+    linear_backward_euler: LinearBackwardEuler, "order 1, for stiff springs: damped at any step, by one linear solve (Baraff & Witkin 1998)";
+    backward_euler: BackwardEuler, "order 1, for stiff springs: damped at any step, its equations solved by Newton's method";
+    linear_trapezoid: LinearTrapezoid, "order 2, for stiff springs: keeps the energy of linear ones, by one linear solve";
+    trapezoid: Trapezoid, "order 2, for stiff springs: keeps the energy of linear ones, by Newton's method";
+    linear_implicit_midpoint: LinearImplicitMidpoint, "order 2, for stiff springs: keeps the energy of linear ones, by one linear solve";
+    implicit_midpoint: ImplicitMidpoint, "order 2, symplectic, for stiff springs: its equations solved by Newton's method";
 }
 
 /// The integrator of a scene's word.

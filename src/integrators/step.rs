@@ -1,5 +1,9 @@
 //! A step as it is being written: each verb adds kernels to a plan.
 
+mod solve;
+
+pub use solve::{Explicit, Form, Implicit, implicit};
+
 use super::verbs::{at, clear, drift, held, keep, kick, runge_kutta, tick, watch};
 use crate::boundary;
 use crate::error::Error;
@@ -27,11 +31,19 @@ impl<'a> Step<'a> {
 
     /// a ← forces(x, v, t), with all laws in the order of the scene.
     pub fn evaluate(&mut self) {
-        self.evaluated = true;
-        self.neighbors();
+        self.clear();
+        self.gather(|_| true);
+    }
+    /// No acceleration yet.
+    fn clear(&mut self) {
         self.add(clear::kernel(self.problem.count));
+    }
+    /// Adds what some of the forces say, chosen by their places.
+    fn gather(&mut self, chosen: impl Fn(usize) -> bool) {
+        self.evaluated = true;
+        self.neighbors(&chosen);
         let name = |force: &dyn Force| force.laws().first().map(|law| law.name.clone());
-        for (place, force) in self.forces.iter().enumerate() {
+        for (place, force) in self.forces.iter().enumerate().filter(|(place, _)| chosen(*place)) {
             // Two forces of one kind are two kernels.
             let earlier =
                 self.forces[..place].iter().filter(|other| name(other.as_ref()) == name(force.as_ref())).count();
@@ -53,9 +65,10 @@ impl<'a> Step<'a> {
         }
     }
     /// The grids that laws search: each once, however many laws do.
-    fn neighbors(&mut self) {
+    fn neighbors(&mut self, chosen: impl Fn(usize) -> bool) {
         let mut grids: Vec<(Grid, bool)> = Vec::new();
-        for law in self.forces.iter().flat_map(|force| force.laws()) {
+        let forces = self.forces.iter().enumerate().filter(|(place, _)| chosen(*place));
+        for law in forces.flat_map(|(_, force)| force.laws()) {
             match law.grid(&self.problem) {
                 Ok(Some((grid, moving))) => match grids.iter_mut().find(|(known, _)| *known == grid) {
                     Some((_, also)) => *also |= moving,

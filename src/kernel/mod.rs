@@ -10,6 +10,7 @@ mod plan;
 mod problem;
 mod reflect;
 mod shader;
+mod solver;
 mod world;
 
 pub use backend::{Backend, Machine};
@@ -23,4 +24,5 @@ pub use plan::{Kernel, Name, Pass, Plan, Threads, Twin};
 pub use problem::Problem;
 pub use reflect::{Access, Binding, Reflection};
 pub use shader::{Shader, Source};
+pub use solver::{LEAST_TOLERANCE, MOST_ITERATIONS, MOST_SOLVES, Solver};
 pub use world::World;

@@ -228,14 +228,32 @@ impl Plan {
     }
 }
 
+/// The block of two names that comes most often in a row at the start, and how often; or one name, once.
+fn repeated(names: &[String]) -> (usize, usize) {
+    let Some(block) = names.get(..2) else { return (1, 1) };
+    let times = names.chunks_exact(2).take_while(|next| *next == block).count();
+    if times > 2 { (2, times) } else { (1, 1) }
+}
+
 impl std::fmt::Display for Plan {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        for (i, kernel) in self.steps().enumerate() {
-            let bar = if i == 0 { "" } else { " | " };
-            write!(f, "{bar}{}", kernel.name)?;
-            if kernel.passes.len() > 1 {
-                write!(f, " ×{}", kernel.passes.len())?;
+        let name = |kernel: &Kernel| match kernel.passes.len() {
+            1 => kernel.name.clone(),
+            n => format!("{} ×{n}", kernel.name),
+        };
+        let names: Vec<String> = self.steps().map(name).collect();
+        let mut at = 0;
+        while at < names.len() {
+            let bar = if at == 0 { "" } else { " | " };
+            // What comes many times in a row, as iterations do, is written once.
+            let (length, times) = repeated(&names[at..]);
+            let block = names[at..at + length].join(" | ");
+            if times > 1 {
+                write!(f, "{bar}({block}) ×{times}")?
+            } else {
+                write!(f, "{bar}{block}")?
             }
+            at += length * times;
         }
         Ok(())
     }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{Bounds, Machine, Name, Shader, Side, Source};
+use super::{Bounds, Machine, Name, Shader, Side, Solver, Source};
 use crate::links::{Links, Network};
 use crate::motion::{self, Held, Motion};
 
@@ -36,6 +36,8 @@ pub struct Problem {
     pub dt: f64,
     /// How much of the step positions have been advanced by, where a plan is being written: when a drift ends.
     pub reached: f64,
+    /// How well implicit integrators solve.
+    pub solver: Solver,
 }
 
 impl Problem {
@@ -55,6 +57,7 @@ impl Problem {
             motions: Arc::default(),
             dt: 1.0,
             reached: 1.0,
+            solver: Solver::default(),
         }
     }
     /// The same with particles at these places, in this box.
@@ -102,6 +105,11 @@ impl Problem {
     #[must_use]
     pub fn breaking(self, breaks: bool) -> Self {
         Self { breaks, ..self }
+    }
+    /// The same with equations solved so well.
+    #[must_use]
+    pub fn solved(self, solver: Solver) -> Self {
+        Self { solver, ..self }
     }
     /// How many are of a species; of none in particular: all.
     #[must_use]

@@ -39,6 +39,8 @@ pub struct Binding {
     pub float: bool,
     /// The members, when it is a struct.
     pub packed: Packed,
+    /// Vectors or numbers in one element: those of a struct of nothing but `vec4f`, or of nothing but `f32`; else 1.
+    pub parts: usize,
 }
 
 /// A shader's outside.
@@ -64,12 +66,12 @@ impl Binding {
     /// An array of its kind on the host, with so many zeros.
     #[must_use]
     pub fn zeros(&self, len: usize) -> Array {
-        let kind = match (self.float, self.stride) {
-            (true, 16) => Array::Vec4(Vec::new()),
-            (true, 4) => Array::Float(Vec::new()),
-            _ => Array::Uint(Vec::new()),
+        let parts = self.parts.max(1) as u64;
+        let (kind, words) = match (self.float, self.stride / parts) {
+            (true, 16) => (Array::Vec4(Vec::new()), self.parts),
+            (true, 4) => (Array::Float(Vec::new()), self.parts),
+            _ => (Array::Uint(Vec::new()), usize::try_from(self.stride / 4).unwrap_or(1)),
         };
-        let words = if matches!(kind, Array::Uint(_)) { usize::try_from(self.stride / 4).unwrap_or(1) } else { 1 };
         kind.zeros(len * words)
     }
 }
@@ -156,7 +158,9 @@ fn binding(module: &Module, variable: &naga::GlobalVariable) -> Option<Binding> 
         TypeInner::Array { base, .. } => &module.types[*base].inner,
         other => other,
     };
-    let float = element.scalar_kind() == Some(naga::ScalarKind::Float);
+    let same = if array { alike(module, element) } else { None };
+    let float = same.is_some() || element.scalar_kind() == Some(naga::ScalarKind::Float);
+    let parts = same.unwrap_or(1);
     let packed = match inner {
         TypeInner::Struct { members, span } => {
             Packed { size: *span as usize, members: members.iter().filter_map(|m| member(module, m)).collect() }
@@ -164,7 +168,17 @@ fn binding(module: &Module, variable: &naga::GlobalVariable) -> Option<Binding> 
         _ => Packed::default(),
     };
     let name = variable.name.clone()?;
-    Some(Binding { name, group: place.group, binding: place.binding, access, stride, array, float, packed })
+    Some(Binding { name, group: place.group, binding: place.binding, access, stride, array, float, packed, parts })
+}
+
+/// How many `vec4f`, or how many `f32`, a struct is made of, if it is made of one of them alone.
+fn alike(module: &Module, element: &TypeInner) -> Option<usize> {
+    let TypeInner::Struct { members, .. } = element else { return None };
+    let all = |wanted: &dyn Fn(&TypeInner) -> bool| members.iter().all(|m| wanted(&module.types[m.ty].inner));
+    let float = |scalar: &naga::Scalar| scalar.kind == naga::ScalarKind::Float;
+    let vectors = |inner: &TypeInner| matches!(inner, TypeInner::Vector { size: naga::VectorSize::Quad, scalar } if float(scalar));
+    let numbers = |inner: &TypeInner| matches!(inner, TypeInner::Scalar(scalar) if float(scalar));
+    (all(&vectors) || all(&numbers)).then_some(members.len())
 }
 
 fn member(module: &Module, member: &naga::StructMember) -> Option<Member> {

@@ -28,6 +28,7 @@ mod report;
 mod resolved;
 mod sections;
 mod simulation;
+mod solver;
 mod source;
 mod tree;
 mod value;
@@ -37,7 +38,7 @@ use std::ops::Range;
 
 use crate::forces::Force;
 use crate::integrators;
-use crate::kernel::Bounds;
+use crate::kernel::{Bounds, Solver};
 use crate::particles::Particles;
 use crate::render;
 use crate::settings::Settings;
@@ -49,6 +50,7 @@ pub use links::LINKS_KEYS;
 pub use motion::MOTION_KEYS;
 pub use output::{Format, Output};
 pub use particles::EVERY as PARTICLES_KEYS;
+pub use solver::SOLVER_KEYS;
 pub use source::Source;
 
 use files::Files;
@@ -68,6 +70,8 @@ pub struct Scene {
     pub steps: u64,
     /// What makes a step.
     pub integrator: &'static integrators::Entry,
+    /// How well implicit integrators solve their equations.
+    pub solver: Solver,
     /// Where particles may be.
     pub bounds: Bounds,
     /// All particles, in the order of the scene; at least one.
@@ -150,6 +154,7 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
     out.comment("Every value of the run, defaults included.");
     let simulation = simulation::read(one("simulation"), report);
     simulation.write(&mut out);
+    let solver = solver::read(one("solver"), &mut out, report);
     let bounds = bounds::read(one("box"), &mut out, report);
 
     let mut motions = Vec::new();
@@ -205,6 +210,7 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
         dt: simulation.dt,
         steps: simulation.steps,
         integrator: simulation.integrator,
+        solver,
         bounds,
         particles,
         groups,

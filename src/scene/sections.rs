@@ -6,7 +6,7 @@ use crate::particles::SHAPES;
 use crate::render;
 use crate::settings::Key;
 
-use super::{bounds, force, links, motion, output, particles, simulation};
+use super::{bounds, force, links, motion, output, particles, simulation, solver};
 
 /// A section.
 pub(super) struct Section {
@@ -25,6 +25,7 @@ pub(super) struct Section {
 /// All sections, in the order in which the resolved scene writes them.
 pub(super) const SECTIONS: &[Section] = &[
     Section { name: "simulation", many: false, keys: simulation::KEYS, own: simulation::OWN, kinds: Vec::new },
+    Section { name: "solver", many: false, keys: solver::SOLVER_KEYS, own: &[], kinds: Vec::new },
     Section { name: "box", many: false, keys: bounds::BOX_KEYS, own: bounds::OWN, kinds: Vec::new },
     Section { name: "motion", many: true, keys: motion::MOTION_KEYS, own: motion::OWN, kinds: Vec::new },
     Section {

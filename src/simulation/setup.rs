@@ -4,7 +4,7 @@ use crate::boundary;
 use crate::error::Error;
 use crate::forces::{Force, Problem};
 use crate::integrators::{Integrator, Step};
-use crate::kernel::{Bounds, Machine, Plan};
+use crate::kernel::{Bounds, Machine, Plan, Solver};
 use crate::motion::{self, Hold};
 use crate::particles::Particles;
 
@@ -20,6 +20,8 @@ pub struct Setup {
     pub dt: f64,
     /// Where particles may be.
     pub bounds: Bounds,
+    /// How well implicit integrators solve their equations; others have none.
+    pub solver: Solver,
 }
 
 /// The plans of a simulation: what runs once, what runs in every step, and what surrounds a measurement.
@@ -50,7 +52,8 @@ impl Setup {
             .of_species(&self.particles.species)
             .tied(&self.particles.links, &self.particles.held)
             .moved(&self.particles.motions, self.dt)
-            .breaking(self.forces.iter().any(|force| force.breaks()));
+            .breaking(self.forces.iter().any(|force| force.breaks()))
+            .solved(self.solver);
         let mut start = Step::new(&self.forces, problem.clone());
         start.enclose();
         start.lead();
@@ -95,6 +98,7 @@ impl Setup {
             )));
         }
         links.check(mass)?;
+        self.solver.check()?;
         boundary::check(&self.bounds)?;
         motion::check(held, motions, count, self.bounds.dimensions, self.dt)?;
         if !links.rods.is_empty() && !self.forces.iter().any(|force| force.keeps_rods()) {

@@ -10,7 +10,7 @@ use crate::cpu::Cpu;
 use crate::error::Error;
 use crate::forces::{self, Force};
 use crate::integrators::Integrator;
-use crate::kernel::{ACCELERATION, Array, Backend, Bounds, POSITION, VELOCITY, World};
+use crate::kernel::{ACCELERATION, Array, Backend, Bounds, POSITION, Solver, VELOCITY, World};
 use crate::particles::Particles;
 use crate::settings::{Settings, Value};
 use crate::simulation::{Setup, Simulation};
@@ -168,7 +168,7 @@ pub fn oscillator(integrator: Box<dyn Integrator>, omega: f64, damping: f64, dt:
     let mut forces: Vec<Box<dyn Force>> = Vec::new();
     forces.extend(force("attractor", &spring).filter(|_| omega != 0.0));
     forces.extend(force("drag", &drag).filter(|_| damping != 0.0));
-    Setup { particles, forces, integrator, dt, bounds: Bounds::default() }
+    Setup { particles, forces, integrator, dt, bounds: Bounds::default(), solver: Solver::default() }
 }
 
 fn force(name: &str, settings: &[(&'static str, Value)]) -> Option<Box<dyn Force>> {

@@ -2,13 +2,14 @@
 
 use glam::{DVec3, DVec4};
 
-use super::{Body, Over, each, links, near, pairs, twin};
+use super::{Body, Jacobian, Over, each, links, near, pairs, twin};
 use crate::error::Error;
 use crate::kernel::{Kernel, Problem, Scalar, Shader, Source, Twin, World};
 use crate::links::{Corner, Half};
 use crate::neighbors::Grid;
 
 /// A law: what happens between `me` and `you`, or to `me` alone.
+#[derive(Clone)]
 pub struct Law {
     /// Its name, for `motes explain` and messages.
     pub name: String,
@@ -23,6 +24,8 @@ pub struct Law {
     pub twin: Option<Twin>,
     /// Whether what two do to each other adds up to nothing, so that momentum is kept.
     pub reciprocal: bool,
+    /// What it offers to implicit integrators.
+    pub jacobian: Option<Jacobian>,
 }
 
 /// Files that a law has by calling a function of theirs, and not having one of that name itself.
@@ -42,7 +45,15 @@ impl Law {
         params: Vec<(String, Scalar)>,
         rule: impl Fn(&Body, &World) -> DVec4 + Send + Sync + 'static,
     ) -> Self {
-        Self { name: name.to_owned(), over: Over::Each, wgsl, params, twin: Some(twin::each(rule)), reciprocal: false }
+        Self {
+            name: name.to_owned(),
+            over: Over::Each,
+            wgsl,
+            params,
+            twin: Some(twin::each(rule)),
+            reciprocal: false,
+            jacobian: None,
+        }
     }
     /// A law of all pairs that adds up: [`Law::between`] over [`Over::Pairs`].
     pub fn pairs(
@@ -76,7 +87,7 @@ impl Law {
         finish: impl Fn(&Body, &S, &World) -> DVec4 + Send + Sync + 'static,
     ) -> Self {
         let twin = Some(twin::meetings(over, gather, finish));
-        Self { name: name.to_owned(), over, wgsl, params, twin, reciprocal: false }
+        Self { name: name.to_owned(), over, wgsl, params, twin, reciprocal: false, jacobian: None }
     }
     /// A law of springs; `gather(me, you, r, link, sum)` takes one in, with r from me to you, and `finish(me, sum)` gives
     /// acceleration and potential per unit mass, of which each end holds half.
@@ -88,7 +99,7 @@ impl Law {
         finish: impl Fn(&Body, &S) -> DVec4 + Send + Sync + 'static,
     ) -> Self {
         let twin = Some(twin::links(gather, finish));
-        Self { name: name.to_owned(), over: Over::Links, wgsl, params, twin, reciprocal: true }
+        Self { name: name.to_owned(), over: Over::Links, wgsl, params, twin, reciprocal: true, jacobian: None }
     }
     /// A law of joints or triangles; `rule(corners, place, stiffness, world)` gives the force on the corner of that
     /// place, and the energy of the whole, of which each corner holds a third.
@@ -100,7 +111,7 @@ impl Law {
         rule: impl Fn([&Body; 3], &Corner, &World) -> DVec4 + Send + Sync + 'static,
     ) -> Self {
         let twin = Some(twin::corners(over, rule));
-        Self { name: name.to_owned(), over, wgsl, params, twin, reciprocal: false }
+        Self { name: name.to_owned(), over, wgsl, params, twin, reciprocal: false, jacobian: None }
     }
     /// Joins the law with its visit, for such a problem.
     ///

@@ -58,11 +58,13 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
     law.requires(&[("gather", gather), ("finish", "fn finish(me: Particle, sum: Sum) -> vec4f")])?;
     let mut files = vec![crate::shader!("world.wgsl"), crate::shader!("fields.wgsl"), crate::shader!("particle.wgsl")];
     let alike = !problem.breaks && problem.network.alike();
-    files.push(match (corners, alike) {
-        (true, _) => crate::shader!("visit/corners.wgsl"),
-        (false, true) => crate::shader!("visit/links_alike.wgsl"),
-        (false, false) => crate::shader!("visit/links.wgsl"),
-    });
+    match (corners, alike) {
+        (true, _) => files.push(crate::shader!("visit/corners.wgsl")),
+        (false, true) => files.push(crate::shader!("visit/links_alike.wgsl")),
+        (false, false) => {
+            files.extend([crate::shader!("visit/link_table.wgsl"), crate::shader!("visit/links.wgsl")]);
+        }
+    }
     files.extend(law.files().into_iter().filter(|file| file.file != "shaders/visit/everybody.wgsl"));
     let shader = Shader::join(&files)?;
     let (uniforms, mut constants) = (law.uniforms(&shader)?, problem.constants(&shader));

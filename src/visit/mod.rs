@@ -2,6 +2,7 @@
 
 mod body;
 mod each;
+mod jacobian;
 mod law;
 mod links;
 mod near;
@@ -12,6 +13,7 @@ mod tied;
 mod twin;
 
 pub use body::{Body, bodies};
+pub use jacobian::{Jacobian, ROW, ROWS};
 pub use law::Law;
 pub use links::{LINK, LINK_START, bind};
 pub use over::Over;

@@ -44,5 +44,5 @@ fn inside(count: usize, bounds: &Bounds, seed: u64) -> Particles {
 }
 
 fn setup(particles: Particles, forces: Vec<Box<dyn Force>>, name: &str, dt: f64, bounds: Bounds) -> Setup {
-    Setup { particles, forces, integrator: integrator(name), dt, bounds }
+    Setup { particles, forces, integrator: integrator(name), dt, bounds, solver: motes::Solver::default() }
 }

@@ -111,8 +111,14 @@ pub fn moving(device: &Device, count: usize, machine: Option<Machine>) -> Simula
     }
     let integrator = integrator("symplectic_euler");
     let forces = vec![force("uniform", &[])];
-    let setup =
-        Setup { particles: support::cloud(count, 11), forces, integrator, dt: DT, bounds: motes::Bounds::default() };
+    let setup = Setup {
+        particles: support::cloud(count, 11),
+        forces,
+        integrator,
+        dt: DT,
+        bounds: motes::Bounds::default(),
+        solver: motes::Solver::default(),
+    };
     let mut simulation = Simulation::on(gpu, &setup).expect("a simulation");
     simulation.step(3).expect("three steps");
     simulation
@@ -170,6 +176,7 @@ fn integrators(device: &Device, stages: &mut Vec<Stage>) {
             integrator: (entry.build)(),
             dt: DT,
             bounds: motes::Bounds::default(),
+            solver: motes::Solver::default(),
         };
         let plans = setup.plans(machine).expect("plans");
         for kernel in [plans.step, plans.measure.0, plans.measure.1].into_iter().flat_map(|p| p.kernels) {

@@ -73,6 +73,7 @@ pub fn simulation(gpu: Gpu, positions: &[DVec3], bounds: Bounds, over: Over) -> 
         integrator: integrator("symplectic_euler"),
         dt: 1e-3,
         bounds,
+        solver: motes::Solver::default(),
     };
     Simulation::on(gpu, &setup).expect("a simulation")
 }

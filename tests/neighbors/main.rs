@@ -56,6 +56,7 @@ fn simulation(gpu: Gpu, place: &Place, force: Box<dyn Force>) -> Simulation<Gpu>
         integrator: integrator("symplectic_euler"),
         dt: 1e-3,
         bounds: place.bounds,
+        solver: motes::Solver::default(),
     };
     Simulation::on(gpu, &setup).expect("a simulation")
 }

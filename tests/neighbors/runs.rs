@@ -22,7 +22,7 @@ fn setup(overs: &[Over], bounds: Bounds, name: &str, dt: f64) -> Setup {
     let mut particles = support::cloud(COUNT, 8);
     particles.mass.iter_mut().for_each(|mass| *mass = 0.3);
     let forces = overs.iter().map(|over| Box::new(Curious(*over)) as Box<dyn Force>).collect();
-    Setup { particles, forces, integrator: integrator(name), dt, bounds }
+    Setup { particles, forces, integrator: integrator(name), dt, bounds, solver: motes::Solver::default() }
 }
 
 fn run(shared: &Shared, setup: &Setup, batches: &[u32], scratch: bool) -> Vec<u8> {

@@ -22,7 +22,14 @@ fn word(text: &'static str) -> Value {
 
 fn setup(particles: Particles) -> Setup {
     let integrator = (integrators::entry("leapfrog").unwrap().build)();
-    Setup { particles, forces: Vec::new(), integrator, dt: 0.013, bounds: motes::Bounds::default() }
+    Setup {
+        particles,
+        forces: Vec::new(),
+        integrator,
+        dt: 0.013,
+        bounds: motes::Bounds::default(),
+        solver: motes::Solver::default(),
+    }
 }
 
 fn on_gpu(particles: &Particles, pictures: &[&Picture]) -> Vec<Image> {

@@ -91,6 +91,7 @@ fn rods_go_through_periodic_sides() {
         integrator: integrator("leapfrog"),
         dt: 0.01,
         bounds,
+        solver: motes::Solver::default(),
     };
     let mut open = particles.clone();
     open.position[2].x += 2.0;

@@ -91,7 +91,14 @@ fn twins(particles: &Particles, forces: Vec<Box<dyn Force>>, name: &str, dt: f64
 }
 
 fn setup(particles: &Particles, forces: Vec<Box<dyn Force>>, name: &str, dt: f64) -> Setup {
-    Setup { particles: particles.clone(), forces, integrator: integrator(name), dt, bounds: Bounds::default() }
+    Setup {
+        particles: particles.clone(),
+        forces,
+        integrator: integrator(name),
+        dt,
+        bounds: Bounds::default(),
+        solver: motes::Solver::default(),
+    }
 }
 
 fn device(shared: &Shared, particles: &Particles, forces: Vec<Box<dyn Force>>, name: &str, dt: f64) -> Simulation<Gpu> {

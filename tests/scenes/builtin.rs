@@ -104,6 +104,7 @@ fn after(scene: Scene, steps: u32) -> Vec<DVec3> {
         integrator,
         dt: scene.dt,
         bounds: motes::Bounds::default(),
+        solver: motes::Solver::default(),
     };
     let mut simulation =
         Simulation::on(Cpu::new(count).expect("a backend"), &setup).unwrap_or_else(|why| panic!("{why}"));
@@ -163,6 +164,7 @@ fn smaller(name: &str, overrides: &[&str], steps: u32) -> [motes::measure::Flock
         integrator: (scene.integrator.build)(),
         dt: scene.dt,
         bounds: scene.bounds,
+        solver: motes::Solver::default(),
     };
     let count = setup.check().expect("a scene that may run");
     let mut simulation = Simulation::on(Cpu::new(count).expect("a host"), &setup).expect("a simulation");

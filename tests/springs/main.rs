@@ -60,7 +60,14 @@ pub fn made(name: &str, settings: &[(&'static str, Value)]) -> Particles {
 
 /// What runs on the device.
 pub fn setup(particles: &Particles, forces: Vec<Box<dyn Force>>, name: &str, dt: f64) -> Setup {
-    Setup { particles: particles.clone(), forces, integrator: integrator(name), dt, bounds: Bounds::default() }
+    Setup {
+        particles: particles.clone(),
+        forces,
+        integrator: integrator(name),
+        dt,
+        bounds: Bounds::default(),
+        solver: motes::Solver::default(),
+    }
 }
 
 /// The same, made.

@@ -115,6 +115,7 @@ fn setup(count: u32, integrator: &str) -> Result<Setup, Error> {
         integrator: (integrator.build)(),
         dt: 1e-3,
         bounds: Bounds::default(),
+        solver: motes::Solver::default(),
     })
 }
 

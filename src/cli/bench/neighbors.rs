@@ -93,7 +93,14 @@ fn scattered(count: u32, side: f64, speed: f64) -> Particles {
 }
 
 fn setup(particles: Particles, force: Box<dyn Force>, bounds: Bounds) -> Setup {
-    Setup { particles, forces: vec![force], integrator: Box::new(integrators::SymplecticEuler), dt: DT, bounds }
+    Setup {
+        particles,
+        forces: vec![force],
+        integrator: Box::new(integrators::SymplecticEuler),
+        dt: DT,
+        bounds,
+        solver: motes::Solver::default(),
+    }
 }
 
 fn circles(count: u32) -> (Setup, f64) {

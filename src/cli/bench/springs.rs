@@ -77,6 +77,7 @@ fn setup(count: u32) -> Result<Setup, Failure> {
         integrator: Box::new(integrators::SymplecticEuler),
         dt: DT,
         bounds: Bounds::default(),
+        solver: motes::Solver::default(),
     })
 }
 

@@ -1,4 +1,5 @@
-//! The verbs in which integrators are written, one file for each shader; a Runge–Kutta step's three go together.
+//! The verbs in which integrators are written, one file for each shader; a Runge–Kutta step's three go together, and
+//! those of an implicit solve have a folder.
 
 pub mod at;
 pub mod clear;
@@ -7,5 +8,6 @@ pub mod held;
 pub mod keep;
 pub mod kick;
 pub mod runge_kutta;
+pub mod solve;
 pub mod tick;
 pub mod watch;

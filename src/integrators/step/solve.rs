@@ -1,0 +1,167 @@
+//! The verbs of implicit integrators.
+
+use super::Step;
+use crate::forces::{Force, Law, Over};
+use crate::integrators::verbs::keep::copy;
+use crate::integrators::verbs::solve::{
+    EXPLICIT, START_POSITION, START_VELOCITY, System, begin, iterate, report, rows, update,
+};
+use crate::kernel::{ACCELERATION, POSITION, VELOCITY};
+use crate::visit::Jacobian;
+
+/// A part of a step by backward Euler: v = v₀ + h a(x₀ + h v, v), x = x₀ + h v.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Implicit {
+    /// The length h of the part, of the step.
+    pub part: f64,
+    /// The time of its end, of the step.
+    pub until: f64,
+    /// Where laws without a Jacobian are felt.
+    pub explicit: Explicit,
+    /// How the equations are solved.
+    pub form: Form,
+}
+
+/// Where laws without a Jacobian are felt, once in a solve.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Explicit {
+    /// Where the part begins.
+    Here,
+    /// At its end, x₀ + h v₀, as far as that is known.
+    Ahead,
+}
+
+/// How the equations of an implicit step are solved.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Form {
+    /// One linear solve, of forces expanded about where the part begins (Baraff & Witkin 1998).
+    Linear,
+    /// Newton's method, until the residual is as small as the solver is asked for.
+    Newton,
+}
+
+/// Which of some forces enter the matrix of an implicit solve: those of which every law offers its Jacobian. Of laws of
+/// links that is one: the first.
+#[must_use]
+pub fn implicit(forces: &[Box<dyn Force>]) -> Vec<bool> {
+    let mut tied = false;
+    let enters = |force: &Box<dyn Force>| {
+        let laws = force.laws();
+        let links = laws.iter().filter(|law| law.over == Over::Links).count();
+        let good = |law: &Law| {
+            matches!(
+                (law.over, &law.jacobian),
+                (Over::Each, Some(Jacobian::Each(_))) | (Over::Links, Some(Jacobian::Links(_)))
+            )
+        };
+        let all = !laws.is_empty() && laws.iter().all(good) && (links == 0 || links == 1 && !tied);
+        tied |= all && links == 1;
+        all
+    };
+    forces.iter().map(enters).collect()
+}
+
+impl Step<'_> {
+    /// A part of the step by backward Euler, from where particles are. Positions are left where that leads, wherever that
+    /// is: [`settle`](Step::settle) brings them to where they may be.
+    pub fn solve(&mut self, by: Implicit) {
+        let which = implicit(self.forces);
+        let (count, factor, solver) = (self.problem.count, by.part, self.problem.solver);
+        self.add(copy(count, "start", POSITION, START_POSITION));
+        self.add(copy(count, "start", VELOCITY, START_VELOCITY));
+        let explicit = which.iter().any(|enters| !enters);
+        let ahead = explicit && by.explicit == Explicit::Ahead;
+        if ahead {
+            self.at(by.until);
+            self.add(update::reach(count, factor));
+        }
+        self.clear();
+        self.gather(|place| !which[place]);
+        if ahead {
+            self.add(update::reach(count, 0.0));
+        } else {
+            self.at(by.until);
+        }
+        let solves = if by.form == Form::Newton { solver.solves } else { 1 };
+        if by.form == Form::Newton && explicit {
+            self.add(copy(count, "keep explicit", ACCELERATION, EXPLICIT));
+        }
+        let laws: Vec<Law> =
+            self.forces.iter().zip(&which).filter(|(_, enters)| **enters).flat_map(|(force, _)| force.laws()).collect();
+        let links = laws.iter().find(|law| law.over == Over::Links).cloned();
+        let each: Vec<_> = laws.into_iter().filter(|law| law.over == Over::Each).collect();
+        let tied = links.is_some();
+        let problem = self.problem.clone();
+        let system = System { problem: &problem, factor, links };
+        for turn in 0..solves {
+            let start = turn == 0;
+            if !start {
+                self.again(explicit);
+            }
+            self.gather(|place| which[place]);
+            self.rows(&system, &each, start);
+            let limit = if tied { solver.iterations } else { 0 };
+            if tied || by.form == Form::Newton {
+                self.iterate(&system, limit);
+            }
+            self.add(update::kernel(&system, start));
+            self.add(update::reach(count, factor));
+        }
+        if by.form == Form::Newton {
+            // One look more, which decides.
+            self.again(explicit);
+            self.gather(|place| which[place]);
+            self.rows(&system, &[], false);
+            self.iterate(&system, 0);
+        }
+        if tied || by.form == Form::Newton {
+            self.add(report::kernel(&system, by.form == Form::Newton));
+        }
+    }
+    /// From the middle of the step to its end, along the straight line from where the last solve began: x ← x₀ + v dt,
+    /// v ← 2 v − v₀.
+    pub fn extrapolate(&mut self) {
+        self.add(update::reach(self.problem.count, 1.0));
+        self.add(update::extrapolate(self.problem.count));
+    }
+    /// Velocities and positions become what they may be, after a part of the step.
+    pub fn settle(&mut self, factor: f64) {
+        self.limit();
+        self.enclose();
+        self.each_force(|force, plan, problem| force.confine(plan, problem, factor));
+    }
+
+    /// The accelerations before implicit laws add theirs.
+    fn again(&mut self, explicit: bool) {
+        if explicit {
+            self.add(copy(self.problem.count, "restore explicit", EXPLICIT, ACCELERATION));
+        } else {
+            self.clear();
+        }
+    }
+    fn rows(&mut self, system: &System<'_>, each: &[Law], start: bool) {
+        self.add(rows::kernel(system, start));
+        for law in each {
+            self.add(law.rows(system.problem, system.factor, start));
+        }
+        self.add(begin::kernel(system, start));
+    }
+    /// As many iterations, and a look at what is left. Their number is odd, so that the state ends where it is sought.
+    fn iterate(&mut self, system: &System<'_>, limit: u32) {
+        let kernels = [true, false].map(|turned| {
+            let product = iterate::product(system, turned);
+            product.and_then(|product| Ok([product, iterate::advance(system, turned, limit)?]))
+        });
+        match kernels {
+            [Ok(first), Ok(second)] => {
+                for turn in 0..(limit + 1) | 1 {
+                    let pair = if turn % 2 == 0 { &first } else { &second };
+                    pair.iter().for_each(|kernel| self.plan.add(kernel.clone()));
+                }
+            }
+            [Err(error), _] | [_, Err(error)] => {
+                self.error.get_or_insert(error);
+            }
+        }
+    }
+}

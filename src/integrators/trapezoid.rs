@@ -1,0 +1,26 @@
+//! The trapezoid rule (Crank & Nicolson 1947): half a step by Euler's method, then half a step by the implicit one.
+
+use super::{Explicit, Form, Implicit, Integrator, Step};
+
+/// `trapezoid`
+pub struct Trapezoid;
+
+impl Integrator for Trapezoid {
+    fn order(&self) -> u32 {
+        2
+    }
+    /// Of laws that offer their Jacobian; it is 1 for others.
+    fn order_with_velocity(&self) -> u32 {
+        2
+    }
+    fn is_implicit(&self) -> bool {
+        true
+    }
+    fn step(&self, s: &mut Step) {
+        s.evaluate();
+        s.drift(0.5);
+        s.kick(0.5);
+        s.solve(Implicit { part: 0.5, until: 1.0, explicit: Explicit::Ahead, form: Form::Newton });
+        s.settle(0.5);
+    }
+}

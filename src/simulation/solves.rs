@@ -1,0 +1,67 @@
+//! What became of the implicit solves of a run.
+
+use super::Simulation;
+use crate::error::Error;
+use crate::integrators::{SOLVE_REPORT, SOLVE_REPORT_WORDS, SOLVE_STATE};
+use crate::kernel::{Array, Backend};
+
+/// What became of a solve.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Outcome {
+    /// It is as good as was asked.
+    Converged,
+    /// The matrix was not positive along a direction, or a number stopped being one.
+    BrokenDown,
+    /// It would have taken more iterations, or more solves.
+    RanOut,
+}
+
+/// What became of the implicit solves of a run so far. A step is one solve, however many linear ones it takes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Solves {
+    /// Steps that were solved.
+    pub solves: u32,
+    /// How many of them did not converge.
+    pub failures: u32,
+    /// The first of those, counted from 0.
+    pub first_failure: Option<u32>,
+    /// The most iterations of conjugate gradients in one step.
+    pub most_iterations: u32,
+    /// Those of the last step.
+    pub iterations: u32,
+    /// What became of it.
+    pub outcome: Outcome,
+    /// The last residual that was looked at, as a part of the first one of its step.
+    pub residual: f64,
+}
+
+impl<B: Backend> Simulation<B> {
+    /// What became of the implicit solves so far; none where nothing is solved by iterations.
+    ///
+    /// # Errors
+    /// What reading says.
+    pub async fn solves(&mut self) -> Result<Option<Solves>, Error> {
+        if !self.solves {
+            return Ok(None);
+        }
+        let report = self.backend.read(SOLVE_REPORT, &Array::Uint(Vec::new()), SOLVE_REPORT_WORDS).await?;
+        let state = self.backend.read(SOLVE_STATE, &Array::Float(Vec::new()), 4).await?;
+        let (Array::Uint(report), Array::Float(state)) = (report, state) else { return Ok(None) };
+        let [solves, failures, first, most_iterations, iterations, code, ..] = report[..] else { return Ok(None) };
+        let (first_residual, residual) = (state.first().copied().unwrap_or(0.0), state.get(3).copied().unwrap_or(0.0));
+        let outcome = match code {
+            1 => Outcome::Converged,
+            2 => Outcome::BrokenDown,
+            _ => Outcome::RanOut,
+        };
+        Ok((solves > 0).then(|| Solves {
+            solves,
+            failures,
+            first_failure: (failures > 0).then_some(first),
+            most_iterations,
+            iterations,
+            outcome,
+            residual: if first_residual > 0.0 { (residual / first_residual).sqrt() } else { 0.0 },
+        }))
+    }
+}
