@@ -51,8 +51,8 @@ impl Force for Rod {
     fn confine(&self, plan: &mut Plan, problem: &Problem, factor: f64) -> Result<(), Error> {
         add(plan, problem, factor, false)
     }
-    fn settle(&self, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
-        add(plan, problem, 1.0, true)
+    fn settle(&self, plan: &mut Plan, problem: &Problem, factor: f64) -> Result<(), Error> {
+        add(plan, problem, factor, true)
     }
     fn keeps_rods(&self) -> bool {
         true

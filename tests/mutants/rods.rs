@@ -64,7 +64,7 @@ pub fn rods(device: &Device, stages: &mut Vec<Stage>) {
         // As if a part of the step had gone otherwise.
         let (simulation, links, held) = tied(device, if factor == 1.0 { 0.9 } else { factor });
         let kernel = kernel(&links, &held, |plan, problem| {
-            if factor == 1.0 { rod.settle(plan, problem) } else { rod.confine(plan, problem, factor) }
+            if factor == 1.0 { rod.settle(plan, problem, 1.0) } else { rod.confine(plan, problem, factor) }
                 .expect("a kernel");
         });
         stages.push(Stage::new(&format!("rods, {factor}"), simulation, kernel));
