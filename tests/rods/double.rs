@@ -27,7 +27,6 @@ fn it_is_where_it_should_be() {
         let got = flat(&angles(&x, &v));
         for (got, want) in got.into_iter().zip(want) {
             // h⁶ times the seventh derivatives, which are about 20⁷; at the end an error of before has grown tenfold.
-            println!("{time}: {:e}", got - want);
             assert!((got - want).abs() < 2e-8, "after {time}: {got}, not {want}: {:e}", got - want);
         }
 
@@ -38,7 +37,6 @@ fn it_is_where_it_should_be() {
         simulation.step(steps).expect("steps");
         let (x, v) = read(&mut simulation);
         let got = flat(&angles(&x, &v));
-        println!("{time} f32 - twin {:?}", got.iter().zip(twin).map(|(a, b)| a - b).collect::<Vec<_>>());
         for ((got, twin), want) in got.into_iter().zip(twin).zip(want) {
             // 6e-8 in each of n steps, added up at random and in phase: n √n times that less a few; and thirteenfold by t = 5.
             assert!((got - twin).abs() < 5e-4, "after {time}: {got} on the device, {twin} by the twins");
@@ -63,7 +61,6 @@ fn with_rods_no_method_is_of_more_than_order_2() {
         let steps = if order == 1 { 4000 } else { 400 };
         let errors = [steps, 2 * steps].map(error);
         let slope = (errors[0] / errors[1]).log2();
-        println!("{}: {errors:?} {slope}", entry.name);
         // The next order bends it by a part of h times the rates, 1e-2, of a few.
         assert!((slope - f64::from(order)).abs() < 0.15, "{}: slope {slope} is not {order}: {errors:?}", entry.name);
     }
@@ -87,7 +84,6 @@ fn there_and_back() {
         let (x, _) = phase(&mut simulation);
         // Lengths are exact to rounding, and 1200 roundings of speeds, 1e-15 each, go 0.6 far.
         let error = (0..3).map(|i| x[i].truncate().distance(start.position[i])).fold(0.0, f64::max);
-        println!("{name}: {error:e}");
         assert!(error < 1e-11, "{name}: {error:e} from where it began");
     }
     let mut simulation = device(&shared, &start, forces(), "leapfrog", 1e-3);
@@ -98,7 +94,6 @@ fn there_and_back() {
     simulation.step(steps).expect("steps");
     let (x, _) = read(&mut simulation);
     let error = (0..3).map(|i| x[i].truncate().distance(start.position[i])).fold(0.0, f64::max);
-    println!("f32: {error:e}");
     // 1200 roundings of places and speeds, 6e-8 and a few of them each, and three times more on the way.
     assert!(error < 1e-4, "{error:e} from where it began, in f32");
 }

@@ -30,7 +30,7 @@ fn tangle(count: usize, rods: usize) -> Particles {
             particles.links.rods.push(Rod { ends: ends.map(|id| id as u32), length });
         }
         if n % 11 == 4 {
-            particles.held.push(Held { id: place(n) as u32, by: Hold::Target });
+            particles.held.push(Held { id: place(n) as u32, by: Hold::Fixed });
         }
     }
     for i in 0..count {

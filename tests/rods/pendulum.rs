@@ -34,7 +34,6 @@ fn its_period_is_the_elliptic_integral() {
         // 6e-8 in each step, in places and (times h) speeds, which grow with the steps while the phase does; near the top
         // a fall begins e^(ωt) times as far away.
         let allowed = if degrees < 100.0 { 2e-5 } else { 4e-4 };
-        println!("{degrees}: {:e} {:e}", got[0] - want[0], got[1] - want[1]);
         assert!((got[0] - want[0]).abs() < allowed, "{degrees}: {got:?} is not {want:?}");
         let late = got[0] / got[1] / period;
         assert!(late.abs() < 1e-4, "{degrees}: {late:e} of a period late");
