@@ -60,11 +60,11 @@ fn kernel(links: &Links, held: &[Held], write: impl Fn(&mut Plan, &Problem)) -> 
 /// What follows a drift, one back, a step that was no drift, and a kick; and a chain that is lost.
 pub fn rods(device: &Device, stages: &mut Vec<Stage>) {
     let rod = force("rod", &[]);
-    for factor in [PART, -PART, 0.0, 1.0] {
+    for (factor, settles) in [(PART, false), (-PART, false), (0.0, false), (1.0, true)] {
         // As if a part of the step had gone otherwise.
-        let (simulation, links, held) = tied(device, if factor == 1.0 { 0.9 } else { factor });
+        let (simulation, links, held) = tied(device, if settles { 0.9 } else { factor });
         let kernel = kernel(&links, &held, |plan, problem| {
-            if factor == 1.0 { rod.settle(plan, problem, 1.0) } else { rod.confine(plan, problem, factor) }
+            if settles { rod.settle(plan, problem, 1.0) } else { rod.confine(plan, problem, factor) }
                 .expect("a kernel");
         });
         stages.push(Stage::new(&format!("rods, {factor}"), simulation, kernel));
@@ -83,7 +83,7 @@ pub fn rods(device: &Device, stages: &mut Vec<Stage>) {
         velocity[4].y = if first == 3 { (9.0 / clock.dt) as f32 } else { 0.0 };
         simulation.write(VELOCITY, &velocity).expect("velocities");
         let kernel = kernel(&links, &held, |plan, problem| rod.confine(plan, problem, 1.0).expect("a kernel"));
-        let mut told: Vec<f32> = position.iter().flat_map(|x| x.to_array()).collect();
+        let mut told: Vec<f32> = position.iter().flat_map(Vec4::to_array).collect();
         let lost = 4 * (7 - first);
         told[lost..lost + 3].fill(f32::NAN);
         stages.push(Stage::new(&format!("a lost rod, {first} held"), simulation, kernel).told(POSITION.name, told));

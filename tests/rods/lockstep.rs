@@ -51,11 +51,11 @@ fn device_and_twins_solve_alike() {
             let particles = tangle(count, rods);
             let gpu = gpu(&shared, count);
             let machine = gpu.machine();
-            let setup = setup(&particles, forces(), name, 0.07);
+            let setup = setup(&particles, forces(), name, 0.04);
             let plan = setup.plans(machine).expect("plans").step;
             let mut simulation = Simulation::on(gpu, &setup).expect("a simulation");
             let mut random = Random::new(9);
-            let velocity: Vec<Vec4> = (0..count).map(|_| (random.vector() * 0.2).as_vec3().extend(0.4)).collect();
+            let velocity: Vec<Vec4> = (0..count).map(|_| (random.vector() * 0.1).as_vec3().extend(0.4)).collect();
             simulation.write(VELOCITY, &velocity).expect("velocities");
             let verdicts = pollster::block_on(compare(simulation.backend(), &plan, setup.check().expect("some")));
             let mut seen = 0;
