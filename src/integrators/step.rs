@@ -123,8 +123,9 @@ impl<'a> Step<'a> {
         self.add(runge_kutta::finish(self.problem.count, weight));
         self.limit();
         self.enclose();
-        self.problem.reached = 1.0;
-        self.each_force(|force, plan, problem| force.settle(plan, problem));
+        self.drifted = 1.0;
+        self.problem.reached = self.drifted;
+        self.each_force(|force, plan, problem| force.settle(plan, problem, 1.0));
     }
 
     /// The plan of what is done once: what the integrator wrote, and a look for numbers that are broken from the start,
