@@ -22,9 +22,9 @@ fn facet_looks(f: Facet, w: vec4f, p: vec3f, view: vec3f, jitter: vec2f) -> vec3
     let mean = sum.xyz / max(length(sum), 1e-30);
     if f.line { return strand(tint(f, w), mean, view, sees_lamp(p, LAMP, jitter)); }
     // Corners that go round against the clock are seen from the front; right and down is left-handed.
-    let back = turn(f.b.xy - f.a.xy, f.c.xy - f.a.xy) > 0.0;
-    let normal = select(mean, -mean, back);
-    let dyed = select(tint(f, w), 0.55 * tint(f, w) + 0.06, back);
+    let facing = -sign(turn(f.b.xy - f.a.xy, f.c.xy - f.a.xy));
+    let normal = facing * mean;
+    let dyed = select(tint(f, w), 0.55 * tint(f, w) + 0.06, facing < 0.0);
     return matte(dyed, normal, view, sees_lamp(p, normal, jitter));
 }
 
