@@ -39,7 +39,8 @@ fn solid_looks(m: Meeting, p: vec3f, view: vec3f, jitter: vec2f) -> vec4f {
 }
 
 fn look_at(place: vec2f, id: u32, jitter: vec2f) -> Looks {
-    let off = (place - 0.5 * vec2f(f32(frame.width), f32(frame.height))) * vec2f(1.0, -1.0) / frame.scale;
+    let half = 0.5 * vec2f(f32(frame.width), f32(frame.height));
+    let off = (place - half) * vec2f(1.0, -1.0) / frame.scale;
     let eye = frame.distance > 0.0;
     let o = select(vec3f(off, 0.0), vec3f(0.0, 0.0, frame.distance), eye);
     let d = select(vec3f(0.0, 0.0, -1.0), vec3f(off / frame.distance, -1.0), eye);
