@@ -22,9 +22,9 @@ fn facet_looks(f: Facet, w: vec4f, p: vec3f, view: vec3f, jitter: vec2f) -> vec3
     let mean = sum.xyz / max(length(sum), 1e-30);
     if f.line { return strand(tint(f, w), mean, view, sees_lamp(p, LAMP, jitter)); }
     // Corners that go round against the clock are seen from the front; right and down is left-handed.
-    let back = turn(f.b.xy - f.a.xy, f.c.xy - f.a.xy) > 0.0;
-    let normal = select(mean, -mean, back);
-    let dyed = select(tint(f, w), 0.55 * tint(f, w) + 0.06, back);
+    let facing = -sign(turn(f.b.xy - f.a.xy, f.c.xy - f.a.xy));
+    let normal = facing * mean;
+    let dyed = select(tint(f, w), 0.55 * tint(f, w) + 0.06, facing < 0.0);
     return matte(dyed, normal, view, sees_lamp(p, normal, jitter));
 }
 
@@ -39,7 +39,8 @@ fn solid_looks(m: Meeting, p: vec3f, view: vec3f, jitter: vec2f) -> vec4f {
 }
 
 fn look_at(place: vec2f, id: u32, jitter: vec2f) -> Looks {
-    let off = (place - 0.5 * vec2f(f32(frame.width), f32(frame.height))) * vec2f(1.0, -1.0) / frame.scale;
+    let half = 0.5 * vec2f(f32(frame.width), f32(frame.height));
+    let off = (place - half) * vec2f(1.0, -1.0) / frame.scale;
     let eye = frame.distance > 0.0;
     let o = select(vec3f(off, 0.0), vec3f(0.0, 0.0, frame.distance), eye);
     let d = select(vec3f(0.0, 0.0, -1.0), vec3f(off / frame.distance, -1.0), eye);

@@ -8,6 +8,7 @@ mod blank;
 mod camera;
 mod cover;
 mod draw;
+mod fields;
 mod film;
 mod frame;
 mod halo;

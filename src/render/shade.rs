@@ -111,6 +111,7 @@ impl Stage<'_> {
             return strand(tint, mean, view, self.lamp.seen(p, super::light::LAMP, jitter));
         }
         let [a, b, c] = f.places();
+        // Corners that go round against the clock are seen from the front; right and down is left-handed.
         let back = (b - a).perp_dot(c - a) > 0.0;
         let (normal, dyed) = if back { (-mean, 0.55 * tint + 0.06) } else { (mean, tint) };
         matte(dyed, normal, view, self.lamp.seen(p, normal, jitter))

@@ -22,7 +22,7 @@ pub fn kernel(frame: &Frame, exposure: Exposure) -> Result<Kernel, Error> {
     let twin = move |host: &Host| {
         let (halo, scenery, mut pixels) = (host.read(HALO)?, host.read(SCENERY)?, host.write(PIXELS)?);
         let (halo, scenery, pixels): (&[_], &[u32], &mut [_]) = (&halo, &scenery, &mut pixels);
-        Look::at(host, frame, exposure, |look| {
+        Look::at(host, &frame, exposure, |look| {
             pixels.par_iter_mut().zip(0..frame.area()).for_each(|(pixel, i)| {
                 let (x, y) = (i % frame.width, i / frame.width);
                 let light = frame.bloom * between(&frame, halo, x, y);

@@ -94,8 +94,17 @@ fn solids(camera: &Camera) -> Vec<Solid> {
     let spot = |x: f64, y: f64, back: f64| at(camera, DVec2::new(x, y), 33, back * camera.extent);
     let size = camera.extent;
     let turn = DQuat::from_rotation_x(0.8) * DQuat::from_rotation_y(0.5);
-    let up = DQuat::from_rotation_arc(DVec3::Z, (camera.up + 0.35 * camera.back).normalize());
+    let up = DQuat::from_rotation_arc(DVec3::Z, (camera.up + 0.15 * camera.back).normalize());
+    // Seen from below by the eye, and by the lamp.
+    let away = DQuat::from_rotation_arc(DVec3::Z, (0.9 * camera.up - 0.43 * camera.back).normalize());
     vec![
+        Solid { shape: Shape::Plane, place: spot(0.0, 0.0, 0.3), turn: away },
+        // Too near to the eye to be seen.
+        Solid {
+            shape: Shape::Ball { radius: 0.03 },
+            place: camera.center + (camera.distance - 0.15) * camera.back,
+            turn: DQuat::IDENTITY,
+        },
         Solid { shape: Shape::Plane, place: spot(-3.0, -12.0, -0.2), turn: up },
         Solid { shape: Shape::Ball { radius: 0.3 * size }, place: spot(-3.0, 5.0, -0.35), turn: DQuat::IDENTITY },
         Solid { shape: Shape::Capsule { radius: 0.13 * size, half: 0.25 * size }, place: spot(16.0, 8.0, -0.1), turn },
@@ -134,7 +143,7 @@ pub fn tied() -> Vec<Scene> {
     let bare = with(&Wish { name: "bare", count: MANY, extent: 0.2, ..PLAIN }, &more, |picture, particles| {
         colored(picture, particles);
         picture.frame.thread = 0.4;
-        picture.frame.fine = 1;
+        picture.frame.fine = 2;
     });
     let mut high = with(&Wish { name: "high", size: (27, 2500), ..PLAIN }, &alone, |picture, particles| {
         colored(picture, particles);
