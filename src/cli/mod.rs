@@ -30,6 +30,7 @@ mod plot;
 mod progress;
 mod run;
 mod scenes;
+mod solves;
 mod stop;
 mod table;
 

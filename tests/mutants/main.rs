@@ -5,6 +5,7 @@ mod curious;
 mod equivalent_neighbors;
 mod equivalent_primitives;
 mod equivalents;
+mod implicit;
 mod laws;
 mod neighbors;
 mod primitives;

@@ -156,6 +156,7 @@ pub fn all(shared: &Shared) -> Vec<Stage> {
     let mut stages = Vec::new();
     integrators(&device, &mut stages);
     watches(&device, &mut stages);
+    crate::implicit::all(&device, &mut stages);
     crate::boundary::boundary(&device, &mut stages);
     laws::all(&device, &mut stages);
     laws::planes(&device, &mut stages);
