@@ -7,7 +7,7 @@ use super::{
     ALONE, DIRECTIONS, HELD, OTHER, RESIDUALS, START_VELOCITY, STATE, State, System, TIED, on_states, plain, twin, with,
 };
 use crate::error::Error;
-use crate::kernel::{ACCELERATION, Host, Kernel, POSITION, VELOCITY};
+use crate::kernel::{ACCELERATION, Host, Kernel, VELOCITY};
 use crate::visit::{ROW, ROWS};
 
 /// As parts of a position, what single precision does not resolve: about a third of its last place.
@@ -44,7 +44,6 @@ pub fn kernel(system: &System<'_>, start: bool) -> Result<Kernel, Error> {
             return Ok(());
         }
         let (velocity, acceleration) = (host.read(VELOCITY)?, host.read(ACCELERATION)?);
-        let position = host.read(POSITION)?;
         let began = host.read(START_VELOCITY)?;
         let (mut rows, mut residuals) = (host.write(ROWS)?, host.write(RESIDUALS)?);
         let mut directions = host.write(DIRECTIONS)?;
@@ -54,7 +53,7 @@ pub fn kernel(system: &System<'_>, start: bool) -> Result<Kernel, Error> {
             let push = h * weight * acceleration[i].truncate();
             let due = if start { row[3].truncate() } else { weight * (began[i] - velocity[i]).truncate() };
             let whole = diagonal + row[2].truncate();
-            let noise = whole.length() * position[i].truncate().length() * RESOLUTION;
+            let noise = whole.length() * row[3].w * RESOLUTION;
             let lost = !start && (push + due).length() * h <= noise;
             let b = if way == HELD || lost { DVec3::ZERO } else { push + due };
             let inverse = if way == TIED { 1.0 / whole } else { DVec3::ZERO };
