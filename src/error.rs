@@ -40,6 +40,17 @@ pub enum Error {
         /// The step, counted from 0, in which it happened.
         step: u64,
     },
+    /// Speeds grow without end, and numbers are about to be lost. Mended by a smaller step, or by another integrator.
+    #[error(
+        "particle {particle} is running away in step {step}: for the eighth time running the largest speed of 16 steps is more \
+         than twice that of the 16 before: try a smaller dt, or an integrator that bears stiffer forces"
+    )]
+    Runaway {
+        /// The lowest id among those that are so fast.
+        particle: u32,
+        /// The step, counted from 0, in which that was seen.
+        step: u64,
+    },
     /// More particles are within reach of one than a search for neighbours can visit. Mended by a shorter range.
     #[error(
         "particle {particle} has more than 240000 others in the cells around it, which is more than one search can visit: \
@@ -86,7 +97,7 @@ impl Error {
             Self::Scene(_) | Self::Shader { .. } => 3,
             Self::Input { .. } => 4,
             Self::NoAdapter(_) | Self::Limit(_) => 5,
-            Self::NotFinite { .. } | Self::Crowded { .. } => 6,
+            Self::NotFinite { .. } | Self::Runaway { .. } | Self::Crowded { .. } => 6,
             Self::Lost(_) | Self::OutOfMemory(_) | Self::Timeout { .. } | Self::Device(_) => 7,
             Self::Output { .. } => 8,
         }

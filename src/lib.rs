@@ -22,6 +22,8 @@ pub mod scene;
 pub mod selftest;
 pub mod settings;
 pub mod simulation;
+pub mod solids;
+pub mod stability;
 pub mod visit;
 
 pub use cpu::Cpu;

@@ -2,6 +2,7 @@
 
 mod setup;
 mod solves;
+mod ties;
 
 pub use setup::{Plans, Setup};
 pub use solves::{Outcome, Solves};
@@ -13,8 +14,10 @@ use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::integrators::SOLVE_REPORT;
 use crate::kernel::{
-    ACCELERATION, ALARM, ALARM_WORDS, Array, Backend, Element, Field, HOME, POSITION, SPECIES, TARGET, VELOCITY, World,
+    ACCELERATION, ALARM, ALARM_WORDS, Array, Backend, Element, Field, HOME, POSITION, QUIET, SPECIES, TARGET, VELOCITY,
+    World,
 };
+use crate::links::Links;
 use crate::motion;
 use crate::particles::Particles;
 use crate::render::{self, Film, Image, Picture};
@@ -46,6 +49,9 @@ pub struct Simulation<B: Backend> {
     count: u32,
     /// As the setup gave them: nothing changes them.
     species: Vec<u32>,
+    /// As the setup gave them, and whether springs may have broken since.
+    links: Links,
+    breaks: bool,
     dt: f64,
     steps: u64,
 }
@@ -77,7 +83,7 @@ impl<B: Backend> Simulation<B> {
         backend.write(POSITION.name, &Array::Vec4(position))?;
         backend.write(VELOCITY.name, &Array::Vec4(velocity))?;
         backend.write(ACCELERATION.name, &Array::Vec4(Vec::new()).zeros(count as usize))?;
-        backend.write(ALARM.name, &Array::Uint(vec![u32::MAX; ALARM_WORDS]))?;
+        backend.write(ALARM.name, &Array::Uint(QUIET.to_vec()))?;
         let species = particles.species.clone();
         if plans.all().any(|plan| plan.fields(count).contains_key(SPECIES.name)) {
             backend.write(SPECIES.name, &Array::Uint(species.clone()))?;
@@ -93,7 +99,9 @@ impl<B: Backend> Simulation<B> {
         if named(TARGET.name) {
             backend.write(TARGET.name, &places(&mut (0..particles.len())))?;
         }
-        Ok(Self { backend, start, begun: false, step, measure, plan, solves, count, species, dt: setup.dt, steps: 0 })
+        let (links, breaks) = (particles.links.clone(), setup.forces.iter().any(|force| force.breaks()));
+        let (begun, dt, steps) = (false, setup.dt, 0);
+        Ok(Self { backend, start, begun, step, measure, plan, solves, count, species, links, breaks, dt, steps })
     }
     /// Advances. May return before the device is done; reading waits.
     ///
@@ -135,28 +143,34 @@ impl<B: Backend> Simulation<B> {
         self.begun &= field.name != POSITION.name && field.name != VELOCITY.name;
         self.backend.write(field.name, &T::array(values.iter().map(|v| v.widen()).collect()))
     }
-    /// Looks whether any number has stopped being one.
+    /// Looks whether any number has stopped being one, or speeds run away: whether the largest has more than doubled from
+    /// 16 steps to the next 16, eight times in a row. That is what steps do that are too long for a spring; a fall, a
+    /// collapse or an encounter grows by less and less, or not for so long.
     ///
     /// # Errors
-    /// [`Error::NotFinite`] with the first particle and step, [`Error::Crowded`], or what reading says.
+    /// [`Error::NotFinite`] with the first particle and step, [`Error::Runaway`] with one that is too fast and the step,
+    /// [`Error::Crowded`], or what reading says.
     pub async fn check(&mut self) -> Result<(), Error> {
-        let alarm = self.backend.read(ALARM.name, &Array::Uint(Vec::new()), ALARM_WORDS).await?;
-        match u32::view(&alarm).map(Vec::as_slice) {
-            // The first look comes before the first step, every other one after a step that is done.
-            Some([done, particle, _]) if *done != u32::MAX => {
-                Err(Error::NotFinite { particle: *particle, step: u64::from(done.saturating_sub(1)) })
-            }
-            Some([.., particle]) if *particle != u32::MAX => Err(Error::Crowded { particle: *particle }),
-            _ => Ok(()),
+        let alarm = self.alarm().await?;
+        let [done, .., fast, particle] = [alarm[0], alarm[1], alarm[3], alarm[4]];
+        // Who runs away is lost in the end: what came first is told.
+        if fast != u32::MAX && fast <= done {
+            return Err(Error::Runaway { particle, step: u64::from(fast.saturating_sub(1)) });
         }
+        sound(&alarm)
+    }
+    async fn alarm(&mut self) -> Result<[u32; ALARM_WORDS], Error> {
+        let alarm = self.backend.read(ALARM.name, &Array::Uint(Vec::new()), ALARM_WORDS).await?;
+        let words = u32::view(&alarm).and_then(|words| <[u32; ALARM_WORDS]>::try_from(words.as_slice()).ok());
+        Ok(words.unwrap_or(QUIET))
     }
     /// The state and the potential energies at the end of the last step. It evaluates the forces once more, and leaves
     /// no trace of that in the run.
     ///
     /// # Errors
-    /// [`Error::NotFinite`], or what reading says.
+    /// [`Error::NotFinite`], [`Error::Crowded`], or what reading says. Speeds that run away are no error here.
     pub async fn snapshot(&mut self) -> Result<Snapshot, Error> {
-        self.check().await?;
+        sound(&self.alarm().await?)?;
         self.backend.run(&self.measure.0, 1)?;
         let count = self.count as usize;
         let like = Array::Vec4(Vec::new());
@@ -220,6 +234,16 @@ impl<B: Backend> Simulation<B> {
     pub fn backend(&mut self) -> &mut B {
         &mut self.backend
     }
+}
+
+/// Whether numbers are numbers, and searches have found everybody.
+fn sound(alarm: &[u32; ALARM_WORDS]) -> Result<(), Error> {
+    let [done, particle, crowded, ..] = *alarm;
+    if done != u32::MAX {
+        // The first look comes before the first step, every other one after a step that is done.
+        return Err(Error::NotFinite { particle, step: u64::from(done.saturating_sub(1)) });
+    }
+    if crowded != u32::MAX { Err(Error::Crowded { particle: crowded }) } else { Ok(()) }
 }
 
 /// The rendering app's door: its device, its queue, its encoder.

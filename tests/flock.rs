@@ -216,7 +216,7 @@ fn speeds_are_within_limits() {
 #[test]
 fn limits_by_hand() {
     let limit = [force("speed_limit", &[("min", NUMBER(2.0)), ("max", NUMBER(5.0))])];
-    let after = |v: DVec3| felt(&limit, &one(DVec3::ZERO, v), World::default()).1[0].truncate();
+    let after = |v: DVec3| felt(&limit, &one(DVec3::ZERO, v), World::default()).1[0][0].truncate();
     assert_eq!(after(DVec3::new(0.0, 6.0, 8.0)), DVec3::new(0.0, 3.0, 4.0));
     assert_eq!(after(DVec3::new(0.0, 0.0, -1.0)), DVec3::new(0.0, 0.0, -2.0));
     assert_eq!(after(DVec3::new(3.0, 0.0, 0.0)), DVec3::new(3.0, 0.0, 0.0));

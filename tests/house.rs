@@ -135,11 +135,12 @@ fn no_binding_number_is_written_in_rust() {
 }
 
 /// A module may name only what stands before it.
-const ORDER: [&str; 22] = [
+const ORDER: [&str; 24] = [
     "error",
     "settings",
     "links",
     "motion",
+    "solids",
     "kernel",
     "boundary",
     "primitives",
@@ -154,13 +155,14 @@ const ORDER: [&str; 22] = [
     "render",
     "simulation",
     "measure",
+    "stability",
     "lockstep",
     "selftest",
     "scene",
     "cli",
 ];
 /// The backends know kernels and nothing of physics; only these know them.
-const KNOW_BACKENDS: [&str; 4] = ["simulation", "lockstep", "selftest", "cli"];
+const KNOW_BACKENDS: [&str; 5] = ["simulation", "stability", "lockstep", "selftest", "cli"];
 
 /// The modules that a line names, in `crate::…` or `motes::…`.
 fn named(line: &str) -> Vec<&str> {

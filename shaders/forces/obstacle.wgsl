@@ -8,27 +8,12 @@ struct Params {
 
 @group(3) @binding(0) var<uniform> params: Params;
 
-// ∇φ and φ. In the very middle of a sphere, and of a box, all ways out are as long: one goes along x.
+// ∇φ and φ
 fn surface(x: vec3f) -> vec4f {
+    var d = x - params.position;
     // A plane has no images.
-    if params.shape == 2u { return vec4f(params.normal, dot(params.normal, x - params.position)); }
-    let d = shortest(x - params.position);
-    if params.shape == 0u {
-        let distance = length(d);
-        if distance > 0.0 { return vec4f(d / distance, distance - params.radius); }
-        return vec4f(1.0, 0.0, 0.0, -params.radius);
-    }
-    let side = select(vec3f(-1.0), vec3f(1.0), d >= vec3f());
-    var depth = abs(d) - 0.5 * params.size;
-    // In the plane there is no way out above it.
-    if world.dimensions == 2u { depth.z = -3e38; }
-    let outside = max(depth, vec3f());
-    let distance = length(outside);
-    if distance > 0.0 { return vec4f(side * outside / distance, distance); }
-    // Inside: to the nearest face.
-    if depth.x >= max(depth.y, depth.z) { return vec4f(side.x, 0.0, 0.0, depth.x); }
-    if depth.y >= depth.z { return vec4f(0.0, side.y, 0.0, depth.y); }
-    return vec4f(0.0, 0.0, side.z, depth.z);
+    if params.shape != 2u { d = shortest(d); }
+    return signed_distance(params.shape, d, params.radius, params.size, params.normal);
 }
 
 fn force(me: Particle) -> vec4f {

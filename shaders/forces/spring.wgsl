@@ -1,5 +1,5 @@
-// Hooke's law, damped along the spring:  F = (k (l − L) + c (v_you − v_me) · u) u,  with r = l u from me to you.
-// A rope (L below zero) is slack while it is shorter than −L, and never pushes.
+// Hooke's law, damped along the spring:  F = (k (1 − L / l) + c (v_you − v_me) · r / l²) r,  with r from me to you, l = |r|.
+// Without a length at rest it is k r, to the bit. A rope (L below zero) is slack while it is shorter than −L, and never pushes.
 override DAMPED: bool = true; // whether any spring is
 
 struct Sum { force: vec3f, energy: f32 }
@@ -8,13 +8,13 @@ fn gather(me: Particle, you: Particle, r: vec3f, link: Link, sum: ptr<function, 
     let square = dot(r, r);
     // Two at one place have no direction between them.
     let inverse = select(0.0, inverseSqrt(square), square > 0.0);
-    let u = r * inverse;
-    let stretch = square * inverse - abs(link.rest);
-    var tension = link.stiffness * stretch;
-    if DAMPED { tension += link.damping * dot(velocity_of(you) - velocity_of(me), u); }
+    let rest = abs(link.rest);
+    let stretch = square * inverse - rest;
+    var pull = link.stiffness * (1.0 - rest * inverse);
+    if DAMPED { pull += link.damping * dot(velocity_of(you) - velocity_of(me), r) * inverse * inverse; }
     let rope = link.rest < 0.0;
     let taut = !rope || stretch > 0.0;
-    (*sum).force += select(0.0, select(tension, max(tension, 0.0), rope), taut) * u;
+    (*sum).force += select(0.0, select(pull, max(pull, 0.0), rope), taut) * r;
     (*sum).energy += select(0.0, 0.5 * link.stiffness * stretch * stretch, taut);
 }
 

@@ -1,10 +1,11 @@
-// Raises the alarm when a number is no number any more: keeps after how many steps that is first seen,
-// and the lowest id there.
+// Raises the alarm when a number is no number any more: keeps after how many steps that is first seen, and the lowest id
+// there; and when speeds run away: one is more than twice the largest of the 16 steps before, for the eighth time running.
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read> position: array<vec4f>;
 @group(1) @binding(1) var<storage, read> velocity: array<vec4f>;
 @group(1) @binding(2) var<storage, read> acceleration: array<vec4f>;
-@group(1) @binding(3) var<storage, read_write> alarm: array<atomic<u32>>; // steps done, id
+// 0 steps done, 1 id; 3 and 4 the same for speeds; 5 the largest speed of these 16 steps, 6 of those before, 7 how often doubled
+@group(1) @binding(3) var<storage, read_write> alarm: array<atomic<u32>>;
 
 const WORKGROUP: u32 = 64u;
 
@@ -15,6 +16,16 @@ fn watch(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: v
         if broken(position[i]) || broken(velocity[i]) || broken(acceleration[i]) {
             // Later looks find fewer steps already there, and leave the id alone.
             if atomicMin(&alarm[0], world.step) >= world.step { atomicMin(&alarm[1], i); }
+        } else {
+            // The largest component stands for the speed: it has no rounding. Bits of floats that are not negative are in
+            // the floats' order.
+            let v = abs(velocity[i].xyz);
+            let speed = max(max(v.x, v.y), v.z);
+            // Few are faster than all before them: most only look.
+            if bitcast<u32>(speed) > atomicLoad(&alarm[5]) { atomicMax(&alarm[5], bitcast<u32>(speed)); }
+            if atomicLoad(&alarm[7]) >= 7u && speed > 2.0 * bitcast<f32>(atomicLoad(&alarm[6])) {
+                if atomicMin(&alarm[3], world.step) >= world.step { atomicMin(&alarm[4], i); }
+            }
         }
     }
 }

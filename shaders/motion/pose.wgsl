@@ -23,9 +23,6 @@ fn product(a: vec4f, b: vec4f) -> vec4f {
     return vec4f(a.w * b.xyz + b.w * a.xyz + cross(a.xyz, b.xyz), a.w * b.w - dot(a.xyz, b.xyz));
 }
 
-// R r − r
-fn turned(q: vec4f, r: vec3f) -> vec3f { return 2.0 * cross(q.xyz, cross(q.xyz, r) + q.w * r); }
-
 // Steps since a key.
 fn since(key: u32, whole: u32, rest: f32) -> f32 {
     return f32(i32(whole - keyframes[key].step)) + (rest - keyframes[key].rest);

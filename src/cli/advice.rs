@@ -102,6 +102,12 @@ pub fn conserved(setup: &Setup) -> Result<Conserved, Error> {
         conserved.angular_momentum &= law.reciprocal;
         // What some do to others, and not others to them, keeps nothing.
         conserved.energy &= law.over == Over::Each || law.reciprocal;
+        if matches!(law.over, Over::Links | Over::Joints | Over::Triangles) {
+            // It goes by those that are tied, and by nothing else; what resists takes energy.
+            let damped = setup.particles.links.springs.iter().any(|spring| spring.damping > 0.0);
+            conserved.energy &= law.name != "spring" || !damped;
+            continue;
+        }
         conserved.energy &= match &law.twin {
             Some(twin) => keeps_energy(twin, &setup.bounds)?,
             None => false,
@@ -181,6 +187,9 @@ pub fn advice(scene: &Scene, setup: &Setup) -> Result<Vec<String>, Error> {
                 force.laws().first().map_or_else(String::new, |law| format!("`{}`", law.name))
             ));
         }
+    }
+    if !setup.particles.links.rods.is_empty() && order > 2 {
+        remarks.push(format!("with rods {name} is of order 2, as leapfrog is, which costs less"));
     }
     if name == "forward_euler" && setup.forces.iter().all(|force| !force.integrators().contains(&name)) {
         remarks

@@ -11,7 +11,7 @@ Exit codes:
   3   the scene, or a WGSL file it names, is wrong
   4   a file of particles is wrong
   5   no adapter fits, or a limit of the device is too small
-  6   a number stopped being finite
+  6   a number stopped being finite, or speeds ran away
   7   the device was lost, ran out of memory or did not answer
   8   a result could not be written
   9   `compare` or `doctor` found a disagreement
@@ -43,6 +43,8 @@ pub enum Command {
     Compare(CompareArgs),
     /// List the scenes that come with motes, or print one
     Scenes(ScenesArgs),
+    /// Run the oscillator and the decay of textbooks under every integrator, and draw who explodes, dies out or stays
+    Stability(StabilityArgs),
     /// Measure steps of gravity and of searches for neighbours, beside plain Rust on this processor
     Bench(BenchArgs),
     /// List adapters and test what simulations rely on
@@ -60,7 +62,7 @@ pub enum BackendChoice {
     Cpu,
 }
 
-#[derive(Debug, ClapArgs)]
+#[derive(Debug, Clone, ClapArgs)]
 pub struct DeviceArgs {
     /// Where kernels run
     #[arg(long, value_enum, default_value = "auto")]
@@ -86,6 +88,9 @@ pub struct SceneArgs {
     /// Let the scene name files outside of its own folder
     #[arg(long)]
     pub allow_outside: bool,
+    /// Divide steps that are too long for the scene's springs into as many as its integrator needs
+    #[arg(long)]
+    pub auto_substeps: bool,
     #[command(flatten)]
     pub device: DeviceArgs,
 }
@@ -139,6 +144,31 @@ pub struct ScenesArgs {
     /// Print what a scene may say: every key of forces, shapes and pictures, with its unit and default
     #[arg(long)]
     pub keys: bool,
+}
+
+#[derive(Debug, ClapArgs)]
+pub struct StabilityArgs {
+    /// hω: the length of a step, in units of 1 / ω of the oscillator
+    #[arg(long, value_name = "Y", default_value_t = 1.0, value_parser = positive)]
+    pub omega_step: f64,
+    /// ha: the length of a step, in units of 1 / a of the decay
+    #[arg(long, value_name = "Z", default_value_t = 2.5, value_parser = positive)]
+    pub decay_step: f64,
+    /// How many steps
+    #[arg(long, value_name = "N", default_value_t = 40, value_parser = clap::value_parser!(u32).range(2..=100_000))]
+    pub steps: u32,
+    /// The picture
+    #[arg(short, long, value_name = "FILE", default_value = "stability.svg")]
+    pub out: PathBuf,
+    #[command(flatten)]
+    pub device: DeviceArgs,
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if x > 0.0 && x < 1e6 => Ok(x),
+        _ => Err("it must be a number above 0 and below 1e6".to_owned()),
+    }
 }
 
 /// What is measured.

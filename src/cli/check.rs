@@ -4,21 +4,21 @@ use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
 use motes::kernel::{ACCELERATION, Backend};
-use motes::render::{Picture, Trail};
+use motes::render::{Picture, Scenery, Trail};
 use motes::{Bounds, Cpu, Gpu, Simulation};
 
 use super::advice::advice;
 use super::args::SceneArgs;
-use super::engine::{self, Engine};
+use super::engine::Engine;
 use super::failure::Failure;
 use super::progress::duration;
+use super::substeps::{self, Loaded};
 
 /// Checks a scene: its faults, its memory, and the time that a run would take.
 pub async fn check(args: &SceneArgs) -> Result<(), Failure> {
-    let mut scene = engine::load(args)?;
-    let setup = engine::setup(&mut scene);
+    let Loaded { scene, setup, .. } = substeps::load(args, None).await?;
     let count = setup.check()?;
-    Picture::new(&scene.picture, &setup.particles, &[], Trail::new(0))?;
+    Picture::with(&scene.picture, &setup.particles, &[], Trail::new(0), &Scenery::of(&setup.particles))?;
     let engine = Engine::choose(&args.device).await?;
     out!("{}: {count} particles, {} steps of {} by {}", scene.name, scene.steps, scene.dt, scene.integrator.name);
     out!("on {}", engine.describe());

@@ -25,6 +25,7 @@ pub async fn compare(args: &CompareArgs) -> Result<(), Failure> {
         until: None,
         overrides: args.overrides.clone(),
         allow_outside: args.allow_outside,
+        auto_substeps: false,
         device: DeviceArgs { backend: BackendChoice::Gpu, adapter: args.adapter.clone() },
     })?;
     let setup = engine::setup(&mut scene);

@@ -6,13 +6,13 @@ use motes::Bounds;
 use motes::kernel::{Access, Kernel};
 
 use super::args::SceneArgs;
-use super::engine::{self, Engine};
+use super::engine::Engine;
 use super::failure::Failure;
+use super::substeps::{self, Loaded};
 
 /// Prints the plan of a step, and what each kernel reads and writes.
 pub async fn explain(args: &SceneArgs) -> Result<(), Failure> {
-    let mut scene = engine::load(args)?;
-    let setup = engine::setup(&mut scene);
+    let Loaded { scene, setup, .. } = substeps::load(args, None).await?;
     let count = setup.check()?;
     let engine = Engine::choose(&args.device).await?;
     let plans = setup.plans(engine.machine(count)?)?;

@@ -11,6 +11,8 @@ pub enum Failure {
     Scene(Diagnostics),
     /// Something else went wrong.
     Error(Error),
+    /// Numbers were lost, and there is more to say.
+    Explained(Error, String),
     /// Device and twins disagree, or a self test failed; the table that says so is printed already.
     Disagreement,
     /// Stopped by Ctrl-C; everything up to there is written.
@@ -27,6 +29,10 @@ impl Failure {
             }
             Self::Error(error) => {
                 note!("error: {error}");
+                error.exit_code()
+            }
+            Self::Explained(error, words) => {
+                note!("error: {error}\n{words}");
                 error.exit_code()
             }
             Self::Disagreement => 9,

@@ -16,6 +16,7 @@ macro_rules! note {
 }
 
 mod advice;
+mod aftermath;
 mod args;
 mod bench;
 mod check;
@@ -30,8 +31,13 @@ mod plot;
 mod progress;
 mod run;
 mod scenes;
+<<<<<<< HEAD
 mod solves;
+=======
+mod stability;
+>>>>>>> main
 mod stop;
+mod substeps;
 mod table;
 
 use std::process::ExitCode;
@@ -64,6 +70,7 @@ async fn dispatch(command: Command) -> Result<(), Failure> {
         Command::Explain(args) => explain::explain(&args).await,
         Command::Compare(args) => compare::compare(&args).await,
         Command::Scenes(args) => scenes::scenes(&args),
+        Command::Stability(args) => stability::stability(&args).await,
         Command::Bench(args) => bench::bench(&args).await,
         Command::Doctor(args) => doctor::doctor(&args).await,
     }

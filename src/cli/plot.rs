@@ -11,15 +11,18 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 const SIZE: (u32, u32) = (960, 720);
 /// The backend rounds to whole numbers: so many of them for each pixel make smooth lines.
 const FINE: u32 = 8;
-const INK: RGBColor = RGBColor(38, 42, 51);
-const FAINT: RGBColor = RGBColor(226, 229, 235);
+/// Of axes and words.
+pub const INK: RGBColor = RGBColor(38, 42, 51);
+/// Of meshes.
+pub const FAINT: RGBColor = RGBColor(226, 229, 235);
 const KINETIC: RGBColor = RGBColor(214, 112, 32);
 const POTENTIAL: RGBColor = RGBColor(36, 104, 196);
 const DRIFT: RGBColor = RGBColor(150, 40, 110);
 /// Errors below this are drawn at it: f64 does not tell them from none.
 const FLOOR: f64 = 1e-16;
 
-type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+/// A part of a picture.
+pub type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 type Points = Vec<(f64, f64)>;
 
 /// Draws the measurements of a run: energies above, the relative error of the total below; the drift of the momentum
@@ -28,9 +31,17 @@ type Points = Vec<(f64, f64)>;
 /// # Errors
 /// [`Error::Output`] when the file cannot be written.
 pub fn energy(path: &Path, rows: &[Measure], title: &str) -> Result<(), Error> {
+    write(path, SIZE, |root| panels(root, rows, title))
+}
+
+/// Draws into an SVG of so many pixels, which is there when all is done.
+///
+/// # Errors
+/// [`Error::Output`] when the file cannot be written.
+pub fn write(path: &Path, size: (u32, u32), panels: impl FnOnce(&Area) -> Result<(), String>) -> Result<(), Error> {
     let failed = |message: String| Error::Output { file: path.to_owned(), message };
     let mut svg = String::new();
-    draw(&mut svg, rows, title).map_err(&failed)?;
+    draw(&mut svg, size, panels).map_err(&failed)?;
     let part = path.with_extension("svg.part");
     let written = std::fs::write(&part, svg).and_then(|()| std::fs::rename(&part, path));
     written.map_err(|error| {
@@ -39,12 +50,12 @@ pub fn energy(path: &Path, rows: &[Measure], title: &str) -> Result<(), Error> {
     })
 }
 
-fn draw(svg: &mut String, rows: &[Measure], title: &str) -> Result<(), String> {
-    let (width, height) = (SIZE.0 * FINE, SIZE.1 * FINE);
+fn draw(svg: &mut String, size: (u32, u32), panels: impl FnOnce(&Area) -> Result<(), String>) -> Result<(), String> {
+    let (width, height) = (size.0 * FINE, size.1 * FINE);
     let root = SVGBackend::with_string(svg, (width, height)).into_drawing_area();
-    let done = panels(&root, rows, title).and_then(|()| root.present().map_err(|e| e.to_string()));
+    let done = panels(&root).and_then(|()| root.present().map_err(|e| e.to_string()));
     drop(root);
-    let shown = format!("width=\"{}\" height=\"{}\"", SIZE.0, SIZE.1);
+    let shown = format!("width=\"{}\" height=\"{}\"", size.0, size.1);
     *svg = svg.replacen(&format!("width=\"{width}\" height=\"{height}\""), &shown, 1);
     done
 }
@@ -60,16 +71,18 @@ fn panels(root: &Area, rows: &[Measure], title: &str) -> Result<(), String> {
     errors(&lower, rows)
 }
 
-fn fine(pixels: i32) -> i32 {
+/// Pixels, as the backend counts them.
+pub fn fine(pixels: i32) -> i32 {
     pixels * FINE.cast_signed()
 }
 
-fn text(size: i32) -> TextStyle<'static> {
+/// Letters of so many pixels.
+pub fn text(size: i32) -> TextStyle<'static> {
     ("sans-serif", fine(size)).into_font().color(&INK)
 }
 
 /// A line as wide as so many pixels.
-fn line(color: RGBColor, width: u32) -> ShapeStyle {
+pub fn line(color: RGBColor, width: u32) -> ShapeStyle {
     color.stroke_width(width * FINE)
 }
 
@@ -236,7 +249,7 @@ mod tests {
 
     fn svg(rows: &[Measure]) -> String {
         let mut svg = String::new();
-        draw(&mut svg, rows, "a <test>").unwrap();
+        draw(&mut svg, SIZE, |root| panels(root, rows, "a <test>")).unwrap();
         svg
     }
 

@@ -5,20 +5,23 @@ use std::time::{Duration, Instant};
 
 use motes::io::Precision;
 use motes::kernel::Backend;
-use motes::render::{Image, Picture, Trail};
+use motes::render::{Image, Picture, Scenery, Trail};
 use motes::scene::Scene;
-use motes::{Cpu, Error, Measure, POSITION, Setup, Simulation};
+use motes::stability::Verdict;
+use motes::{Cpu, Error, Measure, POSITION, Setup, Simulation, Snapshot};
 use serde_json::json;
 
 use super::advice::{Conserved, advice, conserved};
+use super::aftermath;
 use super::args::RunArgs;
-use super::engine::{self, Engine};
+use super::engine::Engine;
 use super::failure::Failure;
 use super::film::Film;
 use super::output::Output;
 use super::progress::{Progress, duration, large};
 use super::solves;
 use super::stop::Stop;
+use super::substeps::{self, Loaded};
 
 /// How long one batch of steps should take: Ctrl-C is heard between two.
 const BATCH: Duration = Duration::from_millis(250);
@@ -29,13 +32,13 @@ const TRAIL: u64 = 1000;
 
 /// Runs a scene.
 pub async fn run(args: &RunArgs) -> Result<(), Failure> {
-    let mut scene = engine::load_with(&args.scene, args.frames.map(|n| format!("output.frames={n}")))?;
-    let setup = engine::setup(&mut scene);
+    let frames = args.frames.map(|n| format!("output.frames={n}"));
+    let Loaded { scene, setup, verdict } = substeps::load(&args.scene, frames).await?;
     let count = setup.check()?;
     let engine = Engine::choose(&args.scene.device).await?;
     let mut run = Run::new(args, scene, &setup, &engine)?;
     // Everything that can be refused is refused before the first file is written.
-    let result = match &engine {
+    let mut result = match &engine {
         Engine::Gpu(found) => {
             let simulation = Simulation::new(&found.device, &found.queue, &setup)?;
             let result = run.drive(simulation, Precision::Single).await;
@@ -45,8 +48,17 @@ pub async fn run(args: &RunArgs) -> Result<(), Failure> {
         }
         Engine::Cpu(_) => run.drive(Simulation::on(Cpu::new(count)?, &setup)?, Precision::Double).await,
     };
-    if let Err(Failure::Error(error)) = &result {
-        run.progress.event("error", json!({ "code": error.exit_code(), "text": error.to_string() }));
+    if let Err(Failure::Error(error)) = result {
+        result = Err(run.explain(error, &setup, verdict.as_ref(), &engine));
+    }
+    match &result {
+        Err(Failure::Error(error)) => {
+            run.progress.event("error", json!({ "code": error.exit_code(), "text": error.to_string() }));
+        }
+        Err(Failure::Explained(error, more)) => {
+            run.progress.event("error", json!({ "code": error.exit_code(), "text": error.to_string(), "more": more }))
+        }
+        _ => {}
     }
     if let (Err(Failure::Error(Error::Timeout { .. })), Engine::Gpu(_)) = (&result, &engine) {
         // A device that hangs hangs whoever drops it.
@@ -64,16 +76,21 @@ struct Run {
     count: usize,
     /// How far somebody looks for company, if anybody does.
     company: Option<(f64, Option<u32>)>,
+    /// What pictures show beside particles.
+    scenery: Scenery,
     /// What should stay as it is.
     conserved: Conserved,
     progress: Progress,
     stop: Stop,
+    /// The last state that was read, and so the last that is known to be good.
+    last: Option<Snapshot>,
 }
 
 impl Run {
     fn new(args: &RunArgs, scene: Scene, setup: &Setup, engine: &Engine) -> Result<Self, Failure> {
         let progress = Progress::new(args, scene.steps);
-        Picture::new(&scene.picture, &setup.particles, &[], Trail::new(0))?;
+        let scenery = Scenery::of(&setup.particles);
+        Picture::with(&scene.picture, &setup.particles, &[], Trail::new(0), &scenery)?;
         let device = engine.describe();
         let count = setup.particles.len();
         let folder = args.output.clone().unwrap_or_else(|| PathBuf::from("out").join(&scene.name));
@@ -94,7 +111,7 @@ impl Run {
         }
         let company = setup.forces.iter().find_map(|force| force.company());
         let (conserved, stop) = (conserved(setup)?, Stop::listen());
-        Ok(Self { scene, device, folder, film, count, company, conserved, progress, stop })
+        Ok(Self { scene, device, folder, film, count, company, scenery, conserved, progress, stop, last: None })
     }
 
     async fn drive<B: Backend>(&mut self, mut simulation: Simulation<B>, precision: Precision) -> Result<(), Failure> {
@@ -104,6 +121,7 @@ impl Run {
             self.progress.event("remark", json!({ "text": text }));
         }
         let mut output = Output::new(&self.folder, &self.scene, self.count, self.company, precision, &self.device)?;
+        output.scenery = self.scenery.clone();
         let (steps, every) = (self.scene.steps, self.scene.output.every);
         let mut image = self.write(&mut simulation, &mut output).await?;
         self.shoot(&mut simulation, &output).await?;
@@ -140,8 +158,9 @@ impl Run {
             } else if self.progress.watched() && looked.elapsed() > LOOK.max(look * 20) {
                 // The energy between two outputs, for whoever looks, and for a twentieth of the time at most.
                 let start = Instant::now();
-                let row = Measure::of(&simulation.snapshot().await?);
-                self.progress.energy(&row, &output.first());
+                let snapshot = simulation.snapshot().await?;
+                self.progress.energy(&Measure::of(&snapshot), &output.first());
+                self.last = Some(snapshot);
                 (looked, look) = (Instant::now(), start.elapsed());
             }
             self.shoot(&mut simulation, &output).await?;
@@ -193,7 +212,19 @@ impl Run {
         if let Some(row) = output.rows().last() {
             self.progress.measured(row, &output.first());
         }
+        self.last = Some(snapshot);
         Ok(image)
+    }
+
+    /// What is to be said, and kept, when numbers are lost.
+    fn explain(&self, error: Error, setup: &Setup, verdict: Option<&Verdict>, engine: &Engine) -> Failure {
+        let precision = match engine {
+            Engine::Gpu(_) => Precision::Single,
+            Engine::Cpu(_) => Precision::Double,
+        };
+        let way = verdict.and_then(|verdict| substeps::way_out(verdict, &self.scene, setup));
+        let to = (&*self.folder, &*self.scene.output.formats, precision);
+        aftermath::explain(error, setup, way.as_deref(), self.last.as_ref(), to)
     }
 
     fn conclude(

@@ -43,12 +43,19 @@ pub trait Force: Send + Sync {
         Ok(())
     }
     /// Adds kernels that keep positions lawful: nobody inside of a solid. They run after every drift, by `factor` of the
-    /// step, and with `factor` 1 at the end of a Runge–Kutta step.
+    /// step.
     ///
     /// # Errors
     /// When there is no such place.
     fn confine(&self, _plan: &mut Plan, _problem: &Problem, _factor: f64) -> Result<(), Error> {
         Ok(())
+    }
+    /// The same where a whole step was no drift, as that of a Runge–Kutta method: x − v dt is not where it began.
+    ///
+    /// # Errors
+    /// When there is no such place.
+    fn settle(&self, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
+        self.confine(plan, problem, 1.0)
     }
     /// Adds kernels that run once at the end of each step: what breaks, breaks there.
     ///
@@ -59,6 +66,10 @@ pub trait Force: Send + Sync {
     }
     /// Whether links change as it acts.
     fn breaks(&self) -> bool {
+        false
+    }
+    /// Whether rods keep their lengths by it.
+    fn keeps_rods(&self) -> bool {
         false
     }
     /// The integrators under which it is what its paper says; none: under all.
@@ -102,11 +113,13 @@ register! {
     boids: Boids, "a flock: separation, alignment and cohesion within a field of view (Reynolds 1987, 1999)";
     speed_limit: SpeedLimit, "the least and the greatest speed of a species";
     obstacle: Obstacle, "a sphere, a box or a plane that is seen ahead and avoided (after Reynolds 1999)";
+    solid: Solid, "a sphere, a box, a plane or a capsule that lets nobody in, or out: bounces and friction";
     flee: Flee, "prey flee from predators";
     chase: Chase, "predators chase prey";
     goal: Goal, "a place to steer to and arrive at, or a roost to keep to (Reynolds 1999)";
     wander: Wander, "a random walk of velocities, the same numbers on every device";
     soft_turn: SoftTurn, "a box with soft walls that turn back";
+    rod: Rod, "rigid rods in chains keep their lengths, whatever the other forces do (RATTLE: Andersen 1983)";
     vicsek: Vicsek, "everybody takes the mean heading around it, with noise, in the plane (Vicsek et al. 1995)";
     spring: Spring, "springs and ropes, damped along themselves (Hooke 1678)";
     tear: Tear, "springs that are stretched too far break, for ever";

@@ -7,6 +7,7 @@ use glam::{DVec3, DVec4};
 use super::{EACH, Force, Law, SPECIES, params, species};
 use crate::kernel::Scalar;
 use crate::settings::{Key, Kind, Settings, Value};
+use crate::solids::Solid;
 
 /// What a scene may say.
 pub const KEYS: &[Key] = &[
@@ -31,35 +32,6 @@ const MARCHES: usize = 8;
 /// with all its force.
 pub struct Obstacle(Settings);
 
-/// Its signed distance.
-#[derive(Debug, Clone, Copy)]
-enum Surface {
-    Sphere(f64),
-    Box(DVec3),
-    Plane(DVec3),
-}
-
-impl Surface {
-    /// ∇φ and φ, at a way from its middle.
-    fn at(self, d: DVec3, dimensions: u32) -> (DVec3, f64) {
-        match self {
-            Self::Sphere(radius) => (d.try_normalize().unwrap_or(DVec3::X), d.length() - radius),
-            Self::Plane(normal) => (normal, normal.dot(d)),
-            Self::Box(half) => {
-                // In the plane there is no way out above it.
-                let depth = d.abs() - if dimensions == 2 { half.with_z(3e38) } else { half };
-                let outside = depth.max(DVec3::ZERO);
-                let side = DVec3::from_array(d.to_array().map(|x| if x >= 0.0 { 1.0 } else { -1.0 }));
-                if let Some(normal) = outside.try_normalize() {
-                    return (side * normal, outside.length());
-                }
-                let axis = depth.max_position();
-                (DVec3::AXES[axis] * side[axis], depth[axis])
-            }
-        }
-    }
-}
-
 impl Obstacle {
     /// From checked settings.
     #[must_use]
@@ -74,16 +46,15 @@ impl Force for Obstacle {
         let (ahead, clearance, force) = (number("look_ahead"), number("clearance"), number("max_force"));
         let (position, normal) = (self.0.vector("position"), self.0.vector("normal").normalize_or_zero());
         let surface = match self.0.text("shape") {
-            "box" => Surface::Box(self.0.vector("size") * 0.5),
-            "plane" => Surface::Plane(normal),
-            _ => Surface::Sphere(number("radius")),
+            "box" => Solid::Box(self.0.vector("size")),
+            "plane" => Solid::Plane(normal),
+            _ => Solid::Sphere(number("radius")),
         };
         let (kind, kind_value) = species(&self.0, "species");
-        let shape = SHAPES.iter().position(|s| *s == self.0.text("shape")).unwrap_or(0);
         let mut values = params(&self.0, &["position", "radius", "size", "look_ahead", "clearance", "max_force"]);
         values.push(("normal".to_owned(), Scalar::Vector(normal)));
         values.push(("species".to_owned(), kind_value));
-        values.push(("shape".to_owned(), Scalar::Uint(u32::try_from(shape).unwrap_or(0))));
+        values.push(("shape".to_owned(), Scalar::Uint(surface.number())));
         vec![Law::each("obstacle", crate::shader!("forces/obstacle.wgsl"), values, move |me, world| {
             if !kind.has(me) {
                 return DVec4::ZERO;
@@ -93,8 +64,8 @@ impl Force for Obstacle {
             let at = |s: f64| {
                 let d = me.position + s * heading - position;
                 // A plane has no images.
-                let plane = matches!(surface, Surface::Plane(_));
-                surface.at(if plane { d } else { world.bounds.shortest(d) }, world.bounds.dimensions)
+                let plane = matches!(surface, Solid::Plane(_));
+                surface.distance(if plane { d } else { world.bounds.shortest(d) }, world.bounds.dimensions)
             };
             let s = (0..MARCHES).fold(0.0, |s, _| s + (at(s).1 - clearance).max(0.0));
             let out = at(s).0;

@@ -17,6 +17,8 @@ pub struct Step<'a> {
     problem: Problem,
     plan: Plan,
     evaluated: bool,
+    /// How much of the step positions have been advanced by.
+    drifted: f64,
     error: Option<Error>,
 }
 
@@ -24,7 +26,7 @@ impl<'a> Step<'a> {
     /// An empty step of particles under some forces.
     #[must_use]
     pub fn new(forces: &'a [Box<dyn Force>], problem: Problem) -> Self {
-        Self { forces, problem, plan: Plan::default(), evaluated: false, error: None }
+        Self { forces, problem, plan: Plan::default(), evaluated: false, drifted: 0.0, error: None }
     }
 
     /// a ← forces(x, v, t), with all laws in the order of the scene.
@@ -91,7 +93,8 @@ impl<'a> Step<'a> {
     pub fn drift(&mut self, factor: f64) {
         self.add(drift::kernel(self.problem.count, factor));
         self.enclose();
-        self.each_force(|force, plan, problem| force.confine(plan, problem, factor));
+        self.drifted += factor;
+        self.confine(factor);
     }
     /// Whoever has left the box by a closed side comes in again.
     pub fn enclose(&mut self) {
@@ -120,7 +123,9 @@ impl<'a> Step<'a> {
         self.add(runge_kutta::finish(self.problem.count, weight));
         self.limit();
         self.enclose();
-        self.each_force(|force, plan, problem| force.confine(plan, problem, 1.0));
+        self.drifted = 1.0;
+        self.confine(1.0);
+        self.each_force(|force, plan, problem| force.settle(plan, problem));
     }
 
     /// The plan of what is done once: what the integrator wrote, and a look for numbers that are broken from the start,
@@ -177,6 +182,11 @@ impl<'a> Step<'a> {
         Ok((before.finished()?, after.finished()?))
     }
 
+    /// What forces make of positions that are not allowed, after an advance by a part of the step.
+    fn confine(&mut self, factor: f64) {
+        self.problem.reached = self.drifted;
+        self.each_force(|force, plan, problem| force.confine(plan, problem, factor));
+    }
     /// What forces make of velocities that are not allowed.
     fn limit(&mut self) {
         self.each_force(|force, plan, problem| force.limit(plan, problem));

@@ -20,11 +20,17 @@ pub const SPECIES: Field<u32> = Field::new("species");
 pub const TARGET: Field<Vec4> = Field::new("kinematic_target");
 /// Where held particles were at the start, in the order of [`Problem::held`](super::Problem::held).
 pub const HOME: Field<Vec4> = Field::new("home");
-/// After how many steps a particle is first seen not to be finite, and its id, the lowest of them; and the lowest id of
-/// one that has more others within reach than a search can visit; `u32::MAX` while all is well.
+/// What has gone wrong, word by word; `u32::MAX` in the first five while all is well.
+///
+/// 0 and 1: after how many steps a particle is first seen not to be finite, and the lowest id of those; 2: the lowest id
+/// of one that has more others within reach than a search can visit; 3 and 4: after how many steps speeds are seen to run
+/// away, and the lowest id of those that do. Then what that is known by, the bits of speeds as `f32`: 5: the largest of the
+/// 16 steps at hand; 6: that of the 16 before; 7: how often in a row it has more than doubled.
 pub const ALARM: Field<u32> = Field::new("alarm");
 /// The words of the alarm.
-pub const ALARM_WORDS: usize = 3;
+pub const ALARM_WORDS: usize = 8;
+/// The alarm before anything has gone wrong.
+pub const QUIET: [u32; ALARM_WORDS] = [u32::MAX, u32::MAX, u32::MAX, u32::MAX, u32::MAX, 0, 0, 0];
 
 /// A named array of `T`.
 #[derive(Debug)]

@@ -15,7 +15,9 @@ mod world;
 
 pub use backend::{Backend, Machine};
 pub use bounds::{Bounds, Side};
-pub use field::{ACCELERATION, ALARM, ALARM_WORDS, Array, Element, Field, HOME, POSITION, SPECIES, TARGET, VELOCITY};
+pub use field::{
+    ACCELERATION, ALARM, ALARM_WORDS, Array, Element, Field, HOME, POSITION, QUIET, SPECIES, TARGET, VELOCITY,
+};
 pub use host::{Host, Reading, Writing};
 pub use pack::{Member, Packed, Scalar};
 pub use plan::{Kernel, Name, Pass, Plan, Threads, Twin};

@@ -34,6 +34,8 @@ pub struct Problem {
     pub motions: Arc<Vec<Motion>>,
     /// The step size \[time\]: motions are told in steps.
     pub dt: f64,
+    /// How much of the step positions have been advanced by, where a plan is being written: when a drift ends.
+    pub reached: f64,
     /// How well implicit integrators solve.
     pub solver: Solver,
 }
@@ -54,6 +56,7 @@ impl Problem {
             mask: Arc::default(),
             motions: Arc::default(),
             dt: 1.0,
+            reached: 1.0,
             solver: Solver::default(),
         }
     }

@@ -1,10 +1,13 @@
 //! What ties particles together: springs and ropes, rigid rods, joints that resist bending, and triangles that feel the
 //! wind. Plain lists, by the particles' ids; kernels see them as tables, each element from each of its particles.
 
+mod chains;
 mod check;
 mod half;
 mod network;
+mod rods;
 
+pub use chains::{Chains, MOST_RODS, Node};
 pub use half::{Corner, Half, WORDS};
 pub use network::{MOST_LINKS, Network};
 

@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use super::{Joint, Link, Links, WORDS};
+use super::{Half, Joint, Link, Links, Rod, WORDS};
 
 /// Links that one particle may have: one invocation loops over them, and 65 535 trips are the most that every driver does.
 pub const MOST_LINKS: u32 = 60_000;
@@ -12,7 +12,7 @@ pub const MOST_LINKS: u32 = 60_000;
 const MOST_KINDS: usize = 4;
 
 /// The tables of some links. A table of starts has one word for each particle, and one behind the last.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Network {
     /// How many particles.
     pub count: u32,
@@ -34,10 +34,12 @@ pub struct Network {
     pub triangle_start: Arc<Vec<u32>>,
     /// Five words for each corner, as for joints; the last is zero.
     pub triangle: Arc<Vec<u32>>,
+    /// The rods. How they make chains depends on who is held.
+    pub rods: Arc<Vec<Rod>>,
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "rounding to f32 is what the device does")]
-fn bits(x: f64) -> u32 {
+pub(super) fn bits(x: f64) -> u32 {
     (x as f32).to_bits()
 }
 
@@ -56,7 +58,20 @@ impl Network {
         let (joint_start, joint) = rows(count, joints.collect());
         let triangles = links.triangles.iter().flat_map(|ids| corners(*ids, 0.0));
         let (triangle_start, triangle) = rows(count, triangles.collect());
-        Self { count, link_start, link, partner_start, partner, kind, joint_start, joint, triangle_start, triangle }
+        let rods = Arc::new(links.rods.clone());
+        Self {
+            count,
+            link_start,
+            link,
+            partner_start,
+            partner,
+            kind,
+            joint_start,
+            joint,
+            triangle_start,
+            triangle,
+            rods,
+        }
     }
     /// Whether there are few kinds of springs.
     #[must_use]
@@ -72,6 +87,20 @@ impl Network {
     #[must_use]
     pub fn ends(&self) -> u32 {
         self.link_start.last().copied().unwrap_or(0)
+    }
+}
+
+impl Links {
+    /// The same without springs that broke, by the words of the table of a network of these.
+    #[must_use]
+    pub fn intact(&self, network: &Network, table: &[u32]) -> Self {
+        let holds = |link: &&Link| {
+            let [a, b] = link.ends;
+            let row = |id: u32| network.link_start.get(id as usize).map_or(0, |n| *n as usize);
+            let words = table.get(row(a) * WORDS..row(a + 1) * WORDS).unwrap_or_default().chunks_exact(WORDS);
+            words.map(Half::new).any(|half| half.partner == b as usize && !half.is_broken())
+        };
+        Self { springs: self.springs.iter().filter(holds).copied().collect(), ..self.clone() }
     }
 }
 

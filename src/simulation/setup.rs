@@ -5,7 +5,7 @@ use crate::error::Error;
 use crate::forces::{Force, Problem};
 use crate::integrators::{Integrator, Step};
 use crate::kernel::{Bounds, Machine, Plan, Solver};
-use crate::motion;
+use crate::motion::{self, Hold};
 use crate::particles::Particles;
 
 /// What a simulation is made of.
@@ -101,6 +101,16 @@ impl Setup {
         self.solver.check()?;
         boundary::check(&self.bounds)?;
         motion::check(held, motions, count, self.bounds.dimensions, self.dt)?;
+        if !links.rods.is_empty() && !self.forces.iter().any(|force| force.keeps_rods()) {
+            let text = format!(
+                "nothing keeps the lengths of the rods (of which there are {}): add a [[force]] of kind = \"rod\"",
+                links.rods.len()
+            );
+            return Err(Error::Scene(text));
+        }
+        let still = held.iter().filter(|held| held.by == Hold::Fixed).map(|held| held.id).collect();
+        let held: Vec<u32> = held.iter().map(|held| held.id).collect();
+        links.check_rods([position, velocity], &held, &still, |r| self.bounds.shortest(r))?;
         boundary::holds(&self.bounds, position, velocity)?;
         u32::try_from(count)
             .ok()

@@ -29,10 +29,11 @@ pub struct Law {
 }
 
 /// Files that a law has by calling a function of theirs, and not having one of that name itself.
-const ON_CALL: [(&str, Source); 4] = [
+const ON_CALL: [(&str, Source); 5] = [
     ("is_of", crate::shader!("law/species.wgsl")),
     ("unit", crate::shader!("law/steering.wgsl")),
     ("truncated", crate::shader!("law/steering.wgsl")),
+    ("signed_distance", crate::shader!("solids/distance.wgsl")),
     ("pcg4d", crate::shader!("law/random.wgsl")),
 ];
 

@@ -31,6 +31,7 @@ impl Force for Sorting {
             params: Vec::new(),
             twin: Some(Arc::new(twin)),
             reciprocal: false,
+            jacobian: None,
         }]
     }
 }

@@ -39,7 +39,7 @@ pub fn all(device: &Device, stages: &mut Vec<Stage>) {
 }
 
 /// A cloud where it began, with some at rest, one of them in the middle, two at one place, and some who are alone, or meet head on, far away.
-fn resting(device: &Device, machine: Machine, bounds: Bounds) -> Simulation<Gpu> {
+pub fn resting(device: &Device, machine: Machine, bounds: Bounds) -> Simulation<Gpu> {
     let mut simulation = moving(device, FEW, Some(machine));
     let cloud = support::cloud(FEW, 11);
     let join = |v: &[DVec3], w: &[f64]| -> Vec<Vec4> { v.iter().zip(w).map(|(v, w)| v.extend(*w).as_vec4()).collect() };

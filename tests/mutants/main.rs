@@ -1,14 +1,20 @@
 //! Mutation: every operator and literal of every shader is changed once, and the lockstep with the twins must notice.
 
+mod alarms;
 mod boundary;
 mod curious;
 mod equivalent_neighbors;
 mod equivalent_primitives;
 mod equivalents;
+<<<<<<< HEAD
 mod implicit;
+=======
+mod held;
+>>>>>>> main
 mod laws;
 mod neighbors;
 mod primitives;
+mod rods;
 mod stages;
 #[path = "../support/mod.rs"]
 mod support;

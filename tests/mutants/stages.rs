@@ -5,9 +5,7 @@ use std::time::Duration;
 
 use motes::forces::{Force, Law};
 use motes::integrators::INTEGRATORS;
-use motes::kernel::{
-    ACCELERATION, ALARM, Backend, Kernel, Machine, POSITION, Plan, SPECIES, Shader, Source, VELOCITY, World,
-};
+use motes::kernel::{ALARM, Backend, Kernel, Machine, POSITION, Plan, SPECIES, Shader, Source, VELOCITY, World};
 use motes::lockstep::{Verdict, compare};
 use motes::settings::Value;
 use motes::{Gpu, Setup, Simulation, wgpu};
@@ -15,7 +13,7 @@ use motes::{Gpu, Setup, Simulation, wgpu};
 use crate::support::machines::{alone, cut, kernel, machines};
 use crate::support::states::{force, integrator};
 use crate::support::{self, Shared};
-use crate::{laws, primitives};
+use crate::{alarms, laws, primitives};
 
 /// Large, and not a round number: what is wrong in a step shows.
 const DT: f64 = 0.37;
@@ -155,11 +153,18 @@ pub fn all(shared: &Shared) -> Vec<Stage> {
     let device = pollster::block_on(support::limited(shared, few));
     let mut stages = Vec::new();
     integrators(&device, &mut stages);
+<<<<<<< HEAD
     watches(&device, &mut stages);
     crate::implicit::all(&device, &mut stages);
+=======
+    alarms::watches(&device, &mut stages);
+    alarms::runaways(&device, &mut stages);
+>>>>>>> main
     crate::boundary::boundary(&device, &mut stages);
     laws::all(&device, &mut stages);
     laws::planes(&device, &mut stages);
+    crate::held::all(&device, &mut stages);
+    crate::rods::rods(&device, &mut stages);
     pairs(shared, &device, &mut stages);
     crate::neighbors::all(shared, &device, &mut stages);
     primitives::all(&device, &mut stages);
@@ -187,32 +192,6 @@ fn integrators(device: &Device, stages: &mut Vec<Stage>) {
                 stages.push(stage(&kernel.name.clone(), moving(device, FEW, None), kernel));
             }
         }
-    }
-}
-
-/// What the watch must tell apart: which field, which particle, what was seen before.
-fn watches(device: &Device, stages: &mut Vec<Stage>) {
-    let Some(watch) = stages.iter().find(|s| s.name == "watch").map(|s| s.plan.kernels[0].clone()) else {
-        panic!("every plan has a watch")
-    };
-    let odd = f32::from_bits(0x7fc0_0001);
-    let nobody = [u32::MAX; 2];
-    let cases = [
-        (POSITION, 3, 0, odd, nobody),
-        (VELOCITY, 3, 1, f32::NEG_INFINITY, nobody),
-        (ACCELERATION, FEW - 1, 3, f32::NAN, nobody),
-        // After fewer steps another was found: it stays. After as many: the lower id. After more: this one.
-        (POSITION, 3, 2, f32::INFINITY, [1, 50]),
-        (POSITION, 3, 2, f32::INFINITY, [3, 490]),
-        (POSITION, 3, 2, f32::INFINITY, [9, 490]),
-    ];
-    for (case, (field, id, place, bad, alarm)) in cases.into_iter().enumerate() {
-        let mut simulation = moving(device, FEW, None);
-        let mut values = pollster::block_on(simulation.read(field)).expect("a field");
-        values[id][place] = bad;
-        simulation.write(field, &values).expect("a field");
-        simulation.write(ALARM, &alarm).expect("a field");
-        stages.push(Stage::new(&format!("watch {case}"), simulation, watch.clone()));
     }
 }
 

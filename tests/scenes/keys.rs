@@ -112,7 +112,7 @@ sede = 3
    |
  7 | sede = 3
    | ^^^^ did you mean `seed`?
-   = known here: `shape`, `color`, `species`, `count`, `seed`, `mass`, `scale`, `g`, `cutoff`, `center`, `velocity`, `particle_radius`
+   = known here: `shape`, `color`, `species`, `fixed`, `motion`, `count`, `seed`, `mass`, `scale`, `g`, `cutoff`, `center`, `velocity`, `particle_radius`
 
 a.toml: 1 error",
     );
@@ -156,7 +156,7 @@ g = 1.0
    |
  6 | [forces]
    |  ^^^^^^ did you mean [[force]]?
-   = the sections are [simulation], [box], [[particles]], [[force]], [output], [picture]
+   = the sections are [simulation], [box], [[motion]], [[particles]], [[force]], [output], [picture]
 
 a.toml: 1 error",
     );
@@ -179,7 +179,7 @@ name = "H200"
    |
  6 | [gpu]
    |  ^^^
-   = the sections are [simulation], [box], [[particles]], [[force]], [output], [picture]
+   = the sections are [simulation], [box], [[motion]], [[particles]], [[force]], [output], [picture]
 
 a.toml: 1 error",
     );

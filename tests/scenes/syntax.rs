@@ -144,7 +144,7 @@ error: unknown key `colour` in [[particles]] bodies
    |
  6 | colour = "red"
    | ^^^^^^ did you mean `color`?
-   = known here: `bodies`, `color`, `species`, `center`, `velocity`
+   = known here: `bodies`, `color`, `species`, `fixed`, `motion`, `center`, `velocity`
 
 error: this is not TOML: extra `=`, expected nothing
   --> a.toml:8:8
@@ -206,7 +206,7 @@ error: unknown force "�[31mred"
    |
  8 | kind = "\u001b[31mred"
    |        ^^^^^^^^^^^^^^^
-   = known: `gravity`, `uniform`, `drag`, `wind`, `vortex`, `attractor`, `boids`, `speed_limit`, `obstacle`, `flee`, `chase`, `goal`, `wander`, `soft_turn`, `vicsek`
+   = known: `gravity`, `uniform`, `drag`, `wind`, `vortex`, `attractor`, `boids`, `speed_limit`, `obstacle`, `solid`, `flee`, `chase`, `goal`, `wander`, `soft_turn`, `rod`, `vicsek`, `spring`, `tear`, `joint`, `air`
 
 a.toml: 2 errors"##,
     );

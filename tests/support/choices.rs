@@ -4,6 +4,7 @@ use std::borrow::Cow;
 
 use glam::DVec3;
 use motes::forces::{Entry, Force};
+use motes::motion::{Keyframe, Motion};
 use motes::settings::{Key, Kind, Settings, Value};
 
 /// Every combination of the words and flags that some keys accept; all numbers nudged away from their defaults.
@@ -25,10 +26,28 @@ fn values(key: &Key) -> Vec<Value> {
     match (key.kind, &key.default) {
         (Kind::Choice(words), _) => words.iter().map(|w| Value::Text(Cow::Borrowed(*w))).collect(),
         (Kind::Flag, _) => vec![Value::Flag(false), Value::Flag(true)],
+        // Who goes along with a motion has tests of its own.
+        (Kind::Motion, _) => vec![Value::Text("".into())],
         (Kind::Species, Some(Value::Number(n))) => vec![Value::Text("all".into()), Value::Number(n + 1.0)],
         (Kind::Species, _) => vec![Value::Text("all".into()), Value::Number(1.0)],
         (_, None) => vec![nudged(key.kind, &default(key.kind))],
         (_, Some(value)) => vec![nudged(key.kind, value)],
+    }
+}
+
+/// The motion that forces may go along with: numbers that are neither 0 nor 1, begun before the run and not over soon.
+pub fn swing() -> Motion {
+    let key = |time, shift: [f64; 3], turn: [f64; 3]| Keyframe { time, shift: shift.into(), turn: turn.into() };
+    Motion {
+        name: "swing".to_owned(),
+        about: DVec3::new(0.3, -0.2, 0.6),
+        keys: vec![
+            key(-1.3, [0.13, 0.2, -0.3], [0.3, 0.2, -0.7]),
+            key(2.9, [0.4, -0.25, 0.31], [0.7, -0.9, 0.4]),
+            key(7.7, [-0.2, 0.6, 0.1], [-0.4, 2.3, 0.5]),
+        ],
+        smooth: true,
+        repeat: false,
     }
 }
 
@@ -40,6 +59,7 @@ pub fn nudged(kind: Kind, value: &Value) -> Value {
         Value::Number(x) => Value::Number(f64::from((x * 1.3 + 0.17) as f32)),
         Value::Vector(v) => Value::Vector((*v + DVec3::new(0.31, -0.23, 0.47)).as_vec3().as_dvec3()),
         Value::Flag(on) => Value::Flag(!on),
+        Value::Text(_) if kind == Kind::Motion => Value::Text("swing".into()),
         Value::Text(word) => Value::Text(word.clone()),
     }
 }

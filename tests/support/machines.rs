@@ -43,11 +43,13 @@ pub fn kernel(force: &dyn Force, count: usize, machine: &Machine) -> Kernel {
         .expect("a kernel")
 }
 
-/// The kernels of a force: those of its laws, and those that keep velocities lawful.
+/// The kernels of a force: those of its laws, those that keep velocities and positions lawful, and those that end a step.
 pub fn kernels(force: &dyn Force, problem: &Problem) -> Vec<Kernel> {
     let mut all: Vec<_> = force.laws().into_iter().map(|law| law.kernel(problem).expect("a kernel")).collect();
     let mut limits = Plan::default();
     force.limit(&mut limits, problem).expect("limits");
+    // A setting that a test makes up may be refused, and then runs nowhere.
+    let _ = force.confine(&mut limits, problem, 0.8);
     force.conclude(&mut limits, problem).expect("an end");
     all.extend(limits.kernels);
     all

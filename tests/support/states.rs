@@ -71,19 +71,25 @@ pub fn accelerations_in(bounds: &Bounds, forces: &[Box<dyn Force>], particles: &
     felt(forces, particles, World { time, dt: 0.01, bounds: *bounds, ..World::default() }).0
 }
 
-/// The same with all that is to be known of the world; the velocities that the forces then allow; and what is left
-/// of the links.
-pub fn felt(forces: &[Box<dyn Force>], particles: &Particles, world: World) -> (Vec<DVec4>, Vec<DVec4>, Option<Array>) {
+/// The same with all that is to be known of the world; the velocities and places that the forces
+/// then allow; and what is left of the links.
+pub fn felt(
+    forces: &[Box<dyn Force>],
+    particles: &Particles,
+    world: World,
+) -> (Vec<DVec4>, [Vec<DVec4>; 2], Option<Array>) {
     let count = u32::try_from(particles.len()).expect("few");
     let mut cpu = Cpu::new(count).expect("some");
     let problem = motes::forces::Problem::new(count, cpu.machine())
         .at(&particles.position, world.bounds)
-        .tied(&particles.links, &particles.held);
+        .tied(&particles.links, &particles.held)
+        .moved(&[super::choices::swing()], world.dt);
     let mut step = Step::new(forces, problem.clone());
     step.evaluate();
     let mut plan = step.finished().expect("a plan");
     for force in forces {
         force.limit(&mut plan, &problem).expect("a limit");
+        force.confine(&mut plan, &problem, 0.8).expect("a place");
         force.conclude(&mut plan, &problem).expect("an end");
     }
     let program = cpu.compile(&plan).expect("twins");
@@ -95,8 +101,8 @@ pub fn felt(forces: &[Box<dyn Force>], particles: &Particles, world: World) -> (
     }
     cpu.set_world(World { count, ..world }).expect("clock");
     cpu.run(&program, 1).expect("twins run");
-    match (cpu.host().get(ACCELERATION.name), cpu.host().get(VELOCITY.name)) {
-        (Some(Array::Vec4(a)), Some(Array::Vec4(v))) => (a, v, cpu.host().get("link")),
+    match [ACCELERATION, VELOCITY, POSITION].map(|field| cpu.host().get(field.name)) {
+        [Some(Array::Vec4(a)), Some(Array::Vec4(v)), Some(Array::Vec4(x))] => (a, [v, x], cpu.host().get("link")),
         _ => panic!("forces give accelerations"),
     }
 }

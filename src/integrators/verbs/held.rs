@@ -13,10 +13,12 @@ pub fn lead(problem: &Problem) -> Result<Vec<Kernel>, Error> {
     let held = &problem.held;
     let fixed = held.partition_point(|one| one.by < Hold::Target);
     let aimed = held.partition_point(|one| one.by < Hold::Motion(0));
+    let path =
+        [crate::shader!("motion/turned.wgsl"), crate::shader!("motion/pose.wgsl"), crate::shader!("motion/path.wgsl")];
     let kinds = [
         (0, fixed, "fixed", vec![crate::shader!("motion/fixed.wgsl")]),
         (fixed, aimed, "target", vec![crate::shader!("motion/target.wgsl")]),
-        (aimed, held.len(), "motion", vec![crate::shader!("motion/pose.wgsl"), crate::shader!("motion/path.wgsl")]),
+        (aimed, held.len(), "motion", path.to_vec()),
     ];
     let some = kinds.into_iter().filter(|(first, end, ..)| first < end);
     some.map(|(first, end, kind, files)| kernel(problem, first, end, kind, files)).collect()

@@ -1,9 +1,12 @@
-//! A step is done.
+//! A step is done, and how speeds have grown is written down now and then.
 
 use std::sync::Arc;
 
 use crate::error::Error;
-use crate::kernel::{Kernel, Shader, World};
+use crate::kernel::{ALARM, ALARM_WORDS, Kernel, Shader, World};
+
+/// Steps between two looks at how speeds have grown.
+const WINDOW: u32 = 16;
 
 /// What it is called in a plan, and in its shader.
 pub const NAME: &str = "tick";
@@ -15,7 +18,14 @@ pub fn kernel() -> Result<Kernel, Error> {
         let clock = host.world();
         let step = clock.step + 1;
         host.set_world(World { step, time: f64::from(step) * clock.dt, ..clock });
+        let mut alarm = host.write(ALARM)?;
+        if let ([.., now, before, doubled], true) = (&mut alarm[..], step.is_multiple_of(WINDOW)) {
+            let faster = f32::from_bits(*now) > 2.0 * f32::from_bits(*before);
+            *doubled = if faster { *doubled + 1 } else { 0 };
+            (*before, *now) = (*now, 0);
+        }
         Ok(())
     };
-    Ok(Kernel::new(NAME, shader, Vec::new(), 1, Arc::new(twin)))
+    let kernel = Kernel::new(NAME, shader, Vec::new(), 1, Arc::new(twin));
+    Ok(Kernel { sizes: vec![(ALARM.name.into(), ALARM_WORDS as u64)], ..kernel })
 }

@@ -1,9 +1,13 @@
-//! Raises the alarm when a number is no number any more.
+//! Raises the alarm when a number is no number any more, and when speeds run away.
 
 use std::sync::Arc;
 
 use crate::error::Error;
 use crate::kernel::{ACCELERATION, ALARM, ALARM_WORDS, Kernel, POSITION, Shader, VELOCITY};
+
+/// So often in a row must the largest speed double before another time counts as running away: a fall from rest does it
+/// once, whatever the step, and then grows by ever less.
+const OFTEN: u32 = 7;
 
 /// The kernel.
 pub fn kernel(count: u32) -> Result<Kernel, Error> {
@@ -16,13 +20,22 @@ pub fn kernel(count: u32) -> Result<Kernel, Error> {
         let done = host.world().step;
         let (position, velocity, acceleration) = (host.read(POSITION)?, host.read(VELOCITY)?, host.read(ACCELERATION)?);
         let well = |i: &usize| position[*i].is_finite() && velocity[*i].is_finite() && acceleration[*i].is_finite();
-        let broken = (0..position.len()).find(|i| !well(i));
+        // The largest component, as the device holds it.
+        #[expect(clippy::cast_possible_truncation, reason = "as the device holds it")]
+        let speed = |i: usize| velocity[i].truncate().abs().max_element() as f32;
+        let all = || 0..position.len();
         let mut alarm = host.write(ALARM)?;
-        if let (Some(id), [first, lowest, ..]) = (broken, &mut alarm[..]) {
-            let id = u32::try_from(id).unwrap_or(u32::MAX);
-            if *first >= done {
-                (*first, *lowest) = (done, id.min(*lowest));
+        let [broken, broken_id, _, fast, fast_id, now, before, doubled] = &mut alarm[..] else { return Ok(()) };
+        let raise = |first: &mut u32, lowest: &mut u32, id: Option<usize>| {
+            if let Some(id) = id.filter(|_| *first >= done) {
+                (*first, *lowest) = (done, u32::try_from(id).unwrap_or(u32::MAX).min(*lowest));
             }
+        };
+        raise(broken, broken_id, all().find(|i| !well(i)));
+        *now = all().filter(well).map(|i| speed(i).to_bits()).fold(*now, u32::max);
+        if *doubled >= OFTEN {
+            let bar = 2.0 * f32::from_bits(*before);
+            raise(fast, fast_id, all().find(|i| well(i) && speed(*i) > bar));
         }
         Ok(())
     };

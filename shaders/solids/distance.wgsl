@@ -1,0 +1,32 @@
+// Signed distances φ of simple solids, and ∇φ (Hart 1996), at a way d from the middle: sphere 0, box 1, plane 2, capsule 3.
+// `axis` is the normal of a plane, or leads from one end of a capsule's line to the other. Where all ways out are as long,
+// one goes along x; from the line of a capsule across it and z.
+fn signed_distance(shape: u32, d: vec3f, radius: f32, size: vec3f, axis: vec3f) -> vec4f {
+    if shape == 2u { return vec4f(axis, dot(axis, d)); }
+    if shape == 1u { return to_box(d, size); }
+    var r = d;
+    var middle = vec3f(1.0, 0.0, 0.0);
+    if shape == 3u {
+        let square = dot(axis, axis);
+        if square > 0.0 { r -= clamp(dot(d, axis) / square, -0.5, 0.5) * axis; }
+        let across = vec3f(axis.y, -axis.x, 0.0);
+        if dot(across, across) > 0.0 { middle = normalize(across); }
+    }
+    let distance = length(r);
+    if distance > 0.0 { return vec4f(r / distance, distance - radius); }
+    return vec4f(middle, -radius);
+}
+
+fn to_box(d: vec3f, size: vec3f) -> vec4f {
+    let side = select(vec3f(-1.0), vec3f(1.0), d >= vec3f());
+    var depth = abs(d) - 0.5 * size;
+    // In the plane there is no way out above it.
+    if world.dimensions == 2u { depth.z = -3e38; }
+    let outside = max(depth, vec3f());
+    let distance = length(outside);
+    if distance > 0.0 { return vec4f(side * outside / distance, distance); }
+    // Inside: to the nearest face.
+    if depth.x >= max(depth.y, depth.z) { return vec4f(side.x, 0.0, 0.0, depth.x); }
+    if depth.y >= depth.z { return vec4f(0.0, side.y, 0.0, depth.y); }
+    return vec4f(0.0, 0.0, side.z, depth.z);
+}

@@ -1,0 +1,9 @@
+// A solid that goes along with a motion: where it is when so much of the step is done.
+override REACHED: f32 = 1.0;
+
+fn frame() -> Frame {
+    let p = pose(params.motion, REACHED);
+    let about = motions[params.motion].about;
+    let centre = params.position + (p.shift + turned(p.turn, params.position - about));
+    return Frame(centre, about + p.shift, p.turn, p.velocity, p.spin);
+}

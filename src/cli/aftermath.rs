@@ -1,0 +1,77 @@
+//! What is told and kept when numbers are lost: who is tied to whom, what to do, and the last good state.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use motes::io::{Precision, atomically, csv, npz};
+use motes::scene::Format;
+use motes::{Error, Setup, Snapshot};
+
+use super::failure::Failure;
+
+/// So many neighbours are named.
+const NAMED: usize = 8;
+
+/// Writes the last good state in the formats of the run that are numbers, or as arrays where there is none, and says
+/// where; and what ties the particle at fault. `advice` is what is known of the step.
+pub fn explain(
+    error: Error,
+    setup: &Setup,
+    advice: Option<&str>,
+    last: Option<&Snapshot>,
+    (folder, formats, precision): (&Path, &[Format], Precision),
+) -> Failure {
+    let (Error::NotFinite { particle, .. } | Error::Runaway { particle, .. }) = error else {
+        return Failure::Error(error);
+    };
+    let mut words = neighbors(setup, particle);
+    if let Some(advice) = advice {
+        let _ = write!(words, "\n{advice}");
+    }
+    if let Some(last) = last {
+        match keep(last, folder, formats, precision) {
+            Ok(files) => {
+                let _ = write!(words, "\nthe last good state, after step {}, is in {files}", last.step);
+            }
+            Err(why) => {
+                let _ = write!(words, "\nthe last good state is lost: {why}");
+            }
+        }
+    }
+    Failure::Explained(error, words.trim_start().to_owned())
+}
+
+/// Those whom links tie to a particle.
+fn neighbors(setup: &Setup, particle: u32) -> String {
+    let links = &setup.particles.links;
+    let mut others: Vec<u32> = Vec::new();
+    let pairs = links.springs.iter().map(|s| s.ends).chain(links.rods.iter().map(|r| r.ends));
+    let threes = links.joints.iter().map(|j| j.ids).chain(links.triangles.iter().copied());
+    others.extend(pairs.filter(|ids| ids.contains(&particle)).flatten());
+    others.extend(threes.filter(|ids| ids.contains(&particle)).flatten());
+    others.retain(|id| *id != particle);
+    others.sort_unstable();
+    others.dedup();
+    if others.is_empty() {
+        return String::new();
+    }
+    let named: Vec<_> = others.iter().take(NAMED).map(u32::to_string).collect();
+    let more = if others.len() > NAMED { format!(" and {} more", others.len() - NAMED) } else { String::new() };
+    format!("it is tied to {}{more}", named.join(", "))
+}
+
+fn keep(last: &Snapshot, folder: &Path, formats: &[Format], precision: Precision) -> Result<String, Error> {
+    let mut files = Vec::new();
+    let text = formats.contains(&Format::Csv);
+    if text {
+        let path = folder.join("last_good.csv");
+        atomically(&path, |out| csv::write_csv(out, &last.particles, precision))?;
+        files.push(path.display().to_string());
+    }
+    if formats.contains(&Format::Npz) || !text {
+        let path = folder.join("last_good.npz");
+        atomically(&path, |out| npz::write_npz(out, &last.particles, last.time, last.step, precision))?;
+        files.push(path.display().to_string());
+    }
+    Ok(files.join(" and "))
+}

@@ -1,0 +1,61 @@
+//! Simple solids by their signed distances: what particles avoid, lie on, or are kept in. The twin of
+//! `shaders/solids/distance.wgsl`.
+
+use glam::DVec3;
+
+/// The words for the shapes, in the order of their numbers in shaders.
+pub const SHAPES: &[&str] = &["sphere", "box", "plane", "capsule"];
+
+/// A solid in its own frame, about its middle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Solid {
+    /// By its radius \[length\].
+    Sphere(f64),
+    /// By its sides \[length\].
+    Box(DVec3),
+    /// A half space, by the unit vector to its free side.
+    Plane(DVec3),
+    /// All within a radius of a line \[length\], which is given by the vector from one end to the other \[length\].
+    Capsule(DVec3, f64),
+}
+
+impl Solid {
+    /// The gradient of the signed distance φ, a unit vector that leads straight out, and φ, below zero inside, at a way from
+    /// the middle. Where all ways out are as long, one goes along x; from the line of a capsule across it and z. In 2
+    /// dimensions there is no way out of a box above the plane.
+    #[must_use]
+    pub fn distance(self, d: DVec3, dimensions: u32) -> (DVec3, f64) {
+        let round = |d: DVec3, middle: DVec3, radius: f64| (d.try_normalize().unwrap_or(middle), d.length() - radius);
+        match self {
+            Self::Sphere(radius) => round(d, DVec3::X, radius),
+            Self::Plane(normal) => (normal, normal.dot(d)),
+            Self::Capsule(axis, radius) => {
+                let square = axis.length_squared();
+                let along = if square > 0.0 { (d.dot(axis) / square).clamp(-0.5, 0.5) } else { 0.0 };
+                let across = axis.cross(DVec3::Z).try_normalize().unwrap_or(DVec3::X);
+                round(d - along * axis, across, radius)
+            }
+            Self::Box(size) => {
+                let half = size * 0.5;
+                let depth = d.abs() - if dimensions == 2 { half.with_z(3e38) } else { half };
+                let outside = depth.max(DVec3::ZERO);
+                let side = DVec3::from_array(d.to_array().map(|x| if x >= 0.0 { 1.0 } else { -1.0 }));
+                if let Some(normal) = outside.try_normalize() {
+                    return (side * normal, outside.length());
+                }
+                let axis = depth.max_position();
+                (DVec3::AXES[axis] * side[axis], depth[axis])
+            }
+        }
+    }
+    /// The place of its word among [`SHAPES`].
+    #[must_use]
+    pub fn number(self) -> u32 {
+        match self {
+            Self::Sphere(_) => 0,
+            Self::Box(_) => 1,
+            Self::Plane(_) => 2,
+            Self::Capsule(..) => 3,
+        }
+    }
+}

@@ -1,0 +1,12 @@
+//! What steps bear: the largest dt of an integrator, measured from its own steps, and the frequencies of a network of
+//! springs, bounded from above and from below.
+
+mod bound;
+mod mode;
+mod oscillator;
+mod verdict;
+
+pub use bound::{Bound, Row};
+pub use mode::{Mode, Network};
+pub use oscillator::{Oscillator, largest_step, oscillator, spectral_radius};
+pub use verdict::{Build, Verdict};

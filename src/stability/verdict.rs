@@ -1,0 +1,100 @@
+//! What a step is to a network of springs: safe, too long by the bound, or too long for certain.
+
+use super::bound::Bound;
+use super::mode::{Mode, Network};
+use super::oscillator::Oscillator;
+use crate::error::Error;
+use crate::integrators::Integrator;
+use crate::simulation::Setup;
+
+/// Makes an integrator, as its line in the register does.
+pub type Build = fn() -> Box<dyn Integrator>;
+
+/// A part of the largest step: at the limit itself a symplectic method keeps energies within bounds that are wide.
+const MARGIN: f64 = 0.9;
+
+/// What the springs of a setup ask of its steps.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Verdict {
+    /// How stiff the network is at most, and where.
+    pub bound: Bound,
+    /// The largest dt that is safe by that bound \[time\]; infinite for who bears any, 0 for who bears none.
+    pub safe: f64,
+    /// The dt from which on modes that the network has at the start grow tenfold in the run; above `safe`, but for
+    /// rounding. Infinite where dt is safe: nobody looked.
+    pub lost: f64,
+    /// Whether the springs' damping asks for the shorter step, and not their stiffness.
+    pub by_damping: bool,
+}
+
+impl Verdict {
+    /// Of a setup that is to run for so many steps; `None` where no spring acts.
+    ///
+    /// # Errors
+    /// What a simulation of one particle by the twins says.
+    pub async fn of(setup: &Setup, build: Build, steps: u64) -> Result<Option<Self>, Error> {
+        let springs = &setup.particles.links.springs;
+        let acts = setup.forces.iter().flat_map(|force| force.laws()).any(|law| law.name == "spring");
+        if springs.is_empty() || !acts {
+            return Ok(None);
+        }
+        let mut masses = setup.particles.mass.clone();
+        for held in &setup.particles.held {
+            if let Some(mass) = masses.get_mut(held.id as usize) {
+                *mass = f64::INFINITY;
+            }
+        }
+        let bound = Bound::of(springs, &masses);
+        let duration = setup.dt * steps as f64;
+        let highest = Mode { stiffness: bound.stiffness.sum, damping: bound.damping.sum };
+        let safe = safe(build, highest, duration).await?;
+        let by_damping = if safe.is_finite() && safe > 0.0 {
+            safe * highest.stiffness < 2.0 * highest.damping
+        } else {
+            highest.stiffness == 0.0
+        };
+        let mut verdict = Self { bound, safe, lost: f64::INFINITY, by_damping };
+        if setup.dt > safe {
+            let network = Network::new(springs, &masses, &setup.particles.position, &setup.bounds);
+            for mode in [network.quickest(), network.most_damped()] {
+                verdict.lost = verdict.lost.min(limit(build, mode, duration).await?);
+            }
+        }
+        Ok(Some(verdict))
+    }
+    /// Into how many a step of dt must be divided to be safe, with a tenth to spare; 1 for one that is safe as it is, and
+    /// `None` where no division helps.
+    #[must_use]
+    pub fn substeps(&self, dt: f64) -> Option<u64> {
+        let parts = (dt / (MARGIN * self.safe)).ceil();
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a whole number that fits")]
+        match parts {
+            _ if dt <= self.safe => Some(1),
+            parts if parts <= f64::from(u32::MAX) => Some(parts as u64),
+            _ => None,
+        }
+    }
+}
+
+async fn limit(build: Build, mode: Mode, duration: f64) -> Result<f64, Error> {
+    Oscillator::new(build(), mode.stiffness.sqrt(), mode.damping)?.largest_step(duration).await
+}
+
+/// What all modes up to the highest bear: its own, half as stiff and as damped, damped alone, and swinging alone. The last
+/// counts only for methods that bear swinging at all: with others, as with Euler's, damping is what springs live by.
+async fn safe(build: Build, highest: Mode, duration: f64) -> Result<f64, Error> {
+    let Mode { stiffness, damping } = highest;
+    let mut least = limit(build, highest, duration).await?;
+    if damping == 0.0 || stiffness == 0.0 {
+        return Ok(least);
+    }
+    let half = Mode { stiffness: 0.5 * stiffness, damping: 0.5 * damping };
+    for mode in [half, Mode { stiffness: 0.0, ..highest }] {
+        least = least.min(limit(build, mode, duration).await?);
+    }
+    // A growth per step that no rounding makes, where ω dt is one half.
+    if Oscillator::new(build(), 1.0, 0.0)?.growth(0.5).await? < 1.0 + 1e-9 {
+        least = least.min(limit(build, Mode { damping: 0.0, ..highest }, duration).await?);
+    }
+    Ok(least)
+}

@@ -1,0 +1,82 @@
+//! Stages of the alarm: numbers that are none, and speeds that run away.
+
+use motes::kernel::{ACCELERATION, ALARM, Backend, Kernel, POSITION, QUIET, VELOCITY, World};
+
+use crate::stages::{Device, FEW, Stage, moving};
+
+/// The kernel of a stage that is there already: every plan has one.
+fn known(name: &str, stages: &[Stage]) -> Kernel {
+    let stage = stages.iter().find(|s| s.name == name).unwrap_or_else(|| panic!("every plan has a {name}"));
+    stage.plan.kernels[0].clone()
+}
+
+/// What the watch must tell apart: which field, which particle, what was seen before.
+pub fn watches(device: &Device, stages: &mut Vec<Stage>) {
+    let watch = known("watch", stages);
+    let odd = f32::from_bits(0x7fc0_0001);
+    let nobody = [u32::MAX; 2];
+    let cases = [
+        (POSITION, 3, 0, odd, nobody),
+        (VELOCITY, 3, 1, f32::NEG_INFINITY, nobody),
+        (ACCELERATION, FEW - 1, 3, f32::NAN, nobody),
+        // After fewer steps another was found: it stays. After as many: the lower id. After more: this one.
+        (POSITION, 3, 2, f32::INFINITY, [1, 50]),
+        (POSITION, 3, 2, f32::INFINITY, [3, 490]),
+        (POSITION, 3, 2, f32::INFINITY, [9, 490]),
+    ];
+    for (case, (field, id, place, bad, alarm)) in cases.into_iter().enumerate() {
+        let mut simulation = moving(device, FEW, None);
+        let mut values = pollster::block_on(simulation.read(field)).expect("a field");
+        values[id][place] = bad;
+        simulation.write(field, &values).expect("a field");
+        simulation.write(ALARM, &alarm).expect("a field");
+        stages.push(Stage::new(&format!("watch {case}"), simulation, watch.clone()));
+    }
+}
+
+/// The words that tell of speeds: who ran away and when, then the largest speed of now and of before, and how often doubled.
+fn words([step, id]: [u32; 2], [now, before]: [f32; 2], doubled: u32) -> [u32; QUIET.len()] {
+    let mut alarm = QUIET;
+    alarm[3..].copy_from_slice(&[step, id, now.to_bits(), before.to_bits(), doubled]);
+    alarm
+}
+
+/// What tells a runaway from speeds that are merely high, or merely growing.
+pub fn runaways(device: &Device, stages: &mut Vec<Stage>) {
+    let (watch, tick) = (known("watch", stages), known("tick", stages));
+    let speed = |v: &glam::Vec4| v.truncate().abs().max_element();
+    // Along each axis 377 is the fastest, by far.
+    for axis in 0..3 {
+        let mut simulation = moving(device, FEW, None);
+        let mut v = pollster::block_on(simulation.read(VELOCITY)).expect("velocities");
+        v[377][axis] = -25.7 - 0.1 * f32::from(u8::try_from(axis).expect("few"));
+        let most = v.iter().map(speed).fold(0.0, f32::max);
+        assert!(most < 27.0 && v.iter().filter(|v| speed(v) > 0.8 * most).count() == 1, "377 is by far the fastest");
+        let nobody = [u32::MAX; 2];
+        let cases = [
+            words(nobody, [0.0, most / 2.5], 7),
+            words(nobody, [0.0, most / 2.0], 7),
+            words(nobody, [0.0, most / 2.5], 6),
+            words(nobody, [0.0, 2.0 * most], 9),
+            words(nobody, [1.5 * most, 0.1 * most], 8),
+            words([1, 50], [0.0, most / 2.5], 7),
+            words([3, 490], [0.0, most / 2.5], 7),
+            words([9, 490], [0.0, most / 2.5], 7),
+        ];
+        for (case, alarm) in cases.into_iter().enumerate() {
+            let mut simulation = moving(device, FEW, None);
+            simulation.write(VELOCITY, &v).expect("velocities");
+            simulation.write(ALARM, &alarm).expect("an alarm");
+            stages.push(Stage::new(&format!("runaway {axis} {case}"), simulation, watch.clone()));
+        }
+    }
+    for (case, [now, before]) in [[3.1, 1.3], [2.6, 1.3], [1.2, 1.3], [0.7, 0.0]].into_iter().enumerate() {
+        for step in [14, 15, 16] {
+            let mut simulation = moving(device, FEW, None);
+            let clock = pollster::block_on(simulation.backend().world()).expect("a clock");
+            simulation.backend().set_world(World { step, ..clock }).expect("a clock");
+            simulation.write(ALARM, &words([5, 6], [now, before], 4)).expect("an alarm");
+            stages.push(Stage::new(&format!("tick {case} {step}"), simulation, tick.clone()));
+        }
+    }
+}

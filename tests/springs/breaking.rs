@@ -1,0 +1,117 @@
+//! Springs that break: where, when, for ever, and on both sides.
+
+use glam::DVec3;
+use motes::links::Links;
+use motes::settings::Value;
+use motes::{Particles, Setup, VELOCITY};
+
+use super::{at, fix, forces, gpu, made, setup, spring};
+use crate::support;
+use crate::support::states::{cpu, force, phase, word};
+
+fn tearing(particles: &Particles, strain: f64, name: &str, dt: f64) -> Setup {
+    let mut all = forces(0.0, 0.0);
+    all.push(force("tear", &[("strain", Value::Number(strain))]));
+    setup(particles, all, name, dt)
+}
+
+/// A row of four, of which the last is torn off.
+fn row() -> Particles {
+    let mut row = at(&[[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0], [3.0, 0.0, 0.0]], 1.0);
+    row.links.springs = (0..3).map(|i| spring([i, i + 1], 1.0, 100.0)).collect();
+    row.velocity[3] = DVec3::X * 8.0;
+    row
+}
+
+#[test]
+fn a_spring_breaks_in_the_step_in_which_it_is_too_long() {
+    let shared = support::device();
+    let mut simulation = gpu(&shared, &tearing(&row(), 0.3, "leapfrog", 0.01));
+    let all = pollster::block_on(simulation.links()).expect("links").springs;
+    assert_eq!(all, row().links.springs);
+    let mut broken_at = None;
+    for step in 1..=20 {
+        simulation.step(1).expect("a step");
+        let links: Links = pollster::block_on(simulation.links()).expect("links");
+        let x = pollster::block_on(simulation.read(motes::POSITION)).expect("places");
+        let longest = (0..3).map(|i| x[i + 1].x - x[i].x).fold(0.0, f32::max);
+        match broken_at {
+            None if longest > 1.3 => {
+                assert_eq!(links.springs, row().links.springs[..2], "the last one breaks");
+                broken_at = Some(step);
+            }
+            None => assert_eq!(links.springs.len(), 3, "step {step}: {longest}"),
+            Some(_) => assert_eq!(links.springs.len(), 2, "for ever"),
+        }
+    }
+    let broken_at = broken_at.expect("it breaks");
+    assert!((3..=6).contains(&broken_at), "in step {broken_at}");
+    // Nothing pulls any more: it flies on at one speed, though it is near.
+    let before = pollster::block_on(simulation.read(VELOCITY)).expect("velocities")[3];
+    simulation.step(50).expect("steps");
+    let after = pollster::block_on(simulation.read(VELOCITY)).expect("velocities")[3];
+    assert_eq!(before, after);
+}
+
+/// What is left goes on in another run as it would have gone on in this one.
+#[test]
+fn broken_stays_broken_over_a_restart() {
+    let number = Value::Number;
+    let mut sheet = made(
+        "cloth",
+        &[
+            ("columns", number(12.0)),
+            ("rows", number(12.0)),
+            ("spacing", number(0.1)),
+            ("mass", number(0.1)),
+            ("stretch", number(200.0)),
+            ("jitter", number(0.2)),
+            ("fixed", word("row")),
+        ],
+    );
+    for (x, v) in sheet.position.iter().zip(&mut sheet.velocity) {
+        *v = DVec3::new(if x.x > 0.0 { 4.0 } else { -4.0 }, -3.0, 0.5) * (0.6 - x.y);
+    }
+    let shared = support::device();
+    let mut whole = gpu(&shared, &tearing(&sheet, 0.4, "symplectic_euler", 0.004));
+    whole.step(60).expect("steps");
+    let links = pollster::block_on(whole.links()).expect("links");
+    let torn = sheet.links.springs.len() - links.springs.len();
+    assert!(torn > 5 && torn < 300, "{torn} springs are torn");
+    let snapshot = pollster::block_on(whole.snapshot()).expect("a snapshot");
+    let mut rest = Particles { links, held: sheet.held.clone(), ..snapshot.particles };
+    // Through a file, as the command does it.
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("links.csv");
+    motes::io::links::write(std::fs::File::create(&path).expect("a file"), &rest.links).expect("written");
+    let usual = motes::io::links::Usual { tie: Default::default(), rest: 1.0, stiffness: 1.0, damping: 0.0 };
+    let read = motes::io::links::read(&path, &rest.position, &usual).expect("links");
+    assert_eq!(read.springs, rest.links.springs);
+    rest.links.springs = read.springs;
+    let mut again = gpu(&shared, &tearing(&rest, 0.4, "symplectic_euler", 0.004));
+    whole.step(40).expect("steps");
+    again.step(40).expect("steps");
+    let [a, b] = [&mut whole, &mut again].map(|s| {
+        (pollster::block_on(s.read(motes::POSITION)).expect("places"), pollster::block_on(s.links()).expect("links"))
+    });
+    assert!(a.1.springs == b.1.springs && b.1.springs.len() < rest.links.springs.len(), "it goes on tearing, alike");
+    assert_eq!(a.0, b.0, "to the bit");
+}
+
+/// The twins tear what the device tears, and both ends of every spring decide alike.
+#[test]
+fn both_ends_decide_alike() {
+    let mut particles = row();
+    fix(&mut particles, [0]);
+    let setup = tearing(&particles, 0.3, "leapfrog", 0.01);
+    let mut twins = cpu(&particles, setup.forces, "leapfrog", 0.01);
+    twins.step(20).expect("steps");
+    let words = twins.backend().host().get("link").expect("links");
+    let motes::kernel::Array::Uint(words) = words else { panic!("words") };
+    let halves: Vec<_> = words.chunks(4).map(motes::links::Half::new).collect();
+    let broken: Vec<_> = halves.iter().map(motes::links::Half::is_broken).collect();
+    // 0–1 | 1–0, 1–2 | 2–1, 2–3 | 3–2
+    assert_eq!(broken, [false, false, false, false, true, true]);
+    let (_, v) = phase(&mut twins);
+    assert!(v[3].x > 4.0);
+}

@@ -1,0 +1,109 @@
+//! Limits of stability and growth factors on the device: pairs of particles on springs without rest length, which are
+//! oscillators to the bit, a pair for every y = hω, side by side.
+
+use glam::{DVec3, DVec4};
+use motes::{POSITION, Particles, VELOCITY};
+
+use super::{at, forces, gpu, setup, spring};
+use crate::support::{self, Shared};
+
+const H: f64 = 0.5;
+const MASS: f64 = 0.75;
+
+/// A pair for each y. What they are to each other starts at x = (1, 0, 0), v = (0.3 ω, ω, 0).
+fn pairs(ys: &[f64]) -> Particles {
+    let mut particles = Particles::default();
+    for (n, y) in ys.iter().enumerate() {
+        let (omega, first) = (y / H, 2 * n as u32);
+        let way = DVec3::new(0.3, 1.0, 0.0) * omega / 2.0;
+        let mut pair = at(&[[-0.5, 0.0, 0.0], [0.5, 0.0, 0.0]], MASS);
+        pair.velocity = vec![-way, way];
+        pair.links.springs.push(spring([0, 1], 0.0, omega * omega * MASS / 2.0));
+        particles.append(&pair);
+        assert_eq!(particles.links.springs[n].ends, [first, first + 1]);
+    }
+    particles
+}
+
+/// Places and velocities of the pairs, relative, after some steps, in units in which the energy is x² + v².
+fn run(shared: &Shared, name: &str, ys: &[f64], steps: u32) -> Vec<[DVec4; 2]> {
+    let mut simulation = gpu(shared, &setup(&pairs(ys), forces(0.0, 0.0), name, H));
+    simulation.step(steps).expect("steps");
+    let x = pollster::block_on(simulation.read(POSITION)).expect("places");
+    let v = pollster::block_on(simulation.read(VELOCITY)).expect("velocities");
+    let pair = |(n, y): (usize, &f64)| {
+        let of = |f: &[glam::Vec4]| (f[2 * n + 1].as_dvec4() - f[2 * n].as_dvec4()).with_w(0.0);
+        [of(&x), of(&v) * (H / y)]
+    };
+    ys.iter().enumerate().map(pair).collect()
+}
+
+const YS: [f64; 5] = [0.1, 0.3, 0.7, 1.0, 1.4];
+const STEPS: u32 = 16;
+
+/// What a step multiplies the energy by.
+#[test]
+fn growth_factors() {
+    let shared = support::device();
+    let runge_kutta_2 = |y: f64| 1.0 + y.powi(4) / 4.0;
+    let cases: [(&str, &dyn Fn(f64) -> f64); 4] = [
+        ("forward_euler", &|y| 1.0 + y * y),
+        ("midpoint", &runge_kutta_2),
+        ("heun", &runge_kutta_2),
+        ("rk4", &|y| 1.0 - y.powi(6) / 72.0 + y.powi(8) / 576.0),
+    ];
+    for (name, factor) in cases {
+        for (y, [x, v]) in YS.iter().zip(run(&shared, name, &YS, STEPS)) {
+            let start = 1.0 + 0.09 + 1.0;
+            let got = ((x.length_squared() + v.length_squared()) / start).powf(1.0 / f64::from(STEPS));
+            // Sixteen steps of a dozen roundings by 6e-8, of which the root takes a sixteenth.
+            assert!((got - factor(*y)).abs() < 1e-6 * factor(*y), "{name} at {y}: {got}, not {}", factor(*y));
+        }
+    }
+}
+
+/// What the symplectic ones keep: not the energy, but a form beside it.
+#[test]
+fn what_is_kept() {
+    let shared = support::device();
+    let euler = |y: f64, x: DVec4, v: DVec4| x.length_squared() + v.length_squared() - y * x.dot(v);
+    let leapfrog = |y: f64, x: DVec4, v: DVec4| v.length_squared() + x.length_squared() * (1.0 - y * y / 4.0);
+    let cases: [(&str, &dyn Fn(f64, DVec4, DVec4) -> f64); 2] = [("symplectic_euler", &euler), ("leapfrog", &leapfrog)];
+    for (name, form) in cases {
+        let ys = [0.1, 0.7, 1.4, 1.9];
+        let start = run(&shared, name, &ys, 0);
+        for ((y, end), start) in ys.iter().zip(run(&shared, name, &ys, 1000)).zip(start) {
+            let (got, want) = (form(*y, end[0], end[1]), form(*y, start[0], start[1]));
+            // A walk at random of 1000 steps, √1000 of 1e-7; where the form is small beside its terms, tenfold.
+            assert!((got - want).abs() < 1e-4 * want, "{name} at {y}: {got}, not {want}");
+            let energy = |[x, v]: [DVec4; 2]| x.length_squared() + v.length_squared();
+            assert!((energy(end) / energy(start) - 1.0).abs() > 1e-4, "{name} at {y} keeps the energy too?");
+        }
+    }
+}
+
+#[test]
+fn limits_of_stability() {
+    let shared = support::device();
+    let limits = [
+        ("symplectic_euler", 2.0),
+        ("leapfrog", 2.0),
+        ("rk4", 8f64.sqrt()),
+        ("forest_ruth", 1.573_401_947_435),
+        ("pefrl", 2.989_449_545_907),
+    ];
+    for (name, limit) in limits {
+        let ends = run(&shared, name, &[0.995 * limit, 1.005 * limit], 1000);
+        let [below, above] = [0, 1].map(|n| ends[n][0].length_squared() + ends[n][1].length_squared());
+        // Below, the ellipse of the invariant is 1 / √(1 − 0.995²) = 10 times longer than wide: 100 in energy, about.
+        assert!(below < 1e3, "{name} just below its limit: {below:e}");
+        // It may be beyond all numbers by then.
+        assert!(!(above <= 1e6), "{name} just above its limit: {above:e}");
+    }
+    // Weakly, but without an end.
+    for name in ["forward_euler", "midpoint", "heun"] {
+        let [x, v] = run(&shared, name, &[0.4], 2000)[0];
+        let grown = (x.length_squared() + v.length_squared()) / 2.09;
+        assert!(grown > 1e5, "{name}: {grown:e}");
+    }
+}
