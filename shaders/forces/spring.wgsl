@@ -18,7 +18,11 @@ fn gather(me: Particle, you: Particle, r: vec3f, link: Link, sum: ptr<function, 
     (*sum).energy += select(0.0, 0.5 * link.stiffness * stretch * stretch, taut);
 }
 
-fn finish(me: Particle, sum: Sum) -> vec4f { return vec4f(sum.force, sum.energy) / me.mass; }
+fn finish(me: Particle, sum: Sum) -> vec4f {
+    // Who has no mass is tied to nobody.
+    if me.mass > 0.0 { return vec4f(sum.force, sum.energy) / me.mass; }
+    return vec4f();
+}
 
 // k (t dx + (1 − t) (u · dx) u) + c (u · dv) u with t = 1 − L / l, but not below zero: who pushes a spring together would be
 // pushed aside by it, and the matrix would not be positive (Choi & Ko 2002).

@@ -11,6 +11,7 @@
 
 override TOLERANCE: f32 = 1.0;
 override LIMIT: f32 = 1.0;
+override PART: f32 = 1.0;
 
 @compute @workgroup_size(WORKGROUP)
 fn solve_advance(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
@@ -30,7 +31,9 @@ fn solve_advance(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) g
     var after = before;
     if before.first == 0.0 { after.first = sum.z + sum.w; }
     after.residual = select(sum.z, sum.z + sum.w, fresh);
-    let enough = TOLERANCE * TOLERANCE * after.first;
+    let goal = TOLERANCE * TOLERANCE * after.first;
+    let enough = PART * PART * goal;
+    if fresh && !broken(sum) && after.residual <= goal { after.settled = 1.0; }
     var beta = 0.0;
     var bend = sum.y;
     if !fresh {
@@ -39,7 +42,7 @@ fn solve_advance(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) g
     }
     if broken(sum) {
         after.code = 2.0;
-    } else if sum.z <= enough {
+    } else if sum.z <= enough || after.settled > 0.0 {
         after.code = 1.0;
     } else if before.iterations >= LIMIT {
         after.code = 3.0;
@@ -48,7 +51,6 @@ fn solve_advance(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) g
         after.code = 2.0;
     }
     if after.code == 2.0 { after.broken = 1.0; }
-    if after.code == 1.0 && after.residual <= enough && fresh { after.settled = 1.0; }
     if after.code == 0.0 {
         let alpha = sum.x / bend;
         after.gamma = sum.x;

@@ -20,7 +20,7 @@ fn solve_rows(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) grou
             vec4f(vec3f(weight), way),
             vec4f(vec3f(), weight),
             vec4f(ties.own, 0.0),
-            vec4f(select(vec3f(), ties.pull, START), 0.0),
+            vec4f(select(vec3f(), ties.pull, START), length(me.position)),
         );
     }
 }

@@ -9,6 +9,8 @@ use motes::motion::Hold;
 use motes::scene::Scene;
 use motes::{Bounds, Error, Setup, Side};
 
+use super::solves;
+
 /// What a law's twin says to a particle at rest somewhere.
 fn felt(twin: &Twin, (time, step): (f64, u32), position: DVec3, bounds: Bounds) -> Result<DVec4, Error> {
     let mut host = Host::default();
@@ -136,20 +138,26 @@ const MACHINE: Machine = Machine { software: true, subgroup: 0, invocations: 1 }
 pub fn advice(scene: &Scene, setup: &Setup) -> Result<Vec<String>, Error> {
     let mut remarks = scene.remarks.clone();
     let laws: Vec<Law> = setup.forces.iter().flat_map(|force| force.laws()).collect();
+    let implicit = setup.integrator.is_implicit();
+    if implicit {
+        remarks.push(solves::remark(&setup.forces, scene.integrator.name));
+    }
     let (order, reduced) = (setup.integrator.order(), setup.integrator.order_with_velocity());
     for law in laws {
         let name = law.name.clone();
-        let (untwinned, over) = (law.twin.is_none(), law.over);
+        let (untwinned, over, offered) = (law.twin.is_none(), law.over, law.jacobian.is_some());
         if let Some(twin) = law.twin.as_ref().filter(|_| setup.bounds.dimensions == 2) {
             in_the_plane(&name, twin, setup)?;
         }
         let kernel = law.kernel(&Problem::new(1, MACHINE))?;
         strangers(&kernel)?;
-        if kernel.names("velocity") && reduced < order {
+        let solved = implicit && offered;
+        if kernel.names("velocity") && !solved && (reduced < order || implicit && order > 1) {
             remarks.push(format!(
-                "`{name}` depends on velocity: {} is of order {order} for other forces, and of order {reduced} with it; \
+                "`{name}` depends on velocity: {} is of order {order} for other forces, and of order {} with it; \
                  midpoint, heun and rk4 keep their order",
-                scene.integrator.name
+                scene.integrator.name,
+                if implicit { 1 } else { reduced },
             ));
         }
         if over == Over::Pairs && setup.bounds.has(Side::Periodic) {

@@ -31,6 +31,7 @@ mod plot;
 mod progress;
 mod run;
 mod scenes;
+mod solves;
 mod stability;
 mod stop;
 mod substeps;

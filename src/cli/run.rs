@@ -19,6 +19,7 @@ use super::failure::Failure;
 use super::film::Film;
 use super::output::Output;
 use super::progress::{Progress, duration, large};
+use super::solves;
 use super::stop::Stop;
 use super::substeps::{self, Loaded};
 
@@ -172,7 +173,12 @@ impl Run {
         if let Some(film) = &mut self.film {
             film.develop(&mut simulation, &output, &self.progress).await?;
         }
-        self.conclude(steps, &output, stepping, image.as_ref())
+        let solves = simulation.solves().await?;
+        let concluded = self.conclude(steps, &output, stepping, image.as_ref());
+        if let Some(solves) = solves {
+            solves::tell(&self.progress, &solves);
+        }
+        concluded
     }
 
     /// Takes the present state for the film, if it is one of its frames.

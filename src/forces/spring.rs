@@ -44,7 +44,7 @@ impl Force for Spring {
                 let tension = if link.rope { tension.max(0.0) } else { tension };
                 *sum += (tension * along).extend(0.5 * link.stiffness * stretch * stretch);
             },
-            |me, sum| *sum / me.mass,
+            |me, sum| if me.mass > 0.0 { *sum / me.mass } else { DVec4::ZERO },
         )
         .with_jacobian(Jacobian::Links(Arc::new(|_, _, r, link, dx, dv| {
             let length = r.length();

@@ -249,9 +249,9 @@ impl std::fmt::Display for Plan {
             let (length, times) = repeated(&names[at..]);
             let block = names[at..at + length].join(" | ");
             if times > 1 {
-                write!(f, "{bar}({block}) ×{times}")?
+                write!(f, "{bar}({block}) ×{times}")?;
             } else {
-                write!(f, "{bar}{block}")?
+                write!(f, "{bar}{block}")?;
             }
             at += length * times;
         }

@@ -23,7 +23,7 @@ pub const MOST_SOLVES: u32 = 100;
 
 impl Default for Solver {
     fn default() -> Self {
-        Self { tolerance: 1e-4, iterations: 100, solves: 4 }
+        Self { tolerance: 1e-3, iterations: 100, solves: 8 }
     }
 }
 

@@ -12,11 +12,11 @@ pub const SOLVER_KEYS: &[Key] = &[
     Key::new(
         "tolerance",
         Kind::Positive,
-        Value::Number(1e-4),
+        Value::Number(1e-3),
         "what may be left of the residual of an implicit step, as a part of the first one",
     ),
     Key::new("iterations", Kind::Count, Value::Number(100.0), "iterations of one linear solve, at most"),
-    Key::new("solves", Kind::Count, Value::Number(4.0), "linear solves of one step by Newton's method, at most"),
+    Key::new("solves", Kind::Count, Value::Number(8.0), "linear solves of one step by Newton's method, at most"),
 ];
 
 /// Reads the section, and writes it out.

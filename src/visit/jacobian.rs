@@ -16,6 +16,8 @@ pub const ROWS: Field<Vec4> = Field::new("rows");
 /// Vectors in a row.
 pub const ROW: usize = 4;
 
+/// Contents of uniform blocks, by name.
+pub type Uniforms = Vec<(&'static str, Vec<u8>)>;
 type OfEach = dyn Fn(&Body, &World, DVec3, DVec3) -> DVec3 + Send + Sync;
 type OfLinks = dyn Fn(&Body, &Body, DVec3, &Half, DVec3, DVec3) -> DVec3 + Send + Sync;
 
@@ -79,7 +81,7 @@ impl Law {
     ///
     /// # Errors
     /// When the law has no `jvp` in its WGSL, or that does not compile.
-    pub fn beside(&self, files: &[Source]) -> Result<(Arc<Shader>, Vec<(&'static str, Vec<u8>)>), Error> {
+    pub fn beside(&self, files: &[Source]) -> Result<(Arc<Shader>, Uniforms), Error> {
         let signature = match self.over {
             Over::Each => "fn jvp(me: Particle, dx: vec3f, dv: vec3f) -> vec3f",
             _ => "fn jvp(me: Particle, you: Particle, r: vec3f, link: Link, dx: vec3f, dv: vec3f) -> vec3f",

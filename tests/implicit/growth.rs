@@ -108,8 +108,9 @@ fn nothing_explodes_and_euler_comes_to_rest() {
         if name.contains("euler") {
             assert!(kept < 1e-30, "{name}: {kept:e} of the energy is left");
         } else {
-            // A random walk of a thousand roundings, and twice that for the square.
-            assert!((kept - 1.0).abs() < 1e-4, "{name}: the energy became {kept} of what it was");
+            // h ω / 2 = 3.25: half a step makes numbers that much larger, which then cancel. In a thousand steps that is
+            // 1000 (1 + 3.25)² 6e-8 in the energy, if all roundings go one way.
+            assert!((kept - 1.0).abs() < 1e-3, "{name}: the energy became {kept} of what it was");
         }
     }
 }

@@ -2,6 +2,7 @@
 
 mod cloth;
 mod growth;
+mod idle;
 mod pendulum;
 mod solves;
 #[path = "../support/mod.rs"]

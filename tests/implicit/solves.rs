@@ -107,16 +107,16 @@ fn newton_converges_on_a_cloth() {
     let shared = support::device();
     let particles = cloth(16, 10.0 * 0.25 / (H * H));
     let mut left = Vec::new();
-    for solves in [1, 2, 8] {
-        let solver = Solver { tolerance: 1e-4, iterations: 60, solves };
+    for solves in [1, 2, 12] {
+        let solver = Solver { tolerance: 1e-3, iterations: 60, solves };
         let mut simulation = on_device(&shared, &setup(&particles, forces(), "backward_euler", H, solver));
         let before = [0, 15].map(|id| phase(&mut simulation, id));
         simulation.step(5).expect("steps");
         assert_eq!([0, 15].map(|id| phase(&mut simulation, id)), before, "the held ones move");
         let report = report(&mut simulation);
         left.push(report.residual);
-        assert_eq!(report.outcome == Outcome::Converged, report.residual <= 1e-4, "{report:?}");
-        if solves == 8 {
+        assert_eq!(report.outcome == Outcome::Converged, report.residual <= 1e-3, "{report:?}");
+        if solves == 12 {
             assert_eq!(report.failures, 0, "{report:?}");
         }
         // The one that is tied to nothing falls as backward Euler has it.

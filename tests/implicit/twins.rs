@@ -36,7 +36,9 @@ fn a_step_of_a_cloth() {
             let last = particles.len() - 1;
             particles.mass[last] = 0.0;
             let count = u32::try_from(particles.len()).expect("few");
-            let solver = Solver { tolerance: 1e-5, iterations: 6, solves: 2 };
+            // So few iterations that much is left for the second solve: what is left is a difference of impulses, and where
+            // they cancel, so do their digits.
+            let solver = Solver { tolerance: 1e-5, iterations: 3, solves: 2 };
             let setup = setup(&particles, forces(), name, 0.07, solver);
             let mut gpu = Gpu::new(&shared.found.device, &shared.found.queue, count).expect("a GPU");
             gpu.pad(5);

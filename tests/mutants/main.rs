@@ -7,6 +7,7 @@ mod equivalent_neighbors;
 mod equivalent_primitives;
 mod equivalents;
 mod held;
+mod implicit;
 mod laws;
 mod neighbors;
 mod primitives;

@@ -153,6 +153,7 @@ pub fn all(shared: &Shared) -> Vec<Stage> {
     let device = pollster::block_on(support::limited(shared, few));
     let mut stages = Vec::new();
     integrators(&device, &mut stages);
+    crate::implicit::all(&device, &mut stages);
     alarms::watches(&device, &mut stages);
     alarms::runaways(&device, &mut stages);
     crate::boundary::boundary(&device, &mut stages);

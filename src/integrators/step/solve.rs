@@ -40,12 +40,15 @@ pub enum Form {
     Newton,
 }
 
+/// What a linear solve of Newton's method may leave, as a part of what the method may leave.
+const INNER: f64 = 0.25;
+
 /// Which of some forces enter the matrix of an implicit solve: those of which every law offers its Jacobian. Of laws of
 /// links that is one: the first.
 #[must_use]
 pub fn implicit(forces: &[Box<dyn Force>]) -> Vec<bool> {
     let mut tied = false;
-    let enters = |force: &Box<dyn Force>| {
+    let mut enters = |force: &dyn Force| {
         let laws = force.laws();
         let links = laws.iter().filter(|law| law.over == Over::Links).count();
         let good = |law: &Law| {
@@ -58,7 +61,7 @@ pub fn implicit(forces: &[Box<dyn Force>]) -> Vec<bool> {
         tied |= all && links == 1;
         all
     };
-    forces.iter().map(enters).collect()
+    forces.iter().map(|force| enters(force.as_ref())).collect()
 }
 
 impl Step<'_> {
@@ -102,7 +105,7 @@ impl Step<'_> {
             self.rows(&system, &each, start);
             let limit = if tied { solver.iterations } else { 0 };
             if tied || by.form == Form::Newton {
-                self.iterate(&system, limit);
+                self.iterate(&system, limit, if by.form == Form::Newton { INNER } else { 1.0 });
             }
             self.add(update::kernel(&system, start));
             self.add(update::reach(count, factor));
@@ -112,7 +115,7 @@ impl Step<'_> {
             self.again(explicit);
             self.gather(|place| which[place]);
             self.rows(&system, &[], false);
-            self.iterate(&system, 0);
+            self.iterate(&system, 0, INNER);
         }
         if tied || by.form == Form::Newton {
             self.add(report::kernel(&system, by.form == Form::Newton));
@@ -147,16 +150,18 @@ impl Step<'_> {
         self.add(begin::kernel(system, start));
     }
     /// As many iterations, and a look at what is left. Their number is odd, so that the state ends where it is sought.
-    fn iterate(&mut self, system: &System<'_>, limit: u32) {
+    fn iterate(&mut self, system: &System<'_>, limit: u32, part: f64) {
         let kernels = [true, false].map(|turned| {
             let product = iterate::product(system, turned);
-            product.and_then(|product| Ok([product, iterate::advance(system, turned, limit)?]))
+            product.and_then(|product| Ok([product, iterate::advance(system, turned, limit, part)?]))
         });
         match kernels {
             [Ok(first), Ok(second)] => {
                 for turn in 0..(limit + 1) | 1 {
                     let pair = if turn % 2 == 0 { &first } else { &second };
-                    pair.iter().for_each(|kernel| self.plan.add(kernel.clone()));
+                    for kernel in pair {
+                        self.plan.add(kernel.clone());
+                    }
                 }
             }
             [Err(error), _] | [_, Err(error)] => {

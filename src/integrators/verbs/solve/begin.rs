@@ -10,6 +10,9 @@ use crate::error::Error;
 use crate::kernel::{ACCELERATION, Host, Kernel, VELOCITY};
 use crate::visit::{ROW, ROWS};
 
+/// As parts of a position, what single precision does not resolve: about a third of its last place.
+const RESOLUTION: f64 = 2e-8;
+
 /// Solves a symmetric system of three by L D Lᵀ.
 fn solved(diagonal: DVec3, across: DVec3, b: DVec3) -> DVec3 {
     let l = DVec3::new(across.x, across.z, 0.0) / diagonal.x;
@@ -49,8 +52,11 @@ pub fn kernel(system: &System<'_>, start: bool) -> Result<Kernel, Error> {
             let (way, weight, diagonal) = (row[0].w, row[1].w, row[0].truncate());
             let push = h * weight * acceleration[i].truncate();
             let due = if start { row[3].truncate() } else { weight * (began[i] - velocity[i]).truncate() };
-            let b = if way == HELD { DVec3::ZERO } else { push + due };
-            let inverse = if way == TIED { 1.0 / (diagonal + row[2].truncate()) } else { DVec3::ZERO };
+            let whole = diagonal + row[2].truncate();
+            let noise = whole.length() * row[3].w * RESOLUTION;
+            let lost = !start && (push + due).length() * h <= noise;
+            let b = if way == HELD || lost { DVec3::ZERO } else { push + due };
+            let inverse = if way == TIED { 1.0 / whole } else { DVec3::ZERO };
             let y = if way == ALONE { solved(diagonal, row[1].truncate(), b) } else { DVec3::ZERO };
             row[2] = inverse.extend(0.0);
             residual.copy_from_slice(&[(inverse * b).extend(0.0), b.extend(0.0)]);

@@ -71,8 +71,9 @@ pub fn product(system: &System<'_>, turned: bool) -> Result<Kernel, Error> {
     Ok(kernel)
 }
 
-/// One step along the direction, unless `limit` iterations are done, or as little is left as is asked.
-pub fn advance(system: &System<'_>, turned: bool, limit: u32) -> Result<Kernel, Error> {
+/// One step along the direction, unless `limit` iterations are done, or as little is left as is asked: `part` of the
+/// tolerance, so that Newton's method is not held up by what its linear solves leave.
+pub fn advance(system: &System<'_>, turned: bool, limit: u32, part: f64) -> Result<Kernel, Error> {
     let (limit, tolerance) = (f64::from(limit), system.problem.solver.tolerance);
     let run = move |host: &Host| {
         let (from, to) = names(turned);
@@ -84,7 +85,7 @@ pub fn advance(system: &System<'_>, turned: bool, limit: u32) -> Result<Kernel, 
         }
         let dots = host.read(DOTS)?;
         let parts = dots.chunks_exact(4).map(|part| DVec4::new(part[0], part[1], part[2], part[3]));
-        let after = advanced(before, parts.sum(), tolerance, limit);
+        let after = advanced(before, parts.sum(), (tolerance, part), limit);
         next.copy_from_slice(&after.words());
         if after.code > 0.0 {
             return Ok(());
@@ -114,35 +115,36 @@ pub fn advance(system: &System<'_>, turned: bool, limit: u32) -> Result<Kernel, 
         crate::shader!("integrators/solve_advance.wgsl"),
     ])?;
     let kernel = system.sized(Kernel::new("advance", shader, Vec::new(), system.problem.count, twin(run)));
-    let kernel = with(kernel, &[("TOLERANCE", tolerance), ("LIMIT", limit)]);
+    let kernel = with(kernel, &[("TOLERANCE", tolerance), ("LIMIT", limit), ("PART", part)]);
     Ok(on_states(system.in_runs(kernel)?, turned))
 }
 
 /// The next state, by the sums r · z, z · A z, and r · r of who is tied and of who is alone.
-fn advanced(before: State, sum: DVec4, tolerance: f64, limit: f64) -> State {
+fn advanced(before: State, sum: DVec4, (tolerance, part): (f64, f64), limit: f64) -> State {
     let fresh = before.iterations == 0.0;
     let mut after = before;
     if before.first == 0.0 {
         after.first = sum.z + sum.w;
     }
     after.residual = if fresh { sum.z + sum.w } else { sum.z };
-    let enough = tolerance * tolerance * after.first;
+    let goal = tolerance * tolerance * after.first;
+    let enough = part * part * goal;
+    if fresh && sum.is_finite() && after.residual <= goal {
+        after.settled = 1.0;
+    }
     let beta = if fresh { 0.0 } else { sum.x / before.gamma };
     let bend = if fresh { sum.y } else { sum.y - beta * sum.x / before.alpha };
     if !sum.is_finite() {
         after.code = 2.0;
-    } else if sum.z <= enough {
+    } else if sum.z <= enough || after.settled > 0.0 {
         after.code = 1.0;
     } else if before.iterations >= limit {
         after.code = 3.0;
     } else if sum.x <= 0.0 || bend <= 0.0 {
         after.code = 2.0;
     }
-    if after.code == 2.0 {
+    if after.code > 1.5 && after.code < 2.5 {
         after.broken = 1.0;
-    }
-    if after.code == 1.0 && after.residual <= enough && fresh {
-        after.settled = 1.0;
     }
     if after.code == 0.0 {
         after.gamma = sum.x;

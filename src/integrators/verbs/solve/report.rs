@@ -14,7 +14,7 @@ pub fn kernel(system: &System<'_>, newton: bool) -> Result<Kernel, Error> {
     let run = move |host: &Host| {
         let state = State::of(&host.reading::<f32>(STATE)?);
         let mut report = host.writing::<u32>(NAME)?;
-        let converged = if newton { state.settled > 0.0 } else { state.code == 1.0 };
+        let converged = if newton { state.settled > 0.0 } else { (0.5..1.5).contains(&state.code) };
         if !converged {
             if report[1] == 0 {
                 report[2] = host.world().step;

@@ -69,7 +69,7 @@ pub fn kernel(system: &System<'_>, start: bool) -> Result<Kernel, Error> {
             row[0] = DVec3::splat(weight).extend(way);
             row[1] = DVec4::W * weight;
             row[2] = own.extend(0.0);
-            row[3] = if start { pull.extend(0.0) } else { DVec4::ZERO };
+            row[3] = if start { pull } else { DVec3::ZERO }.extend(me.position.length());
         });
         Ok(())
     };

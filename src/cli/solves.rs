@@ -1,0 +1,38 @@
+//! What a run says of its implicit solves, and which laws are solved for.
+
+use motes::forces::Force;
+use motes::integrators::implicit;
+use motes::simulation::{Outcome, Solves};
+use serde_json::json;
+
+use super::progress::Progress;
+
+/// Tells what became of the solves, and the way out where some did not converge.
+pub fn tell(progress: &Progress, solves: &Solves) {
+    let Solves { solves: all, failures, first_failure, most_iterations, iterations, outcome, residual } = *solves;
+    progress.event(
+        "solves",
+        json!({ "solves": all, "failures": failures, "first_failure": first_failure, "most_iterations": most_iterations,
+            "iterations": iterations, "residual": residual }),
+    );
+    progress.conclude(&format!(
+        "{all} implicit solves: {iterations} iterations in the last step, {most_iterations} at most, residual {residual:.1e}"
+    ));
+    if let Some(step) = first_failure {
+        let why = match outcome {
+            Outcome::BrokenDown => "its matrix is not positive: choose a smaller dt, or a law that damps",
+            _ => "raise solver.iterations or solver.solves, loosen solver.tolerance, or choose a smaller dt",
+        };
+        progress.say(&format!("warning: {failures} of {all} solves did not converge, the first in step {step}: {why}"));
+    }
+}
+
+/// Which laws an implicit integrator solves for, and which it takes as they are where the solve begins.
+pub fn remark(forces: &[Box<dyn Force>], integrator: &str) -> String {
+    let mut names = [Vec::new(), Vec::new()];
+    for (force, solved) in forces.iter().zip(implicit(forces)) {
+        names[usize::from(solved)].extend(force.laws().into_iter().map(|law| format!("`{}`", law.name)));
+    }
+    let [explicit, solved] = names.map(|names| if names.is_empty() { "none".to_owned() } else { names.join(", ") });
+    format!("{integrator} solves for {solved}; explicit in the same step, with a limit on dt: {explicit}")
+}
