@@ -4,11 +4,15 @@ mod solve;
 
 pub use solve::{Explicit, Form, Implicit, implicit};
 
-use super::verbs::{at, clear, drift, held, keep, kick, runge_kutta, tick, watch};
+use std::sync::Arc;
+
+use glam::DVec4;
+
+use super::verbs::{at, clear, drift, held, keep, kick, kick_drift, runge_kutta, tick, watch};
 use crate::boundary;
 use crate::error::Error;
 use crate::forces::{Force, Problem};
-use crate::kernel::{Kernel, Plan};
+use crate::kernel::{ACCELERATION, Kernel, Plan, Twin};
 use crate::neighbors::Grid;
 
 /// Writes a plan in verbs. The first error is kept and given at the end, so that an integrator reads like its textbook.
@@ -19,6 +23,10 @@ pub struct Step<'a> {
     evaluated: bool,
     /// How much of the step positions have been advanced by.
     drifted: f64,
+    /// A kick that a drift may follow: the two are one dispatch then.
+    kicked: Option<f64>,
+    /// Whether every kernel stays alone.
+    apart: bool,
     error: Option<Error>,
 }
 
@@ -26,13 +34,30 @@ impl<'a> Step<'a> {
     /// An empty step of particles under some forces.
     #[must_use]
     pub fn new(forces: &'a [Box<dyn Force>], problem: Problem) -> Self {
-        Self { forces, problem, plan: Plan::default(), evaluated: false, drifted: 0.0, error: None }
+        Self {
+            forces,
+            problem,
+            plan: Plan::default(),
+            evaluated: false,
+            drifted: 0.0,
+            kicked: None,
+            apart: false,
+            error: None,
+        }
     }
 
     /// a ← forces(x, v, t), with all laws in the order of the scene.
     pub fn evaluate(&mut self) {
-        self.clear();
-        self.gather(|_| true);
+        let mut laws = self.laws(|_| true);
+        // The first law need not add to what has been cleared.
+        if self.apart || !laws.first_mut().is_some_and(begins) {
+            self.clear();
+        }
+        self.felt(laws);
+    }
+    /// From here on every kernel is a dispatch of its own: to see what it is worth to join them.
+    pub fn apart(&mut self) {
+        self.apart = true;
     }
     /// No acceleration yet.
     fn clear(&mut self) {
@@ -40,17 +65,29 @@ impl<'a> Step<'a> {
     }
     /// Adds what some of the forces say, chosen by their places.
     fn gather(&mut self, chosen: impl Fn(usize) -> bool) {
+        let laws = self.laws(chosen);
+        self.felt(laws);
+    }
+    /// The kernels of the laws of some forces, behind the grids that they search.
+    fn laws(&mut self, chosen: impl Fn(usize) -> bool) -> Vec<Kernel> {
+        self.flush();
         self.evaluated = true;
         self.neighbors(&chosen);
+        let mut laws = Plan::default();
         let name = |force: &dyn Force| force.laws().first().map(|law| law.name.clone());
         for (place, force) in self.forces.iter().enumerate().filter(|(place, _)| chosen(*place)) {
             // Two forces of one kind are two kernels.
             let earlier =
                 self.forces[..place].iter().filter(|other| name(other.as_ref()) == name(force.as_ref())).count();
             if self.error.is_none() {
-                self.error = force.evaluate(&mut self.plan, earlier, &self.problem).err();
+                self.error = force.evaluate(&mut laws, earlier, &self.problem).err();
             }
         }
+        laws.steps().cloned().collect()
+    }
+    /// Adds the kernels of laws; who is held feels nothing.
+    fn felt(&mut self, laws: Vec<Kernel>) {
+        laws.into_iter().for_each(|kernel| self.add(Ok(kernel)));
         if !self.problem.held.is_empty() {
             self.add(held::hold(&self.problem));
         }
@@ -58,7 +95,7 @@ impl<'a> Step<'a> {
     /// Who is held gets the velocity that brings it where it shall be at the end of the step.
     pub fn lead(&mut self) {
         match held::lead(&self.problem) {
-            Ok(kernels) => kernels.into_iter().for_each(|kernel| self.plan.add(kernel)),
+            Ok(kernels) => kernels.into_iter().for_each(|kernel| self.add(Ok(kernel))),
             Err(error) => {
                 self.error.get_or_insert(error);
             }
@@ -86,12 +123,17 @@ impl<'a> Step<'a> {
     }
     /// v ← v + c a dt, within the limits of speed
     pub fn kick(&mut self, factor: f64) {
-        self.add(kick::kernel(self.problem.count, factor));
+        self.flush();
+        self.kicked = Some(factor);
         self.limit();
     }
     /// x ← x + c v dt, and back into the box
     pub fn drift(&mut self, factor: f64) {
-        self.add(drift::kernel(self.problem.count, factor));
+        let count = self.problem.count;
+        match self.kicked.take_if(|_| !self.apart) {
+            Some(kick) => self.add(kick_drift::kernel(count, kick, factor)),
+            None => self.add(drift::kernel(count, factor)),
+        }
         self.enclose();
         self.drifted += factor;
         self.confine(factor);
@@ -99,7 +141,7 @@ impl<'a> Step<'a> {
     /// Whoever has left the box by a closed side comes in again.
     pub fn enclose(&mut self) {
         match boundary::kernels(&self.problem) {
-            Ok(kernels) => kernels.into_iter().for_each(|kernel| self.plan.add(kernel)),
+            Ok(kernels) => kernels.into_iter().for_each(|kernel| self.add(Ok(kernel))),
             Err(error) => {
                 self.error.get_or_insert(error);
             }
@@ -155,6 +197,7 @@ impl<'a> Step<'a> {
     /// # Errors
     /// The first thing that went wrong while the step was written.
     pub fn finished(mut self) -> Result<Plan, Error> {
+        self.flush();
         // Where nothing asks for the time within a step, nothing need set it.
         // By what they run, not by what they are called: a force may be called anything.
         let runs = |kernel: &Kernel, entry| kernel.passes.iter().all(|p| p.shader.reflection().entry == entry);
@@ -192,13 +235,22 @@ impl<'a> Step<'a> {
         self.each_force(|force, plan, problem| force.limit(plan, problem));
     }
     fn each_force(&mut self, write: impl Fn(&dyn Force, &mut Plan, &Problem) -> Result<(), Error>) {
+        let mut plan = Plan::default();
         for force in self.forces {
             if self.error.is_none() {
-                self.error = write(force.as_ref(), &mut self.plan, &self.problem).err();
+                self.error = write(force.as_ref(), &mut plan, &self.problem).err();
             }
+        }
+        plan.steps().for_each(|kernel| self.add(Ok(kernel.clone())));
+    }
+    /// A kick that no drift has taken up is a dispatch of its own.
+    fn flush(&mut self) {
+        if let Some(factor) = self.kicked.take() {
+            self.add(kick::kernel(self.problem.count, factor));
         }
     }
     fn add(&mut self, kernel: Result<Kernel, Error>) {
+        self.flush();
         match kernel {
             Ok(kernel) => self.plan.add(kernel),
             Err(error) => {
@@ -206,4 +258,21 @@ impl<'a> Step<'a> {
             }
         }
     }
+}
+
+/// Makes a kernel the first to say what is felt, if it can be: it sets accelerations instead of adding to them.
+fn begins(law: &mut Kernel) -> bool {
+    const FIRST: &str = "FIRST";
+    let can = law.passes.len() == 1 && law.passes[0].shader.reflection().overrides.contains_key(FIRST);
+    if can {
+        law.passes[0].constants.push((FIRST, 1.0));
+        let adds = law.twin.take();
+        law.twin = adds.map(|adds| -> Twin {
+            Arc::new(move |host| {
+                host.write(ACCELERATION)?.fill(DVec4::ZERO);
+                adds(host)
+            })
+        });
+    }
+    can
 }

@@ -3,6 +3,7 @@
 use std::time::Duration;
 
 use glam::{DVec3, Vec4};
+use motes::integrators::{Integrator, Step};
 use motes::settings::{Settings, Value};
 use motes::{Bounds, Error, POSITION, Setup, Simulation, forces, gpu, integrators, particles};
 use serde_json::json;
@@ -46,7 +47,57 @@ pub fn bench(args: &BenchArgs, found: &gpu::Found) -> Result<serde_json::Value, 
         |count, last| pollster::block_on(measure(args, found, count, last)),
         |r: &Row| median(&r.device),
     )?;
-    Ok(json!({ "springs": rows.iter().map(Row::json).collect::<Vec<_>>() }))
+    let small = joined(args, found)?;
+    Ok(json!({ "springs": rows.iter().map(Row::json).collect::<Vec<_>>(), "small": small }))
+}
+
+/// The symplectic Euler method with a dispatch for every kernel.
+struct Apart;
+
+impl Integrator for Apart {
+    fn order(&self) -> u32 {
+        1
+    }
+    fn step(&self, s: &mut Step) {
+        s.apart();
+        s.evaluate();
+        s.kick(1.0);
+        s.drift(1.0);
+    }
+}
+
+/// A small sheet, 16 steps to a frame, which launches bound: what it is worth to join kernels.
+fn joined(args: &BenchArgs, found: &gpu::Found) -> Result<serde_json::Value, Failure> {
+    const STEPS: u32 = 16;
+    let setup = setup(1024)?;
+    let apart = Setup { integrator: Box::new(Apart), ..self::setup(1024)? };
+    let mut joined = Simulation::new(&found.device, &found.queue, &setup)?;
+    let mut apart = Simulation::new(&found.device, &found.queue, &apart)?;
+    let plans = [joined.plan(), apart.plan()].map(|plan| plan.split(" | ").count());
+    let (mut with, mut without) = (Vec::new(), Vec::new());
+    for turn in 0..=5 * args.repeat.max(1) {
+        let frame = |simulation: &mut Simulation<motes::Gpu>| {
+            super::time(1, || simulation.step(STEPS).and_then(|()| simulation.backend().wait()))
+        };
+        let (a, b) = (frame(&mut joined)?, frame(&mut apart)?);
+        if turn > 0 {
+            with.push(a);
+            without.push(b);
+        }
+    }
+    let gain = median(&without.iter().zip(&with).map(|(b, a)| b / a).collect::<Vec<_>>());
+    if !args.json {
+        let text = |times: &[f64]| duration(Duration::from_secs_f64(median(times)));
+        out!(
+            "\n32 by 32, a frame of {STEPS} steps: {} with {} kernels to a step, {} with {} apart: {gain:.2} times faster",
+            text(&with),
+            plans[0],
+            text(&without),
+            plans[1]
+        );
+    }
+    Ok(json!({ "particles": 1024, "steps": STEPS, "seconds": with, "kernels": plans[0], "apart_seconds": without,
+        "apart_kernels": plans[1], "gain": gain }))
 }
 
 /// A square sheet of about so many particles: k 1000, damping 10, mass 0.1, as in Warp's benchmark.

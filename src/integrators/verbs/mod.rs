@@ -7,6 +7,7 @@ pub mod drift;
 pub mod held;
 pub mod keep;
 pub mod kick;
+pub mod kick_drift;
 pub mod runge_kutta;
 pub mod solve;
 pub mod tick;
