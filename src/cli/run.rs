@@ -55,7 +55,7 @@ pub async fn run(args: &RunArgs) -> Result<(), Failure> {
             run.progress.event("error", json!({ "code": error.exit_code(), "text": error.to_string() }));
         }
         Err(Failure::Explained(error, more)) => {
-            run.progress.event("error", json!({ "code": error.exit_code(), "text": error.to_string(), "more": more }))
+            run.progress.event("error", json!({ "code": error.exit_code(), "text": error.to_string(), "more": more }));
         }
         _ => {}
     }

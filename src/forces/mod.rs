@@ -50,12 +50,13 @@ pub trait Force: Send + Sync {
     fn confine(&self, _plan: &mut Plan, _problem: &Problem, _factor: f64) -> Result<(), Error> {
         Ok(())
     }
-    /// The same where a whole step was no drift, as that of a Runge–Kutta method: x − v dt is not where it began.
+    /// The same after a part of the step that was no drift, as that of a Runge–Kutta or an implicit method: x − c v dt need not
+    /// be where it began.
     ///
     /// # Errors
     /// When there is no such place.
-    fn settle(&self, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
-        self.confine(plan, problem, 1.0)
+    fn settle(&self, plan: &mut Plan, problem: &Problem, factor: f64) -> Result<(), Error> {
+        self.confine(plan, problem, factor)
     }
     /// Adds kernels that run once at the end of each step: what breaks, breaks there.
     ///

@@ -51,8 +51,8 @@ impl Force for Rod {
     fn confine(&self, plan: &mut Plan, problem: &Problem, factor: f64) -> Result<(), Error> {
         add(plan, problem, factor, false)
     }
-    fn settle(&self, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
-        add(plan, problem, 1.0, true)
+    fn settle(&self, plan: &mut Plan, problem: &Problem, factor: f64) -> Result<(), Error> {
+        add(plan, problem, factor, true)
     }
     fn keeps_rods(&self) -> bool {
         true
@@ -134,9 +134,9 @@ impl Chain {
             let growth: Vec<DVec3> = self.v.windows(2).map(|v| v[1] - v[0]).collect();
             let old: Vec<DVec3> = self.ways().iter().zip(growth).map(|(r, v)| *r - h * v).collect();
             let lengths = if settles { self.length.clone() } else { old.iter().map(|r| r.length()).collect() };
-            let changes = self.reach(&old, &lengths);
+            let changes = self.reach(Some(&old), &lengths);
             self.v.iter_mut().zip(changes).for_each(|(v, change)| *v += change / h);
-            self.reach(&self.ways(), &self.length.clone());
+            self.reach(None, &self.length.clone());
         }
         let ways = self.ways();
         let growth = ways.iter().zip(self.v.windows(2)).map(|(r, v)| -r.dot(v[1] - v[0])).collect();
@@ -145,11 +145,10 @@ impl Chain {
             *v += change;
         }
     }
-    /// Goes to where the rods have these lengths, by changes W Gᵀ λ with G along some directions, and says which. All of λ is
-    /// counted from the start.
-    fn reach(&mut self, along: &[DVec3], lengths: &[f64]) -> Vec<DVec3> {
-        let start = self.x.clone();
-        let mut lambda = vec![0.0; along.len()];
+    /// Goes to where the rods have these lengths, along some directions or always along the rods as they are, and says by
+    /// which changes.
+    fn reach(&mut self, fixed: Option<&[DVec3]>, lengths: &[f64]) -> Vec<DVec3> {
+        let mut moved = vec![DVec3::ZERO; self.x.len()];
         let mut worst = f64::INFINITY;
         for _ in 0..50 {
             let ways = self.ways();
@@ -160,15 +159,17 @@ impl Chain {
             if worst == 0.0 || worst < 1e-9 && worst >= before {
                 break;
             }
-            for (l, more) in lambda.iter_mut().zip(self.solve(&ways, along, misses)) {
-                *l += more;
+            let along = fixed.unwrap_or(&ways);
+            let lambda = self.solve(&ways, along, misses);
+            for (n, change) in changes(&self.w, along, &lambda).into_iter().enumerate() {
+                self.x[n] += change;
+                moved[n] += change;
             }
-            self.x = start.iter().zip(changes(&self.w, along, &lambda)).map(|(x, change)| *x + change).collect();
         }
         if worst.is_nan() || worst > 1e-9 {
             self.x.fill(DVec3::NAN);
         }
-        changes(&self.w, along, &lambda)
+        moved
     }
     /// Solves R W Gᵀ λ = b, which ties a rod to the two beside it, by rotations (Givens 1958).
     fn solve(&self, ways: &[DVec3], along: &[DVec3], mut b: Vec<f64>) -> Vec<f64> {

@@ -124,8 +124,8 @@ impl<'a> Step<'a> {
         self.limit();
         self.enclose();
         self.drifted = 1.0;
-        self.confine(1.0);
-        self.each_force(|force, plan, problem| force.settle(plan, problem));
+        self.problem.reached = self.drifted;
+        self.each_force(|force, plan, problem| force.settle(plan, problem, 1.0));
     }
 
     /// The plan of what is done once: what the integrator wrote, and a look for numbers that are broken from the start,

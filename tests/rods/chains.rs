@@ -39,7 +39,6 @@ fn a_chain_comes_to_hang_in_the_catenary() {
         };
         let check = |x: &[DVec4], allowed: f64| {
             let low = x.iter().map(|x| x.z).fold(0.0, f64::min);
-            println!("{links}: {:e}", low - lowest);
             assert!((low - lowest).abs() < allowed, "{links} links: the lowest is at {low}, not {lowest}");
             if let Some(want) = second {
                 let error = (x[1].x - want[0]).hypot(x[1].z - want[1]);
@@ -93,7 +92,6 @@ fn a_free_chain_keeps_momentum_and_spin() {
         simulation.step(1000).expect("steps");
         let (x, v) = phase(&mut simulation);
         let (p_now, l_now, _) = momenta(&x, &v);
-        println!("{name} {:e} {:e}", p_now.distance(p), l_now.distance(l));
         let moved = (0..8).map(|i| (x[i] - x[0]).truncate().distance(start.position[i] - start.position[0]));
         assert!(moved.fold(0.0, f64::max) > 0.5, "{name}: it is as stiff as a stick");
         // 1000 steps of a dozen roundings, 1e-16 of 20 each.
@@ -105,7 +103,6 @@ fn a_free_chain_keeps_momentum_and_spin() {
     simulation.step(1000).expect("steps");
     let (x, v) = read(&mut simulation);
     let (p_now, l_now, _) = momenta(&x, &v);
-    println!("f32 {:e} {:e} {:e}", p_now.distance(p) / p.length(), l_now.distance(l) / l.length(), stretch(&start, &x));
     // 1000 steps of some roundings of 6e-8 each, at random.
     assert!(p_now.distance(p) < 1e-5 * p.length(), "{p_now} is not {p}");
     assert!(l_now.distance(l) < 2e-5 * l.length(), "{l_now} is not {l}");

@@ -30,7 +30,7 @@ fn tangle(count: usize, rods: usize) -> Particles {
             particles.links.rods.push(Rod { ends: ends.map(|id| id as u32), length });
         }
         if n % 11 == 4 {
-            particles.held.push(Held { id: place(n) as u32, by: Hold::Target });
+            particles.held.push(Held { id: place(n) as u32, by: Hold::Fixed });
         }
     }
     for i in 0..count {
@@ -51,11 +51,11 @@ fn device_and_twins_solve_alike() {
             let particles = tangle(count, rods);
             let gpu = gpu(&shared, count);
             let machine = gpu.machine();
-            let setup = setup(&particles, forces(), name, 0.07);
+            let setup = setup(&particles, forces(), name, 0.04);
             let plan = setup.plans(machine).expect("plans").step;
             let mut simulation = Simulation::on(gpu, &setup).expect("a simulation");
             let mut random = Random::new(9);
-            let velocity: Vec<Vec4> = (0..count).map(|_| (random.vector() * 0.2).as_vec3().extend(0.4)).collect();
+            let velocity: Vec<Vec4> = (0..count).map(|_| (random.vector() * 0.1).as_vec3().extend(0.4)).collect();
             simulation.write(VELOCITY, &velocity).expect("velocities");
             let verdicts = pollster::block_on(compare(simulation.backend(), &plan, setup.check().expect("some")));
             let mut seen = 0;

@@ -1,4 +1,5 @@
 //! Rigid rods: pendulums and chains against exact solutions, their order, what they conserve, and what they refuse.
+#![allow(clippy::cast_possible_truncation, reason = "numbers are rounded to what f32 holds, and ids are few")]
 
 mod chains;
 mod double;
@@ -122,17 +123,20 @@ fn stretch(particles: &Particles, x: &[DVec4]) -> f64 {
     particles.links.rods.iter().map(one).fold(0.0, f64::max)
 }
 
+/// Position and velocity.
+type Phase = (Vec<DVec4>, Vec<DVec4>);
+
 /// What the twins have after a time in so many steps, all components of the state of the particles in a row.
-fn state(particles: &Particles, name: &str, time: f64, steps: u32) -> (Vec<DVec4>, Vec<DVec4>) {
+fn state(particles: &Particles, name: &str, time: f64, steps: u32) -> Phase {
     let mut simulation = twins(particles, forces(), name, time / f64::from(steps));
     simulation.step(steps).expect("steps");
     phase(&mut simulation)
 }
 
 /// The same by leapfrog at a step, a half and a quarter of it; its error is a series in h², of which two terms go.
-fn extrapolated(particles: &Particles, time: f64, steps: u32) -> (Vec<DVec4>, Vec<DVec4>) {
+fn extrapolated(particles: &Particles, time: f64, steps: u32) -> Phase {
     let rows: Vec<_> = [1, 2, 4].map(|k| state(particles, "leapfrog", time, k * steps)).into();
-    let mix = |pick: fn(&(Vec<DVec4>, Vec<DVec4>)) -> &Vec<DVec4>| {
+    let mix = |pick: fn(&Phase) -> &Vec<DVec4>| {
         let [a, b, c] = [0, 1, 2].map(|row| pick(&rows[row]));
         (0..a.len()).map(|i| a[i] / 45.0 - b[i] * (20.0 / 45.0) + c[i] * (64.0 / 45.0)).collect()
     };

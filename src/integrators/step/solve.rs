@@ -128,7 +128,7 @@ impl Step<'_> {
     pub fn settle(&mut self, factor: f64) {
         self.limit();
         self.enclose();
-        self.each_force(|force, plan, problem| force.confine(plan, problem, factor));
+        self.each_force(|force, plan, problem| force.settle(plan, problem, factor));
     }
 
     /// The accelerations before implicit laws add theirs.
