@@ -127,7 +127,7 @@ pub fn tied() -> Vec<Scene> {
         picture.frame.map = 61;
         place(picture, particles);
     };
-    let all = Scenery { links: links.clone(), solids: solids(&camera) };
+    let all = Scenery { links: links.clone(), solids: solids(&camera), ..Scenery::default() };
     let cloth = with(&Wish { name: "cloth", ..PLAIN }, &all, |picture, particles| {
         colored(picture, particles);
         picture.frame.thread = 0.8;
@@ -138,8 +138,8 @@ pub fn tied() -> Vec<Scene> {
         picture.frame.fine = 2;
         picture.frame.thread = 1.7;
     });
-    let alone = Scenery { links, solids: Vec::new() };
-    let more = Scenery { links: Arc::new(self::links(131)), solids: Vec::new() };
+    let alone = Scenery { links, ..Scenery::default() };
+    let more = Scenery { links: Arc::new(self::links(131)), ..Scenery::default() };
     let bare = with(&Wish { name: "bare", count: MANY, extent: 0.2, ..PLAIN }, &more, |picture, particles| {
         colored(picture, particles);
         picture.frame.thread = 0.4;
