@@ -26,7 +26,8 @@ fn sees_lamp(p: vec3f, normal: vec3f, jitter: vec2f) -> f32 {
 fn matte(color: vec3f, normal: vec3f, view: vec3f, light: f32) -> vec3f {
     let day = max(0.8 * dot(normal, LAMP) + 0.2, 0.0) * light;
     let shine = pow(max(dot(normal, normalize(LAMP + view)), 0.0), 20.0) * light;
-    let rim = pow(1.0 - clamp(dot(normal, view), 0.0, 1.0), 4.0);
+    let facing = clamp(dot(normal, view), 0.0, 1.0);
+    let rim = pow(1.0 - facing, 4.0);
     return color * (0.22 + 0.08 * normal.y + 0.72 * day) + 0.1 * shine + 0.08 * rim;
 }
 

@@ -29,6 +29,7 @@ struct Kept {
 pub struct Film {
     frames: u64,
     steps: u64,
+    dt: f64,
     /// Frames in a second.
     rate: u16,
     folder: PathBuf,
@@ -49,6 +50,7 @@ impl Film {
         (scene.output.frames > 0).then(|| Self {
             frames: scene.output.frames,
             steps: scene.steps,
+            dt: scene.dt,
             rate,
             folder: folder.to_owned(),
             name: scene.name.clone(),
@@ -122,6 +124,7 @@ impl Film {
         }
         let Some(reel) = &mut self.reel else { return Ok(()) };
         reel.retrace(trail);
+        reel.place(output.scenery.at(step as f64 * self.dt).solids);
         let image = simulation.shoot(reel).await?;
         let file = self.folder.join("frames").join(format!("frame_{:0w$}.png", self.done.len(), w = self.digits()));
         image.save(&file)?;

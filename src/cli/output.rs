@@ -129,7 +129,8 @@ impl Output {
         };
         let groups: Vec<u32> = (0..snapshot.particles.len()).map(of).collect();
         let trail = self.trail.clone();
-        let mut picture = Picture::with(&self.picture, &snapshot.particles, &groups, trail, &self.scenery)?;
+        let mut picture =
+            Picture::with(&self.picture, &snapshot.particles, &groups, trail, &self.scenery.at(snapshot.time))?;
         // Colours that the scene gives count before those of the palette, unless another was asked for.
         if !["speed", "heading"].contains(&self.picture.text("color")) && self.groups.iter().any(|g| g.color.is_some())
         {

@@ -10,6 +10,7 @@ use crate::error::Error;
 pub use crate::kernel::Problem;
 use crate::kernel::{Plan, Scalar};
 use crate::settings::{Key, Settings, Value};
+use crate::solids::Standing;
 pub use crate::visit::{Body, Jacobian, Law, Over};
 
 /// What pushes particles.
@@ -41,6 +42,10 @@ pub trait Force: Send + Sync {
     /// When the limits make no sense.
     fn limit(&self, _plan: &mut Plan, _problem: &Problem) -> Result<(), Error> {
         Ok(())
+    }
+    /// The solid that pictures show for it, if any.
+    fn standing(&self) -> Option<Standing> {
+        None
     }
     /// Adds kernels that keep positions lawful: nobody inside of a solid. They run after every drift, by `factor` of the
     /// step.

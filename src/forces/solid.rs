@@ -10,7 +10,7 @@ use crate::error::Error;
 use crate::kernel::{Host, Kernel, POSITION, Plan, Scalar, Shader, Source, VELOCITY, World};
 use crate::motion::{Motion, Pose};
 use crate::settings::{Key, Kind, Settings, Value};
-use crate::solids::{self, Solid as Shape};
+use crate::solids::{self, Solid as Shape, Standing};
 
 /// What a scene may say.
 pub const KEYS: &[Key] = &[
@@ -106,6 +106,18 @@ impl Solid {
 impl Force for Solid {
     fn laws(&self) -> Vec<Law> {
         Vec::new()
+    }
+    fn standing(&self) -> Option<Standing> {
+        let (radius, position) = (self.0.number("radius"), self.0.vector("position"));
+        let solid = match self.0.text("shape") {
+            "plane" => Shape::Plane(self.0.vector("normal").normalize_or(DVec3::Z)),
+            // Nobody would see what is in a container.
+            _ if self.0.flag("inside") => return None,
+            "box" => Shape::Box(self.0.vector("size")),
+            "capsule" => Shape::Capsule(self.0.vector("axis"), radius),
+            _ => Shape::Sphere(radius),
+        };
+        Some(Standing { solid, position, motion: self.0.text("motion").to_owned() })
     }
     fn confine(&self, plan: &mut Plan, problem: &Problem, factor: f64) -> Result<(), Error> {
         plan.add(kernel(self.wall(problem)?, problem, factor)?);

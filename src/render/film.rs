@@ -1,7 +1,7 @@
 //! Pictures in a row, in which nothing jumps but the particles.
 
 use super::draw::{Image, exposed};
-use super::{Exposure, Picture, Trail};
+use super::{Exposure, Picture, Solid, Trail};
 use crate::error::Error;
 use crate::kernel::Backend;
 
@@ -38,6 +38,10 @@ impl Film {
     /// The trails of the next picture.
     pub fn retrace(&mut self, trail: Trail) {
         self.picture.retrace(trail);
+    }
+    /// Where solids are in the next picture.
+    pub fn place(&mut self, solids: Vec<Solid>) {
+        self.picture.place(solids);
     }
     /// The exposure of the next picture, whose own would be this one.
     fn follow(&mut self, metered: Exposure) -> Exposure {

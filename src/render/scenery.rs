@@ -8,7 +8,9 @@ use super::solid::Solid;
 use crate::error::Error;
 use crate::kernel::{Kernel, Name};
 use crate::links::{Links, MOST_LINKS, Network};
+use crate::motion::Motion;
 use crate::particles::Particles;
+use crate::solids::Standing;
 
 /// What a picture shows beside particles.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -17,13 +19,29 @@ pub struct Scenery {
     pub links: Arc<Links>,
     /// Solids.
     pub solids: Vec<Solid>,
+    /// The same in a scene, and the motions that they go along with: see [`Scenery::at`].
+    pub standing: (Vec<Standing>, Vec<Motion>),
 }
 
 impl Scenery {
     /// What ties particles together, and no solids.
     #[must_use]
     pub fn of(particles: &Particles) -> Self {
-        Self { links: Arc::new(particles.links.clone()), solids: Vec::new() }
+        Self { links: Arc::new(particles.links.clone()), ..Self::default() }
+    }
+    /// The same with what stands in a scene, on the motions of these particles, as at the time 0.
+    #[must_use]
+    pub fn beside(self, standing: Vec<Standing>, particles: &Particles) -> Self {
+        Self { standing: (standing, particles.motions.clone()), ..self }.at(0.0)
+    }
+    /// The same with its solids where they are at a time.
+    #[must_use]
+    pub fn at(&self, time: f64) -> Self {
+        let (standing, motions) = &self.standing;
+        if standing.is_empty() {
+            return self.clone();
+        }
+        Self { solids: standing.iter().map(|one| Solid::at(one, motions, time)).collect(), ..self.clone() }
     }
 }
 

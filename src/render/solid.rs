@@ -3,6 +3,8 @@
 use glam::{DMat3, DQuat, DVec3, DVec4};
 
 use super::frame::{Frame, NEVER, NOBODY};
+use crate::motion::Motion;
+use crate::solids::{self, Standing};
 
 /// A solid that stands in a picture. It is drawn, and nothing else.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,6 +49,23 @@ const PLANE: u32 = 2;
 const THIN: f64 = 1e-9;
 
 impl Solid {
+    /// What stands in a scene, as it is at a time.
+    #[must_use]
+    pub fn at(standing: &Standing, motions: &[Motion], time: f64) -> Self {
+        let (shape, own) = match standing.solid {
+            solids::Solid::Sphere(radius) => (Shape::Ball { radius }, DQuat::IDENTITY),
+            solids::Solid::Box(sides) => (Shape::Box { half: 0.5 * sides }, DQuat::IDENTITY),
+            solids::Solid::Plane(normal) => (Shape::Plane, DQuat::from_rotation_arc(DVec3::Z, normal)),
+            solids::Solid::Capsule(axis, radius) => {
+                let along = axis.try_normalize().unwrap_or(DVec3::Z);
+                (Shape::Capsule { radius, half: 0.5 * axis.length() }, DQuat::from_rotation_arc(DVec3::Z, along))
+            }
+        };
+        let motion = motions.iter().find(|motion| motion.name == standing.motion);
+        let place = motion.map_or(standing.position, |motion| motion.place(standing.position, time));
+        let turn = motion.map_or(own, |motion| motion.pose(time).turn * own);
+        Self { shape, place, turn }
+    }
     /// How far it reaches from its middle \[length\]; nothing is said of planes.
     #[must_use]
     pub fn reach(&self) -> Option<f64> {

@@ -19,6 +19,17 @@ pub enum Solid {
     Capsule(DVec3, f64),
 }
 
+/// A solid with its place, as pictures show it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Standing {
+    /// What it is.
+    pub solid: Solid,
+    /// Where its middle is at home; of a plane a point on it \[length\].
+    pub position: DVec3,
+    /// The name of the motion that it goes along with; nothing where it stands still.
+    pub motion: String,
+}
+
 impl Solid {
     /// The gradient of the signed distance φ, a unit vector that leads straight out, and φ, below zero inside, at a way from
     /// the middle. Where all ways out are as long, one goes along x; from the line of a capsule across it and z. In 2

@@ -10,11 +10,6 @@ use motes::*;
 
 use super::*;
 
-/// The setup has no springs of its own: what is broken is refused there.
-fn untied(particles: &Particles) -> Particles {
-    Particles { links: Links::default(), ..particles.clone() }
-}
-
 fn spring(a: u32, b: u32) -> Link {
     Link { ends: [a, b], rest: 0.1, stiffness: 1.0, damping: 0.5, rope: false }
 }
@@ -80,9 +75,9 @@ fn gpu_and_twins_draw_the_same_cloth_threads_and_solids() {
         let particles = sheet(side);
         let settings = settings(203, 151).with("draw", word(draw)).with("projection", word(projection));
         let picture = picture(&particles, &settings, solids());
-        let images = on_gpu(&untied(&particles), &[&picture, &picture]);
+        let images = on_gpu(&particles, &[&picture, &picture]);
         assert!(images[0] == images[1], "not the same bytes");
-        assert_alike(&images[0], &on_cpu(&untied(&particles), &picture), &format!("{side} {draw} {projection}"));
+        assert_alike(&images[0], &on_cpu(&particles, &picture), &format!("{side} {draw} {projection}"));
     }
 }
 
@@ -91,8 +86,7 @@ fn what_is_torn_is_not_drawn_and_its_neighbours_are() {
     let mut particles = sheet(4);
     particles.position.iter_mut().for_each(|x| x.z = 0.0);
     let color = |image: &Image, x: u32, y: u32| image.rgba[4 * (y * 400 + x) as usize..][..3].to_vec();
-    let draw =
-        |particles: &Particles| on_gpu(&untied(particles), &[&picture(particles, &above(), Vec::new())]).remove(0);
+    let draw = |particles: &Particles| on_gpu(particles, &[&picture(particles, &above(), Vec::new())]).remove(0);
     let whole = draw(&particles);
     // The squares are a length wide, from 50 pixels on; the spring is the lower side of the one in the middle.
     let broken = particles.links.springs.iter_mut().find(|s| s.ends == [5, 6]).unwrap();
@@ -115,7 +109,7 @@ fn a_triangle_as_large_as_the_picture_is_drawn_whole() {
         particles.push(x, DVec3::ZERO, 1.0, 0.0);
     }
     particles.links.triangles.push([0, 1, 2]);
-    let image = on_gpu(&untied(&particles), &[&picture(&particles, &above(), Vec::new())]).remove(0);
+    let image = on_gpu(&particles, &[&picture(&particles, &above(), Vec::new())]).remove(0);
     assert_eq!(lit(&image), 400 * 300);
 }
 
@@ -129,7 +123,7 @@ fn the_nearer_is_in_front_and_bobs_stay_balls_beside_their_rods() {
     let draw = |height: f64| {
         let ball =
             Solid { shape: Shape::Ball { radius: 0.3 }, place: DVec3::new(0.5, 0.0, height), turn: DQuat::IDENTITY };
-        on_gpu(&untied(&particles), &[&picture(&particles, &above(), vec![ball])]).remove(0)
+        on_gpu(&particles, &[&picture(&particles, &above(), vec![ball])]).remove(0)
     };
     let (below, front) = (draw(-1.0), draw(1.0));
     let at = |image: &Image, x: u32, y: u32| image.rgba[4 * (y * 400 + x) as usize..][..3].to_vec();
@@ -148,7 +142,7 @@ fn scenery_that_makes_no_sense_is_refused() {
     let stray = Links { triangles: vec![[0, 1, 9]], ..Links::default() };
     let loose = Links { springs: vec![spring(2, 12)], ..Links::default() };
     for links in [stray, loose] {
-        let scenery = Scenery { links: Arc::new(links), solids: Vec::new() };
+        let scenery = Scenery { links: Arc::new(links), ..Scenery::default() };
         assert!(matches!(with(&scenery), Err(Error::Scene(text)) if text.contains("ids go from 0")));
     }
     let crowd = Scenery { solids: vec![solids()[1]; 1025], ..Scenery::default() };

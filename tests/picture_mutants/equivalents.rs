@@ -143,7 +143,7 @@ pub const EQUIVALENT: &[Equivalent] = &[
         "the lamp sees more than the picture, and no sample is at the rim",
     ),
     same("light.wgsl", "if inside &&", "<", "<=", TIE),
-    same("light.wgsl", "let rim =", "1.0", "1.5", "a cosine is 1 at most"),
+    same("light.wgsl", "let facing =", "1.0", "1.5", "a cosine is 1 at most"),
     same("shade.wgsl", "let mean =", "1e-30", "1.5000000000000001e-30", "it is much longer, or nothing"),
     same("shade.wgsl", "facing < 0.0);", "<", "<=", "it is 1 or −1"),
     same("shade.wgsl", "facing < 0.0);", "0.0", "1.0", "it is 1 or −1"),

@@ -98,13 +98,6 @@ fn solids(camera: &Camera) -> Vec<Solid> {
     // Seen from below by the eye, and by the lamp.
     let away = DQuat::from_rotation_arc(DVec3::Z, (0.9 * camera.up - 0.43 * camera.back).normalize());
     vec![
-        Solid { shape: Shape::Plane, place: spot(0.0, 0.0, 0.3), turn: away },
-        // Too near to the eye to be seen.
-        Solid {
-            shape: Shape::Ball { radius: 0.03 },
-            place: camera.center + (camera.distance - 0.15) * camera.back,
-            turn: DQuat::IDENTITY,
-        },
         Solid { shape: Shape::Plane, place: spot(-3.0, -12.0, -0.2), turn: up },
         Solid { shape: Shape::Ball { radius: 0.3 * size }, place: spot(-3.0, 5.0, -0.35), turn: DQuat::IDENTITY },
         Solid { shape: Shape::Capsule { radius: 0.13 * size, half: 0.25 * size }, place: spot(16.0, 8.0, -0.1), turn },
@@ -114,6 +107,13 @@ fn solids(camera: &Camera) -> Vec<Solid> {
             place: spot(14.0, -3.0, -0.1),
             turn: DQuat::from_rotation_arc(DVec3::Z, camera.back),
         },
+        // Too near to the eye to be seen.
+        Solid {
+            shape: Shape::Ball { radius: 0.03 },
+            place: camera.center + (camera.distance - 0.15) * camera.back,
+            turn: DQuat::IDENTITY,
+        },
+        Solid { shape: Shape::Plane, place: spot(0.0, 0.0, 0.3), turn: away },
     ]
 }
 
@@ -127,7 +127,7 @@ pub fn tied() -> Vec<Scene> {
         picture.frame.map = 61;
         place(picture, particles);
     };
-    let all = Scenery { links: links.clone(), solids: solids(&camera) };
+    let all = Scenery { links: links.clone(), solids: solids(&camera), ..Scenery::default() };
     let cloth = with(&Wish { name: "cloth", ..PLAIN }, &all, |picture, particles| {
         colored(picture, particles);
         picture.frame.thread = 0.8;
@@ -138,8 +138,8 @@ pub fn tied() -> Vec<Scene> {
         picture.frame.fine = 2;
         picture.frame.thread = 1.7;
     });
-    let alone = Scenery { links, solids: Vec::new() };
-    let more = Scenery { links: Arc::new(self::links(131)), solids: Vec::new() };
+    let alone = Scenery { links, ..Scenery::default() };
+    let more = Scenery { links: Arc::new(self::links(131)), ..Scenery::default() };
     let bare = with(&Wish { name: "bare", count: MANY, extent: 0.2, ..PLAIN }, &more, |picture, particles| {
         colored(picture, particles);
         picture.frame.thread = 0.4;
