@@ -243,7 +243,7 @@ fn sound(alarm: &[u32; ALARM_WORDS]) -> Result<(), Error> {
         // The first look comes before the first step, every other one after a step that is done.
         return Err(Error::NotFinite { particle, step: u64::from(done.saturating_sub(1)) });
     }
-    if crowded != u32::MAX { Err(Error::Crowded { particle: crowded }) } else { Ok(()) }
+    if crowded == u32::MAX { Ok(()) } else { Err(Error::Crowded { particle: crowded }) }
 }
 
 /// The rendering app's door: its device, its queue, its encoder.

@@ -4,10 +4,10 @@ mod support;
 
 use glam::DVec3;
 use motes::links::Link;
-use motes::stability::{Bound, Network, Oscillator, largest_step};
+use motes::stability::{Bound, Network, Oscillator, Verdict, largest_step};
 use motes::{Bounds, Gpu};
 use pollster::block_on;
-use support::states::integrator;
+use support::states::{force, integrator};
 
 const OMEGA: f64 = 1.3;
 /// Long enough that a tenfold growth within it is a growth of 1e-9 per step.
@@ -187,17 +187,60 @@ fn the_stiffest_is_named() {
 /// What a spring does across: nothing at rest or pressed, k (1 − L / l) when drawn out, k at any length without rest.
 #[test]
 fn springs_resist_across_when_drawn_out() {
-    let across = |length: f64, rest: f64, rope: bool| {
+    for (length, rest, rope, want) in [
+        (1.0, 1.0, false, 0.0),
+        (0.5, 1.0, false, 0.0),
+        (2.0, 1.0, false, 4.0),
+        (2.0, 0.0, false, 8.0),
+        (0.0, 0.0, false, 8.0),
+        (0.5, 1.0, true, 0.0),
+        (2.0, 1.0, true, 4.0),
+    ] {
         let springs = [Link { ends: [0, 1], rest, stiffness: 8.0, damping: 0.0, rope }];
-        // Fast along, and held there: only the way across is left, by a second spring that is soft along x.
-        let bound =
-            Network::new(&springs, &[1.0, f64::INFINITY], &[DVec3::ZERO, DVec3::X * length], &Bounds::default());
-        bound.product_of(&[DVec3::Y, DVec3::ZERO])[0].y
+        let places = [DVec3::ZERO, DVec3::X * length];
+        let network = Network::new(&springs, &[1.0, f64::INFINITY], &places, &Bounds::default());
+        let [along, across] = [DVec3::X, DVec3::Y].map(|way| network.product_of(&[way, DVec3::ZERO])[0]);
+        assert!((across - DVec3::Y * want).length() < 1e-12, "{length}, {rest}, {rope}: {across}");
+        // Along it resists, unless it is slack.
+        let stiff = if rope && length < rest { 0.0 } else { 8.0 };
+        assert!((along - DVec3::X * stiff).length() < 1e-12, "{length}, {rest}, {rope}: {along}");
+    }
+}
+
+/// Of a whole setup: the bound by what acts, the limit of its integrator by both, and the parts of a step that is too long.
+#[test]
+fn a_setup_is_judged() {
+    let mut particles = motes::Particles::default();
+    for i in 0..12 {
+        particles.push(DVec3::X * f64::from(i), DVec3::ZERO, 0.1, 0.0);
+    }
+    let link = |i: u32| Link { ends: [i, i + 1], rest: 1.0, stiffness: 100.0, damping: 0.2, rope: false };
+    particles.links.springs = (0..11).map(link).collect();
+    let judged = |forces: Vec<Box<dyn motes::forces::Force>>, name: &str, dt: f64| {
+        let entry = motes::integrators::entry(name).expect("an integrator");
+        let (particles, bounds) = (particles.clone(), Bounds::default());
+        let setup = motes::Setup {
+            particles,
+            forces,
+            integrator: (entry.build)(),
+            dt,
+            bounds,
+            solver: motes::Solver::default(),
+        };
+        block_on(Verdict::of(&setup, entry.build, 1_000_000)).expect("a verdict")
     };
-    assert_eq!(across(1.0, 1.0, false), 0.0);
-    assert_eq!(across(0.5, 1.0, false), 0.0);
-    assert_eq!(across(2.0, 1.0, false), 4.0);
-    assert_eq!(across(2.0, 0.0, false), 8.0);
-    assert_eq!(across(0.0, 0.0, false), 8.0);
-    assert_eq!(across(0.5, 1.0, true), 0.0);
+    assert_eq!(judged(Vec::new(), "leapfrog", 0.1), None);
+    // ω² ≤ 4 k / m, c ≤ 4 · 0.2 / m: h²ω² + 2hc = 4.
+    let (square, damping) = (4000.0, 8.0);
+    let want = 4.0 / (damping + f64::sqrt(damping * damping + 4.0 * square));
+    let verdict = judged(vec![force("spring", &[])], "leapfrog", 0.05).expect("springs");
+    assert!((verdict.safe / want - 1.0).abs() < 1e-6 && !verdict.by_damping, "{verdict:?}, not {want}");
+    assert!(verdict.lost > verdict.safe && verdict.lost < 1.1 * verdict.safe, "{verdict:?}");
+    // 0.05 / (0.9 · 0.0298)
+    assert_eq!(
+        (verdict.substeps(0.05), verdict.substeps(verdict.safe), verdict.substeps(1e9)),
+        (Some(2), Some(1), None)
+    );
+    let safe = judged(vec![force("spring", &[])], "leapfrog", 0.02).expect("springs");
+    assert!(safe.lost.is_infinite(), "nobody looked: {safe:?}");
 }

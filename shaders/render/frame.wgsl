@@ -24,6 +24,13 @@ struct Frame {
     tail: f32,     // how long ago a stroke of light begins [time]
     bleach: f32,   // how white the brightest lights become
     ink: f32,      // how far particles darken a bright sky; 0 for lights in a dark one
+    fine: u32,     // samples of a pixel each way, where surfaces, lines and solids are drawn
+    thread: f32,   // half the width of a line [pixels]
+    triangles: u32,
+    facets: u32,   // triangles, and lines behind them
+    solids: u32,
+    lamp: f32,     // half the height of what the lamp sees [length]
+    map: u32,      // pixels of what the lamp sees, each way
 }
 @group(3) @binding(0) var<uniform> frame: Frame;
 

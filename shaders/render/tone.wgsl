@@ -1,6 +1,7 @@
-// The finished picture: sky, what is in front of it, a halo around what is bright, and noise instead of bands.
+// The finished picture: sky, what stands and flies in front of it, a halo around what is bright, and noise instead of bands.
 @group(3) @binding(7) var<storage, read_write> pixels: array<u32>; // red, green, blue, 255 from the lowest byte on
 @group(3) @binding(9) var<storage, read> halo: array<vec4f>;
+@group(3) @binding(15) var<storage, read> scenery: array<u32>; // red, green, blue, and how much of the pixel they cover
 
 fn near(x: i32, y: i32) -> vec3f {
     let columns = i32((frame.width + SHRINK - 1u) / SHRINK);
@@ -31,7 +32,8 @@ fn tone(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
     if i < frame.width * frame.height {
         let place = middle(i32(i % frame.width), i32(i / frame.width));
         let light = frame.bloom * halo_at(place);
-        let c = screen(look(i, background(place)), light / (1.0 + light));
+        let behind = unpack4x8unorm(scenery[i]);
+        let c = screen(look(i, mix(background(place), behind.rgb, behind.a)), light / (1.0 + light));
         let bytes = vec3u(clamp(c, vec3f(0.0), vec3f(1.0)) * 255.0 + noise(i));
         pixels[i] = 0xff000000u | (min(bytes.b, 255u) << 16u) | (min(bytes.g, 255u) << 8u) | min(bytes.r, 255u);
     }

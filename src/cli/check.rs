@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
 use motes::kernel::{ACCELERATION, Backend};
-use motes::render::{Picture, Trail};
+use motes::render::{Picture, Scenery, Trail};
 use motes::{Bounds, Cpu, Gpu, Simulation};
 
 use super::advice::advice;
@@ -18,7 +18,7 @@ use super::substeps::{self, Loaded};
 pub async fn check(args: &SceneArgs) -> Result<(), Failure> {
     let Loaded { scene, setup, .. } = substeps::load(args, None).await?;
     let count = setup.check()?;
-    Picture::new(&scene.picture, &setup.particles, &[], Trail::new(0))?;
+    Picture::with(&scene.picture, &setup.particles, &[], Trail::new(0), &Scenery::of(&setup.particles))?;
     let engine = Engine::choose(&args.device).await?;
     out!("{}: {count} particles, {} steps of {} by {}", scene.name, scene.steps, scene.dt, scene.integrator.name);
     out!("on {}", engine.describe());

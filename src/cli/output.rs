@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use motes::io::{Precision, atomically, csv, npz};
 use motes::measure::Flock;
-use motes::render::{Color, Picture, Trail, framed, group_color, pack};
+use motes::render::{Color, Picture, Scenery, Trail, framed, group_color, pack};
 use motes::scene::{Format, Group, Scene};
 use motes::settings::Settings;
 use motes::{Bounds, Error, Measure, Snapshot};
@@ -33,6 +33,8 @@ pub struct Output {
     company: Vec<Flock>,
     /// Where a few particles have been.
     pub trail: Trail,
+    /// What pictures show beside particles.
+    pub scenery: Scenery,
 }
 
 impl Output {
@@ -65,6 +67,7 @@ impl Output {
             rows: Vec::new(),
             flock: flock.transpose()?,
             company: Vec::new(),
+            scenery: Scenery::default(),
             // A trail is for pictures.
             trail: Trail::new(if scene.output.formats.contains(&Format::Png) || scene.output.frames > 0 {
                 count
@@ -125,7 +128,8 @@ impl Output {
             u32::try_from(found.unwrap_or(0)).unwrap_or(0)
         };
         let groups: Vec<u32> = (0..snapshot.particles.len()).map(of).collect();
-        let mut picture = Picture::new(&self.picture, &snapshot.particles, &groups, self.trail.clone())?;
+        let trail = self.trail.clone();
+        let mut picture = Picture::with(&self.picture, &snapshot.particles, &groups, trail, &self.scenery)?;
         // Colours that the scene gives count before those of the palette, unless another was asked for.
         if !["speed", "heading"].contains(&self.picture.text("color")) && self.groups.iter().any(|g| g.color.is_some())
         {

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use motes::io::Precision;
 use motes::kernel::Backend;
-use motes::render::{Image, Picture, Trail};
+use motes::render::{Image, Picture, Scenery, Trail};
 use motes::scene::Scene;
 use motes::stability::Verdict;
 use motes::{Cpu, Error, Measure, POSITION, Setup, Simulation, Snapshot};
@@ -55,7 +55,7 @@ pub async fn run(args: &RunArgs) -> Result<(), Failure> {
             run.progress.event("error", json!({ "code": error.exit_code(), "text": error.to_string() }));
         }
         Err(Failure::Explained(error, more)) => {
-            run.progress.event("error", json!({ "code": error.exit_code(), "text": error.to_string(), "more": more }))
+            run.progress.event("error", json!({ "code": error.exit_code(), "text": error.to_string(), "more": more }));
         }
         _ => {}
     }
@@ -75,6 +75,8 @@ struct Run {
     count: usize,
     /// How far somebody looks for company, if anybody does.
     company: Option<(f64, Option<u32>)>,
+    /// What pictures show beside particles.
+    scenery: Scenery,
     /// What should stay as it is.
     conserved: Conserved,
     progress: Progress,
@@ -86,7 +88,8 @@ struct Run {
 impl Run {
     fn new(args: &RunArgs, scene: Scene, setup: &Setup, engine: &Engine) -> Result<Self, Failure> {
         let progress = Progress::new(args, scene.steps);
-        Picture::new(&scene.picture, &setup.particles, &[], Trail::new(0))?;
+        let scenery = Scenery::of(&setup.particles);
+        Picture::with(&scene.picture, &setup.particles, &[], Trail::new(0), &scenery)?;
         let device = engine.describe();
         let count = setup.particles.len();
         let folder = args.output.clone().unwrap_or_else(|| PathBuf::from("out").join(&scene.name));
@@ -107,7 +110,7 @@ impl Run {
         }
         let company = setup.forces.iter().find_map(|force| force.company());
         let (conserved, stop) = (conserved(setup)?, Stop::listen());
-        Ok(Self { scene, device, folder, film, count, company, conserved, progress, stop, last: None })
+        Ok(Self { scene, device, folder, film, count, company, scenery, conserved, progress, stop, last: None })
     }
 
     async fn drive<B: Backend>(&mut self, mut simulation: Simulation<B>, precision: Precision) -> Result<(), Failure> {
@@ -117,6 +120,7 @@ impl Run {
             self.progress.event("remark", json!({ "text": text }));
         }
         let mut output = Output::new(&self.folder, &self.scene, self.count, self.company, precision, &self.device)?;
+        output.scenery = self.scenery.clone();
         let (steps, every) = (self.scene.steps, self.scene.output.every);
         let mut image = self.write(&mut simulation, &mut output).await?;
         self.shoot(&mut simulation, &output).await?;

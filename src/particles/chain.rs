@@ -49,7 +49,7 @@ const KEYS: &[Key] = &[
         "what the joints between three resist bending with, EI / ds [mass length² / time²]",
     ),
     Key::new(
-        "fixed",
+        "pins",
         Kind::Choice(&["none", "first", "ends"]),
         Value::Text(Cow::Borrowed("none")),
         "which of them forces do not move",
@@ -93,7 +93,7 @@ fn build(settings: &Settings) -> Result<Particles, Error> {
             particles.links.joints.push(Joint { ids: [i - 1, i, i + 1], stiffness: bending });
         }
     }
-    match settings.text("fixed") {
+    match settings.text("pins") {
         "first" => hold(&mut particles, [0]),
         "ends" => hold(&mut particles, [0, last]),
         _ => {}

@@ -57,8 +57,8 @@ const KEYS: &[Key] = &[
         "lengths at rest, as a part of the distances; 0 pulls alike in all directions",
     ),
     Key::new(
-        "fixed",
-        Kind::Choice(FIXED),
+        "pins",
+        Kind::Choice(PINS),
         Value::Text(Cow::Borrowed("none")),
         "which particles forces do not move: of the first row its two corners or all; the first column; all around",
     ),
@@ -74,7 +74,7 @@ const KEYS: &[Key] = &[
     PARTICLE_RADIUS,
 ];
 
-const FIXED: &[&str] = &["none", "corners", "row", "column", "rim"];
+const PINS: &[&str] = &["none", "corners", "row", "column", "rim"];
 
 /// `columns * rows` particles, the middle of the sheet at `center`; those of a row follow each other, so particle i of row j
 /// has the id  i + columns j. Squares are cut into triangles along alternate diagonals.
@@ -107,7 +107,7 @@ fn build(settings: &Settings) -> Result<Particles, Error> {
     let threads = Threads::read(&reader)?;
     let angle = right.dot(down);
     threads.tie(&mut particles.links, columns, rows, spacing, angle);
-    match settings.text("fixed") {
+    match settings.text("pins") {
         "corners" => hold(&mut particles, [0, columns - 1]),
         "row" => hold(&mut particles, 0..columns),
         "column" => hold(&mut particles, (0..rows).map(|j| j * columns)),

@@ -3,46 +3,21 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use glam::{DVec2, DVec3, Vec4};
+use glam::{DVec2, DVec3};
 
 use super::Camera;
 use crate::error::Error;
-use crate::kernel::{Field, Host, Kernel, Pass, Scalar, Shader, Source, Threads};
+use crate::kernel::{Host, Kernel, Pass, Scalar, Shader, Source, Threads};
 
-pub const PROJECTED: Field<Vec4> = Field::new("projected");
-pub const COLOR: Field<u32> = Field::new("color");
-pub const TRAIL: Field<Vec4> = Field::new("trail");
-pub const MISSED: Field<u32> = Field::new("missed");
-pub const CANVAS: Field<u32> = Field::new("canvas");
-pub const FRONT: Field<u32> = Field::new("front");
-pub const OWNER: Field<u32> = Field::new("owner");
-pub const STREAK: Field<u32> = Field::new("streak");
-pub const HISTOGRAM: Field<u32> = Field::new("histogram");
-pub const HALO: Field<Vec4> = Field::new("halo");
-pub const SPREAD: Field<Vec4> = Field::new("spread");
-pub const PIXELS: Field<u32> = Field::new("pixels");
-
-/// Fields that live as long as one picture is drawn.
-pub const OWN: [&str; 12] = [
-    PROJECTED.name,
-    COLOR.name,
-    TRAIL.name,
-    MISSED.name,
-    CANVAS.name,
-    FRONT.name,
-    OWNER.name,
-    STREAK.name,
-    HISTOGRAM.name,
-    HALO.name,
-    SPREAD.name,
-    PIXELS.name,
-];
+pub use super::fields::*;
 
 pub const NOBODY: u32 = u32::MAX;
+/// Further than anything.
+pub const NEVER: f64 = 1e30;
 pub const BINS: usize = 256;
 /// So many pixels of the picture are one of the halo, each way.
 pub const SHRINK: u32 = 4;
-const NEAR: f64 = 0.05;
+pub const NEAR: f64 = 0.05;
 const FAR_OUT: f64 = 1e6;
 
 /// The numbers of a picture.
@@ -86,6 +61,20 @@ pub struct Frame {
     pub bleach: f64,
     /// How far particles darken a bright sky, as a part of all of it; zero for lights in a dark one.
     pub ink: f64,
+    /// Samples of a pixel each way, where surfaces, lines and solids are drawn.
+    pub fine: u32,
+    /// Half the width of a line \[pixels\].
+    pub thread: f64,
+    /// How many triangles are drawn.
+    pub triangles: u32,
+    /// How many triangles and lines.
+    pub facets: u32,
+    /// How many solids.
+    pub solids: u32,
+    /// Half the height of what is in the map of shadows \[length\].
+    pub lamp: f64,
+    /// Pixels of the map of shadows, each way.
+    pub map: u32,
 }
 
 /// Where a place is seen.
@@ -108,6 +97,10 @@ impl Frame {
     pub(super) fn area(&self) -> u32 {
         self.width * self.height
     }
+    /// Samples of surfaces, lines and solids.
+    pub(super) fn samples(&self) -> u32 {
+        self.area() * self.fine * self.fine
+    }
     /// Columns and rows of the halo.
     pub(super) fn shrunk(&self) -> (u32, u32) {
         (self.width.div_ceil(SHRINK), self.height.div_ceil(SHRINK))
@@ -123,6 +116,10 @@ impl Frame {
         let visible = (parallel || depth > near) && place.abs().max_element() < FAR_OUT;
         Seen { place, depth, scale, visible }
     }
+    /// What is linear in the picture, and back: one over the depth where rays meet in an eye.
+    pub(super) fn flat_depth(&self, depth: f64) -> f64 {
+        if self.camera.distance > 0.0 { depth.recip() } else { depth }
+    }
     /// Columns and rows that something between two corners may touch.
     pub(super) fn touched(&self, low: DVec2, high: DVec2) -> (Range<u32>, Range<u32>) {
         let low = low.floor().clamp(DVec2::ZERO, self.size());
@@ -132,7 +129,7 @@ impl Frame {
     pub(super) fn pixel(&self, x: u32, y: u32) -> usize {
         y as usize * self.width as usize + x as usize
     }
-    fn values(&self) -> [(&'static str, Scalar); 24] {
+    fn values(&self) -> [(&'static str, Scalar); 31] {
         let camera = &self.camera;
         let float = Scalar::Float;
         [
@@ -160,6 +157,13 @@ impl Frame {
             ("tail", float(self.tail)),
             ("bleach", float(self.bleach)),
             ("ink", float(self.ink)),
+            ("fine", Scalar::Uint(self.fine)),
+            ("thread", float(self.thread)),
+            ("triangles", Scalar::Uint(self.triangles)),
+            ("facets", Scalar::Uint(self.facets)),
+            ("solids", Scalar::Uint(self.solids)),
+            ("lamp", float(self.lamp)),
+            ("map", Scalar::Uint(self.map)),
         ]
     }
     /// Elements of the fields that do not have one for each particle.
@@ -177,6 +181,16 @@ impl Frame {
             (HALO.name, u64::from(columns) * u64::from(rows)),
             (SPREAD.name, u64::from(columns) * u64::from(rows)),
             (PIXELS.name, area),
+            (FACET.name, 3 * u64::from(self.facets)),
+            (SLOT.name, 3 * u64::from(self.facets)),
+            (TORN.name, u64::from(self.facets)),
+            (VERTEX.name, 2 * u64::from(self.count)),
+            (LIT_VERTEX.name, 2 * u64::from(self.count)),
+            (NEAREST.name, u64::from(self.samples())),
+            (HOLDER.name, u64::from(self.samples())),
+            (LIT.name, u64::from(self.map * self.map)),
+            (SOLID.name, u64::from(self.solids.max(1))),
+            (SCENERY.name, area),
         ]
     }
     /// A dispatch of files joined with `world.wgsl` and `frame.wgsl`; `each` is about what one invocation does.

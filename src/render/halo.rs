@@ -21,7 +21,7 @@ pub fn kernel(frame: &Frame, exposure: Exposure) -> Result<Kernel, Error> {
     down.constants = vec![("DOWN", 1.0)];
     let frame = *frame;
     let twin = move |host: &Host| {
-        let small = Look::at(host, frame, exposure, |look| shrunk(&frame, look))?;
+        let small = Look::at(host, &frame, exposure, |look| shrunk(&frame, look))?;
         let spread = blur(&small, frame.reach, columns as usize, 1, |at| at % columns as usize);
         let both = blur(&spread, frame.reach, rows as usize, columns as usize, |at| at / columns as usize);
         for (halo, light) in host.write(HALO)?.iter_mut().zip(both) {

@@ -40,11 +40,11 @@ pub struct Look<'a> {
 
 impl Look<'_> {
     /// Opens the fields of a host for as long as `run` takes.
-    pub fn at<T>(host: &Host, frame: Frame, exposure: Exposure, run: impl FnOnce(&Look) -> T) -> Result<T, Error> {
+    pub fn at<T>(host: &Host, frame: &Frame, exposure: Exposure, run: impl FnOnce(&Look) -> T) -> Result<T, Error> {
         let (projected, color, canvas) = (host.read(PROJECTED)?, host.read(COLOR)?, host.read(CANVAS)?);
         let (owner, streak) = (host.read(OWNER)?, host.read(STREAK)?);
         Ok(run(&Look {
-            frame,
+            frame: *frame,
             exposure,
             projected: &projected,
             color: &color,

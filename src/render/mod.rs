@@ -1,16 +1,21 @@
 //! Pictures, drawn by kernels like any other: on a device, or by their twins with no driver at all.
 //!
 //! Few or large particles are shaded balls with trails; many small ones are lights that add up on a canvas of whole
-//! numbers, so that a picture has the same bytes on every run.
+//! numbers, so that a picture has the same bytes on every run. Cloth is a surface, springs are lines, and solids stand
+//! among them, in the light of one lamp.
 
 mod blank;
 mod camera;
 mod cover;
 mod draw;
+mod fields;
 mod film;
 mod frame;
 mod halo;
 mod heading;
+mod hide;
+mod keys;
+mod light;
 mod look;
 mod meter;
 mod paint;
@@ -19,18 +24,27 @@ mod picture;
 #[cfg(feature = "scene")]
 mod png;
 mod project;
+mod raster;
+mod scenery;
+mod shade;
 mod sky;
+mod solid;
 mod splat;
 mod streak;
 mod stroke;
+mod tear;
 mod tone;
 mod trail;
+mod vertex;
 
 pub use camera::{Camera, framed};
 pub use draw::{Image, draw};
 pub use film::{Film, shoot};
 pub use frame::Frame;
+pub use keys::KEYS;
 pub use meter::Exposure;
 pub use palette::{Color, group_color, pack};
-pub use picture::{KEYS, Picture};
+pub use picture::Picture;
+pub use scenery::Scenery;
+pub use solid::{Shape, Solid};
 pub use trail::Trail;

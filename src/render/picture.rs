@@ -5,74 +5,18 @@ use std::borrow::Cow;
 use glam::DVec3;
 
 use super::camera::FEW;
+use super::frame::{HOLDER, LIT, LIT_VERTEX, NEAREST, NEVER, VERTEX};
+use super::light::{LAMP_VIEW, from_lamp};
 use super::meter::Exposure;
-use super::{Camera, Color, Frame, Trail};
-use super::{blank, cover, halo, heading, meter, paint, project, splat, streak, stroke, tone};
+use super::raster::{self, Fields};
+use super::scenery::Facets;
+use super::{Camera, Color, Frame, Scenery, Solid, Trail};
+use super::{blank, cover, halo, heading, hide, meter, paint, project};
+use super::{shade, splat, streak, stroke, tear, tone, vertex};
 use crate::error::Error;
 use crate::kernel::Plan;
 use crate::particles::Particles;
-use crate::settings::{Key, Kind, Settings, Value};
-
-const fn word(text: &'static str) -> Value {
-    Value::Text(Cow::Borrowed(text))
-}
-
-/// What a scene may say in `[picture]`.
-pub const KEYS: &[Key] = &[
-    Key::new("width", Kind::Count, Value::Number(1280.0), "from left to right [pixels]"),
-    Key::new("height", Kind::Count, Value::Number(720.0), "from top to bottom [pixels]"),
-    Key::new("eye", Kind::Direction, Value::Vector(DVec3::new(0.35, -1.0, 0.7)), "from the centre towards the eye"),
-    Key::new("up", Kind::Direction, Value::Vector(DVec3::Z), "what is up in the picture"),
-    Key::new(
-        "projection",
-        Kind::Choice(&["perspective", "orthographic"]),
-        word("perspective"),
-        "whether what is nearer looks larger",
-    ),
-    Key::new(
-        "auto_frame",
-        Kind::Flag,
-        Value::Flag(true),
-        "look at all particles but the outermost, and at their trails; each picture by itself, a film once",
-    ),
-    Key::new("center", Kind::Vector, Value::Vector(DVec3::ZERO), "what to look at, without auto_frame [length]"),
-    Key::new(
-        "extent",
-        Kind::Positive,
-        Value::Number(1.0),
-        "half the height of the picture at the centre, without auto_frame [length]",
-    ),
-    Key::new(
-        "style",
-        Kind::Choice(&["auto", "glow", "balls"]),
-        word("auto"),
-        "particles as lights, as shaded balls, or balls where they are few or large",
-    ),
-    Key::new(
-        "color",
-        Kind::Choice(&["auto", "group", "speed", "heading"]),
-        word("auto"),
-        "by group of particles, by speed, by heading (hue round the z axis, lighter upwards); auto: by speed where many are one group",
-    ),
-    Key::new(
-        "tail",
-        Kind::NotNegative,
-        Value::Number(0.0),
-        "draw each particle as a stroke of light from where it was so long ago [time]",
-    ),
-    Key::new(
-        "exposure",
-        Kind::Positive,
-        Value::Number(1.0),
-        "brightness of lights, as a multiple of the automatic one",
-    ),
-    Key::new(
-        "background",
-        Kind::Choice(&["night", "black", "dusk"]),
-        word("night"),
-        "a dark blue sky; nothing; or a bright sky at dusk, with lights and trails as ink",
-    ),
-];
+use crate::settings::{Settings, Value};
 
 /// A picture of so many particles, from one place. It can be drawn again and again as they move.
 #[derive(Debug, Clone, PartialEq)]
@@ -85,6 +29,7 @@ pub struct Picture {
     pub trail: Trail,
     /// Brightness of lights, as a multiple of the automatic one.
     pub exposure: f64,
+    facets: Facets,
 }
 
 /// Pixels from side to side, at most: one invocation draws a whole line.
@@ -93,8 +38,10 @@ const SIDE: f64 = 8192.0;
 const AREA: f64 = 11_184_810.0;
 /// A ball of many is this large at most \[pixels\].
 const LARGEST_OF_MANY: f64 = 80.0;
-/// No ball is that large \[pixels\].
-const NEVER: f64 = 1e9;
+/// Samples of a pixel each way, at most.
+const FINE: u32 = 3;
+/// Samples of all pixels together, at most: a number for each fits the 128 MiB that every device binds.
+const SAMPLES: u32 = 1 << 25;
 
 impl Picture {
     /// The picture that a scene's `[picture]` asks for, framed for these particles. `groups` has a number for each of
@@ -103,6 +50,19 @@ impl Picture {
     /// # Errors
     /// [`Error::Scene`] when there are no particles or too many, or the picture is too large.
     pub fn new(settings: &Settings, particles: &Particles, groups: &[u32], trail: Trail) -> Result<Self, Error> {
+        Self::with(settings, particles, groups, trail, &Scenery::default())
+    }
+    /// The same with what ties the particles together, and with solids. What of it is drawn the key `draw` says.
+    ///
+    /// # Errors
+    /// As for [`Picture::new`]; when a link has an id that no particle has, or there are too many solids.
+    pub fn with(
+        settings: &Settings,
+        particles: &Particles,
+        groups: &[u32],
+        trail: Trail,
+        scenery: &Scenery,
+    ) -> Result<Self, Error> {
         let (width, height) = (settings.number("width"), settings.number("height"));
         if !(1.0..=SIDE).contains(&width) || !(1.0..=SIDE).contains(&height) || width * height > AREA {
             return Err(Error::Scene(format!(
@@ -114,8 +74,17 @@ impl Picture {
         let (few, style) = (particles.len() <= FEW, settings.text("style"));
         let background = settings.text("background");
         let dusk = background == "dusk";
-        let color = Color::choose(settings, particles, groups);
-        let camera = Camera::fit(particles, &trail, settings);
+        let facets = Facets::new(scenery, count, settings.text("draw"))?;
+        // What is tied together is one thing, of one colour.
+        let plain = facets.count > 0 && settings.text("color") == "auto";
+        let color = if plain {
+            Color::choose(&settings.clone().with("color", Value::Text("group".into())), particles, groups)
+        } else {
+            Color::choose(settings, particles, groups)
+        };
+        let camera = Camera::fit(&beside(particles, &scenery.solids), &trail, settings);
+        let pixels = super::frame::whole(width) * super::frame::whole(height);
+        let fine = (1..=FINE).rev().find(|n| pixels * n * n <= SAMPLES).unwrap_or(1);
         let short = width.min(height);
         let frame = Frame {
             camera,
@@ -151,13 +120,26 @@ impl Picture {
             // White has no hue to say where it is heading.
             bleach: if color == Color::Heading { 0.2 } else { 0.6 },
             ink: if dusk { 0.94 } else { 0.0 },
+            fine,
+            // Many are hair.
+            thread: (short / if few { 300.0 } else { 1600.0 }).max(0.5 / f64::from(fine)),
+            triangles: facets.triangles,
+            facets: facets.count,
+            solids: facets.solids(),
+            map: 1024,
+            lamp: LAMP_VIEW * camera.extent * (width / height).max(1.0),
         };
-        Ok(Self { frame, color, trail, exposure: settings.number("exposure") })
+        Ok(Self { frame, color, trail, exposure: settings.number("exposure"), facets })
     }
     /// The same picture with other trails.
     pub fn retrace(&mut self, trail: Trail) {
         self.frame.points = points(&trail);
         self.trail = trail;
+    }
+    /// The same picture with solids elsewhere.
+    pub fn place(&mut self, solids: Vec<Solid>) {
+        self.facets.set(solids);
+        self.frame.solids = self.facets.solids();
     }
     /// From particles to light: what runs before the exposure is known.
     ///
@@ -172,6 +154,9 @@ impl Picture {
             Color::Heading => plan.add(heading::kernel(&self.frame)?),
             Color::Given(_) => {}
         }
+        if !self.facets.is_empty() {
+            self.stand(&mut plan)?;
+        }
         if self.frame.solid < NEVER {
             plan.add(cover::kernel(&self.frame)?);
         }
@@ -182,6 +167,26 @@ impl Picture {
         }
         plan.add(meter::kernel(&self.frame)?);
         Ok(plan)
+    }
+    /// Surfaces, lines and solids, before the particles that fly among them.
+    fn stand(&self, plan: &mut Plan) -> Result<(), Error> {
+        let (frame, facets, lamp) = (&self.frame, &self.facets, from_lamp(&self.frame));
+        if frame.facets > 0 {
+            plan.add(hide::kernel(frame, facets)?);
+            plan.add(tear::kernel(frame, facets)?);
+            plan.add(vertex::kernel("vertex", frame, facets, VERTEX)?);
+            plan.add(vertex::kernel("vertex of the lamp", &lamp, facets, LIT_VERTEX)?);
+        }
+        let from_eye = Fields { vertex: VERTEX, nearest: NEAREST, holder: Some(HOLDER) };
+        plan.add(raster::kernel("raster", frame, facets, from_eye)?);
+        plan.add(raster::kernel(
+            "raster of the lamp",
+            &lamp,
+            facets,
+            Fields { vertex: LIT_VERTEX, nearest: LIT, holder: None },
+        )?);
+        plan.add(shade::kernel(frame, facets)?);
+        Ok(())
     }
     /// From light to pixels.
     ///
@@ -196,6 +201,15 @@ impl Picture {
         plan.add(tone::kernel(&self.frame, exposure)?);
         Ok(plan)
     }
+}
+
+/// Particles, and where solids reach to.
+fn beside<'a>(particles: &'a Particles, solids: &[Solid]) -> Cow<'a, Particles> {
+    let mut all = Cow::Borrowed(particles);
+    for (solid, reach) in solids.iter().filter_map(|solid| Some((solid, solid.reach()?))) {
+        all.to_mut().push(solid.place, DVec3::ZERO, 0.0, reach);
+    }
+    all
 }
 
 fn points(trail: &Trail) -> u32 {

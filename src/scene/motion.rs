@@ -28,7 +28,7 @@ const KEYFRAME: &[Key] = &[
 ];
 const LIST: &str = "a list of tables, as in [{ time = 0 }, { time = 2, shift = [1, 0, 0] }]";
 
-/// Reads a motion and writes it out.
+/// Reads a motion and writes it out. One that is at fault still has its name, so that who names it is not told of that too.
 pub(super) fn read(
     table: &Table<'_>,
     earlier: &[Motion],
@@ -56,7 +56,7 @@ pub(super) fn read(
             Vec::new()
         }
     };
-    let (name, place) = name.filter(|_| report.len() == faults)?;
+    let (name, place) = name?;
     let motion = Motion {
         name: name.to_owned(),
         about: settings.vector("about"),
@@ -64,9 +64,11 @@ pub(super) fn read(
         smooth: settings.flag("smooth"),
         repeat: settings.flag("repeat"),
     };
+    if report.len() > faults {
+        return Some(motion);
+    }
     if let Err(why) = motion::check(&[], std::slice::from_ref(&motion), 0, bounds.dimensions, dt) {
         report.push(Fault::at(place, why.to_string()));
-        return None;
     }
     out.header("[[motion]]");
     out.text("name", name);

@@ -72,7 +72,9 @@ impl<'a> Network<'a> {
             if size == 0.0 || !size.is_finite() {
                 break;
             }
-            shape.iter_mut().for_each(|v| *v /= size);
+            for v in &mut shape {
+                *v /= size;
+            }
             let (stiff, damped) = (self.product(&shape, true), self.product(&shape, false));
             let quotient = |image: &[DVec3]| shape.iter().zip(image).map(|(a, b)| a.dot(*b)).sum::<f64>();
             mode = Mode { stiffness: quotient(&stiff), damping: quotient(&damped) };

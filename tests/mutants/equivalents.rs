@@ -5,6 +5,10 @@ use crate::support::equivalents::{Equivalent, same};
 const ANY_SIZE: &str = "the host reads the size of a workgroup by reflection, and any will do";
 const ALWAYS_SET: &str = "the host sets every override";
 const SLOW_WAY: &str = "it takes the way for blocks that are not apart, or not full: slower, and the same sum";
+const ENOUGH: &str = "more halvings than there are keys";
+const LAST_DIGITS: &str = "a part in a million, where `tests/pins` holds places to two units in the last place";
+const SINE: &str = "let sine_end";
+const COSINE: &str = "let cosine_end";
 const STORES_NOTHING: &str = "lanes behind the last particle store nothing of theirs";
 const EDGE: &str = "nobody stands at the very edge";
 const AT_THE_SIDE: &str = "who is at the side stays at the side, by one way or the other";
@@ -19,6 +23,25 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("", "override WEIGHT: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
     same("lead.wgsl", "override FIRST: u32 = 0u;", "0u", "1u", ALWAYS_SET),
     same("", "override END: u32 = 1u;", "1u", "2u", ALWAYS_SET),
+    same("hold.wgsl", "if i < END {", "<", "<=", "behind the last one stands the id of nobody"),
+    same("pose.wgsl", SINE, "-", " ", LAST_DIGITS),
+    same("pose.wgsl", SINE, "0.0000000239", "3.585e-8", LAST_DIGITS),
+    same("pose.wgsl", SINE, "+", "-", LAST_DIGITS),
+    same("pose.wgsl", COSINE, "-", " ", LAST_DIGITS),
+    same("pose.wgsl", COSINE, "0.0000002605", "3.9075e-7", LAST_DIGITS),
+    same("pose.wgsl", COSINE, "+", "-", LAST_DIGITS),
+    same("pose.wgsl", "for (var k", "0u", "1u", ENOUGH),
+    same("pose.wgsl", "for (var k", "<", "<=", ENOUGH),
+    same("pose.wgsl", "for (var k", "32u", "33u", ENOUGH),
+    same("pose.wgsl", "for (var k", "1u", "2u", ENOUGH),
+    same("pose.wgsl", "if middle > low {", ">", ">=", "it finds the same key again"),
+    same("pose.wgsl", "if since(middle", ">=", ">", EDGE),
+    same("pose.wgsl", "u >= 0.0);", ">=", ">", EDGE),
+    same("pose.wgsl", "var s = clamp(u, 0.0, 1.0);", "1.0", "1.5", "behind the last key nothing moves"),
+    same("solid.wgsl", "if hit.depth > 0.0 {", ">", ">=", EDGE),
+    same("solid.wgsl", "if speed > grip {", ">", ">=", "at the limit both are the same number"),
+    same("distance.wgsl", "if square > 0.0 {", ">", ">=", "whatever a driver makes of 0 / 0, times no axis"),
+    same("still.wgsl", "vec4f(0.0, 0.0, 0.0, 1.0)", "1.0", "1.5", "about no axis nothing turns"),
     same("moving.wgsl", "override REACHED: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
     same("at.wgsl", "override FACTOR: f32 = 0.0;", "0.0", "1.0", ALWAYS_SET),
     same("pairs_finish.wgsl", "override LAYERS: u32 = 1u;", "1u", "2u", ALWAYS_SET),

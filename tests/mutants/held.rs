@@ -9,7 +9,7 @@ use motes::{Bounds, Gpu, Side, Simulation};
 
 use crate::laws::resting;
 use crate::stages::{Device, FEW, Stage, fill, moving};
-use crate::support::machines::alone;
+use crate::support::machines::{alone, kernel_in};
 use crate::support::states::{force, integrator, vector, word};
 use crate::support::{Random, choices};
 
@@ -33,11 +33,12 @@ fn motions() -> Vec<Motion> {
         smooth,
         repeat: false,
     };
-    let mut again = motion("again", &[0.05, 0.15, 0.43], true);
-    again.keys[2] = Keyframe { time: 0.43, ..again.keys[0] };
+    // Five times over, and for the first time.
+    let mut again = motion("again", &[-3.1, -2.6, -2.2], true);
+    again.keys[2] = Keyframe { time: -2.2, ..again.keys[0] };
     again.repeat = true;
-    let mut late = motion("late", &[0.9, 1.2, 1.3], false);
-    late.keys[2] = Keyframe { time: 1.3, ..late.keys[0] };
+    let mut late = motion("late", &[0.9, 1.2, 1.9], false);
+    late.keys[2] = Keyframe { time: 1.9, ..late.keys[0] };
     late.repeat = true;
     let mut spun = motion("spun", &[0.8, 1.9], false);
     spun.keys[1].turn = spun.keys[0].turn * -3.7;
@@ -88,10 +89,11 @@ pub fn all(device: &Device, stages: &mut Vec<Stage>) {
         1 => Hold::Target,
         _ => Hold::Motion(id / 3 % number),
     });
-    let all_led = held(|id| Hold::Motion(id % number));
+    let everybody = 0..u32::try_from(FEW).expect("few");
+    let all_led: Vec<_> = everybody.map(|id| Held { id, by: Hold::Motion(id % number) }).collect();
     let periodic = Bounds::new(DVec3::new(-0.9, -1.1, -1.0), DVec3::new(0.7, 0.8, 0.9), Side::Periodic);
     let moves = integrator("symplectic_euler");
-    for (held, bounds) in [(&mixed, Bounds::default()), (&all_led, Bounds::default()), (&mixed, periodic)] {
+    for (held, bounds) in [(&all_led, Bounds::default()), (&mixed, periodic)] {
         let mut step = motes::integrators::Step::new(&[], problem(held, bounds));
         step.lead();
         moves.step(&mut step);
@@ -111,6 +113,21 @@ pub fn all(device: &Device, stages: &mut Vec<Stage>) {
         stages.push(staged("mirrors and held ones", simulation, kernel));
     }
     solids(device, &some, periodic, stages);
+    // From its line there is a way out of a capsule, whichever way it points; a plane has no images.
+    for axis in [vector(0.0, 0.0, 0.9), vector(0.3, 0.4, 0.2)] {
+        let mut plan = Plan::default();
+        let capsule = force("solid", &[("shape", word("capsule")), ("axis", axis), ("radius", Value::Number(0.3))]);
+        capsule.confine(&mut plan, &problem(&[], Bounds::default()), 0.7).expect("a kernel");
+        for kernel in plan.kernels {
+            stages.push(staged("capsule", resting(device, MACHINE, Bounds::default()), kernel));
+        }
+    }
+    for shape in ["plane", "sphere"] {
+        let settings =
+            [("shape", word(shape)), ("position", vector(0.5, -0.4, 0.3)), ("normal", vector(0.3, 0.5, -0.7))];
+        let kernel = kernel_in(periodic, force("obstacle", &settings).as_ref(), FEW, &MACHINE);
+        stages.push(staged("obstacle in a box", resting(device, MACHINE, periodic), kernel));
+    }
 }
 
 /// Every shape on every motion that moves; with some held, in a periodic box, with a drift that goes back.

@@ -73,7 +73,8 @@ pub fn planes(device: &Device, stages: &mut Vec<Stage>) {
     for entry in forces::FORCES {
         for settings in choices::variants(entry.keys) {
             let force = (entry.build)(&settings);
-            if force.laws().iter().any(|law| law.wgsl.text.contains("world.dimensions")) {
+            let asks = |text: &str| text.contains("world.dimensions") || text.contains("signed_distance(");
+            if force.laws().iter().any(|law| asks(&law.wgsl.text)) {
                 let kernel = kernel(force.as_ref(), FEW, &machine);
                 stages.push(stage(&format!("{}, flat", entry.name), resting(device, machine, flat), kernel));
             }

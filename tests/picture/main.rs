@@ -5,6 +5,7 @@ mod looks;
 mod places;
 #[path = "../support/mod.rs"]
 mod support;
+mod tied;
 
 use glam::DVec3;
 use motes::render::{Image, KEYS, Picture, Trail};

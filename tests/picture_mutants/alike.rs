@@ -10,10 +10,10 @@ const PART: f64 = 2e-5;
 const FEW: usize = 2;
 
 /// Whether a device's field is as the twin's.
-pub fn alike(name: &str, want: &Array, got: &Array) -> bool {
+pub fn alike(kernel: &str, name: &str, want: &Array, got: &Array) -> bool {
     match (want, got) {
         (Array::Vec4(want), Array::Vec4(got)) => want.len() == got.len() && want.iter().zip(got).all(near),
-        (Array::Uint(want), Array::Uint(got)) => want.len() == got.len() && counts(name, want, got),
+        (Array::Uint(want), Array::Uint(got)) => want.len() == got.len() && counts(kernel, name, want, got),
         _ => false,
     }
 }
@@ -23,7 +23,7 @@ fn near((want, got): (&DVec4, &DVec4)) -> bool {
     (0..4).all(within)
 }
 
-fn counts(name: &str, want: &[u32], got: &[u32]) -> bool {
+fn counts(kernel: &str, name: &str, want: &[u32], got: &[u32]) -> bool {
     let pairs = || want.iter().zip(got).map(|(w, g)| (*w, *g));
     let differ = pairs().filter(|(w, g)| w != g).count();
     match name {
@@ -39,6 +39,15 @@ fn counts(name: &str, want: &[u32], got: &[u32]) -> bool {
         "streak" => {
             let same = |(w, g): (u32, u32)| w & 0xffff == g & 0xffff && (w >> 16).abs_diff(g >> 16) <= 8;
             pairs().all(same)
+        }
+        // A depth is known to some tens of its last places, but for samples at an edge, which may belong to somebody else.
+        "nearest" | "lit" => pairs().filter(|(w, g)| w.abs_diff(*g) > 512).count() <= FEW + want.len() / 1000,
+        "front" if kernel == "shade" => pairs().filter(|(w, g)| w.abs_diff(*g) > 512).count() <= FEW,
+        "holder" => differ <= FEW + want.len() / 1000,
+        // A level, but where a sample is of somebody else, or on the rim of a shadow.
+        "scenery" => {
+            let far = |(w, g): &(u32, u32)| w.to_le_bytes().iter().zip(g.to_le_bytes()).any(|(w, g)| w.abs_diff(g) > 1);
+            pairs().filter(far).count() <= FEW + want.len() / 500 && differ <= FEW + want.len() / 100
         }
         _ => differ == 0,
     }

@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3, DVec4, Vec4};
 use motes::Particles;
 use motes::kernel::{Array, Field, Host};
-use motes::render::{Camera, Color, Exposure, KEYS, Picture, Trail};
+use motes::render::{Camera, Color, Exposure, KEYS, Picture, Scenery, Trail};
 use motes::settings::{Settings, Value};
 
 use crate::support::{self, Random};
@@ -50,6 +50,11 @@ pub const PLAIN: Wish = Wish {
 };
 
 pub fn scene(wish: &Wish, change: impl FnOnce(&mut Picture, &mut Particles)) -> Scene {
+    with(wish, &Scenery::default(), change)
+}
+
+/// The same with what stands in it.
+pub fn with(wish: &Wish, scenery: &Scenery, change: impl FnOnce(&mut Picture, &mut Particles)) -> Scene {
     let word = |text: &'static str| Value::Text(text.into());
     let mut particles = support::cloud(wish.count, 11);
     // Half as far again as the picture reaches, so that many cross its edges.
@@ -76,7 +81,7 @@ pub fn scene(wish: &Wish, change: impl FnOnce(&mut Picture, &mut Particles)) -> 
                 .push(&particles.position.iter().map(|x| *x + 0.3 * wish.extent * random.vector()).collect::<Vec<_>>());
         }
     }
-    let mut picture = Picture::new(&settings, &particles, &[], trail).expect("a picture");
+    let mut picture = Picture::with(&settings, &particles, &[], trail, scenery).expect("a picture");
     picture.frame.unit = 256.0;
     picture.frame.glow = 3.7;
     if wish.trails {
@@ -88,7 +93,7 @@ pub fn scene(wish: &Wish, change: impl FnOnce(&mut Picture, &mut Particles)) -> 
 }
 
 /// A place so many pixels right and up of the middle of the picture, and so far towards the eye.
-fn at(camera: &Camera, pixels: DVec2, height: u32, back: f64) -> DVec3 {
+pub fn at(camera: &Camera, pixels: DVec2, height: u32, back: f64) -> DVec3 {
     let length = 2.0 * camera.extent / f64::from(height);
     camera.center + length * (pixels.x * camera.right + pixels.y * camera.up) + back * camera.back
 }

@@ -45,7 +45,7 @@ impl Stage {
             let Ok(bytes) = pollster::block_on(gpu.bytes(name, 0, gpu.size(name))) else { return false };
             let (got, behind) = bytes.split_at(want.to_bytes().len());
             let given = self.padded(name, &self.given[name], gpu.size(name));
-            behind == &given[got.len()..] && alike(name, want, &want.like(got))
+            behind == &given[got.len()..] && alike(&self.kernel.name, name, want, &want.like(got))
         })
     }
     /// Whether a file is part of what runs here.
@@ -77,6 +77,13 @@ impl Stage {
         let free = [u32::MAX; 4];
         let behind =
             if ["front", "owner"].contains(&name) { bytemuck::bytes_of(&free) } else { bytemuck::bytes_of(&behind) };
+        // No particle there is drawn by itself; there is a facet, which is whole.
+        let words = match name {
+            "veil" => [1_u32; 4],
+            "facet" => [0, 12, 20, 4],
+            _ => [0; 4],
+        };
+        let behind = if ["veil", "facet", "torn"].contains(&name) { bytemuck::bytes_of(&words) } else { behind };
         let words = behind.iter().copied().cycle();
         let missing = usize::try_from(size).expect("small") - bytes.len();
         bytes.extend(words.take(missing));
@@ -113,6 +120,10 @@ pub fn stages(scene: &Scene, canvas: &Canvas) -> Vec<Stage> {
             _ => panic!("{name} is of no known kind"),
         };
         cpu.write(name, &garbage.like(&garbage.to_bytes())).expect("a field");
+    }
+    // What the host says of facets, springs and solids is no garbage.
+    for (name, words) in plans.iter().flat_map(|p| &p.kernels).flat_map(|kernel| &kernel.tables) {
+        cpu.write(name, &Array::Uint(words.to_vec())).expect("a table");
     }
     for (name, array) in scene.fields() {
         cpu.write(name, &array.like(&array.to_bytes())).expect("a field");

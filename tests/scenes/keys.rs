@@ -133,7 +133,7 @@ bodies = [{ position = [0, 0, 0], speed = [1, 0, 0] }]
    |
  5 | bodies = [{ position = [0, 0, 0], speed = [1, 0, 0] }]
    |                                   ^^^^^ it belongs in [[particles]]
-   = known here: `position`, `velocity`, `mass`, `radius`
+   = known here: `position`, `velocity`, `mass`, `radius`, `fixed`
 
 a.toml: 1 error",
     );

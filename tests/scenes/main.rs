@@ -6,6 +6,7 @@ mod bounds;
 mod builtin;
 mod files;
 mod fuzz;
+mod held;
 mod keys;
 mod missing;
 mod numbers;

@@ -66,7 +66,7 @@ fn broken_stays_broken_over_a_restart() {
             ("mass", number(0.1)),
             ("stretch", number(200.0)),
             ("jitter", number(0.2)),
-            ("fixed", word("row")),
+            ("pins", word("row")),
         ],
     );
     for (x, v) in sheet.position.iter().zip(&mut sheet.velocity) {

@@ -28,7 +28,7 @@ fn a_net_under_its_load() {
                 ("shear", number(0.0)),
                 ("bend", number(0.0)),
                 ("rest", number(0.0)),
-                ("fixed", word("rim")),
+                ("pins", word("rim")),
             ],
         );
         assert_eq!(net.held.len(), 4 * (n - 1));
@@ -66,7 +66,7 @@ fn cloth_that_hangs_by_two_corners() {
             ("stretch", number(100.0)),
             ("shear", number(50.0)),
             ("bend", number(10.0)),
-            ("fixed", word("corners")),
+            ("pins", word("corners")),
         ],
     );
     assert_eq!(cloth.links.springs.len(), 398);

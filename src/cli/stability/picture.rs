@@ -10,7 +10,9 @@ use super::Course;
 use crate::cli::args::StabilityArgs;
 use crate::cli::plot::{Area, FAINT, INK, fine, line, text, write};
 
-const SIZE: (u32, u32) = (1040, 1000);
+const SIZE: (u32, u32) = (1080, 1000);
+/// Pixels above what is drawn: a title, and a row of names.
+const TOP: i32 = 72;
 /// Pixels between two names.
 const APART: i32 = 19;
 /// So many decades up and down are shown.
@@ -62,19 +64,37 @@ pub fn draw(path: &Path, courses: &[Course], args: &StabilityArgs) -> Result<(),
     })
 }
 
-/// One curve for all that differ by less than a line's width everywhere.
-fn curves<'a>(courses: &'a [Course], values: fn(&Course) -> &Vec<f64>) -> Vec<Curve<'a>> {
-    let mut list: Vec<Curve> = Vec::new();
+/// One curve for all of a kind that differ by less than a line's width everywhere.
+fn curves(courses: &[Course], values: fn(&Course) -> &Vec<f64>) -> Vec<Curve<'_>> {
+    let mut list: Vec<(bool, Vec<&str>, &[f64])> = Vec::new();
     for course in courses {
-        let own = values(course);
+        let (own, kind) = (values(course), implicit(course.name));
         let level = |x: f64| shown(x).log10();
-        let same = |curve: &&mut Curve| curve.values.iter().zip(own).all(|(a, b)| (level(*a) - level(*b)).abs() < 0.02);
-        match list.iter_mut().find(same) {
-            Some(curve) => curve.name += &format!(", {}", course.name),
-            None => list.push(Curve { name: course.name.to_owned(), color: color(course.name), values: own }),
+        let alike = |known: &[f64]| known.iter().zip(own).all(|(a, b)| (level(*a) - level(*b)).abs() < 0.02);
+        match list.iter_mut().find(|(other, _, known)| *other == kind && alike(known)) {
+            Some((_, names, _)) => names.push(course.name),
+            None => list.push((kind, vec![course.name], own)),
         }
     }
-    list
+    let curve =
+        |(_, names, values): (bool, Vec<&str>, _)| Curve { name: together(&names), color: color(names[0]), values };
+    list.into_iter().map(curve).collect()
+}
+
+/// Whether it solves for the end of a step.
+fn implicit(name: &str) -> bool {
+    ["backward_euler", "trapezoid", "implicit_midpoint"].iter().any(|end| name.ends_with(end))
+}
+
+/// All names; one that is solved once and to the end alike appears once.
+fn together(names: &[&str]) -> String {
+    let solved = |name: &str| names.iter().any(|other| other.strip_prefix("linear_") == Some(name));
+    let once = |name: &&&str| !name.strip_prefix("linear_").is_some_and(|whole| names.contains(&whole));
+    let words = names
+        .iter()
+        .filter(once)
+        .map(|name| if solved(name) { format!("(linear_){name}") } else { (*name).to_owned() });
+    words.collect::<Vec<_>>().join(", ")
 }
 
 /// Within a decade of what is shown, so that equal curves are equal where nobody sees them.
@@ -85,12 +105,12 @@ fn shown(x: f64) -> f64 {
 
 fn panel(area: &Area, curves: &[Curve], title: &str, what: &str, steps: u32) -> Result<(), String> {
     let style = text(20).pos(Pos::new(HPos::Left, VPos::Center));
-    area.draw_text(title, &style, (fine(86), fine(26))).map_err(|e| e.to_string())?;
+    area.draw_text(title, &style, (fine(86), fine(24))).map_err(|e| e.to_string())?;
     let (low, high) = (10f64.powi(-DECADES), 10f64.powi(DECADES));
     let mut chart = ChartBuilder::on(area)
         .margin(fine(14))
-        .margin_top(fine(48))
-        .margin_right(fine(310))
+        .margin_top(fine(TOP))
+        .margin_right(fine(350))
         .x_label_area_size(fine(46))
         .y_label_area_size(fine(76))
         .build_cartesian_2d(0.0..f64::from(steps), (low..high).log_scale())
@@ -149,7 +169,7 @@ fn inside(values: &[f64]) -> Vec<(f64, f64)> {
             continue;
         }
         let before = points.last().map_or(0.0, |(_, value)| value.log10());
-        let part = (edge - before.abs().copysign(before * level)).abs() / (level - before).abs();
+        let part = (edge.copysign(level) - before) / (level - before);
         let at = f64::from(step.max(1)) - 1.0 + part.clamp(0.0, 1.0);
         points.push((at, 10f64.powf(edge.copysign(level))));
         break;
@@ -157,41 +177,82 @@ fn inside(values: &[f64]) -> Vec<(f64, f64)> {
     points
 }
 
-/// Names to the right of where curves end, moved apart; of those that leave the picture, beside that place.
+/// Names to the right of where curves end, moved apart; of those that leave by the top, in a row above it; of those that
+/// leave below, beside that place.
 fn label(area: &Area, mut names: Vec<((i32, i32), bool, &Curve)>) -> Result<(), String> {
-    let write = |text_of: &str, color: RGBColor, at: (i32, i32)| {
+    let write = |name: &str, color: RGBColor, at: (i32, i32)| {
         let style = text(15).color(&color).pos(Pos::new(HPos::Left, VPos::Center));
-        area.draw_text(text_of, &style, at).map_err(|e| e.to_string())
+        area.draw_text(name, &style, at).map_err(|e| e.to_string())
     };
-    // Who leaves: at the edge, one below the other where they leave together.
-    let mut gone: Vec<(i32, i32)> = Vec::new();
+    let join = |color: RGBColor, from: (i32, i32), to: (i32, i32)| {
+        area.draw(&PathElement::new([from, to], line(color, 1))).map_err(|e| e.to_string())
+    };
     names.sort_by_key(|((x, y), ..)| (*y, *x));
-    for ((x, y), _, curve) in names.iter().filter(|(_, whole, _)| !whole) {
-        let inward = if gone.iter().any(|(_, other)| (other - y).abs() < fine(60)) || *y < fine(260) { 1 } else { -1 };
-        let mut at = (x + fine(10), y + inward * fine(14));
-        while gone.iter().any(|(u, v)| (v - at.1).abs() < fine(APART) && (u - at.0).abs() < fine(330)) {
-            at.1 += inward * fine(APART);
+    let (ends, leaving): (Vec<_>, Vec<_>) = names.into_iter().partition(|(_, whole, _)| *whole);
+    let (mut free, mut lowest) = (0, i32::MAX);
+    for ((x, y), _, curve) in leaving {
+        let width = i32::try_from(curve.name.chars().count()).unwrap_or(0) * fine(7);
+        if y < fine(TOP + 9) {
+            let at = ((x - fine(12)).max(free), fine(TOP - 18));
+            join(curve.color, (x, y - fine(2)), (at.0 + fine(12), at.1 + fine(9)))?;
+            write(&curve.name, curve.color, at)?;
+            free = at.0 + width + fine(12);
+        } else {
+            lowest = (y - fine(14)).min(lowest - fine(APART));
+            write(&curve.name, curve.color, (x + fine(10), lowest))?;
         }
-        gone.push(at);
-        write(&curve.name, curve.color, at)?;
     }
-    let mut ends: Vec<_> = names.into_iter().filter(|(_, whole, _)| *whole).collect();
-    ends.sort_by_key(|((_, y), ..)| *y);
-    // As low as the one above pushes it; then all up by half of what the last was pushed.
-    let mut places: Vec<i32> = Vec::new();
-    for ((_, y), ..) in &ends {
-        let least = places.last().map_or(i32::MIN, |above| above + fine(APART));
-        places.push((*y).max(least));
-    }
-    let mean = |list: &mut dyn Iterator<Item = i32>| -> i64 { list.map(i64::from).sum() };
-    let count = i64::try_from(ends.len().max(1)).unwrap_or(1);
-    let shift = (mean(&mut places.iter().copied()) - mean(&mut ends.iter().map(|((_, y), ..)| *y))) / count;
-    let shift = i32::try_from(shift).unwrap_or(0);
-    for (((x, y), _, curve), place) in ends.into_iter().zip(places) {
-        let at = (x + fine(26), place - shift);
-        let thread = PathElement::new([(x + fine(3), y), (x + fine(20), at.1)], line(curve.color, 1));
-        area.draw(&thread).map_err(|e| e.to_string())?;
+    let wanted: Vec<i32> = ends.iter().map(|((_, y), ..)| *y).collect();
+    for (((x, y), _, curve), place) in ends.into_iter().zip(apart(&wanted, fine(APART))) {
+        let at = (x + fine(26), place);
+        join(curve.color, (x + fine(3), y), (x + fine(20), place))?;
         write(&curve.name, curve.color, at)?;
     }
     Ok(())
+}
+
+/// Places in order, moved apart to a distance: those that would overlap stand about their middle.
+fn apart(wanted: &[i32], distance: i32) -> Vec<i32> {
+    // First place and number of each group.
+    let mut groups: Vec<(i32, i32)> = Vec::new();
+    for place in wanted {
+        groups.push((*place, 1));
+        while let [.., (above, many), (below, few)] = groups[..] {
+            if above + many * distance <= below {
+                break;
+            }
+            let middle = |first: i32, count: i32| first + (count - 1) * distance / 2;
+            let both = many + few;
+            let center = (many * middle(above, many) + few * middle(below, few)) / both;
+            groups.truncate(groups.len() - 2);
+            groups.push((center - (both - 1) * distance / 2, both));
+        }
+    }
+    groups.into_iter().flat_map(|(first, count)| (0..count).map(move |i| first + i * distance)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_stand_apart_and_near() {
+        assert_eq!(apart(&[], 10), Vec::<i32>::new());
+        assert_eq!(apart(&[0, 50, 100], 10), [0, 50, 100]);
+        assert_eq!(apart(&[50, 50, 50], 10), [40, 50, 60]);
+        assert_eq!(apart(&[0, 98, 102], 10), [0, 95, 105]);
+    }
+    #[test]
+    fn names_stand_together() {
+        assert_eq!(together(&["midpoint", "heun"]), "midpoint, heun");
+        assert_eq!(together(&["linear_trapezoid", "trapezoid", "linear_b"]), "(linear_)trapezoid, linear_b");
+    }
+    #[test]
+    fn curves_end_at_the_edge() {
+        assert_eq!(inside(&[1.0, 1e2, 1e3]), [(0.0, 1.0), (1.0, 1e2), (2.0, 1e3)]);
+        assert_eq!(inside(&[1.0, 1e3, 1e5]), [(0.0, 1.0), (1.0, 1e3), (1.5, 1e4)]);
+        assert_eq!(inside(&[1.0, 1e-3, 0.0]), [(0.0, 1.0), (1.0, 1e-3), (1.5, 1e-4)]);
+        assert_eq!(inside(&[1.0, f64::NAN]), [(0.0, 1.0), (0.8, 1e4)]);
+        assert_eq!([1.0, 1e4, 1e-3].map(power), ["1", "10⁴", "10⁻³"]);
+    }
 }

@@ -28,6 +28,15 @@ pub fn decay(name: &str, z: f64) -> Option<f64> {
         "forward_euler" | "symplectic_euler" | "leapfrog" => (1.0 - z).abs(),
         "midpoint" | "heun" => two,
         "rk4" => (two - z.powi(3) / 6.0 + z.powi(4) / 24.0).abs(),
+        // Each kick takes the velocity at hand. θ as by Forest & Ruth (1990), λ as by Omelyan, Mryglod & Folk (2002).
+        "forest_ruth" => {
+            let theta = 1.0 / (2.0 - 2f64.cbrt());
+            ((1.0 - theta * z).powi(2) * (1.0 - (1.0 - 2.0 * theta) * z)).abs()
+        }
+        "pefrl" => {
+            let lambda = -0.212_341_831_062_605_4;
+            ((1.0 - (0.5 - lambda) * z) * (1.0 - lambda * z)).powi(2)
+        }
         "backward_euler" | "linear_backward_euler" => 1.0 / (1.0 + z),
         "implicit_midpoint" | "linear_implicit_midpoint" | "trapezoid" | "linear_trapezoid" => {
             ((1.0 - z / 2.0) / (1.0 + z / 2.0)).abs()

@@ -1,0 +1,66 @@
+// Where rays meet solids: a ball or capsule (a segment along its own z, and all within a radius of it), a box by its slabs
+// (Kay and Kajiya 1986), or a plane across its own z, seen from above. In the picture's axes.
+struct Solid {
+    place: vec3f, radius: f32,
+    size: vec3f,  shape: u32, // half of a box's sides; half of a segment in z; of a plane the squares of its grid in x
+    turn: vec4f,              // from its own axes, as a quaternion
+}
+@group(1) @binding(12) var<storage, read> solid: array<Solid>;
+
+struct Meeting { way: f32, normal: vec3f, number: u32 }
+
+const ROUND: u32 = 0u;
+const BOX: u32 = 1u;
+const PLANE: u32 = 2u;
+const NEVER: f32 = 1e30;
+
+fn turned(q: vec4f, v: vec3f) -> vec3f { return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v); }
+fn unturned(q: vec4f, v: vec3f) -> vec3f { return turned(vec4f(-q.xyz, q.w), v); }
+
+// Along a ray of any length to a ball about the origin; NEVER when it passes. By the nearest approach, which rounds little.
+fn to_ball(o: vec3f, d: vec3f, radius: f32) -> f32 {
+    let along = -dot(o, d) / dot(d, d);
+    let off = o + along * d;
+    let rest = radius * radius - dot(off, off);
+    if rest < 0.0 { return NEVER; }
+    return along - sqrt(rest / dot(d, d));
+}
+
+fn meet_round(o: vec3f, d: vec3f, s: Solid) -> vec4f {
+    let flat = max(dot(d.xy, d.xy), 1e-9);
+    let along = -dot(o.xy, d.xy) / flat;
+    let off = o.xy + along * d.xy;
+    let tube = along - sqrt(max(s.radius * s.radius - dot(off, off), 0.0) / flat);
+    let core = vec3f(0.0, 0.0, clamp(o.z + tube * d.z, -s.size.z, s.size.z));
+    var way = to_ball(o - core, d, s.radius);
+    // Between the ends the tube is met; beyond them a ball.
+    if abs(o.z + tube * d.z) < s.size.z { way = select(tube, NEVER, dot(off, off) > s.radius * s.radius); }
+    return vec4f((o + way * d - core) / s.radius, way);
+}
+
+fn meet_box(o: vec3f, d: vec3f, s: Solid) -> vec4f {
+    let safe = select(d, vec3f(1e-9), abs(d) < vec3f(1e-9));
+    let middle = -o / safe;
+    let half = abs(s.size / safe);
+    let enter = middle - half;
+    let leave = middle + half;
+    let way = max(enter.x, max(enter.y, enter.z));
+    let first = select(vec3f(0.0), vec3f(1.0), enter >= vec3f(way));
+    return vec4f(-sign(d) * first, select(way, NEVER, way > min(leave.x, min(leave.y, leave.z))));
+}
+
+// The nearest of all that is further along than `least`.
+fn meet(o: vec3f, d: vec3f, least: f32) -> Meeting {
+    var best = Meeting(NEVER, vec3f(), NOBODY);
+    for (var k = 0u; k < frame.solids; k += 1u) {
+        let s = solid[k];
+        let own = unturned(s.turn, o - s.place);
+        let way = unturned(s.turn, d);
+        var m = vec4f(0.0, 0.0, 1.0, -own.z / way.z);
+        if s.shape == ROUND { m = meet_round(own, way, s); }
+        if s.shape == BOX { m = meet_box(own, way, s); }
+        let front = s.shape != PLANE || way.z < 0.0;
+        if front && m.w > least && m.w < best.way { best = Meeting(m.w, turned(s.turn, m.xyz), k); }
+    }
+    return best;
+}

@@ -1,0 +1,61 @@
+//! The fields of a picture, by their names in shaders.
+
+use glam::Vec4;
+
+use crate::kernel::Field;
+
+pub const PROJECTED: Field<Vec4> = Field::new("projected");
+pub const COLOR: Field<u32> = Field::new("color");
+pub const TRAIL: Field<Vec4> = Field::new("trail");
+pub const MISSED: Field<u32> = Field::new("missed");
+pub const CANVAS: Field<u32> = Field::new("canvas");
+pub const FRONT: Field<u32> = Field::new("front");
+pub const OWNER: Field<u32> = Field::new("owner");
+pub const STREAK: Field<u32> = Field::new("streak");
+pub const HISTOGRAM: Field<u32> = Field::new("histogram");
+pub const HALO: Field<Vec4> = Field::new("halo");
+pub const SPREAD: Field<Vec4> = Field::new("spread");
+pub const PIXELS: Field<u32> = Field::new("pixels");
+pub const FACET: Field<u32> = Field::new("facet");
+pub const SLOT: Field<u32> = Field::new("slot");
+pub const TORN: Field<u32> = Field::new("torn");
+pub const AROUND_START: Field<u32> = Field::new("around_start");
+pub const AROUND: Field<u32> = Field::new("around");
+pub const VEIL: Field<u32> = Field::new("veil");
+pub const VERTEX: Field<Vec4> = Field::new("vertex");
+pub const NEAREST: Field<u32> = Field::new("nearest");
+pub const HOLDER: Field<u32> = Field::new("holder");
+/// The same as the lamp sees them.
+pub const LIT_VERTEX: Field<Vec4> = Field::new("lit_vertex");
+pub const LIT: Field<u32> = Field::new("lit");
+pub const SOLID: Field<u32> = Field::new("solid");
+pub const SCENERY: Field<u32> = Field::new("scenery");
+
+/// Fields that live as long as one picture is drawn.
+pub const OWN: [&str; 25] = [
+    PROJECTED.name,
+    COLOR.name,
+    TRAIL.name,
+    MISSED.name,
+    CANVAS.name,
+    FRONT.name,
+    OWNER.name,
+    STREAK.name,
+    HISTOGRAM.name,
+    HALO.name,
+    SPREAD.name,
+    PIXELS.name,
+    FACET.name,
+    SLOT.name,
+    TORN.name,
+    AROUND_START.name,
+    AROUND.name,
+    VEIL.name,
+    VERTEX.name,
+    NEAREST.name,
+    HOLDER.name,
+    LIT_VERTEX.name,
+    LIT.name,
+    SOLID.name,
+    SCENERY.name,
+];

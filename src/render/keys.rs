@@ -1,0 +1,74 @@
+//! What a scene may say in `[picture]`.
+
+use std::borrow::Cow;
+
+use glam::DVec3;
+
+use crate::settings::{Key, Kind, Value};
+
+const fn word(text: &'static str) -> Value {
+    Value::Text(Cow::Borrowed(text))
+}
+
+/// What a scene may say in `[picture]`.
+pub const KEYS: &[Key] = &[
+    Key::new("width", Kind::Count, Value::Number(1280.0), "from left to right [pixels]"),
+    Key::new("height", Kind::Count, Value::Number(720.0), "from top to bottom [pixels]"),
+    Key::new("eye", Kind::Direction, Value::Vector(DVec3::new(0.35, -1.0, 0.7)), "from the centre towards the eye"),
+    Key::new("up", Kind::Direction, Value::Vector(DVec3::Z), "what is up in the picture"),
+    Key::new(
+        "projection",
+        Kind::Choice(&["perspective", "orthographic"]),
+        word("perspective"),
+        "whether what is nearer looks larger",
+    ),
+    Key::new(
+        "auto_frame",
+        Kind::Flag,
+        Value::Flag(true),
+        "look at all particles but the outermost, and at their trails; each picture by itself, a film once",
+    ),
+    Key::new("center", Kind::Vector, Value::Vector(DVec3::ZERO), "what to look at, without auto_frame [length]"),
+    Key::new(
+        "extent",
+        Kind::Positive,
+        Value::Number(1.0),
+        "half the height of the picture at the centre, without auto_frame [length]",
+    ),
+    Key::new(
+        "style",
+        Kind::Choice(&["auto", "glow", "balls"]),
+        word("auto"),
+        "particles as lights, as shaded balls, or balls where they are few or large",
+    ),
+    Key::new(
+        "color",
+        Kind::Choice(&["auto", "group", "speed", "heading"]),
+        word("auto"),
+        "by group of particles, by speed, by heading (hue round the z axis, lighter upwards); auto: by speed where many are one group",
+    ),
+    Key::new(
+        "draw",
+        Kind::Choice(&["auto", "points", "surface", "lines"]),
+        word("auto"),
+        "what is tied together: triangles as a surface and other springs and rods as lines; all particles alone; only triangles; all springs and rods as lines",
+    ),
+    Key::new(
+        "tail",
+        Kind::NotNegative,
+        Value::Number(0.0),
+        "draw each particle as a stroke of light from where it was so long ago [time]",
+    ),
+    Key::new(
+        "exposure",
+        Kind::Positive,
+        Value::Number(1.0),
+        "brightness of lights, as a multiple of the automatic one",
+    ),
+    Key::new(
+        "background",
+        Kind::Choice(&["night", "black", "dusk"]),
+        word("night"),
+        "a dark blue sky; nothing; or a bright sky at dusk, with lights and trails as ink",
+    ),
+];

@@ -1,0 +1,173 @@
+//! What stands in a picture beside particles: what ties them together, and solids.
+
+use std::sync::Arc;
+
+use super::camera::FEW;
+use super::frame::{AROUND, AROUND_START, FACET, Frame, NOBODY, SLOT, SOLID, VEIL};
+use super::solid::Solid;
+use crate::error::Error;
+use crate::kernel::{Kernel, Name};
+use crate::links::{Links, MOST_LINKS, Network};
+use crate::particles::Particles;
+
+/// What a picture shows beside particles.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Scenery {
+    /// What ties the particles together, by their ids.
+    pub links: Arc<Links>,
+    /// Solids.
+    pub solids: Vec<Solid>,
+}
+
+impl Scenery {
+    /// What ties particles together, and no solids.
+    #[must_use]
+    pub fn of(particles: &Particles) -> Self {
+        Self { links: Arc::new(particles.links.clone()), solids: Vec::new() }
+    }
+}
+
+/// The field of springs that a simulation holds, and breaks.
+pub const LINK: &str = "link";
+/// Solids in one picture: every sample of it looks at all of them, twice.
+const MOST_SOLIDS: usize = 1024;
+
+/// Facets, triangles first and lines behind them, as tables for the device.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Facets {
+    pub triangles: u32,
+    pub count: u32,
+    solids: Vec<Solid>,
+    facet: Arc<Vec<u32>>,
+    slot: Arc<Vec<u32>>,
+    around_start: Arc<Vec<u32>>,
+    around: Arc<Vec<u32>>,
+    veil: Arc<Vec<u32>>,
+    link: Arc<Vec<u32>>,
+}
+
+impl Facets {
+    /// Those that are drawn of `count` particles, as the key `draw` says.
+    pub fn new(scenery: &Scenery, count: u32, draw: &str) -> Result<Self, Error> {
+        let links = &*scenery.links;
+        if scenery.solids.len() > MOST_SOLIDS {
+            let (n, most) = (scenery.solids.len(), MOST_SOLIDS);
+            return Err(Error::Scene(format!("a picture of {n} solids: {most} are the most that it draws")));
+        }
+        let solids = scenery.solids.clone();
+        if links.is_empty() || draw == "points" {
+            return Ok(Self { solids, ..Self::default() });
+        }
+        let mut cloth = vec![false; count as usize];
+        let mut tied = cloth.clone();
+        let mut facets: Vec<[u32; 3]> = if draw == "lines" { Vec::new() } else { links.triangles.clone() };
+        for id in facets.iter().flatten() {
+            *cloth.get_mut(*id as usize).ok_or_else(|| beyond(*id, count))? = true;
+        }
+        let triangles = facets.len();
+        if draw != "surface" {
+            let ends = links.springs.iter().map(|s| s.ends).chain(links.rods.iter().map(|r| r.ends));
+            for [a, b] in ends {
+                for id in [a, b] {
+                    *tied.get_mut(id as usize).ok_or_else(|| beyond(id, count))? = true;
+                }
+                // On a cloth they are seen as the cloth.
+                if !(cloth[a as usize] && cloth[b as usize]) {
+                    facets.push([a.min(b), a.max(b), NOBODY]);
+                }
+            }
+        }
+        let network = Network::new(count, links);
+        let slot = |[a, b]: [u32; 2]| {
+            let row = network.link_start[a as usize]..network.link_start[a as usize + 1];
+            row.into_iter().find(|k| network.link.get(4 * *k as usize) == Some(&b)).unwrap_or(NOBODY)
+        };
+        let sides = |[a, b, c]: [u32; 3]| {
+            if c == NOBODY { [slot([a, b]), NOBODY, NOBODY] } else { [slot([a, b]), slot([b, c]), slot([c, a])] }
+        };
+        let slots = facets.iter().flat_map(|facet| sides(*facet)).collect();
+        let few = count as usize <= FEW;
+        let veil = cloth.iter().zip(&tied).map(|(cloth, tied)| u32::from(*cloth || *tied && !few)).collect();
+        let (around_start, around) = around(&facets, &cloth, count)?;
+        Ok(Self {
+            triangles: number(triangles)?,
+            count: number(facets.len())?,
+            solids,
+            facet: Arc::new(facets.into_iter().flatten().collect()),
+            slot: Arc::new(slots),
+            around_start: Arc::new(around_start),
+            around: Arc::new(around),
+            veil: Arc::new(veil),
+            link: network.link,
+        })
+    }
+    /// Whether there is nothing beside particles.
+    pub fn is_empty(&self) -> bool {
+        self.count == 0 && self.solids.is_empty()
+    }
+    /// How many solids.
+    pub fn solids(&self) -> u32 {
+        u32::try_from(self.solids.len()).unwrap_or(0)
+    }
+    /// Other solids, or the same at other places.
+    pub fn set(&mut self, solids: Vec<Solid>) {
+        self.solids = solids;
+    }
+    /// The kernel, with what the fields that it names hold.
+    pub fn bind(&self, mut kernel: Kernel, frame: &Frame) -> Kernel {
+        let solid = self.solids.iter().flat_map(|solid| solid.words(frame)).collect();
+        let tables = [
+            (FACET.name, &self.facet),
+            (SLOT.name, &self.slot),
+            (AROUND_START.name, &self.around_start),
+            (AROUND.name, &self.around),
+            (VEIL.name, &self.veil),
+            (LINK, &self.link),
+            (SOLID.name, &Arc::new(solid)),
+        ];
+        for (field, words) in tables {
+            let stride = kernel.bindings().filter(|(name, _)| *name == field).map(|(_, b)| b.stride).max();
+            if let Some(stride) = stride.filter(|_| !words.is_empty()) {
+                let field: Name = field.into();
+                kernel.sizes.retain(|(name, _)| *name != field);
+                kernel.sizes.push((field.clone(), 4 * words.len() as u64 / stride.max(1)));
+                kernel.tables.push((field, words.clone()));
+            }
+        }
+        kernel
+    }
+}
+
+/// The facets around each particle: of cloth its triangles, of a thread its lines.
+fn around(facets: &[[u32; 3]], cloth: &[bool], count: u32) -> Result<(Vec<u32>, Vec<u32>), Error> {
+    let corners = || {
+        let numbered = (0..).zip(facets);
+        let each = numbered.flat_map(|(n, facet)| facet.iter().map(move |id| (*id, n, facet[2] == NOBODY)));
+        each.filter(|(id, _, line)| *id != NOBODY && !(*line && cloth[*id as usize]))
+    };
+    let mut start = vec![0; count as usize + 1];
+    corners().for_each(|(id, _, _)| start[id as usize + 1] += 1);
+    if let Some(id) = start.iter().position(|n| *n > MOST_LINKS) {
+        let text = format!("particle {} is a corner of {} triangles or lines", id - 1, start[id]);
+        return Err(Error::Scene(format!("{text}: {MOST_LINKS} are the most that a picture draws")));
+    }
+    for i in 1..start.len() {
+        start[i] += start[i - 1];
+    }
+    let mut next = start.clone();
+    let mut around = vec![0; start.last().map_or(0, |n| *n as usize)];
+    for (id, n, _) in corners() {
+        around[next[id as usize] as usize] = n;
+        next[id as usize] += 1;
+    }
+    Ok((start, around))
+}
+
+fn beyond(id: u32, count: u32) -> Error {
+    Error::Scene(format!("a picture of {count} particles has a link to particle {id}: ids go from 0"))
+}
+
+fn number(n: usize) -> Result<u32, Error> {
+    let fits = u32::try_from(n).ok().filter(|n| *n < NOBODY / 3);
+    fits.ok_or_else(|| Error::Scene(format!("{n} triangles and lines are more than a picture draws")))
+}
