@@ -21,7 +21,6 @@ override FACTOR: f32 = 0.0;
 override CHAINS: u32 = 0u;
 // Whether it was no drift: x − h v is not where it began, and so has not the right lengths.
 override SETTLES: bool = false;
-const WORKGROUP: u32 = 64u;
 // Each doubles the digits; the host bounds the rods of a chain by them.
 const TURNS: u32 = 6u;
 const STRETCHES: u32 = 4u;
@@ -72,7 +71,8 @@ fn correct(first: u32, last: u32, h: f32, stretch: bool) -> f32 {
         pivot = (a.w + b.w) * dot(now.r, now.old) - lower * upper;
         known = (now.miss - lower * known) / pivot;
         chain_sweep[n] = vec2f(upper, known);
-        worst = max(worst, abs(select(h, 1.0, stretch) * now.miss) / (length * length));
+        let square = length * length;
+        worst = max(worst, abs(select(h, 1.0, stretch) * now.miss) / square);
         a = b;
         before = now;
     }
@@ -93,9 +93,10 @@ fn correct(first: u32, last: u32, h: f32, stretch: bool) -> f32 {
     return worst;
 }
 
-@compute @workgroup_size(WORKGROUP)
+// Whole vectors of any processor. In a part of one, lanes that are not there spend the trips of those that are.
+@compute @workgroup_size(64)
 fn rods(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let i = folded(group, groups) * WORKGROUP + lane;
+    let i = folded(group, groups) * 64u + lane;
     if i < CHAINS {
         let first = chain_start[i];
         let last = chain_start[i + 1u] - 1u;

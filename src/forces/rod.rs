@@ -24,8 +24,8 @@ pub const KEYS: &[Key] = &[];
 /// nothing, because what it takes away lies along the rods before the drift, and the drift would take the rest of it. So
 /// `leapfrog` is symplectic and reversible, and its energy stays in bounds. `symplectic_euler` is its companion of order 1. All
 /// other methods are held to order 2: `forest_ruth` and `pefrl`, whose drifts along curves are of that order, reversible
-/// still; and the Runge–Kutta methods, which go a whole step without rods before they are brought back, and whose energy
-/// drifts.
+/// still; and the Runge–Kutta and implicit methods, which go a whole step without rods before they are brought back, and keep
+/// no energy.
 ///
 /// What rounding makes of the lengths is taken back from positions alone, in every step anew: lengths hold to about 1e-7 of the
 /// larger of the length and the distance from the origin, and speeds know nothing of it. A chain that turns by about a radian
