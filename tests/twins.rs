@@ -64,12 +64,11 @@ fn every_law_alone() {
         for variant in 0..choices::forces(entry).len() {
             let pick = || choices::forces(entry).swap_remove(variant);
             let overs: Vec<_> = pick().1.laws().iter().map(|law| law.over).collect();
-            // Of tens of thousands one is so near to the line of a capsule that digits do not tell its direction.
             let meet = overs.is_empty() || overs.iter().any(|over| *over != forces::Over::Each);
             let pairs = overs.contains(&forces::Over::Pairs);
             let plain = [("as it is", gpu(&shared, 1).machine())].to_vec();
             for (machine_name, machine) in if pairs { machines::machines(&shared) } else { plain } {
-                // Three blocks of sources, and a half: layers of unequal length; or one more than 65 536.
+                // Three blocks and a half: layers of unequal length; or one more than 65 536, if none may be next to a line.
                 for count in SIZES.into_iter().chain([if meet { 333 } else { 65_537 }]) {
                     let (name, law) = pick();
                     let of = format!("{name}, {machine_name}");
@@ -95,7 +94,6 @@ fn every_law_alone() {
                     let laws = plan.order.len();
                     law[0].limit(&mut plan, &problem).expect("limits");
                     law[0].confine(&mut plan, &problem, 0.8).expect("places");
-                    law[0].conclude(&mut plan, &problem).expect("an end");
                     if plan.order.len() > laws {
                         // Faster than the limit has left them, and back to where a solid has turned them away.
                         let mut velocity = pollster::block_on(simulation.read(VELOCITY)).expect("velocities");

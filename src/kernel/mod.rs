@@ -20,7 +20,7 @@ pub use field::{
 };
 pub use host::{Host, Reading, Writing};
 pub use pack::{Member, Packed, Scalar};
-pub use plan::{Kernel, Name, Pass, Plan, Threads, Twin};
+pub use plan::{Kernel, Name, Pass, Plan, Table, Threads, Twin};
 pub use problem::Problem;
 pub use reflect::{Access, Binding, Reflection};
 pub use shader::{Shader, Source};

@@ -14,6 +14,9 @@ pub type Twin = Arc<dyn Fn(&Host) -> Result<(), Error> + Send + Sync>;
 /// The name of a field.
 pub type Name = Cow<'static, str>;
 
+/// A field that holds something from the start, and the words of its elements.
+pub type Table = (Name, Arc<Vec<u32>>);
+
 /// How many invocations a pass needs: `count` in the plane, times `layers`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Threads {
@@ -87,7 +90,7 @@ pub struct Kernel {
     /// Fields that hold nothing of worth after the last dispatch; the twin does without them.
     pub scratch: Vec<Name>,
     /// What fields hold from the start that nobody else fills: the words of their elements.
-    pub tables: Vec<(Name, Arc<Vec<u32>>)>,
+    pub tables: Vec<Table>,
 }
 
 impl Kernel {

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{Bounds, Machine, Name, Shader, Side, Solver, Source};
+use super::{Bounds, Machine, Shader, Side, Solver, Source, Table};
 use crate::links::{Links, Network};
 use crate::motion::{self, Held, Motion};
 
@@ -90,7 +90,7 @@ impl Problem {
     }
     /// The file with `fn is_held(id: u32) -> bool`, and the table that it reads.
     #[must_use]
-    pub fn holding(&self) -> (Source, Vec<(Name, Arc<Vec<u32>>)>) {
+    pub fn holding(&self) -> (Source, Vec<Table>) {
         if self.mask.is_empty() {
             return (crate::shader!("motion/free.wgsl"), Vec::new());
         }

@@ -38,23 +38,21 @@ pub(super) fn read(
 ) -> Option<Motion> {
     let faults = report.len();
     let settings = table.settings(MOTION_KEYS, OWN, report);
-    let name = match table.get("name") {
-        Some(entry) => value::text(&entry.node, "name", "a name", report).map(|name| (name, &entry.node.place)),
-        None => {
-            report.push(table.lacks("name", "a text", "what particles and solids call it"));
-            None
-        }
+    let name = if let Some(entry) = table.get("name") {
+        value::text(&entry.node, "name", "a name", report).map(|name| (name, &entry.node.place))
+    } else {
+        report.push(table.lacks("name", "a text", "what particles and solids call it"));
+        None
     };
     if let Some((name, place)) = name.filter(|(name, _)| earlier.iter().any(|motion| motion.name == *name)) {
         report.push(Fault::at(place, format!("two motions are called \"{}\"", shorten(name))).label("the second one"));
     }
     let mut text = String::from("[\n");
-    let keys = match table.get("keys") {
-        Some(entry) => keys(&entry.node, &mut text, report),
-        None => {
-            report.push(table.lacks("keys", LIST, "where it is at which time"));
-            Vec::new()
-        }
+    let keys = if let Some(entry) = table.get("keys") {
+        keys(&entry.node, &mut text, report)
+    } else {
+        report.push(table.lacks("keys", LIST, "where it is at which time"));
+        Vec::new()
     };
     let (name, place) = name?;
     let motion = Motion {

@@ -8,7 +8,7 @@ use std::f64::consts::{PI, TAU};
 
 use glam::{DVec3, DVec4, Vec4};
 use motes::integrators::INTEGRATORS;
-use motes::kernel::{ACCELERATION, Array, Bounds, POSITION, Side, TARGET, VELOCITY};
+use motes::kernel::{ACCELERATION, Array, Backend, Bounds, POSITION, Side, TARGET, VELOCITY};
 use motes::lockstep::compare;
 use motes::motion::{Held, Hold, Keyframe, Motion};
 use motes::settings::Value;
@@ -153,7 +153,6 @@ fn a_motion_late_in_a_run_is_as_exact() {
     }
     let setup = setup(particles.clone(), "leapfrog");
     let mut simulation = simulation(&shared, &setup);
-    use motes::kernel::Backend;
     let world = pollster::block_on(simulation.backend().world()).expect("a clock");
     let world = motes::kernel::World { step: 2_999_995, time: 2_999_995.0 * DT, ..world };
     simulation.backend().set_world(world).expect("a clock");
@@ -198,8 +197,8 @@ fn a_target_is_reached_in_time_at_one_pace() {
             (home[8].truncate(), to, places, all)
         };
         let (home, to, places, single) = run(&[1; 12]);
-        for (n, place) in places.iter().enumerate() {
-            let part = ((n + 1) as f32 / 8.0).min(1.0);
+        for (n, place) in (0u16..).zip(&places) {
+            let part = (f32::from(n + 1) / 8.0).min(1.0);
             let want = home + part * (to - home);
             // Each step of a few drifts adds a rounding of 6e-8 of a place near 1, and what is left of the time another.
             assert!((*place - want).length() < 4e-6, "{}, step {n}: {place} is not {want}", entry.name);
@@ -266,7 +265,6 @@ fn the_kernels_agree_with_their_twins() {
         // Who was moved goes home, whatever holds it.
         places.iter_mut().for_each(|x| x.x += 0.1);
         simulation.write(POSITION, &places).expect("places");
-        use motes::kernel::Backend;
         let plan = setup.plans(simulation.backend().machine()).expect("plans").step;
         assert!(plan.to_string().starts_with("lead fixed | lead target | lead motion | clear"), "{plan}");
         let count = u32::try_from(count).expect("few");
