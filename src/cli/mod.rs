@@ -31,11 +31,8 @@ mod plot;
 mod progress;
 mod run;
 mod scenes;
-<<<<<<< HEAD
 mod solves;
-=======
 mod stability;
->>>>>>> main
 mod stop;
 mod substeps;
 mod table;

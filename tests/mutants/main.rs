@@ -6,11 +6,8 @@ mod curious;
 mod equivalent_neighbors;
 mod equivalent_primitives;
 mod equivalents;
-<<<<<<< HEAD
-mod implicit;
-=======
 mod held;
->>>>>>> main
+mod implicit;
 mod laws;
 mod neighbors;
 mod primitives;

@@ -153,13 +153,9 @@ pub fn all(shared: &Shared) -> Vec<Stage> {
     let device = pollster::block_on(support::limited(shared, few));
     let mut stages = Vec::new();
     integrators(&device, &mut stages);
-<<<<<<< HEAD
-    watches(&device, &mut stages);
     crate::implicit::all(&device, &mut stages);
-=======
     alarms::watches(&device, &mut stages);
     alarms::runaways(&device, &mut stages);
->>>>>>> main
     crate::boundary::boundary(&device, &mut stages);
     laws::all(&device, &mut stages);
     laws::planes(&device, &mut stages);
