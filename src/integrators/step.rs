@@ -236,7 +236,9 @@ impl<'a> Step<'a> {
     }
     fn each_force(&mut self, write: impl Fn(&dyn Force, &mut Plan, &Problem) -> Result<(), Error>) {
         let mut plan = Plan::default();
-        for force in self.forces {
+        // Rods have the last word, wherever a scene names them: what moves one end after them stretches them.
+        let (rods, others): (Vec<_>, Vec<_>) = self.forces.iter().partition(|force| force.keeps_rods());
+        for force in others.into_iter().chain(rods) {
             if self.error.is_none() {
                 self.error = write(force.as_ref(), &mut plan, &self.problem).err();
             }

@@ -131,6 +131,7 @@ impl Step<'_> {
     pub fn settle(&mut self, factor: f64) {
         self.limit();
         self.enclose();
+        self.problem.reached = 1.0;
         self.each_force(|force, plan, problem| force.settle(plan, problem, factor));
     }
 
