@@ -40,6 +40,10 @@ fn motions() -> Vec<Motion> {
     let mut late = motion("late", &[0.9, 1.2, 1.9], false);
     late.keys[2] = Keyframe { time: 1.9, ..late.keys[0] };
     late.repeat = true;
+    // Hardly longer than a step.
+    let mut quick = motion("quick", &[-0.3, -0.1, 0.15], false);
+    quick.keys[2] = Keyframe { time: 0.15, ..quick.keys[0] };
+    quick.repeat = true;
     let mut spun = motion("spun", &[0.8, 1.9], false);
     spun.keys[1].turn = spun.keys[0].turn * -3.7;
     vec![
@@ -52,6 +56,7 @@ fn motions() -> Vec<Motion> {
         spun,
         choices::swing(),
         motion("still", &[0.7], false),
+        quick,
     ]
 }
 

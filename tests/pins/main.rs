@@ -183,7 +183,7 @@ fn a_target_is_reached_in_time_at_one_pace() {
             let mut target = home.clone();
             let to = home[8].truncate() + glam::Vec3::new(0.5, -0.3, 0.2);
             // A frame of eight steps.
-            target[8] = to.extend((10.0 * DT) as f32);
+            target[8] = to.extend(10.0 * 0.013);
             simulation.write(TARGET, &target).expect("targets");
             let mut places = Vec::new();
             for steps in batches {
@@ -263,7 +263,9 @@ fn the_kernels_agree_with_their_twins() {
         let targets: Vec<_> = places.iter().map(|x| (x.truncate() * 1.3).extend(0.2)).collect();
         simulation.write(TARGET, &targets).expect("targets");
         // Who was moved goes home, whatever holds it.
-        places.iter_mut().for_each(|x| x.x += 0.1);
+        for x in &mut places {
+            x.x += 0.1;
+        }
         simulation.write(POSITION, &places).expect("places");
         let plan = setup.plans(simulation.backend().machine()).expect("plans").step;
         assert!(plan.to_string().starts_with("lead fixed | lead target | lead motion | clear"), "{plan}");
