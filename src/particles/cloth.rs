@@ -77,7 +77,8 @@ const KEYS: &[Key] = &[
 const PINS: &[&str] = &["none", "corners", "row", "column", "rim"];
 
 /// `columns * rows` particles, the middle of the sheet at `center`; those of a row follow each other, so particle i of row j
-/// has the id  i + columns j. Squares are cut into triangles along alternate diagonals.
+/// has the id  i + columns j. Squares are cut into triangles along alternate diagonals;
+/// their front is towards whoever sees `right` to the right and `down` below.
 fn build(settings: &Settings) -> Result<Particles, Error> {
     let reader = Reader { shape: "cloth", settings };
     let (columns, rows) = (settings.whole("columns"), settings.whole("rows"));
@@ -174,7 +175,7 @@ impl Threads {
         for j in 0..rows - 1 {
             for i in 0..columns - 1 {
                 let [a, b, c, d] = [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(u, v)| i + u + columns * (j + v));
-                let halves = if (i + j) % 2 == 0 { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] };
+                let halves = if (i + j) % 2 == 0 { [[a, c, b], [a, d, c]] } else { [[a, d, b], [b, d, c]] };
                 links.triangles.extend(halves);
             }
         }
