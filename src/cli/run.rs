@@ -174,11 +174,8 @@ impl Run {
         if let Some(film) = &mut self.film {
             film.develop(&mut simulation, &output, &self.progress).await?;
         }
-        let solves = simulation.solves().await?;
         let concluded = self.conclude(steps, &output, stepping, image.as_ref());
-        if let Some(solves) = solves {
-            solves::tell(&self.progress, &solves);
-        }
+        solves::tell(&self.progress, simulation.solves().await?);
         concluded
     }
 

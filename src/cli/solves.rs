@@ -8,8 +8,11 @@ use serde_json::json;
 use super::progress::Progress;
 
 /// Tells what became of the solves, and the way out where some did not converge.
-pub fn tell(progress: &Progress, solves: &Solves) {
-    let Solves { solves: all, failures, first_failure, most_iterations, iterations, outcome, residual } = *solves;
+pub fn tell(progress: &Progress, solves: Option<Solves>) {
+    let Some(Solves { solves: all, failures, first_failure, most_iterations, iterations, outcome, residual }) = solves
+    else {
+        return;
+    };
     progress.event(
         "solves",
         json!({ "solves": all, "failures": failures, "first_failure": first_failure, "most_iterations": most_iterations,
