@@ -156,7 +156,7 @@ impl Row<'_> {
         match cell.parse::<f64>() {
             Ok(number) if number >= 0.0 && number.is_finite() => return Some(number),
             Ok(number) => {
-                problems.note(|| format!("{line}, column {title}: {number} is not a finite number, zero or above"))
+                problems.note(|| format!("{line}, column {title}: {number} is not a finite number, zero or above"));
             }
             Err(_) => problems.note(|| format!("{line}, column {title}: `{cell}` is not a number")),
         }
