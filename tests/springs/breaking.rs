@@ -84,7 +84,8 @@ fn broken_stays_broken_over_a_restart() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("links.csv");
     motes::io::links::write(std::fs::File::create(&path).expect("a file"), &rest.links).expect("written");
-    let usual = motes::io::links::Usual { tie: Default::default(), rest: 1.0, stiffness: 1.0, damping: 0.0 };
+    let usual =
+        motes::io::links::Usual { tie: motes::io::links::Tie::default(), rest: 1.0, stiffness: 1.0, damping: 0.0 };
     let read = motes::io::links::read(&path, &rest.position, &usual).expect("links");
     assert_eq!(read.springs, rest.links.springs);
     rest.links.springs = read.springs;

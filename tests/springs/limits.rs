@@ -66,10 +66,11 @@ fn growth_factors() {
 #[test]
 fn what_is_kept() {
     let shared = support::device();
-    let euler = |y: f64, x: DVec4, v: DVec4| x.length_squared() + v.length_squared() - y * x.dot(v);
-    let leapfrog = |y: f64, x: DVec4, v: DVec4| v.length_squared() + x.length_squared() * (1.0 - y * y / 4.0);
-    let cases: [(&str, &dyn Fn(f64, DVec4, DVec4) -> f64); 2] = [("symplectic_euler", &euler), ("leapfrog", &leapfrog)];
-    for (name, form) in cases {
+    let euler: fn(f64, DVec4, DVec4) -> f64 = |y, x, v| x.length_squared() + v.length_squared() - y * x.dot(v);
+    let leapfrog: fn(f64, DVec4, DVec4) -> f64 =
+        |y, x, v| v.length_squared() + x.length_squared() * (1.0 - y * y / 4.0);
+    for name in ["symplectic_euler", "leapfrog"] {
+        let form = if name == "leapfrog" { leapfrog } else { euler };
         let ys = [0.1, 0.7, 1.4, 1.9];
         let start = run(&shared, name, &ys, 0);
         for ((y, end), start) in ys.iter().zip(run(&shared, name, &ys, 1000)).zip(start) {
@@ -98,7 +99,7 @@ fn limits_of_stability() {
         // Below, the ellipse of the invariant is 1 / √(1 − 0.995²) = 10 times longer than wide: 100 in energy, about.
         assert!(below < 1e3, "{name} just below its limit: {below:e}");
         // It may be beyond all numbers by then.
-        assert!(!(above <= 1e6), "{name} just above its limit: {above:e}");
+        assert!(above.is_nan() || above > 1e6, "{name} just above its limit: {above:e}");
     }
     // Weakly, but without an end.
     for name in ["forward_euler", "midpoint", "heun"] {
