@@ -8,11 +8,13 @@ mod files;
 mod fuzz;
 mod held;
 mod keys;
+mod links;
 mod missing;
 mod numbers;
 mod overrides;
 mod particles;
 mod resolved;
+mod solver;
 mod syntax;
 mod words;
 
