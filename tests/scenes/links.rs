@@ -1,14 +1,11 @@
 //! `[[links]]`: what ties particles, and all that can be wrong with it.
 
-use std::fs;
-
 use motes::links::{Link, Rod};
-use motes::scene::{Options, Scene, Source};
 
 use crate::{assert_report, load};
 
 /// Four particles: the first is 3 from the second, 4 from the third and 5 from the fourth; the links come behind line 9.
-const FOUR: &str = "[simulation]
+pub(crate) const FOUR: &str = "[simulation]
 dt = 0.1
 steps = 10
 [[particles]]
@@ -41,14 +38,92 @@ fn pairs_are_tied_at_their_distance() {
 
 #[test]
 fn pairs_that_are_none() {
-    assert_faults("pairs = [[0, 4], [1, 1], [0, 1, 2], [2], 3, [-1, 2], [0.5, 1], [\"0\", 1]]\n", "");
-    assert_faults("pairs = 3\n", "");
+    assert_faults(
+        "pairs = [[0, 4], [1, 1], [0, 1, 2], [2], 3, [-1, 2], [0.5, 1], [\"0\", 1]]\n",
+        r#"error: there is no particle 4
+  --> a.toml:10:14
+   |
+10 | pairs = [[0, 4], [1, 1], [0, 1, 2], [2], 3, [-1, 2], [0.5, 1], ["0", 1]]
+   |              ^ there are 4, counted from 0
+
+error: particle 1 is linked to itself
+  --> a.toml:10:18
+   |
+10 | pairs = [[0, 4], [1, 1], [0, 1, 2], [2], 3, [-1, 2], [0.5, 1], ["0", 1]]
+   |                  ^^^^^^
+
+error: `pairs` must be two ids, not a list of 3
+  --> a.toml:10:26
+   |
+10 | pairs = [[0, 4], [1, 1], [0, 1, 2], [2], 3, [-1, 2], [0.5, 1], ["0", 1]]
+   |                          ^^^^^^^^^
+
+error: `pairs` must be two ids, not a list of 1
+  --> a.toml:10:37
+   |
+10 | pairs = [[0, 4], [1, 1], [0, 1, 2], [2], 3, [-1, 2], [0.5, 1], ["0", 1]]
+   |                                     ^^^
+
+error: `pairs` must be a list of pairs of ids, as in [[0, 1], [1, 2]], not 3
+  --> a.toml:10:42
+   |
+10 | pairs = [[0, 4], [1, 1], [0, 1, 2], [2], 3, [-1, 2], [0.5, 1], ["0", 1]]
+   |                                          ^
+
+error: `pairs` must be the id of a particle, not -1
+  --> a.toml:10:46
+   |
+10 | pairs = [[0, 4], [1, 1], [0, 1, 2], [2], 3, [-1, 2], [0.5, 1], ["0", 1]]
+   |                                              ^^
+
+error: `pairs` must be the id of a particle, not 0.5
+  --> a.toml:10:55
+   |
+10 | …s = [[0, 4], [1, 1], [0, 1, 2], [2], 3, [-1, 2], [0.5, 1], ["0", 1]]
+   |                                                    ^^^
+
+error: `pairs` must be the id of a particle, not the text "0"
+  --> a.toml:10:65
+   |
+10 | …], [1, 1], [0, 1, 2], [2], 3, [-1, 2], [0.5, 1], ["0", 1]]
+   |                                                    ^^^
+
+a.toml: 8 errors"#,
+    );
+    assert_faults(
+        "pairs = 3\n",
+        "error: `pairs` must be a list of pairs of ids, as in [[0, 1], [1, 2]], not 3
+  --> a.toml:10:9
+   |
+10 | pairs = 3
+   |         ^
+
+a.toml: 1 error",
+    );
 }
 
 #[test]
 fn pairs_twice() {
-    assert_faults("pairs = [[0, 1], [1, 0]]\n", "");
-    assert_faults("pairs = [[0, 1]]\n[[links]]\npairs = [[0, 1]]\n", "");
+    assert_faults(
+        "pairs = [[0, 1], [1, 0]]\n",
+        "error: spring 1 ties particles 1 and 0, which another one ties already: make them one
+  --> a.toml:10:9
+   |
+10 | pairs = [[0, 1], [1, 0]]
+   |         ^^^^^^^^^^^^^^^^
+
+a.toml: 1 error",
+    );
+    assert_faults(
+        "pairs = [[0, 1]]\n[[links]]\npairs = [[0, 1]]\n",
+        "error: spring 1 ties particles 0 and 1, which another one ties already: make them one
+  --> a.toml:12:9
+   |
+12 | pairs = [[0, 1]]
+   |         ^^^^^^^^
+
+a.toml: 1 error",
+    );
 }
 
 #[test]
@@ -59,48 +134,95 @@ fn a_spring_and_a_rod_may_share_their_ends() {
 
 #[test]
 fn links_of_nothing_and_of_both() {
-    assert_faults("stiffness = 3\n", "");
-    assert_faults("file = \"a.csv\"\npairs = [[0, 1]]\n", "");
+    assert_faults(
+        "stiffness = 3\n",
+        "error: [[links]] needs one of `file`, `pairs`
+  --> a.toml:9:1
+   |
+ 9 | [[links]]
+   | ^^^^^^^^^
+
+a.toml: 1 error",
+    );
+    assert_faults(
+        "file = \"a.csv\"\npairs = [[0, 1]]\n",
+        "error: [[links]] has both `file` and `pairs`
+  --> a.toml:11:1
+   |
+11 | pairs = [[0, 1]]
+   | ^^^^^ remove one of them
+
+a.toml: 1 error",
+    );
 }
 
 #[test]
 fn values_that_make_no_sense() {
-    assert_faults("pairs = [[0, 1]]\ntie = \"rood\"\nrest = -1\nstiffness = nan\nstifness = 4\n", "");
-    assert_faults("pairs = [[0, 1]]\nstiffness = 0\n", "");
-    assert_faults("pairs = [[0, 1]]\nrest = 0\ntie = \"rope\"\n", "");
-}
+    assert_faults(
+        "pairs = [[0, 1]]\ntie = \"rood\"\nrest = -1\nstiffness = nan\nstifness = 4\n",
+        r#"error: unknown tie "rood"
+  --> a.toml:11:7
+   |
+11 | tie = "rood"
+   |       ^^^^^^ did you mean "rod"?
+   = known: `spring`, `rope`, `rod`
 
-/// A scene beside its file of links, loaded.
-fn beside(csv: &str) -> Result<Scene, motes::scene::Diagnostics> {
-    let folder = tempfile::tempdir().expect("a folder");
-    fs::write(folder.path().join("net.csv"), csv).expect("written");
-    let text = FOUR.to_owned() + "file = \"net.csv\"\nstiffness = 30\n";
-    let source = Source::Text { name: "scene.toml".to_owned(), text, folder: folder.path().to_owned() };
-    Scene::load(&source, &[], &Options::default())
-}
+error: `rest` must be a number, zero or above, not -1
+  --> a.toml:12:8
+   |
+12 | rest = -1
+   |        ^^
 
-#[test]
-fn a_file_says_what_it_wants_and_the_scene_the_rest() {
-    let scene = beside("# a net\na,b,rest,tie,damping\n0,1,2.5,,\n1,2,,rope,0.5\n3,2,7,rod,\n")
-        .unwrap_or_else(|f| panic!("{f}"));
-    let links = scene.particles.links;
-    let spring = Link { ends: [0, 1], rest: 2.5, stiffness: 30.0, damping: 0.0, rope: false };
-    let rope = Link { ends: [1, 2], rest: 5.0, stiffness: 30.0, damping: 0.5, rope: true };
-    assert_eq!(links.springs, [spring, rope]);
-    assert_eq!(links.rods, [Rod { ends: [3, 2], length: 7.0 }]);
-}
+error: `stiffness` must be finite, not nan
+  --> a.toml:13:13
+   |
+13 | stiffness = nan
+   |             ^^^
 
-#[test]
-fn a_bad_file_is_told_by_its_lines() {
-    let faults = beside("a,b,rest\n0,1,1\n\n# a comment\n1,1,1\n0,9,1\n1,0,1\n2,x,-3\n").err().expect("faults");
-    assert_eq!((faults.to_string().as_str(), faults.exit_code()), ("", 4));
-    let faults = beside("").err().expect("faults");
-    assert_eq!((faults.to_string().as_str(), faults.exit_code()), ("", 4));
+error: unknown key `stifness` in [[links]]
+  --> a.toml:14:1
+   |
+14 | stifness = 4
+   | ^^^^^^^^ did you mean `stiffness`?
+   = known here: `file`, `pairs`, `tie`, `rest`, `stiffness`, `damping`
+
+a.toml: 4 errors"#,
+    );
+    assert_faults(
+        "pairs = [[0, 1]]\nstiffness = 0\n",
+        "error: spring 0 has neither stiffness nor damping: it does nothing; remove it
+  --> a.toml:10:9
+   |
+10 | pairs = [[0, 1]]
+   |         ^^^^^^^^
+
+a.toml: 1 error",
+    );
+    assert_faults(
+        "pairs = [[0, 1]]\nrest = 0\ntie = \"rope\"\n",
+        "error: spring 0 is a rope of no length: it never is slack; make it a spring
+  --> a.toml:10:9
+   |
+10 | pairs = [[0, 1]]
+   |         ^^^^^^^^
+
+a.toml: 1 error",
+    );
 }
 
 #[test]
 fn there_is_no_such_file() {
-    assert_faults("file = \"nowhere.csv\"\n", "");
+    assert_faults(
+        "file = \"nowhere.csv\"\n",
+        r#"error: there is no file nowhere.csv
+  --> a.toml:10:8
+   |
+10 | file = "nowhere.csv"
+   |        ^^^^^^^^^^^^^
+   = it is sought at tests/scenes/nowhere.csv
+
+a.toml: 1 error"#,
+    );
 }
 
 #[test]

@@ -8,6 +8,7 @@ mod files;
 mod fuzz;
 mod held;
 mod keys;
+mod link_files;
 mod links;
 mod missing;
 mod numbers;
