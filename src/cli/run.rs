@@ -18,7 +18,7 @@ use super::engine::Engine;
 use super::failure::Failure;
 use super::film::Film;
 use super::output::Output;
-use super::progress::{Progress, duration, large};
+use super::progress::Progress;
 use super::solves;
 use super::stop::Stop;
 use super::substeps::{self, Loaded};
@@ -279,13 +279,7 @@ impl Run {
         if stopped {
             say(format!("stopped at step {steps} of {}; everything up to there is written", self.scene.steps));
         }
-        say(format!(
-            "{steps} steps in {} ({} with measurements and files): {} steps/s, {} particle-steps/s",
-            duration(stepping),
-            duration(took),
-            large(rate),
-            large(rate * self.count as f64)
-        ));
+        say(summary::speed(steps, self.count, stepping, took));
         // Birds are driven: what their energy does tells nobody anything.
         if self.conserved.energy || output.company().is_none() {
             say(summary::energy(output.rows(), self.conserved.energy));

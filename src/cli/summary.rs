@@ -1,10 +1,13 @@
 //! What a run says of itself in the end.
 
+use std::time::Duration;
+
 use motes::Measure;
 use motes::links::Links;
 use motes::measure::Flock;
 
 use super::advice::Conserved;
+use super::progress::{duration, large};
 
 /// How the energy went. Where the total is next to nothing, as of a pendulum that starts at its pivot's height, changes are
 /// told by the largest kinetic energy there was.
@@ -40,6 +43,18 @@ pub fn company(first: &Flock, last: &Flock) -> String {
         first.clusters,
         last.clusters,
         100.0 * last.largest
+    )
+}
+
+/// How fast it was.
+pub fn speed(steps: u64, count: usize, stepping: Duration, took: Duration) -> String {
+    let rate = steps as f64 / stepping.as_secs_f64().max(1e-9);
+    format!(
+        "{steps} steps in {} ({} with measurements and files): {} steps/s, {} particle-steps/s",
+        duration(stepping),
+        duration(took),
+        large(rate),
+        large(rate * count as f64)
     )
 }
 
