@@ -103,8 +103,9 @@ fn limits_of_stability() {
     }
     // Weakly, but without an end.
     for name in ["forward_euler", "midpoint", "heun"] {
-        let [x, v] = run(&shared, name, &[0.4], 2000)[0];
+        let [x, v] = run(&shared, name, &[0.4], 600)[0];
         let grown = (x.length_squared() + v.length_squared()) / 2.09;
-        assert!(grown > 1e5, "{name}: {grown:e}");
+        // 1.0064⁶⁰⁰ = 46, and 1.16⁶⁰⁰ is beyond all bounds.
+        assert!(grown > 40.0, "{name}: {grown:e}");
     }
 }
