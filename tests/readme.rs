@@ -1,11 +1,9 @@
 //! The README says what the registers say.
 
-use std::collections::BTreeMap;
-
 const README: &str = include_str!("../README.md");
 
-/// The rows of the table under a heading cell: name and text.
-fn table(heading: &str) -> BTreeMap<String, String> {
+/// The rows of the table under a heading cell, in their order: name and text.
+fn table(heading: &str) -> Vec<(String, String)> {
     let start = README.find(&format!("\n| {heading} | |\n")).unwrap_or_else(|| panic!("no table of {heading}s"));
     let rows = README[start + 1..].lines().skip(2).take_while(|line| line.starts_with('|'));
     rows.map(|row| {
@@ -16,7 +14,7 @@ fn table(heading: &str) -> BTreeMap<String, String> {
 }
 
 fn same<'a>(heading: &str, register: impl Iterator<Item = (&'a str, String)>) {
-    let register: BTreeMap<String, String> = register.map(|(name, about)| (name.to_owned(), about)).collect();
+    let register: Vec<_> = register.map(|(name, about)| (name.to_owned(), about)).collect();
     assert_eq!(table(heading), register, "the table of {heading}s");
 }
 

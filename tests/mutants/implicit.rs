@@ -1,16 +1,19 @@
 //! Stages of implicit steps: whole ones, in which every kernel takes up what those before it left.
 
+use std::cell::RefCell;
+use std::rc::Rc;
 use std::sync::Arc;
 
 use glam::DVec3;
 use motes::forces::{Force, Jacobian, Law};
-use motes::kernel::{Machine, Source};
-use motes::links::Link;
+use motes::kernel::{Backend, Machine, Plan, Source};
+use motes::links::{Link, Links};
 use motes::motion::{Held, Hold};
 use motes::settings::Value;
 use motes::{Bounds, Gpu, Particles, Setup, Simulation, Solver};
 
 use crate::stages::{Device, Stage};
+use crate::support::machines::alone;
 use crate::support::states::{force, integrator, vector, word};
 use crate::support::{self};
 
@@ -20,6 +23,7 @@ const COUNT: usize = 600;
 /// A cloud of which most are tied, some in rings; one is held, one has no mass.
 fn tangle(stiffness: f64) -> Particles {
     let mut particles = support::cloud(COUNT, 31);
+    particles.links = Links::default();
     let tied = u32::try_from(COUNT).expect("few") - 20;
     let mut random = support::Random::new(5);
     for id in 1..tied {
@@ -85,6 +89,9 @@ impl Force for Wrong {
     }
 }
 
+/// What is wrong in the later begins of Newton's method: the difference of impulses that are up to a hundred times as large.
+const LATER: f64 = 10.0;
+
 /// Steps that run out of iterations, that converge, that settle, and that break down; with ties and without.
 pub fn all(device: &Device, stages: &mut Vec<Stage>) {
     let solver = |tolerance, iterations, solves| Solver { tolerance, iterations, solves };
@@ -100,24 +107,47 @@ pub fn all(device: &Device, stages: &mut Vec<Stage>) {
         ("stands alone", "implicit_midpoint", &loose, solver(1e-3, 3, 3), 3.0),
     ];
     let machines = [(true, 256), (false, 1 << 18)];
-    for (case, name, forces, solver, stiffness) in cases {
-        for (software, invocations) in machines {
-            let machine = Machine { software, subgroup: 0, invocations };
-            let mut gpu = Gpu::new(&device.0, &device.1, u32::try_from(COUNT).expect("few")).expect("a GPU");
-            gpu.pad(5);
-            gpu.pretend(machine);
-            let setup = Setup {
-                particles: tangle(stiffness),
-                forces: forces(),
-                integrator: integrator(name),
-                dt: 0.31,
-                bounds: Bounds::default(),
-                solver,
-            };
-            let mut simulation = Simulation::on(gpu, &setup).expect("a simulation");
-            simulation.step(2).expect("steps");
-            let plan = setup.plans(machine).expect("plans").step;
-            stages.push(Stage::of(&format!("a solve that {case}"), simulation, plan));
+    for (place, (case, name, forces, solver, stiffness)) in cases.into_iter().enumerate() {
+        let (software, invocations) = machines[place % 2];
+        let machine = Machine { software, subgroup: 0, invocations };
+        let mut gpu = Gpu::new(&device.0, &device.1, u32::try_from(COUNT).expect("few")).expect("a GPU");
+        gpu.pad(5);
+        gpu.pretend(machine);
+        let setup = Setup {
+            particles: tangle(stiffness),
+            forces: forces(),
+            integrator: integrator(name),
+            dt: 0.31,
+            bounds: Bounds::default(),
+            solver,
+        };
+        let mut simulation = Simulation::on(gpu, &setup).expect("a simulation");
+        simulation.step(2).expect("steps");
+        let plan = setup.plans(machine).expect("plans").step;
+        amid(case, simulation, &plan, stages);
+    }
+}
+
+/// A stage for each kernel of a solve, where those before it have led.
+fn amid(case: &str, simulation: Simulation<Gpu>, plan: &Plan, stages: &mut Vec<Stage>) {
+    let simulation = Rc::new(RefCell::new(simulation));
+    let mut begun = 0;
+    for kernel in plan.steps() {
+        let single = alone(kernel.clone());
+        let file = |name: &str| kernel.passes[0].shader.sources().iter().any(|source| source.file.contains(name));
+        if file("solve_") || file("each_jacobian") {
+            let name = format!("a solve that {case}, {}", kernel.name);
+            let stage = Stage::amid(&name, &simulation, single.clone());
+            let begin = kernel.name == "begin";
+            begun += u32::from(begin);
+            // From the third on, what is left is rounding.
+            if !(begin && begun > 2) {
+                stages.push(stage.slack(if begin && begun == 2 { LATER } else { 1.0 }));
+            }
         }
+        let mut simulation = simulation.borrow_mut();
+        let gpu = simulation.backend();
+        let program = gpu.compile(&single).expect("a kernel");
+        gpu.run(&program, 1).expect("a kernel runs");
     }
 }
