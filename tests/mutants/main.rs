@@ -22,8 +22,8 @@ use std::time::Instant;
 
 use equivalents::EQUIVALENT;
 use stages::Stage;
-use support::equivalents::{Equivalent, Ledger};
 use support::Shared;
+use support::equivalents::{Equivalent, Ledger};
 use support::mutants::{Mutant, mutants};
 
 /// These have mutants of their own, in `tests/picture_mutants` and `tests/questions.rs`.
