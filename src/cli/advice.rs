@@ -1,5 +1,7 @@
 //! What one should know of a scene before it runs.
 
+use std::collections::BTreeSet;
+
 use glam::{DVec3, DVec4};
 use motes::forces::{Law, Over, Problem};
 use motes::kernel::{
@@ -154,9 +156,24 @@ pub fn conserved(setup: &Setup) -> Result<Conserved, Error> {
 
 const MACHINE: Machine = Machine { software: true, subgroup: 0, invocations: 1 };
 
+/// Who begins inside of a solid is thrown out of it in the first step.
+fn inside(setup: &Setup) -> Option<String> {
+    let particles = &setup.particles;
+    let held: BTreeSet<usize> = particles.held.iter().map(|one| one.id as usize).collect();
+    let solids: Vec<_> = setup.forces.iter().filter_map(|force| force.standing()).collect();
+    let within = |x: DVec3| solids.iter().any(|s| s.solid.distance(x - s.position, setup.bounds.dimensions).1 < 0.0);
+    let mut inner = (0..particles.len()).filter(|id| !held.contains(id) && within(particles.position[*id]));
+    let first = inner.next()?;
+    let count = 1 + inner.count();
+    Some(format!(
+        "{count} particles begin inside of a solid, particle {first} first of them: the first step throws them out, at any speed"
+    ))
+}
+
 /// Remarks of the scene itself, and of how its forces and its integrator go together.
 pub fn advice(scene: &Scene, setup: &Setup) -> Result<Vec<String>, Error> {
     let mut remarks = scene.remarks.clone();
+    remarks.extend(inside(setup));
     let laws: Vec<Law> = setup.forces.iter().flat_map(|force| force.laws()).collect();
     remarks.extend(idle(&setup.particles.links, &laws));
     let implicit = setup.integrator.is_implicit();

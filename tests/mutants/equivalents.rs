@@ -15,7 +15,39 @@ const AT_THE_SIDE: &str = "who is at the side stays at the side, by one way or t
 const SOON: &str = "it says when to stop, and the last of Newton's steps doubles digits that are enough";
 const LOST: &str = "what is lost is lost either way";
 const NOTHING_BEFORE: &str = "before the first rod, and behind the last, it is a factor of nothing";
+const NOT_ASKED: &str = "it is not asked for any more";
+const ALL_KNOW: &str = "all know the same, and whoever says it says the same";
 const APART: &str = "let apart = start + BLOCK <= mine || start >= mine + WORKGROUP * TARGETS;";
+
+/// Of implicit solves.
+pub const SOLVES: &[Equivalent] = &[
+    same("", "override START: bool = true;", "true", "false", ALWAYS_SET),
+    same("solve_report.wgsl", "override NEWTON: bool = false;", "false", "true", ALWAYS_SET),
+    same("solve_advance.wgsl", "override TOLERANCE: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
+    same("solve_advance.wgsl", "override LIMIT: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
+    same("solve_advance.wgsl", "override PART: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
+    same("solve_total.wgsl", "width > 1u;", ">", ">=", "one more round, of no lanes"),
+    same("solve_total.wgsl", "if lane < width", "<", "<=", NOT_ASKED),
+    same("solve_total.wgsl", "if lane < half", "<", "<=", NOT_ASKED),
+    same("solve_product.wgsl", "if lane == 0u && block", "==", "!=", ALL_KNOW),
+    same("solve_product.wgsl", "if lane == 0u && block", "0u", "1u", ALL_KNOW),
+    same("solve_begin.wgsl", "if i == 0u {", "==", "!=", ALL_KNOW),
+    same("solve_begin.wgsl", "if i == 0u {", "0u", "1u", ALL_KNOW),
+    same("solve_begin.wgsl", "let lost = ", "<=", "<", EDGE),
+    same("solve_advance.wgsl", "if block == 0u && lane == 0u {", "==", "!=", ALL_KNOW),
+    same("solve_advance.wgsl", "if block == 0u && lane == 0u {", "0u", "1u", ALL_KNOW),
+    same("solve_advance.wgsl", "if block == 0u && lane == 0u {", "&&", "||", ALL_KNOW),
+    same("solve_advance.wgsl", "after.residual <= goal", "<=", "<", EDGE),
+    same("solve_advance.wgsl", "} else if sum.z <= enough", "<=", "<", EDGE),
+    same("solve_advance.wgsl", "} else if sum.x <= 0.0", "<=", "<", EDGE),
+    same(
+        "solve_advance.wgsl",
+        "let end = min(first + extent.chunk",
+        "+",
+        "-",
+        "the first workgroup does what the others leave to it: slower, and the same",
+    ),
+];
 
 pub const EQUIVALENT: &[Equivalent] = &[
     same("", "const WORKGROUP: u32 = 64u;", "64u", "65u", ANY_SIZE),

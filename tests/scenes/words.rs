@@ -86,7 +86,7 @@ kind = "magnetism"
    |
  7 | kind = "magnetism"
    |        ^^^^^^^^^^^
-   = known: `gravity`, `uniform`, `drag`, `wind`, `vortex`, `attractor`, `boids`, `speed_limit`, `obstacle`, `solid`, `flee`, `chase`, `goal`, `wander`, `soft_turn`, `rod`, `vicsek`, `spring`, `tear`, `joint`, `air`
+   = known: `gravity`, `uniform`, `drag`, `wind`, `vortex`, `attractor`, `boids`, `speed_limit`, `obstacle`, `solid`, `flee`, `chase`, `goal`, `wander`, `soft_turn`, `rod`, `vicsek`, `spring`, `strain_limit`, `tear`, `joint`, `air`
 
 a.toml: 1 error"#,
     );

@@ -49,6 +49,10 @@ impl<'a> Ledger<'a> {
     pub fn new(list: &'a [Equivalent]) -> Self {
         Self { list, used: vec![false; list.len()], wrong: String::new(), killed: 0, lived: 0 }
     }
+    /// Whether a mutant is on the list.
+    pub fn expects(&self, file: &str, mutant: &Mutant) -> bool {
+        self.list.iter().any(|e| e.is(file, mutant))
+    }
     /// A mutant that lives must be on the list, and one that is noticed must not.
     pub fn enter(&mut self, file: &str, mutant: &Mutant, noticed: bool) {
         let known = self.list.iter().position(|e| e.is(file, mutant));
