@@ -186,7 +186,7 @@ fn amended(name: &str, simulation: &Shared, kernel: Kernel, fields: &[(&str, Vec
     };
     simulation.borrow_mut().backend().compile(&alone(kernel.clone())).expect("a kernel");
     let before: Vec<_> = fields.iter().map(|(field, _)| words(simulation, field)).collect();
-    for (field, words) in &fields {
+    for (field, words) in fields {
         write(field, words);
     }
     let stage = Stage::amid(name, simulation, alone(kernel));
