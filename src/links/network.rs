@@ -112,6 +112,9 @@ fn half(link: &Link, partner: usize) -> [u32; 4] {
 
 /// The tables of springs by their kind, if there are few.
 fn alike(count: u32, ends: &[(u32, [u32; WORDS])]) -> [Arc<Vec<u32>>; 3] {
+    if ends.is_empty() {
+        return Default::default();
+    }
     let mut kinds: Vec<[u32; 3]> = Vec::new();
     let mut sorted = Vec::with_capacity(ends.len());
     for (id, [partner, rest, stiffness, damping]) in ends {
@@ -149,8 +152,12 @@ fn accumulate(start: &mut [u32]) {
 
 /// Sorts elements by their particle, and within one by their words, of which the first are ids.
 fn rows<const N: usize>(count: u32, mut elements: Vec<(u32, [u32; N])>) -> (Arc<Vec<u32>>, Arc<Vec<u32>>) {
-    elements.sort_unstable();
     let mut start = vec![0; count as usize + 1];
+    if elements.is_empty() {
+        // Zeros that nobody has written take no memory.
+        return (Arc::new(start), Arc::default());
+    }
+    elements.sort_unstable();
     for (id, _) in &elements {
         if let Some(n) = start.get_mut(*id as usize + 1) {
             *n += 1;
