@@ -108,3 +108,43 @@ fn limits_of_stability() {
         assert!(grown > 1e5, "{name}: {grown:e}");
     }
 }
+
+/// Dampers without stiffness, far apart along x: u = v₂ − v₁ decays, u′ = −a u with a = 2 c / m. What a step makes of u.
+fn decay(shared: &Shared, name: &str, zs: &[f64], steps: u32) -> Vec<f64> {
+    let mut particles = Particles::default();
+    for (n, z) in zs.iter().enumerate() {
+        let mut pair = at(&[[0.0, n as f64, 0.0], [1024.0, n as f64, 0.0]], MASS);
+        pair.velocity = vec![DVec3::X * -0.5, DVec3::X * 0.5];
+        let damping = z / H * MASS / 2.0;
+        pair.links.springs.push(motes::links::Link { damping, ..spring([0, 1], 1000.0, 0.0) });
+        particles.append(&pair);
+    }
+    let mut simulation = gpu(shared, &setup(&particles, forces(0.0, 0.0), name, H));
+    simulation.step(steps).expect("steps");
+    let v = pollster::block_on(simulation.read(VELOCITY)).expect("velocities");
+    (0..zs.len()).map(|n| f64::from(v[2 * n + 1].x) - f64::from(v[2 * n].x)).collect()
+}
+
+/// R(z) of u′ = −a u, and where |R| leaves 1.
+#[test]
+fn decay_and_its_limits() {
+    let shared = support::device();
+    let second = |z: f64| 1.0 - z + z * z / 2.0;
+    let fourth = |z: f64| second(z) - z.powi(3) / 6.0 + z.powi(4) / 24.0;
+    let cases: [(&str, &dyn Fn(f64) -> f64, f64); 5] = [
+        ("forward_euler", &|z| 1.0 - z, 2.0),
+        ("symplectic_euler", &|z| 1.0 - z, 2.0),
+        ("midpoint", &second, 2.0),
+        ("heun", &second, 2.0),
+        ("rk4", &fourth, 2.785_293_563_405),
+    ];
+    for (name, r, limit) in cases {
+        let zs = [0.1, 1.0, 1.7, 2.0];
+        for (z, got) in zs.iter().zip(decay(&shared, name, &zs, 1)) {
+            // A few roundings by 6e-8, and the pair moves by 1e-3 of its distance along itself.
+            assert!((got - r(*z)).abs() < 1e-6, "{name} at {z}: {got}, not {}", r(*z));
+        }
+        let ends = decay(&shared, name, &[0.98 * limit, 1.02 * limit], 150);
+        assert!(ends[0].abs() < 0.2 && !(ends[1].abs() <= 10.0), "{name} about its limit: {ends:?}");
+    }
+}

@@ -9,6 +9,7 @@
 #[path = "../support/mod.rs"]
 mod support;
 
+mod beams;
 mod breaking;
 mod chains;
 mod invariants;
