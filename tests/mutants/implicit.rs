@@ -19,6 +19,7 @@ use crate::support::{self};
 const COUNT: usize = 1010;
 
 /// A cloud of which most are tied, some in rings; one is held, one has no mass.
+#[expect(clippy::cast_possible_truncation, reason = "numbers are rounded to what f32 holds")]
 fn tangle(stiffness: f64) -> Particles {
     let mut particles = support::cloud(COUNT, 31);
     particles.links = Links::default();
@@ -76,11 +77,12 @@ fn forces() -> Vec<Box<dyn Force>> {
 /// What is wrong in the later begins of Newton's method: the difference of impulses that are up to a hundred times as large.
 const LATER: f64 = 10.0;
 
+type Forces<'a> = &'a dyn Fn() -> Vec<Box<dyn Force>>;
+
 /// Steps that run out of iterations, that converge, that settle, and that break down; with ties and without.
 pub fn all(device: &Device, stages: &mut Vec<Stage>) {
     let solver = |tolerance, iterations, solves| Solver { tolerance, iterations, solves };
     let loose = || forces().into_iter().filter(|force| force.laws()[0].name != "spring").collect();
-    type Forces<'a> = &'a dyn Fn() -> Vec<Box<dyn Force>>;
     let cases: [(&str, &str, Forces<'_>, Solver, f64); 5] = [
         ("runs out", "linear_implicit_midpoint", &forces, solver(1e-5, 2, 1), 3.0),
         ("converges", "linear_backward_euler", &forces, solver(0.3, 3, 1), 3.0),
@@ -184,7 +186,9 @@ fn amended(name: &str, simulation: &Shared, kernel: Kernel, fields: &[(&str, Vec
     };
     simulation.borrow_mut().backend().compile(&alone(kernel.clone())).expect("a kernel");
     let before: Vec<_> = fields.iter().map(|(field, _)| words(simulation, field)).collect();
-    fields.iter().for_each(|(field, words)| write(field, words));
+    for (field, words) in fields {
+        write(field, words);
+    }
     let stage = Stage::amid(name, simulation, alone(kernel));
     fields.iter().zip(before).for_each(|((field, _), words)| write(field, &words));
     stage

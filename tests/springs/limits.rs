@@ -105,8 +105,7 @@ fn limits_of_stability() {
     for (name, steps) in [("forward_euler", 100), ("midpoint", 2000), ("heun", 2000)] {
         let [x, v] = run(&shared, name, &[0.4], steps)[0];
         let grown = (x.length_squared() + v.length_squared()) / 2.09;
-        // 1.0064⁶⁰⁰ = 46, and 1.16⁶⁰⁰ is beyond all bounds.
-        assert!(grown > 40.0, "{name}: {grown:e}");
+        assert!(grown > 1e5, "{name}: {grown:e}");
     }
 }
 
