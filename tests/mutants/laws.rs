@@ -1,13 +1,16 @@
 //! Stages of laws, and of what keeps velocities lawful.
+#![allow(clippy::cast_possible_truncation, reason = "numbers are rounded to what f32 holds")]
 
 use glam::{DVec3, Vec4};
 use motes::forces::{self, Over, Problem};
+use motes::integrators::Step;
 use motes::kernel::{Backend, Machine, POSITION, VELOCITY, World};
 use motes::settings::{Kind, Value};
 use motes::{Bounds, Gpu, Simulation};
 
 use crate::stages::{Device, FEW, Stage, moving, stage};
 use crate::support::machines::{kernel, kernels};
+use crate::support::states::force;
 use crate::support::{self, choices};
 
 /// Every law alone, in all its variants; those over pairs by the visit that compiles fastest.
@@ -34,6 +37,32 @@ pub fn all(device: &Device, stages: &mut Vec<Stage>) {
                     stages.push(stage(entry.name, resting(device, machine, Bounds::default()), kernel));
                 }
             }
+        }
+    }
+}
+
+/// The first law of a step, which sets what was felt; and links of four kinds at most, which have a visit of their own.
+pub fn firsts(device: &Device, stages: &mut Vec<Stage>) {
+    let machine = Machine { software: true, subgroup: 0, invocations: 1 };
+    let mut alike = support::links(FEW);
+    for (place, spring) in alike.springs.iter_mut().enumerate() {
+        // None at rest, ropes, and with a length at rest; not all ends of them have all kinds.
+        let [rest, stiffness, damping] =
+            [[0.0, 1.3, 0.7], [0.6, 0.9, 0.2], [0.35, 1.7, 0.4], [0.75, 0.6, 0.3]][place % 7 % 4];
+        (spring.rope, spring.rest) = (place % 7 % 4 == 1, f64::from(rest as f32));
+        [spring.stiffness, spring.damping] = [stiffness, damping].map(|x: f64| f64::from((x / FEW as f64) as f32));
+    }
+    for (name, links) in [("drag", &alike), ("spring", &support::links(FEW)), ("spring", &alike)] {
+        let force = [force(name, &[])];
+        let problem = Problem::new(u32::try_from(FEW).expect("few"), machine).tied(links, &[]);
+        let mut step = Step::new(&force, problem.clone());
+        step.evaluate();
+        let first = step.finished().expect("a plan").kernels.swap_remove(0);
+        assert_eq!(first.name, name, "nothing is cleared before the first law");
+        let later = force[0].laws().swap_remove(0).kernel(&problem).expect("a kernel");
+        for (case, kernel) in [("first", first), ("later", later)] {
+            let simulation = resting(device, machine, Bounds::default());
+            stages.push(stage(&format!("{name}, {case}"), simulation, kernel));
         }
     }
 }
