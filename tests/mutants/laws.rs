@@ -52,7 +52,12 @@ pub fn firsts(device: &Device, stages: &mut Vec<Stage>) {
         (spring.rope, spring.rest) = (place % 7 % 4 == 1, f64::from(rest as f32));
         [spring.stiffness, spring.damping] = [stiffness, damping].map(|x: f64| f64::from((x / FEW as f64) as f32));
     }
-    for (name, links) in [("drag", &alike), ("spring", &support::links(FEW)), ("spring", &alike)] {
+    // Who has no mass is tied to nobody.
+    let mut each = support::links(FEW);
+    for links in [&mut alike, &mut each] {
+        links.springs.retain(|link| !link.ends.contains(&13));
+    }
+    for (name, links) in [("drag", &alike), ("spring", &each), ("spring", &alike)] {
         let force = [force(name, &[])];
         let problem = Problem::new(u32::try_from(FEW).expect("few"), machine).tied(links, &[]);
         let mut step = Step::new(&force, problem.clone());
@@ -61,9 +66,31 @@ pub fn firsts(device: &Device, stages: &mut Vec<Stage>) {
         assert_eq!(first.name, name, "nothing is cleared before the first law");
         let later = force[0].laws().swap_remove(0).kernel(&problem).expect("a kernel");
         for (case, kernel) in [("first", first), ("later", later)] {
-            let simulation = resting(device, machine, Bounds::default());
+            let mut simulation = resting(device, machine, Bounds::default());
+            let mut places = pollster::block_on(simulation.read(POSITION)).expect("places");
+            places[13].w = 0.0;
+            simulation.write(POSITION, &places).expect("places");
             stages.push(stage(&format!("{name}, {case}"), simulation, kernel));
         }
+    }
+}
+
+/// A joint that is almost straight, and a triangle that goes with the air.
+pub fn corners(device: &Device, stages: &mut Vec<Stage>) {
+    let machine = Machine { software: true, subgroup: 0, invocations: 1 };
+    for name in ["joint", "air"] {
+        let mut simulation = resting(device, machine, Bounds::default());
+        let mut places = pollster::block_on(simulation.read(POSITION)).expect("places");
+        for (id, x, y) in [(30, 0.25, 0.0), (31, 0.75, 0.0), (32, 1.25, 4e-4)] {
+            places[id] = Vec4::new(x, y, 0.0, places[id].w);
+        }
+        simulation.write(POSITION, &places).expect("places");
+        let mut velocities = pollster::block_on(simulation.read(VELOCITY)).expect("velocities");
+        for id in [30, 35, 31] {
+            velocities[id] = Vec4::ZERO;
+        }
+        simulation.write(VELOCITY, &velocities).expect("velocities");
+        stages.push(stage(&format!("{name}, straight"), simulation, kernel(force(name, &[]).as_ref(), FEW, &machine)));
     }
 }
 

@@ -187,6 +187,7 @@ pub fn all(shared: &Shared) -> Vec<Stage> {
     crate::boundary::boundary(&device, &mut stages);
     laws::all(&device, &mut stages);
     laws::firsts(&device, &mut stages);
+    laws::corners(&device, &mut stages);
     laws::planes(&device, &mut stages);
     crate::held::all(&device, &mut stages);
     crate::rods::rods(&device, &mut stages);
