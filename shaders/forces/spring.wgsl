@@ -7,7 +7,8 @@ struct Sum { force: vec3f, energy: f32 }
 fn gather(me: Particle, you: Particle, r: vec3f, link: Link, sum: ptr<function, Sum>) {
     let square = dot(r, r);
     // Two at one place have no direction between them.
-    let inverse = select(0.0, inverseSqrt(square), square > 0.0);
+    let apart = square > 0.0;
+    let inverse = select(0.0, inverseSqrt(square), apart);
     let rest = abs(link.rest);
     let stretch = square * inverse - rest;
     var pull = link.stiffness * (1.0 - rest * inverse);
@@ -27,10 +28,10 @@ fn finish(me: Particle, sum: Sum) -> vec4f {
 // k (t dx + (1 − t) (u · dx) u) + c (u · dv) u with t = 1 − L / l, but not below zero: who pushes a spring together would be
 // pushed aside by it, and the matrix would not be positive (Choi & Ko 2002).
 fn jvp(me: Particle, you: Particle, r: vec3f, link: Link, dx: vec3f, dv: vec3f) -> vec3f {
-    let square = dot(r, r);
-    let inverse = select(0.0, inverseSqrt(square), square > 0.0);
+    let distance = length(r);
+    let inverse = select(0.0, 1.0 / distance, distance > 0.0);
     let u = r * inverse;
     let across = max(0.0, 1.0 - abs(link.rest) * inverse);
-    if link.rest < 0.0 && square * inverse <= -link.rest { return vec3f(); }
+    if link.rest < 0.0 && distance <= -link.rest { return vec3f(); }
     return link.stiffness * (across * dx + ((1.0 - across) * dot(u, dx)) * u) + (link.damping * dot(u, dv)) * u;
 }

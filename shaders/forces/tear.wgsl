@@ -17,7 +17,8 @@ fn tear(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
     for (var k = link_start[i]; k < end; k += 1u) {
         let r = shortest(particle(link[k].partner).position - me.position);
         let longest = (1.0 + STRAIN) * abs(link[k].rest);
-        if longest > 0.0 && dot(r, r) > longest * longest {
+        let beyond = dot(r, r) > longest * longest;
+        if longest > 0.0 && beyond {
             link[k].stiffness = 0.0;
             link[k].damping = 0.0;
         }

@@ -15,6 +15,7 @@ const AT_THE_SIDE: &str = "who is at the side stays at the side, by one way or t
 const SOON: &str = "it says when to stop, and the last of Newton's steps doubles digits that are enough";
 const LOST: &str = "what is lost is lost either way";
 const NOTHING_BEFORE: &str = "before the first rod, and behind the last, it is a factor of nothing";
+const NO_LINKS: &str = "behind the last particle's there are no links";
 const NOT_ASKED: &str = "it is not asked for any more";
 const ALL_KNOW: &str = "all know the same, and whoever says it says the same";
 const APART: &str = "let apart = start + BLOCK <= mine || start >= mine + WORKGROUP * TARGETS;";
@@ -81,6 +82,17 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("span.wgsl", "override WHOLE: bool = true;", "true", "false", ALWAYS_SET),
     same("gravity_spline.wgsl", "if distance2 >= h * h {", ">=", ">", "at u = 1 both formulas are the same number"),
     same("gravity_spline.wgsl", "if u < 0.5 {", "<", "<=", "at u = 1/2 both formulas are the same number"),
+    same("corners.wgsl", "if i >= world.count", ">=", ">", NO_LINKS),
+    same("tear.wgsl", "if i >= world.count", ">=", ">", NO_LINKS),
+    same("tear.wgsl", "override STRAIN: f32 = 0.1;", "0.1", "0.15000000000000002", ALWAYS_SET),
+    same("tear.wgsl", "let beyond = ", ">", ">=", EDGE),
+    same("spring.wgsl", "let inverse = select(0.0, inverseSqrt", "0.0", "1.0", "it is a part of no way"),
+    same("spring.wgsl", "let taut = ", ">", ">=", "at the edge both are nothing"),
+    same("spring.wgsl", "if link.rest < 0.0 && distance", "<=", "<", EDGE),
+    same("joint.wgsl", "let ratio = ", "1e-6", "1.5e-6", "who turns right back has no side to turn to"),
+    same("joint.wgsl", "let ratio = ", "<", "<=", EDGE),
+    same("joint.wgsl", "let ratio = ", "1e-3", "0.0015", "of so small angles both are the same number"),
+    same("air.wgsl", "var along = 0.0;", "0.0", "1.0", "a wind of no speed has gusts of no speed"),
     same(
         "wind.wgsl",
         "var along = 0.0;",

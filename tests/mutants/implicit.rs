@@ -29,6 +29,8 @@ fn tangle(stiffness: f64) -> Particles {
         for way in [1, 7] {
             if id + way < tied {
                 let rest = f64::from((1.3 + 0.7 * random.next()) as f32);
+                // Two of them are going to be at one place, in [`together`].
+                let rest = if (id, way) == (8, 1) { 0.0 } else { rest };
                 let stiffness = f64::from((stiffness * (1.2 + 0.3 * random.next())) as f32);
                 let link = Link { ends: [id, id + way], rest, stiffness, damping: 0.3 * stiffness, rope: id % 5 == 0 };
                 particles.links.springs.push(link);
@@ -67,9 +69,13 @@ fn forces() -> Vec<Box<dyn Force>> {
                 ("velocity", vector(0.6, 0.2, -0.3)),
                 ("gust", Value::Number(0.7)),
                 ("rate", Value::Number(0.4)),
+                ("period", Value::Number(1.3)),
                 ("wavelength", Value::Number(1.7)),
             ],
         ),
+        // Air that stands still, and somebody who does.
+        force("wind", &[("velocity", vector(0.0, 0.0, 0.0)), ("rate", Value::Number(0.3))]),
+        force("drag", &[("linear", Value::Number(0.1)), ("quadratic", Value::Number(0.2))]),
         force("vortex", &[("rate", Value::Number(0.6))]),
     ]
 }
@@ -159,6 +165,9 @@ fn amid(case: &str, simulation: Simulation<Gpu>, plan: &Plan, stages: &mut Vec<S
                 let state = kernel.passes[0].field("solve_state");
                 stages.push(amended(&format!("{name}, done"), &simulation, kernel.clone(), &[(state, DONE.to_vec())]));
             }
+            "rows" if begun == 0 && case == "runs out" => {
+                stages.extend([here(), together(&name, &simulation, kernel)]);
+            }
             "update" => stages.push(here()),
             _ if begun < 2 && (file("solve_") || file("each_jacobian")) => stages.push(here()),
             _ => {}
@@ -192,6 +201,15 @@ fn amended(name: &str, simulation: &Shared, kernel: Kernel, fields: &[(&str, Vec
     let stage = Stage::amid(name, simulation, alone(kernel));
     fields.iter().zip(before).for_each(|((field, _), words)| write(field, &words));
     stage
+}
+
+/// Ends of springs at one place.
+fn together(name: &str, simulation: &Shared, kernel: &Kernel) -> Stage {
+    let mut position = words(simulation, "position");
+    for id in [8, 21] {
+        position.copy_within(4 * id..4 * id + 3, 4 * id + 4);
+    }
+    amended(&format!("{name}, together"), simulation, kernel.clone(), &[("position", position)])
 }
 
 /// Particles at all distances from the origin: for some of them what is left to do is less than a place can tell.

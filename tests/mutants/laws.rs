@@ -1,13 +1,16 @@
 //! Stages of laws, and of what keeps velocities lawful.
+#![allow(clippy::cast_possible_truncation, reason = "numbers are rounded to what f32 holds")]
 
 use glam::{DVec3, Vec4};
 use motes::forces::{self, Over, Problem};
+use motes::integrators::Step;
 use motes::kernel::{Backend, Machine, POSITION, VELOCITY, World};
 use motes::settings::{Kind, Value};
 use motes::{Bounds, Gpu, Simulation};
 
 use crate::stages::{Device, FEW, Stage, moving, stage};
 use crate::support::machines::{kernel, kernels};
+use crate::support::states::force;
 use crate::support::{self, choices};
 
 /// Every law alone, in all its variants; those over pairs by the visit that compiles fastest.
@@ -35,6 +38,59 @@ pub fn all(device: &Device, stages: &mut Vec<Stage>) {
                 }
             }
         }
+    }
+}
+
+/// The first law of a step, which sets what was felt; and links of four kinds at most, which have a visit of their own.
+pub fn firsts(device: &Device, stages: &mut Vec<Stage>) {
+    let machine = Machine { software: true, subgroup: 0, invocations: 1 };
+    let mut alike = support::links(FEW);
+    for (place, spring) in alike.springs.iter_mut().enumerate() {
+        // None at rest, ropes, and with a length at rest; not all ends of them have all kinds.
+        let [rest, stiffness, damping] =
+            [[0.0, 1.3, 0.7], [0.6, 0.9, 0.2], [0.35, 1.7, 0.4], [0.75, 0.6, 0.3]][place % 7 % 4];
+        (spring.rope, spring.rest) = (place % 7 % 4 == 1, f64::from(rest as f32));
+        [spring.stiffness, spring.damping] = [stiffness, damping].map(|x: f64| f64::from((x / FEW as f64) as f32));
+    }
+    // Who has no mass is tied to nobody.
+    let mut each = support::links(FEW);
+    for links in [&mut alike, &mut each] {
+        links.springs.retain(|link| !link.ends.contains(&13));
+    }
+    for (name, links) in [("drag", &alike), ("spring", &each), ("spring", &alike)] {
+        let force = [force(name, &[])];
+        let problem = Problem::new(u32::try_from(FEW).expect("few"), machine).tied(links, &[]);
+        let mut step = Step::new(&force, problem.clone());
+        step.evaluate();
+        let first = step.finished().expect("a plan").kernels.swap_remove(0);
+        assert_eq!(first.name, name, "nothing is cleared before the first law");
+        let later = force[0].laws().swap_remove(0).kernel(&problem).expect("a kernel");
+        for (case, kernel) in [("first", first), ("later", later)] {
+            let mut simulation = resting(device, machine, Bounds::default());
+            let mut places = pollster::block_on(simulation.read(POSITION)).expect("places");
+            places[13].w = 0.0;
+            simulation.write(POSITION, &places).expect("places");
+            stages.push(stage(&format!("{name}, {case}"), simulation, kernel));
+        }
+    }
+}
+
+/// A joint that is almost straight, and a triangle that goes with the air.
+pub fn corners(device: &Device, stages: &mut Vec<Stage>) {
+    let machine = Machine { software: true, subgroup: 0, invocations: 1 };
+    for name in ["joint", "air"] {
+        let mut simulation = resting(device, machine, Bounds::default());
+        let mut places = pollster::block_on(simulation.read(POSITION)).expect("places");
+        for (id, x, y) in [(30, 0.25, 0.0), (31, 0.75, 0.0), (32, 1.25, 4e-4)] {
+            places[id] = Vec4::new(x, y, 0.0, places[id].w);
+        }
+        simulation.write(POSITION, &places).expect("places");
+        let mut velocities = pollster::block_on(simulation.read(VELOCITY)).expect("velocities");
+        for id in [30, 35, 31] {
+            velocities[id] = Vec4::ZERO;
+        }
+        simulation.write(VELOCITY, &velocities).expect("velocities");
+        stages.push(stage(&format!("{name}, straight"), simulation, kernel(force(name, &[]).as_ref(), FEW, &machine)));
     }
 }
 

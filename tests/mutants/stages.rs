@@ -49,6 +49,7 @@ impl Stage {
     }
     /// The same in a simulation that other stages stand in as well: each puts back the fields that it has a use for.
     pub fn amid(name: &str, simulation: &Rc<RefCell<Simulation<Gpu>>>, plan: Plan) -> Self {
+        let plan = crate::memory::remembering(plan);
         let shared = simulation.clone();
         let mut simulation = simulation.borrow_mut();
         let count = simulation.count();
@@ -185,6 +186,8 @@ pub fn all(shared: &Shared) -> Vec<Stage> {
     alarms::runaways(&device, &mut stages);
     crate::boundary::boundary(&device, &mut stages);
     laws::all(&device, &mut stages);
+    laws::firsts(&device, &mut stages);
+    laws::corners(&device, &mut stages);
     laws::planes(&device, &mut stages);
     crate::held::all(&device, &mut stages);
     crate::rods::rods(&device, &mut stages);
