@@ -84,6 +84,9 @@ async fn judge(mut scene: Scene) -> Result<Loaded, Failure> {
 
 /// The spring that asks for the shortest step.
 fn culprit(verdict: &Verdict, setup: &Setup) -> String {
+    if !verdict.by_damping && verdict.joints > verdict.bound.stiffness.sum {
+        return format!("the bending stiffness of the joints (ω² up to {:.1e})", verdict.joints);
+    }
     let row = if verdict.by_damping { verdict.bound.damping } else { verdict.bound.stiffness };
     let what = if verdict.by_damping { "damping" } else { "stiffness" };
     match setup.particles.links.springs.get(row.spring) {

@@ -12,6 +12,7 @@ use super::line::Line;
 use super::problems::Problems;
 use super::{input, open};
 use crate::error::Error;
+use crate::kernel::Bounds;
 use crate::links::{Link, Links, Rod};
 
 /// What ties two particles, as scenes and files call it.
@@ -65,12 +66,13 @@ impl Usual {
 
 const COLUMNS: [&str; 6] = ["a", "b", "rest", "stiffness", "damping", "tie"];
 
-/// Reads links between particles that are at these places.
+/// Reads links between particles that are at these places, in this box: in a periodic one a link is as long as the shortest
+/// way.
 ///
 /// # Errors
 /// [`Error::Input`] that lists, with its line, everything that is wrong: unknown columns, cells that are no numbers or
 /// negative, ids of nobody, links of a particle with itself, and links that are there already.
-pub fn read(path: &Path, positions: &[DVec3], usual: &Usual) -> Result<Links, Error> {
+pub fn read(path: &Path, positions: &[DVec3], bounds: &Bounds, usual: &Usual) -> Result<Links, Error> {
     let (file, _) = open(path)?;
     let mut rows =
         ReaderBuilder::new().comment(Some(b'#')).flexible(true).trim(Trim::All).has_headers(false).from_reader(file);
@@ -107,7 +109,7 @@ pub fn read(path: &Path, positions: &[DVec3], usual: &Usual) -> Result<Links, Er
             damping: damping.unwrap_or(usual.damping),
             ..*usual
         };
-        own.tie(&mut links, [a, b], positions[a as usize].distance(positions[b as usize]), rest);
+        own.tie(&mut links, [a, b], bounds.shortest(positions[b as usize] - positions[a as usize]).length(), rest);
     }
     problems.check(path)?;
     Ok(links)

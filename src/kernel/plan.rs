@@ -222,7 +222,8 @@ impl Plan {
         for kernel in &self.kernels {
             for (field, binding) in kernel.bindings().filter(|(_, b)| b.access != Access::Uniform) {
                 let elements = kernel.size(field).unwrap_or(u64::from(count));
-                let bytes = if binding.array { binding.stride * elements } else { binding.stride };
+                // A device binds no empty array, and no part of an element.
+                let bytes = if binding.array { binding.stride * elements.max(1) } else { binding.stride };
                 let entry = fields.entry(field.to_owned()).or_insert(0);
                 *entry = bytes.max(*entry);
             }

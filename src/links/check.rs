@@ -86,8 +86,13 @@ fn twice(what: &str, [a, b]: [u32; 2], pairs: &mut BTreeSet<[u32; 2]>) -> Result
 }
 
 fn not_negative(what: &str, name: &str, x: f64) -> Result<(), Error> {
+    if x > 0.0 && x < f64::from(f32::MIN_POSITIVE) {
+        return Err(Error::Scene(format!(
+            "{what} has the {name} {x:e}, which single precision takes for 0: say 0, or more"
+        )));
+    }
     if (0.0..=f64::from(f32::MAX)).contains(&x) {
         return Ok(());
     }
-    Err(Error::Scene(format!("{what} has the {name} {x}, not a finite number, zero or above")))
+    Err(Error::Scene(format!("{what} has the {name} {x:e}, not a finite number, zero or above")))
 }

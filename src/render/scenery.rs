@@ -145,7 +145,7 @@ impl Facets {
         ];
         for (field, words) in tables {
             let stride = kernel.bindings().filter(|(name, _)| *name == field).map(|(_, b)| b.stride).max();
-            if let Some(stride) = stride.filter(|_| !words.is_empty()) {
+            if let Some(stride) = stride {
                 let field: Name = field.into();
                 kernel.sizes.retain(|(name, _)| *name != field);
                 kernel.sizes.push((field.clone(), 4 * words.len() as u64 / stride.max(1)));

@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use glam::DVec3;
 
 use crate::io::links::{self, Tie, Usual};
+use crate::kernel::Bounds;
 use crate::links::Links;
 use crate::particles::Particles;
 use crate::settings::{Key, Kind, Settings, Value};
@@ -32,15 +33,22 @@ pub const LINKS_KEYS: &[Key] = &[
 pub(super) const OWN: &[&str] = &["file", "pairs"];
 
 /// Reads a section about particles that are there already, and adds its links to theirs.
-pub(super) fn read(table: &Table<'_>, particles: &mut Particles, files: &Files, out: &mut Writer, report: &mut Report) {
+pub(super) fn read(
+    table: &Table<'_>,
+    particles: &mut Particles,
+    bounds: &Bounds,
+    files: &Files,
+    out: &mut Writer,
+    report: &mut Report,
+) {
     let faults = report.len();
     let settings = table.settings(LINKS_KEYS, OWN, report);
     let Some(entry) = table.one_of(OWN, report) else { return };
     let usual = usual(&settings);
     out.header("[[links]]");
     let links = match entry.key.as_str() {
-        "file" => from_file(entry, &particles.position, &usual, files, out, report),
-        _ => from_pairs(entry, &particles.position, &usual, out, report),
+        "file" => from_file(entry, &particles.position, bounds, &usual, files, out, report),
+        _ => from_pairs(entry, &particles.position, bounds, &usual, out, report),
     };
     out.settings(LINKS_KEYS, &settings);
     let Some(links) = links.filter(|_| report.len() == faults) else { return };
@@ -58,6 +66,7 @@ fn usual(settings: &Settings) -> Usual {
 fn from_file(
     entry: &Entry,
     positions: &[DVec3],
+    bounds: &Bounds,
     usual: &Usual,
     files: &Files,
     out: &mut Writer,
@@ -66,7 +75,7 @@ fn from_file(
     let name = value::text(&entry.node, "file", "the name of a file", report)?;
     let place = &entry.node.place;
     let read = files.locate("file", name, place).and_then(|located| match &located {
-        Located::Disk { path, name } => match links::read(path, positions, usual) {
+        Located::Disk { path, name } => match links::read(path, positions, bounds, usual) {
             Ok(links) => Ok((links, name.clone())),
             Err(why) => Err(Fault::at(place, why.to_string()).in_input()),
         },
@@ -87,6 +96,7 @@ fn from_file(
 fn from_pairs(
     entry: &Entry,
     positions: &[DVec3],
+    bounds: &Bounds,
     usual: &Usual,
     out: &mut Writer,
     report: &mut Report,
@@ -108,7 +118,7 @@ fn from_pairs(
             report.push(Fault::at(&node.place, format!("particle {a} is linked to itself")));
             continue;
         }
-        usual.tie(&mut links, [a, b], positions[a as usize].distance(positions[b as usize]), None);
+        usual.tie(&mut links, [a, b], bounds.shortest(positions[b as usize] - positions[a as usize]).length(), None);
         text.push(format!("[{a}, {b}]"));
     }
     out.line("pairs", &format!("[{}]", text.join(", ")));

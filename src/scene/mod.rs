@@ -181,7 +181,7 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
     }
 
     for table in all("links") {
-        links::read(table, &mut particles, files, &mut out, report);
+        links::read(table, &mut particles, &bounds, files, &mut out, report);
     }
 
     let mut forces: Vec<Box<dyn Force>> = Vec::new();

@@ -4,6 +4,7 @@
 mod bound;
 mod mode;
 mod oscillator;
+mod others;
 mod verdict;
 
 pub use bound::{Bound, Row};

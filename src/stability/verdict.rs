@@ -3,6 +3,7 @@
 use super::bound::Bound;
 use super::mode::{Mode, Network};
 use super::oscillator::Oscillator;
+use super::others;
 use crate::error::Error;
 use crate::integrators::Integrator;
 use crate::simulation::Setup;
@@ -13,12 +14,14 @@ pub type Build = fn() -> Box<dyn Integrator>;
 /// A part of the largest step: at the limit itself a symplectic method keeps energies within bounds that are wide.
 const MARGIN: f64 = 0.9;
 
-/// What the springs of a setup ask of its steps.
+/// What the springs and joints of a setup ask of its steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Verdict {
     /// How stiff the network is at most, and where.
     pub bound: Bound,
-    /// The largest dt that is safe by that bound \[time\]; infinite for who bears any, 0 for who bears none.
+    /// The largest ω² of the joints \[1 / time²\].
+    pub joints: f64,
+    /// The largest dt that is safe by all of this, and by what forces of each particle add (drag, harmonic attractors) \[time\]; infinite for who bears any, 0 for who bears none.
     pub safe: f64,
     /// The dt from which on modes that the network has at the start grow tenfold in the run; above `safe`, but for
     /// rounding. Infinite where dt is safe: nobody looked.
@@ -28,14 +31,18 @@ pub struct Verdict {
 }
 
 impl Verdict {
-    /// Of a setup that is to run for so many steps; `None` where no spring acts.
+    /// Of a setup that is to run for so many steps; `None` where neither spring nor joint acts.
     ///
     /// # Errors
     /// What a simulation of one particle by the twins says.
     pub async fn of(setup: &Setup, build: Build, steps: u64) -> Result<Option<Self>, Error> {
         let springs = &setup.particles.links.springs;
-        let acts = setup.forces.iter().flat_map(|force| force.laws()).any(|law| law.name == "spring");
-        if springs.is_empty() || !acts {
+        let names: Vec<String> = setup.forces.iter().flat_map(|force| force.laws()).map(|law| law.name).collect();
+        // Two forces of a kind act twice.
+        let acts = |kind: &str| names.iter().filter(|name| *name == kind).count() as f64;
+        let springs = if acts("spring") > 0.0 { springs.as_slice() } else { &[] };
+        let bending = acts("joint") > 0.0 && !setup.particles.links.joints.is_empty();
+        if springs.is_empty() && !bending {
             return Ok(None);
         }
         let mut masses = setup.particles.mass.clone();
@@ -46,18 +53,24 @@ impl Verdict {
         }
         let bound = Bound::of(springs, &masses);
         let duration = setup.dt * steps as f64;
-        let highest = Mode { stiffness: bound.stiffness.sum, damping: bound.damping.sum };
+        let joints = acts("joint") * others::joints(setup, &masses);
+        let (stiffness, damping) = others::each(setup);
+        let highest = Mode {
+            stiffness: acts("spring") * bound.stiffness.sum + joints + stiffness,
+            damping: acts("spring") * bound.damping.sum + damping,
+        };
         let safe = safe(build, highest, duration).await?;
         let by_damping = if safe.is_finite() && safe > 0.0 {
             safe * highest.stiffness < 2.0 * highest.damping
         } else {
             highest.stiffness == 0.0
         };
-        let mut verdict = Self { bound, safe, lost: f64::INFINITY, by_damping };
-        if setup.dt > safe {
+        let mut verdict = Self { bound, joints, safe, lost: f64::INFINITY, by_damping };
+        if setup.dt > safe && !springs.is_empty() {
             let network = Network::new(springs, &masses, &setup.particles.position, &setup.bounds);
             for mode in [network.quickest(), network.most_damped()] {
-                verdict.lost = verdict.lost.min(limit(build, mode, duration).await?);
+                let (stiffness, damping) = (acts("spring") * mode.stiffness, acts("spring") * mode.damping);
+                verdict.lost = verdict.lost.min(limit(build, Mode { stiffness, damping }, duration).await?);
             }
         }
         Ok(Some(verdict))

@@ -18,7 +18,7 @@ fn places() -> Vec<DVec3> {
 
 fn read(text: impl AsRef<[u8]>) -> Result<Links, Error> {
     let folder = folder();
-    links::read(&put(&folder, "net.csv", text), &places(), &USUAL)
+    links::read(&put(&folder, "net.csv", text), &places(), &motes::Bounds::default(), &USUAL)
 }
 
 fn written(links: &Links) -> Vec<u8> {
@@ -111,7 +111,7 @@ fn headers_and_files_that_are_none() {
     );
     let folder = folder();
     for path in [folder.path().join("nowhere.csv"), folder.path().to_owned()] {
-        match links::read(&path, &places(), &USUAL) {
+        match links::read(&path, &places(), &motes::Bounds::default(), &USUAL) {
             Err(Error::Input { file, .. }) => assert_eq!(file, path),
             other => panic!("{other:?}"),
         }

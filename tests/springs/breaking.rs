@@ -86,7 +86,7 @@ fn broken_stays_broken_over_a_restart() {
     motes::io::links::write(std::fs::File::create(&path).expect("a file"), &rest.links).expect("written");
     let usual =
         motes::io::links::Usual { tie: motes::io::links::Tie::default(), rest: 1.0, stiffness: 1.0, damping: 0.0 };
-    let read = motes::io::links::read(&path, &rest.position, &usual).expect("links");
+    let read = motes::io::links::read(&path, &rest.position, &motes::Bounds::default(), &usual).expect("links");
     assert_eq!(read.springs, rest.links.springs);
     rest.links.springs = read.springs;
     let mut again = gpu(&shared, &tearing(&rest, 0.4, "symplectic_euler", 0.004));
