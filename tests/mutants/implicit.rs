@@ -1,4 +1,5 @@
 //! Stages of implicit steps: whole ones, in which every kernel takes up what those before it left.
+#![allow(clippy::cast_possible_truncation, reason = "numbers are rounded to what f32 holds")]
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -86,7 +87,6 @@ const LATER: f64 = 10.0;
 pub fn all(device: &Device, stages: &mut Vec<Stage>) {
     let solver = |tolerance, iterations, solves| Solver { tolerance, iterations, solves };
     let loose = || forces().into_iter().filter(|force| force.laws()[0].name != "spring").collect();
-    type Forces<'a> = &'a dyn Fn() -> Vec<Box<dyn Force>>;
     let cases: [(&str, &str, Forces<'_>, Solver, f64); 5] = [
         ("runs out", "linear_implicit_midpoint", &forces, solver(1e-5, 2, 1), 3.0),
         ("converges", "linear_backward_euler", &forces, solver(0.3, 3, 1), 3.0),
@@ -119,6 +119,7 @@ pub fn all(device: &Device, stages: &mut Vec<Stage>) {
     }
 }
 
+type Forces<'a> = &'a dyn Fn() -> Vec<Box<dyn Force>>;
 type Shared = Rc<RefCell<Simulation<Gpu>>>;
 
 /// A stage for each kernel of a solve, where those before it have led.
@@ -193,9 +194,13 @@ fn amended(name: &str, simulation: &Shared, kernel: Kernel, fields: &[(&str, Vec
     };
     simulation.borrow_mut().backend().compile(&alone(kernel.clone())).expect("a kernel");
     let before: Vec<_> = fields.iter().map(|(field, _)| words(simulation, field)).collect();
-    fields.iter().for_each(|(field, words)| write(field, words));
+    for (field, words) in fields {
+        write(field, words);
+    }
     let stage = Stage::amid(name, simulation, alone(kernel));
-    fields.iter().zip(before).for_each(|((field, _), words)| write(field, &words));
+    for ((field, _), words) in fields.iter().zip(before) {
+        write(field, &words);
+    }
     stage
 }
 
