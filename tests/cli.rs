@@ -204,7 +204,7 @@ fn the_other_commands_print_what_they_promise() {
     };
     lines(
         &["explain", "kepler", "--set", "simulation.integrator=leapfrog"],
-        &["kick FACTOR=0.5 | drift | clear | gravity | kick FACTOR=0.5 | tick | watch"],
+        &["step:  kick+drift KICK=0.5 | clear | gravity | kick FACTOR=0.5 | tick | watch"],
     );
     lines(&["check", "fountain"], &["position", "in all", "per step", "no faults"]);
     lines(&["check", "fountain", "--set", "simulation.integrator=leapfrog"], &["depends on velocity", "of order 1"]);
@@ -231,7 +231,7 @@ fn a_box_is_shown_and_what_it_keeps_is_claimed() {
     std::fs::write(&scene, gas).expect("written");
     let shown = "box: x periodic from -3 to 3, y periodic from -3 to 3, z periodic from -3 to 3";
     let (code, stdout, stderr) = output(&mut motes(&["explain", &scene, "--backend", "cpu"]));
-    assert!(code == 0 && stdout.contains(shown) && stdout.contains("drift | periodic | "), "{stdout}{stderr}");
+    assert!(code == 0 && stdout.contains(shown) && stdout.contains("drift KICK=0.5 | periodic | "), "{stdout}{stderr}");
     let (code, stdout, stderr) = output(&mut motes(&["check", &scene, "--backend", "cpu"]));
     assert!(code == 0 && stdout.contains(shown) && stdout.contains("no Ewald sum"), "{stdout}{stderr}");
     let out = path(&folder, "out");

@@ -71,9 +71,11 @@ fn setups_that_make_no_sense() {
     particles.mass.pop();
     refused(&shared, &setup(particles, Vec::new(), 0.1), &["5 positions", "4"]);
     assert!(matches!(Gpu::new(&shared.found.device, &shared.found.queue, 0), Err(Error::Scene(_))));
-    // A test particle is fine.
+    // A test particle is fine where nothing is tied to it.
     let mut particles = good();
     particles.mass[4] = 0.0;
+    refused(&shared, &setup(particles.clone(), Vec::new(), 0.1), &["ties particle 4, which has no mass"]);
+    particles.links = motes::links::Links::default();
     assert!(on_gpu(&shared, &setup(particles, Vec::new(), 0.1)).is_ok());
 }
 

@@ -1,11 +1,9 @@
 //! The README says what the registers say.
 
-use std::collections::BTreeMap;
-
 const README: &str = include_str!("../README.md");
 
-/// The rows of the table under a heading cell: name and text.
-fn table(heading: &str) -> BTreeMap<String, String> {
+/// The rows of the table under a heading cell, in their order: name and text.
+fn table(heading: &str) -> Vec<(String, String)> {
     let start = README.find(&format!("\n| {heading} | |\n")).unwrap_or_else(|| panic!("no table of {heading}s"));
     let rows = README[start + 1..].lines().skip(2).take_while(|line| line.starts_with('|'));
     rows.map(|row| {
@@ -16,7 +14,7 @@ fn table(heading: &str) -> BTreeMap<String, String> {
 }
 
 fn same<'a>(heading: &str, register: impl Iterator<Item = (&'a str, String)>) {
-    let register: BTreeMap<String, String> = register.map(|(name, about)| (name.to_owned(), about)).collect();
+    let register: Vec<_> = register.map(|(name, about)| (name.to_owned(), about)).collect();
     assert_eq!(table(heading), register, "the table of {heading}s");
 }
 
@@ -49,25 +47,29 @@ fn what_it_shows_is_there_and_what_it_names_exists() {
 }
 
 #[test]
-fn its_scene_and_its_law_work() {
-    let block = |language: &str, nth: usize| {
-        let parts: Vec<_> = README.split(&format!("```{language}\n")).skip(1).collect();
-        parts[nth].split("```").next().unwrap_or_default().to_owned()
+fn its_scenes_and_its_law_work() {
+    let blocks = |language: &str| -> Vec<&str> {
+        let parts = README.split(&format!("```{language}\n")).skip(1).collect::<Vec<_>>();
+        parts.into_iter().filter_map(|part| part.split("```").next()).collect()
     };
     let folder = tempfile::tempdir().expect("a folder");
-    std::fs::write(folder.path().join("swirl.wgsl"), block("wgsl", 0)).expect("written");
-    // The scene of the README, with the README's own force beside gravity.
-    let text = format!("{}\n{}", block("toml", 0), block("toml", 1));
-    let path = folder.path().join("orbit.toml");
-    std::fs::write(&path, text).expect("written");
-    let output = std::process::Command::new(env!("CARGO_BIN_EXE_motes"))
-        .args(["check", path.to_str().expect("a path of words")])
-        .output()
-        .expect("the program starts");
-    let words = String::from_utf8_lossy(&output.stdout);
-    assert!(
-        output.status.success() && words.contains("swirl") && words.contains("no faults"),
-        "{words}{}",
-        String::from_utf8_lossy(&output.stderr)
-    );
+    std::fs::write(folder.path().join("swirl.wgsl"), blocks("wgsl")[0]).expect("written");
+    let scenes = blocks("toml");
+    assert!(scenes[0].contains("[simulation]") && scenes.iter().any(|text| text.contains("swirl.wgsl")));
+    // The first one is whole; the others say more of it.
+    for (n, more) in scenes.iter().enumerate() {
+        let text = if n == 0 { (*more).to_owned() } else { format!("{}\n{more}", scenes[0]) };
+        let path = folder.path().join("orbit.toml");
+        std::fs::write(&path, text).expect("written");
+        let output = std::process::Command::new(env!("CARGO_BIN_EXE_motes"))
+            .args(["check", path.to_str().expect("a path of words")])
+            .output()
+            .expect("the program starts");
+        let words = String::from_utf8_lossy(&output.stdout);
+        assert!(
+            output.status.success() && words.contains("no faults") && words.contains("swirl") == more.contains("swirl"),
+            "{more}\n{words}{}",
+            String::from_utf8_lossy(&output.stderr)
+        );
+    }
 }

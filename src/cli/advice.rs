@@ -1,10 +1,13 @@
 //! What one should know of a scene before it runs.
 
+use std::collections::BTreeSet;
+
 use glam::{DVec3, DVec4};
 use motes::forces::{Law, Over, Problem};
 use motes::kernel::{
     ACCELERATION, Access, Array, Host, Kernel, Machine, POSITION, Pass, Plan, SPECIES, Twin, VELOCITY, World,
 };
+use motes::links::Links;
 use motes::motion::Hold;
 use motes::scene::Scene;
 use motes::{Bounds, Error, Setup, Side};
@@ -92,6 +95,24 @@ pub struct Conserved {
     pub angular_momentum: bool,
 }
 
+/// Whether any spring is damped.
+fn damped(links: &Links) -> bool {
+    links.springs.iter().any(|spring| spring.damping > 0.0)
+}
+
+/// What is tied and does not pull: no law visits it. Triangles are there for pictures too.
+fn idle(links: &Links, laws: &[Law]) -> Vec<String> {
+    let ties = [
+        (links.springs.len(), Over::Links, "springs", "spring"),
+        (links.joints.len(), Over::Joints, "joints", "joint"),
+    ];
+    let idle = ties.into_iter().filter(|(n, over, ..)| *n > 0 && laws.iter().all(|law| law.over != *over));
+    idle.map(|(n, _, what, force)| {
+        format!("nothing comes of the {what} (of which there are {n}): add a [[force]] of kind = \"{force}\"")
+    })
+    .collect()
+}
+
 /// What all forces and the sides of the box keep. A mirror takes momentum and keeps energy; where particles leave at one
 /// side and come in at the other, momentum stays, and the angular momentum is about nothing.
 pub fn conserved(setup: &Setup) -> Result<Conserved, Error> {
@@ -104,8 +125,7 @@ pub fn conserved(setup: &Setup) -> Result<Conserved, Error> {
         conserved.energy &= law.over == Over::Each || law.reciprocal;
         if matches!(law.over, Over::Links | Over::Joints | Over::Triangles) {
             // It goes by those that are tied, and by nothing else; what resists takes energy.
-            let damped = setup.particles.links.springs.iter().any(|spring| spring.damping > 0.0);
-            conserved.energy &= law.name != "spring" || !damped;
+            conserved.energy &= law.over != Over::Links || !damped(&setup.particles.links);
             continue;
         }
         conserved.energy &= match &law.twin {
@@ -114,6 +134,8 @@ pub fn conserved(setup: &Setup) -> Result<Conserved, Error> {
         };
         conserved.energy &= !law.kernel(&Problem::new(1, MACHINE))?.names("velocity");
     }
+    // What breaks takes its energy with it.
+    conserved.energy &= !setup.forces.iter().any(|force| force.breaks());
     // Who is held takes momentum; who is led does work as well.
     let held = &setup.particles.held;
     conserved.momentum &= held.is_empty();
@@ -134,10 +156,26 @@ pub fn conserved(setup: &Setup) -> Result<Conserved, Error> {
 
 const MACHINE: Machine = Machine { software: true, subgroup: 0, invocations: 1 };
 
+/// Who begins inside of a solid is thrown out of it in the first step.
+fn inside(setup: &Setup) -> Option<String> {
+    let particles = &setup.particles;
+    let held: BTreeSet<usize> = particles.held.iter().map(|one| one.id as usize).collect();
+    let solids: Vec<_> = setup.forces.iter().filter_map(|force| force.standing()).collect();
+    let within = |x: DVec3| solids.iter().any(|s| s.solid.distance(x - s.position, setup.bounds.dimensions).1 < 0.0);
+    let mut inner = (0..particles.len()).filter(|id| !held.contains(id) && within(particles.position[*id]));
+    let first = inner.next()?;
+    let count = 1 + inner.count();
+    Some(format!(
+        "{count} particles begin inside of a solid, particle {first} first of them: the first step throws them out, at any speed"
+    ))
+}
+
 /// Remarks of the scene itself, and of how its forces and its integrator go together.
 pub fn advice(scene: &Scene, setup: &Setup) -> Result<Vec<String>, Error> {
     let mut remarks = scene.remarks.clone();
+    remarks.extend(inside(setup));
     let laws: Vec<Law> = setup.forces.iter().flat_map(|force| force.laws()).collect();
+    remarks.extend(idle(&setup.particles.links, &laws));
     let implicit = setup.integrator.is_implicit();
     if implicit {
         remarks.push(solves::remark(&setup.forces, scene.integrator.name));
@@ -152,7 +190,9 @@ pub fn advice(scene: &Scene, setup: &Setup) -> Result<Vec<String>, Error> {
         let kernel = law.kernel(&Problem::new(1, MACHINE))?;
         strangers(&kernel)?;
         let solved = implicit && offered;
-        if kernel.names("velocity") && !solved && (reduced < order || implicit && order > 1) {
+        // Velocities count in the springs of the house where they are damped, and nowhere else.
+        let calm = over == Over::Links && !untwinned && !damped(&setup.particles.links);
+        if kernel.names("velocity") && !calm && !solved && (reduced < order || implicit && order > 1) {
             remarks.push(format!(
                 "`{name}` depends on velocity: {} is of order {order} for other forces, and of order {} with it; \
                  midpoint, heun and rk4 keep their order",

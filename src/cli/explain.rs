@@ -26,7 +26,9 @@ pub async fn explain(args: &SceneArgs) -> Result<(), Failure> {
         out!("once:  {}", plans.start);
     }
     out!("step:  {}\n", plans.step);
-    for kernel in &plans.step.kernels {
+    // Kernels that nothing runs are left out of the order.
+    let step = &plans.step;
+    for (_, kernel) in step.kernels.iter().enumerate().filter(|(place, _)| step.order.contains(place)) {
         out!("{}", describe(kernel));
     }
     Ok(())

@@ -35,6 +35,7 @@ mod solves;
 mod stability;
 mod stop;
 mod substeps;
+mod summary;
 mod table;
 
 use std::process::ExitCode;

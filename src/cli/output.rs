@@ -4,6 +4,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use motes::io::{Precision, atomically, csv, npz};
+use motes::links::Links;
 use motes::measure::Flock;
 use motes::render::{Color, Picture, Scenery, Trail, framed, group_color, pack};
 use motes::scene::{Format, Group, Scene};
@@ -114,6 +115,14 @@ impl Output {
             let path = self.folder.join(&stem).with_extension("npz");
             let (particles, time, step) = (&snapshot.particles, snapshot.time, snapshot.step);
             atomically(&path, |out| npz::write_npz(out, particles, time, step, self.precision))?;
+        }
+        Ok(())
+    }
+    /// Writes what is left of links that may break, beside a snapshot: `[[links]] file` reads it.
+    pub fn links(&self, step: u64, links: &Links) -> Result<(), Error> {
+        if self.formats.iter().any(|format| *format != Format::Png) {
+            let path = self.folder.join(format!("links_{step:0width$}.csv", width = self.digits));
+            atomically(&path, |out| motes::io::links::write(out, links))?;
         }
         Ok(())
     }

@@ -18,10 +18,11 @@ use super::engine::Engine;
 use super::failure::Failure;
 use super::film::Film;
 use super::output::Output;
-use super::progress::{Progress, duration, large};
+use super::progress::Progress;
 use super::solves;
 use super::stop::Stop;
 use super::substeps::{self, Loaded};
+use super::summary;
 
 /// How long one batch of steps should take: Ctrl-C is heard between two.
 const BATCH: Duration = Duration::from_millis(250);
@@ -84,6 +85,9 @@ struct Run {
     stop: Stop,
     /// The last state that was read, and so the last that is known to be good.
     last: Option<Snapshot>,
+    /// Springs at the start, and how many of them are torn.
+    springs: usize,
+    torn: Option<String>,
 }
 
 impl Run {
@@ -112,7 +116,22 @@ impl Run {
         }
         let company = setup.forces.iter().find_map(|force| force.company());
         let (conserved, stop) = (conserved(setup)?, Stop::listen());
-        Ok(Self { scene, device, folder, film, count, company, scenery, conserved, progress, stop, last: None })
+        let (springs, last, torn) = (setup.particles.links.springs.len(), None, None);
+        Ok(Self {
+            scene,
+            device,
+            folder,
+            film,
+            count,
+            company,
+            scenery,
+            conserved,
+            progress,
+            stop,
+            last,
+            springs,
+            torn,
+        })
     }
 
     async fn drive<B: Backend>(&mut self, mut simulation: Simulation<B>, precision: Precision) -> Result<(), Failure> {
@@ -198,6 +217,10 @@ impl Run {
         let snapshot = simulation.snapshot().await?;
         output.measure(&snapshot)?;
         output.snapshot(&snapshot)?;
+        if let Some(links) = simulation.torn().await? {
+            output.links(snapshot.step, &links)?;
+            self.torn = Some(summary::torn(self.springs, &links));
+        }
         if snapshot.step == 0 {
             output.trail.push(&snapshot.particles.position);
         }
@@ -256,37 +279,14 @@ impl Run {
         if stopped {
             say(format!("stopped at step {steps} of {}; everything up to there is written", self.scene.steps));
         }
-        say(format!(
-            "{steps} steps in {} ({} with measurements and files): {} steps/s, {} particle-steps/s",
-            duration(stepping),
-            duration(took),
-            large(rate),
-            large(rate * self.count as f64)
-        ));
-        let (energy, change) =
-            (last.drift_from(&first), if self.conserved.energy { "error" } else { "not conserved, change" });
+        say(summary::speed(steps, self.count, stepping, took));
         // Birds are driven: what their energy does tells nobody anything.
         if self.conserved.energy || output.company().is_none() {
-            say(format!("energy {:.6e} → {:.6e}, {change} {energy:+.1e}", first.total(), last.total()));
+            say(summary::energy(output.rows(), self.conserved.energy));
         }
-        if self.conserved.momentum {
-            let (p, l) = (last.momentum - first.momentum, last.angular_momentum - first.angular_momentum);
-            let turning = format!(", angular momentum by {:.1e}", l.length());
-            let turning = if self.conserved.angular_momentum { &turning } else { "" };
-            say(format!("momentum changed by {:.1e}{turning}", p.length()));
-        }
-        if let Some((first, last)) = output.company() {
-            say(format!(
-                "order {:.3} → {:.3}, {:.1} → {:.1} neighbours each, {} → {} clusters, the largest {:.0} % of all",
-                first.order,
-                last.order,
-                first.neighbors,
-                last.neighbors,
-                first.clusters,
-                last.clusters,
-                100.0 * last.largest
-            ));
-        }
+        summary::momentum(output.rows(), self.conserved).into_iter().for_each(&say);
+        output.company().map(|(first, last)| summary::company(first, last)).into_iter().for_each(&say);
+        self.torn.iter().cloned().for_each(&say);
         let tables = if output.company().is_some() { "energy.csv, flock.csv" } else { "energy.csv" };
         let picture = if output.pictures() { format!("{}.png, ", self.scene.name) } else { String::new() };
         say(format!(

@@ -1,6 +1,6 @@
 //! `motes scenes`
 
-use motes::scene::{BOX_KEYS, LINKS_KEYS, PARTICLES_KEYS, SCENES, Source};
+use motes::scene::{BOX_KEYS, LINKS_KEYS, MOTION_KEYS, PARTICLES_KEYS, SCENES, SOLVER_KEYS, Source};
 use motes::settings::Value;
 
 use super::args::ScenesArgs;
@@ -43,6 +43,14 @@ fn keys(wanted: Option<&str>) -> Result<(), Failure> {
             "box",
             "where particles may be; x, y and z say otherwise for single axes, dimensions 2 or 3",
             BOX_KEYS,
+        ),
+        ("section", "solver", "how well implicit integrators solve their equations", SOLVER_KEYS),
+        (
+            "section",
+            "motion",
+            "what leads held particles and solids: a name, and keys as in [{ time = 0 }, { time = 2, shift = [1, 0, 0], \
+             turn = [0, 0, 90] }]",
+            MOTION_KEYS,
         ),
         ("section", "particles", "what every [[particles]] may say", PARTICLES_KEYS),
         ("section", "links", "what ties particles: a file, or pairs of ids", LINKS_KEYS),

@@ -128,6 +128,7 @@ register! {
     rod: Rod, "rigid rods in chains keep their lengths, whatever the other forces do (RATTLE: Andersen 1983)";
     vicsek: Vicsek, "everybody takes the mean heading around it, with noise, in the plane (Vicsek et al. 1995)";
     spring: Spring, "springs and ropes, damped along themselves (Hooke 1678)";
+    strain_limit: StrainLimit, "springs that are not stretched farther than so much (Provot 1995)";
     tear: Tear, "springs that are stretched too far break, for ever";
     joint: Joint, "joints that resist bending: elastic rods, hair (Euler 1744)";
     air: Air, "drag and lift on every triangle of a cloth, in gusts (Ling, Damodaran & Gay 1996)";

@@ -158,10 +158,11 @@ impl Backend for Gpu {
     }
     fn compile(&mut self, plan: &Plan) -> Result<Program, Error> {
         for (name, bytes) in plan.fields(self.count) {
-            if name != "world" && self.buffers.require(&name, bytes)? {
-                if let Some(words) = plan.table(&name) {
-                    self.write_bytes(&name, 0, bytemuck::cast_slice(words))?;
-                }
+            if name != "world"
+                && self.buffers.require(&name, bytes)?
+                && let Some(words) = plan.table(&name)
+            {
+                self.write_bytes(&name, 0, bytemuck::cast_slice(words))?;
             }
         }
         Program::new(&mut self.queue, &mut self.pipelines, &self.buffers, plan)

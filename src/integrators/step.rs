@@ -87,7 +87,9 @@ impl<'a> Step<'a> {
     }
     /// Adds the kernels of laws; who is held feels nothing.
     fn felt(&mut self, laws: Vec<Kernel>) {
-        laws.into_iter().for_each(|kernel| self.add(Ok(kernel)));
+        for kernel in laws {
+            self.add(Ok(kernel));
+        }
         if !self.problem.held.is_empty() {
             self.add(held::hold(&self.problem));
         }

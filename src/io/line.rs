@@ -9,6 +9,7 @@ use ::csv::ByteRecord;
 
 /// Where a row begins. Its number is only counted when it is shown: `csv` knows where it stopped before, but not how many
 /// blank lines and comments it has skipped since.
+#[derive(Clone, Copy)]
 pub(super) struct Line<'a> {
     path: &'a Path,
     byte: u64,

@@ -80,10 +80,14 @@ pub fn read(path: &Path, positions: &[DVec3], usual: &Usual) -> Result<Links, Er
         return Err(input(path, "is empty; its first line must name the columns, such as a,b,rest,stiffness,damping"));
     }
     let mut problems = Problems::default();
-    let places = columns(&record, &mut problems);
+    let (places, width) = (columns(&record, &mut problems), record.len());
     let (mut links, mut known) = (Links::default(), BTreeMap::new());
     while rows.read_byte_record(&mut record).map_err(failed)? {
         let line = Line::of(path, &record);
+        if record.len() > width {
+            problems.note(|| format!("{line}: {} cells, but {width} columns", record.len()));
+            continue;
+        }
         let row = Row { record: &record, line: &line, places: &places };
         let ends = [row.id(0, positions.len(), &mut problems), row.id(1, positions.len(), &mut problems)];
         let numbers = [2, 3, 4].map(|column| row.number(column, &mut problems));
@@ -93,7 +97,7 @@ pub fn read(path: &Path, positions: &[DVec3], usual: &Usual) -> Result<Links, Er
             problems.note(|| format!("{line}: particle {a} is linked to itself"));
             continue;
         }
-        if let Some(before) = known.insert((a.min(b), a.max(b), tie == Tie::Rod), line.to_string()) {
+        if let Some(before) = known.insert((a.min(b), a.max(b), tie == Tie::Rod), line) {
             problems.note(|| format!("{line}: particles {a} and {b} are linked again; they are already at {before}"));
         }
         let [rest, stiffness, damping] = numbers;
@@ -142,7 +146,11 @@ impl Row<'_> {
     }
     fn id(&self, column: usize, count: usize, problems: &mut Problems) -> Option<u32> {
         self.places[column]?;
-        let (line, title, cell) = (self.line, COLUMNS[column], self.cell(column).unwrap_or_default());
+        let (line, title) = (self.line, COLUMNS[column]);
+        let Some(cell) = self.cell(column) else {
+            problems.note(|| format!("{line}, column {title}: the cell is missing"));
+            return None;
+        };
         match cell.parse::<u32>() {
             Ok(id) if (id as usize) < count => return Some(id),
             Ok(id) => problems
@@ -156,7 +164,7 @@ impl Row<'_> {
         match cell.parse::<f64>() {
             Ok(number) if number >= 0.0 && number.is_finite() => return Some(number),
             Ok(number) => {
-                problems.note(|| format!("{line}, column {title}: {number} is not a finite number, zero or above"))
+                problems.note(|| format!("{line}, column {title}: {number} is not a finite number, zero or above"));
             }
             Err(_) => problems.note(|| format!("{line}, column {title}: `{cell}` is not a number")),
         }

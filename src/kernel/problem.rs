@@ -41,7 +41,8 @@ pub struct Problem {
 }
 
 impl Problem {
-    /// So many particles in open space, somewhere in a cube of unit sides.
+    /// So many particles in open space, somewhere in a cube of unit sides, tied to nobody: a law over links is asked about
+    /// here, and runs where [`Problem::tied`] has made its tables.
     #[must_use]
     pub fn new(count: u32, machine: Machine) -> Self {
         Self {
@@ -50,7 +51,7 @@ impl Problem {
             bounds: Bounds::default(),
             extent: (DVec3::ZERO, DVec3::ONE),
             species: Vec::new(),
-            network: Arc::new(Network::new(count, &Links::default())),
+            network: Arc::new(Network { count, ..Network::default() }),
             breaks: false,
             held: Arc::default(),
             mask: Arc::default(),

@@ -49,7 +49,7 @@ impl Network {
     pub fn new(count: u32, links: &Links) -> Self {
         let ends = links.springs.iter().flat_map(|link| [(link.ends[0], half(link, 1)), (link.ends[1], half(link, 0))]);
         let ends: Vec<_> = ends.collect();
-        let (partner_start, partner, kind) = alike(count, &ends);
+        let [partner_start, partner, kind] = alike(count, &ends);
         let (link_start, link) = rows(count, ends);
         let corners = |ids: [u32; 3], stiffness: f64| {
             [0u32, 1, 2].map(|place| (ids[place as usize], [ids[0], ids[1], ids[2], place, bits(stiffness)]))
@@ -111,7 +111,10 @@ fn half(link: &Link, partner: usize) -> [u32; 4] {
 }
 
 /// The tables of springs by their kind, if there are few.
-fn alike(count: u32, ends: &[(u32, [u32; WORDS])]) -> (Arc<Vec<u32>>, Arc<Vec<u32>>, Arc<Vec<u32>>) {
+fn alike(count: u32, ends: &[(u32, [u32; WORDS])]) -> [Arc<Vec<u32>>; 3] {
+    if ends.is_empty() {
+        return Default::default();
+    }
     let mut kinds: Vec<[u32; 3]> = Vec::new();
     let mut sorted = Vec::with_capacity(ends.len());
     for (id, [partner, rest, stiffness, damping]) in ends {
@@ -136,7 +139,7 @@ fn alike(count: u32, ends: &[(u32, [u32; WORDS])]) -> (Arc<Vec<u32>>, Arc<Vec<u3
     accumulate(&mut start);
     start.pop();
     let words = kinds.into_iter().flat_map(|[rest, stiffness, damping]| [0, rest, stiffness, damping]).collect();
-    (Arc::new(start), Arc::new(sorted.into_iter().map(|(_, partner)| partner).collect()), Arc::new(words))
+    [start, sorted.into_iter().map(|(_, partner)| partner).collect(), words].map(Arc::new)
 }
 
 fn accumulate(start: &mut [u32]) {
@@ -149,8 +152,12 @@ fn accumulate(start: &mut [u32]) {
 
 /// Sorts elements by their particle, and within one by their words, of which the first are ids.
 fn rows<const N: usize>(count: u32, mut elements: Vec<(u32, [u32; N])>) -> (Arc<Vec<u32>>, Arc<Vec<u32>>) {
-    elements.sort_unstable();
     let mut start = vec![0; count as usize + 1];
+    if elements.is_empty() {
+        // Zeros that nobody has written take no memory.
+        return (Arc::new(start), Arc::default());
+    }
+    elements.sort_unstable();
     for (id, _) in &elements {
         if let Some(n) = start.get_mut(*id as usize + 1) {
             *n += 1;

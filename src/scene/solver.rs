@@ -21,7 +21,6 @@ pub const SOLVER_KEYS: &[Key] = &[
 
 /// Reads the section, and writes it out.
 pub(super) fn read(table: Option<&Table<'_>>, out: &mut Writer, report: &mut Report) -> Solver {
-    let faults = report.len();
     let settings = match table {
         Some(table) => table.settings(SOLVER_KEYS, &[], report),
         None => crate::settings::Settings::defaults(SOLVER_KEYS),
@@ -29,7 +28,7 @@ pub(super) fn read(table: Option<&Table<'_>>, out: &mut Writer, report: &mut Rep
     let whole = |name: &str| u32::try_from(settings.whole(name)).unwrap_or(u32::MAX);
     let solver =
         Solver { tolerance: settings.number("tolerance"), iterations: whole("iterations"), solves: whole("solves") };
-    if let Some(table) = table.filter(|_| report.len() == faults) {
+    if let Some(table) = table {
         let range = |good: bool, key: &str, label: String, report: &mut Report| {
             if let Some(entry) = table.get(key).filter(|_| !good) {
                 report.push(Fault::at(&entry.node.place, format!("`{key}` is out of reach")).label(label));

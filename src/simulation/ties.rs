@@ -7,6 +7,13 @@ use crate::links::{Links, Network, WORDS};
 use crate::visit::LINK;
 
 impl<B: Backend> Simulation<B> {
+    /// The links as they are now, where springs may break; nothing where none can.
+    ///
+    /// # Errors
+    /// As for [`Simulation::links`].
+    pub async fn torn(&mut self) -> Result<Option<Links>, Error> {
+        if self.breaks { self.links().await.map(Some) } else { Ok(None) }
+    }
     /// The links as they are now: those of the setup, without the springs that broke. They may go into another setup,
     /// which goes on from here.
     ///

@@ -32,6 +32,7 @@ fn tables(over: Over, network: &Network) -> Vec<(&'static str, &'static str, &Ar
 }
 
 /// Binds the tables that a visit reads to a kernel.
+#[must_use]
 pub fn bind(mut kernel: Kernel, over: Over, problem: &Problem) -> Kernel {
     for (inside, field, words) in tables(over, &problem.network) {
         let stride = kernel.passes.iter().flat_map(|pass| &pass.shader.reflection().bindings);

@@ -17,3 +17,4 @@ pub use jacobian::{Jacobian, ROW, ROWS};
 pub use law::Law;
 pub use links::{LINK, LINK_START, bind};
 pub use over::Over;
+pub(crate) use tied::Tied;

@@ -5,7 +5,7 @@ use crate::kernel::{Host, Reading};
 use crate::links::{Half, WORDS};
 
 /// The tables of links, whichever there are.
-pub enum Tied<'a> {
+pub(crate) enum Tied<'a> {
     /// Every link with all that it is.
     Each { start: Reading<'a, u32>, link: Reading<'a, u32> },
     /// Nobody is tied: a host of a few particles that somebody asks about.

@@ -1,5 +1,7 @@
 //! Implicit integrators: what they do to stiff laws, and how their linear systems are solved.
 
+#![allow(clippy::cast_possible_truncation, reason = "numbers are rounded to what f32 holds")]
+
 mod cloth;
 mod growth;
 mod idle;

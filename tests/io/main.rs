@@ -3,6 +3,7 @@
 #![cfg(feature = "scene")]
 
 mod csv_text;
+mod links_text;
 mod npz_archives;
 mod round_trips;
 mod tipsy_files;

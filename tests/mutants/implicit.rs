@@ -20,6 +20,7 @@ use crate::support::{self};
 const COUNT: usize = 1010;
 
 /// A cloud of which most are tied, some in rings; one is held, one has no mass.
+#[expect(clippy::cast_possible_truncation, reason = "numbers are rounded to what f32 holds")]
 fn tangle(stiffness: f64) -> Particles {
     let mut particles = support::cloud(COUNT, 31);
     particles.links = Links::default();
@@ -82,6 +83,8 @@ fn forces() -> Vec<Box<dyn Force>> {
 
 /// What is wrong in the later begins of Newton's method: the difference of impulses that are up to a hundred times as large.
 const LATER: f64 = 10.0;
+
+type Forces<'a> = &'a dyn Fn() -> Vec<Box<dyn Force>>;
 
 /// Steps that run out of iterations, that converge, that settle, and that break down; with ties and without.
 pub fn all(device: &Device, stages: &mut Vec<Stage>) {

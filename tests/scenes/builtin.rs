@@ -13,7 +13,8 @@ fn builtin(name: &str) -> Scene {
 fn every_one_loads_and_says_what_to_see() {
     let names: Vec<_> = SCENES.iter().map(|s| s.name).collect();
     let bodies = ["throw", "kepler", "figure_eight", "solar_system", "galaxy", "merger", "fountain"];
-    assert_eq!(names, [&bodies[..], &["flock", "fish_school", "vicsek", "murmuration"]].concat());
+    let tied = ["pendulum", "double_pendulum", "spring_chain", "stiff", "cloth", "flag", "tear", "jelly", "hair"];
+    assert_eq!(names, [&bodies[..], &tied, &["flock", "fish_school", "vicsek", "murmuration"]].concat());
     for builtin in SCENES {
         let scene = self::builtin(builtin.name);
         assert!(scene.about.len() > 200, "{}: {}", builtin.name, scene.about);

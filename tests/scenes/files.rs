@@ -219,7 +219,7 @@ error: unknown over "tree"
    |
  8 | over = "tree"
    |        ^^^^^^
-   = known: `each`, `pairs`, `within`, `near`, `nearest`
+   = known: `each`, `pairs`, `within`, `near`, `nearest`, `links`, `joints`, `triangles`
 
 error: `strength` must be a number, three numbers, or true or false, not the text "2"
   --> scene.toml:9:23

@@ -8,11 +8,14 @@ mod files;
 mod fuzz;
 mod held;
 mod keys;
+mod link_files;
+mod links;
 mod missing;
 mod numbers;
 mod overrides;
 mod particles;
 mod resolved;
+mod solver;
 mod syntax;
 mod words;
 

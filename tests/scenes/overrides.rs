@@ -58,7 +58,7 @@ bodies = [{ position = [0, 0, 0] }]
    |
    | --set simulaton.dt=0.1
    |       ^^^^^^^^^ did you mean [simulation]?
-   = the sections are [simulation], [box], [[motion]], [[particles]], [[force]], [output], [picture]
+   = the sections are [simulation], [solver], [box], [[motion]], [[particles]], [[links]], [[force]], [output], [picture]
 
 a.toml: 1 error",
     );
@@ -259,7 +259,7 @@ error: unknown integrator "rk5"
    |
    | --set simulation.integrator=rk5
    |                             ^^^ did you mean "rk4"?
-   = known: `forward_euler`, `symplectic_euler`, `leapfrog`, `midpoint`, `heun`, `rk4`, `forest_ruth`, `pefrl`
+   = known: `forward_euler`, `symplectic_euler`, `leapfrog`, `midpoint`, `heun`, `rk4`, `forest_ruth`, `pefrl`, `linear_backward_euler`, `backward_euler`, `linear_trapezoid`, `trapezoid`, `linear_implicit_midpoint`, `implicit_midpoint`
 
 a.toml: 3 errors"#,
     );

@@ -104,6 +104,11 @@ dt = 0.1
 steps = 10
 integrator = "leapfrog"
 
+[solver]
+tolerance = 0.001
+iterations = 100
+solves = 8
+
 [[particles]]
 bodies = [
   { position = [0.0, 0.0, 0.0], velocity = [0.0, 0.0, 0.0], mass = 1.0, radius = 0.0 },

@@ -63,7 +63,7 @@ bodies = [{ position = [0, 0, 0] }]
    |
  4 | integrator = "leapforg"
    |              ^^^^^^^^^^ did you mean "leapfrog"?
-   = known: `forward_euler`, `symplectic_euler`, `leapfrog`, `midpoint`, `heun`, `rk4`, `forest_ruth`, `pefrl`
+   = known: `forward_euler`, `symplectic_euler`, `leapfrog`, `midpoint`, `heun`, `rk4`, `forest_ruth`, `pefrl`, `linear_backward_euler`, `backward_euler`, `linear_trapezoid`, `trapezoid`, `linear_implicit_midpoint`, `implicit_midpoint`
 
 a.toml: 1 error"#,
     );
@@ -86,7 +86,7 @@ kind = "magnetism"
    |
  7 | kind = "magnetism"
    |        ^^^^^^^^^^^
-   = known: `gravity`, `uniform`, `drag`, `wind`, `vortex`, `attractor`, `boids`, `speed_limit`, `obstacle`, `solid`, `flee`, `chase`, `goal`, `wander`, `soft_turn`, `rod`, `vicsek`, `spring`, `tear`, `joint`, `air`
+   = known: `gravity`, `uniform`, `drag`, `wind`, `vortex`, `attractor`, `boids`, `speed_limit`, `obstacle`, `solid`, `flee`, `chase`, `goal`, `wander`, `soft_turn`, `rod`, `vicsek`, `spring`, `strain_limit`, `tear`, `joint`, `air`
 
 a.toml: 1 error"#,
     );
@@ -108,7 +108,7 @@ count = 5
    |
  5 | shape = "plumer"
    |         ^^^^^^^^ did you mean "plummer"?
-   = known: `plummer`, `sphere`, `disk`, `lattice`, `box`, `spray`
+   = known: `plummer`, `sphere`, `disk`, `lattice`, `box`, `spray`, `chain`, `cloth`, `jelly`, `hair`
 
 a.toml: 1 error"#,
     );

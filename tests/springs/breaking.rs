@@ -84,7 +84,8 @@ fn broken_stays_broken_over_a_restart() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("links.csv");
     motes::io::links::write(std::fs::File::create(&path).expect("a file"), &rest.links).expect("written");
-    let usual = motes::io::links::Usual { tie: Default::default(), rest: 1.0, stiffness: 1.0, damping: 0.0 };
+    let usual =
+        motes::io::links::Usual { tie: motes::io::links::Tie::default(), rest: 1.0, stiffness: 1.0, damping: 0.0 };
     let read = motes::io::links::read(&path, &rest.position, &usual).expect("links");
     assert_eq!(read.springs, rest.links.springs);
     rest.links.springs = read.springs;
@@ -114,4 +115,45 @@ fn both_ends_decide_alike() {
     assert_eq!(broken, [false, false, false, false, true, true]);
     let (_, v) = phase(&mut twins);
     assert!(v[3].x > 4.0);
+}
+
+/// A weak chain under a heavy load: without a limit it doubles, with one it stays near it; momentum of what is free stays.
+#[test]
+fn a_limit_of_strain() {
+    let number = Value::Number;
+    let limit = |sweeps: f64| force("strain_limit", &[("strain", number(0.05)), ("sweeps", number(sweeps))]);
+    let mut chain = at(&[[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0], [3.0, 0.0, 0.0]], 1.0);
+    chain.mass[3] = 4.0;
+    chain.links.springs = (0..3).map(|i| spring([i, i + 1], 1.0, 50.0)).collect();
+    fix(&mut chain, [0]);
+    let longest = |sweeps: Option<f64>| {
+        let mut all = forces(9.81, 1.0);
+        all.extend(sweeps.map(limit));
+        let mut simulation = cpu(&chain, all, "symplectic_euler", 0.01);
+        let mut longest = 0.0_f64;
+        for _ in 0..150 {
+            simulation.step(1).expect("a step");
+            let (x, _) = phase(&mut simulation);
+            longest = (0..3).map(|i| (x[i + 1] - x[i]).truncate().length()).fold(longest, f64::max);
+        }
+        longest
+    };
+    let (free, few, many) = (longest(None), longest(Some(4.0)), longest(Some(60.0)));
+    assert!(free > 1.7 && few < 1.2 && many < 1.06, "{free} without, {few} with a few sweeps, {many} with many");
+
+    let shared = support::device();
+    let mut free = chain.clone();
+    free.held.clear();
+    free.velocity = vec![DVec3::ZERO, DVec3::Y, DVec3::X * 3.0, DVec3::new(9.0, -1.0, 2.0)];
+    let mut all = forces(0.0, 0.0);
+    all.push(limit(8.0));
+    let mut simulation = gpu(&shared, &setup(&free, all, "leapfrog", 0.01));
+    simulation.step(40).expect("steps");
+    let v = pollster::block_on(simulation.read(VELOCITY)).expect("velocities");
+    let momentum = |v: &dyn Fn(usize) -> DVec3| (0..4).map(|i| free.mass[i] * v(i)).sum::<DVec3>();
+    let (before, after) = (momentum(&|i| free.velocity[i]), momentum(&|i| v[i].as_dvec4().truncate()));
+    // 40 · 8 sweeps, each with a rounding of a place of 3 by 1e-7, over 0.01.
+    assert!((after - before).length() < 2e-3, "{before} became {after}");
+    let x = pollster::block_on(simulation.read(motes::POSITION)).expect("places");
+    assert!((0..3).all(|i| (x[i + 1] - x[i]).truncate().length() < 1.1));
 }

@@ -61,7 +61,7 @@ fn dispersion() {
     ];
     for (n, omega, numerical) in known {
         assert!((2.0 * (h * omega / 2.0_f64).asin() / h - numerical).abs() < 1e-12, "the numbers say the same");
-        let mode = |i: usize| (n as f64 * PI * i as f64 / (free as f64 + 1.0)).sin();
+        let mode = |i: usize| (f64::from(n) * PI * i as f64 / (free as f64 + 1.0)).sin();
         let mut particles = row(free + 2, 1.0, 0.1, 0.0, 100.0);
         fix(&mut particles, [0, 65]);
         for (i, x) in particles.position.iter_mut().enumerate() {

@@ -81,7 +81,10 @@ fn kinds_in_lockstep() {
             let plan = setup.plans(simulation.backend().machine()).expect("plans").step;
             let verdicts = pollster::block_on(compare(simulation.backend(), &plan, count as u32)).expect("verdicts");
             let spring = verdicts.iter().find(|v| v.kernel == "spring").expect("springs");
-            assert!(spring.changed && verdicts.iter().all(|v| v.good()), "{kinds} kinds, {count}: {verdicts:?}");
+            assert!(
+                spring.changed && verdicts.iter().all(motes::lockstep::Verdict::good),
+                "{kinds} kinds, {count}: {verdicts:?}"
+            );
         }
     }
 }

@@ -52,9 +52,9 @@ impl Sheet {
             let u = r.map(|r| r * inverse);
             let along = u[0] * (w[0] - v[0]) + u[1] * (w[1] - v[1]) + u[2] * (w[2] - v[2]);
             let tension = edge.stiffness * (length - edge.rest) + edge.damping * along;
-            for k in 0..3 {
-                self.force[a][k] += tension * u[k];
-                self.force[b][k] -= tension * u[k];
+            for (k, u) in u.into_iter().enumerate() {
+                self.force[a][k] += tension * u;
+                self.force[b][k] -= tension * u;
             }
         }
         for ((x, v), f) in self.position.iter_mut().zip(&mut self.velocity).zip(&self.force) {

@@ -5,7 +5,7 @@ use std::time::Duration;
 use glam::{DVec3, Vec4};
 use motes::integrators::{Integrator, Step};
 use motes::settings::{Settings, Value};
-use motes::{Bounds, Error, POSITION, Setup, Simulation, forces, gpu, integrators, particles};
+use motes::{Bounds, Error, POSITION, Setup, Simulation, Solver, forces, gpu, integrators, particles};
 use serde_json::json;
 
 use super::median;
@@ -23,6 +23,8 @@ struct Row {
     springs: usize,
     device: Vec<f64>,
     plain: Vec<f64>,
+    /// Seconds of an iteration of conjugate gradients.
+    iteration: f64,
     apart: f64,
 }
 
@@ -31,11 +33,12 @@ pub fn bench(args: &BenchArgs, found: &gpu::Found) -> Result<serde_json::Value, 
     if !args.json {
         out!("\nsprings: a square sheet, about 6 springs to a particle, whole steps of symplectic Euler");
         out!(
-            "{:>9}  {:>9}  {:>12}  {:>12}  {:>18}  {:>12}  {:>7}",
+            "{:>9}  {:>9}  {:>12}  {:>12}  {:>12}  {:>20}  {:>12}  {:>7}",
             "particles",
             "springs",
             "step",
             "springs/s",
+            "CG iteration",
             "plain Rust, 1 thread",
             "springs/s",
             "ratio"
@@ -150,7 +153,33 @@ async fn measure(args: &BenchArgs, found: &gpu::Found, count: u32, last: Option<
     (0..20).for_each(|_| again.step(DT as f32, GRAVITY as f32));
     let apart = there.iter().zip(again.positions()).map(|(a, b)| (a.truncate() - Vec4::from(*b).truncate()).length());
     let apart = f64::from(apart.fold(0.0, f32::max));
-    Ok(Row { count, springs: setup.particles.links.springs.len(), device, plain, apart })
+    let (springs, iteration) = (setup.particles.links.springs.len(), iteration(args, found, setup)?);
+    Ok(Row { count, springs, device, plain, iteration, apart })
+}
+
+/// Seconds of an iteration of conjugate gradients: the difference of steps with many and with few, of which none converges.
+fn iteration(args: &BenchArgs, found: &gpu::Found, setup: Setup) -> Result<f64, Failure> {
+    const FEW: u32 = 4;
+    const MANY: u32 = 24;
+    // Too stiff to converge in so few.
+    let mut setup = Setup { integrator: Box::new(integrators::LinearBackwardEuler), dt: 1.0, ..setup };
+    let mut with = |iterations| {
+        setup.solver = Solver { tolerance: 1e-6, iterations, ..Solver::default() };
+        Simulation::new(&found.device, &found.queue, &setup)
+    };
+    let (mut few, mut many) = (with(FEW)?, with(MANY)?);
+    let mut differences = Vec::new();
+    for turn in 0..=args.repeat.max(1) {
+        let step = |simulation: &mut Simulation<motes::Gpu>| {
+            super::time(1, || simulation.step(1).and_then(|()| simulation.backend().wait()))
+        };
+        let (a, b) = (step(&mut few)?, step(&mut many)?);
+        if turn > 0 {
+            differences.push((b - a) / f64::from(MANY - FEW));
+        }
+    }
+    // Where it is next to nothing, noise may be more.
+    Ok(median(&differences).max(0.0))
 }
 
 #[expect(clippy::cast_precision_loss, reason = "a count")]
@@ -162,7 +191,7 @@ impl Row {
         let rate = |times: &[f64]| self.springs as f64 / median(times);
         json!({ "particles": self.count, "springs": self.springs, "seconds_per_step": self.device,
             "plain_seconds_per_step": self.plain, "springs_per_second": rate(&self.device),
-            "plain_springs_per_second": rate(&self.plain), "ratio": self.ratio(), "positions_differ": self.apart })
+            "plain_springs_per_second": rate(&self.plain), "ratio": self.ratio(), "seconds_per_iteration": self.iteration, "positions_differ": self.apart })
     }
 }
 
@@ -172,9 +201,10 @@ impl std::fmt::Display for Row {
         let text = |times: &[f64]| duration(Duration::from_secs_f64(median(times)));
         let rate = |times: &[f64]| large(self.springs as f64 / median(times));
         write!(f, "{:>9}  {:>9}  {:>12}  {:>12}", self.count, self.springs, text(&self.device), rate(&self.device))?;
+        write!(f, "  {:>12}", text(&[self.iteration]))?;
         if self.plain.is_empty() {
-            return write!(f, "  {:>18}", "-");
+            return write!(f, "  {:>20}", "-");
         }
-        write!(f, "  {:>18}  {:>12}  {:>7.2}", text(&self.plain), rate(&self.plain), self.ratio())
+        write!(f, "  {:>20}  {:>12}  {:>7.2}", text(&self.plain), rate(&self.plain), self.ratio())
     }
 }

@@ -103,7 +103,9 @@ impl Step<'_> {
             }
             self.gather(|place| which[place]);
             self.rows(&system, &each, start);
-            let limit = if tied { solver.iterations } else { 0 };
+            // In exact numbers it ends after as many as there are unknowns; twice that is for rounding.
+            let unknowns = count.saturating_mul(3);
+            let limit = if tied { solver.iterations.min(unknowns.saturating_mul(2).saturating_add(8)) } else { 0 };
             if tied || by.form == Form::Newton {
                 self.iterate(&system, limit, if by.form == Form::Newton { INNER } else { 1.0 });
             }

@@ -1,0 +1,36 @@
+// One sweep over springs that are longer than (1 + s) L: both ends come nearer, the lighter one more, and as much in all as
+// keeps the centre of mass:  Δxᵢ = Σ wᵢ / (wᵢ + wⱼ) (l − (1 + s) L) u / n,  w = 1 / m, n the larger number of springs of the two.
+@group(1) @binding(2) var<storage, read_write> limited: array<vec4f>; // xyz where to, mass
+
+override STRAIN: f32 = 0.1;
+const WORKGROUP: u32 = 64u;
+
+fn lightness(who: Particle) -> f32 { return select(1.0 / who.mass, 0.0, is_held(who.index)); }
+
+fn springs_of(id: u32) -> f32 { return f32(link_start[id + 1u] - link_start[id]); }
+
+@compute @workgroup_size(WORKGROUP)
+fn strain_limit(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let i = folded(group, groups) * WORKGROUP + lane;
+    if i >= world.count { return; }
+    let me = particle(i);
+    let mine = lightness(me);
+    let springs = springs_of(i);
+    var change = vec3f();
+    let end = link_start[i + 1u];
+    for (var k = link_start[i]; k < end; k += 1u) {
+        let one = link[k];
+        let you = particle(one.partner);
+        let r = shortest(you.position - me.position);
+        let l = length(r);
+        let rest = abs(one.rest);
+        let excess = l - (1.0 + STRAIN) * rest;
+        // What has no length at rest has no strain, and what is broken ties nobody.
+        let tied = rest > 0.0 && (one.stiffness > 0.0 || one.damping > 0.0);
+        if tied && excess > 0.0 && mine > 0.0 {
+            let part = mine / (mine + lightness(you));
+            change += (part * excess / (l * max(springs, springs_of(one.partner)))) * r;
+        }
+    }
+    limited[i] = vec4f(me.position + change, me.mass);
+}

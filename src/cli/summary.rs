@@ -1,0 +1,65 @@
+//! What a run says of itself in the end.
+
+use std::time::Duration;
+
+use motes::Measure;
+use motes::links::Links;
+use motes::measure::Flock;
+
+use super::advice::Conserved;
+use super::progress::{duration, large};
+
+/// How the energy went. Where the total is next to nothing, as of a pendulum that starts at its pivot's height, changes are
+/// told by the largest kinetic energy there was.
+pub fn energy(rows: &[Measure], conserved: bool) -> String {
+    let (first, last) = (rows.first().copied().unwrap_or_default(), rows.last().copied().unwrap_or_default());
+    let word = if conserved { "error" } else { "not conserved, change" };
+    let largest = rows.iter().map(|row| row.kinetic).fold(0.0, f64::max);
+    let ends = format!("energy {:.6e} → {:.6e}", first.total(), last.total());
+    if first.total().abs() < 0.01 * largest {
+        let change = (last.total() - first.total()) / largest;
+        return format!("{ends}, {word} {change:+.1e} of the largest kinetic energy");
+    }
+    format!("{ends}, {word} {:+.1e}", last.drift_from(&first))
+}
+
+/// How the momenta went, where they are kept.
+pub fn momentum(rows: &[Measure], conserved: Conserved) -> Option<String> {
+    let (first, last) = (rows.first()?, rows.last()?);
+    let (p, l) = (last.momentum - first.momentum, last.angular_momentum - first.angular_momentum);
+    let turning = format!(", angular momentum by {:.1e}", l.length());
+    let turning = if conserved.angular_momentum { &turning } else { "" };
+    conserved.momentum.then(|| format!("momentum changed by {:.1e}{turning}", p.length()))
+}
+
+/// How a flock went.
+pub fn company(first: &Flock, last: &Flock) -> String {
+    format!(
+        "order {:.3} → {:.3}, {:.1} → {:.1} neighbours each, {} → {} clusters, the largest {:.0} % of all",
+        first.order,
+        last.order,
+        first.neighbors,
+        last.neighbors,
+        first.clusters,
+        last.clusters,
+        100.0 * last.largest
+    )
+}
+
+/// How fast it was.
+pub fn speed(steps: u64, count: usize, stepping: Duration, took: Duration) -> String {
+    let rate = steps as f64 / stepping.as_secs_f64().max(1e-9);
+    format!(
+        "{steps} steps in {} ({} with measurements and files): {} steps/s, {} particle-steps/s",
+        duration(stepping),
+        duration(took),
+        large(rate),
+        large(rate * count as f64)
+    )
+}
+
+/// How many springs tore.
+pub fn torn(whole: usize, left: &Links) -> String {
+    let left = left.springs.len();
+    format!("{} of {whole} springs are torn; those that are left are in the files of links", whole - left)
+}
