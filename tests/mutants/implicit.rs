@@ -1,4 +1,5 @@
 //! Stages of implicit steps: whole ones, in which every kernel takes up what those before it left.
+#![allow(clippy::cast_possible_truncation, reason = "numbers are rounded to what f32 holds")]
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -121,6 +122,7 @@ pub fn all(device: &Device, stages: &mut Vec<Stage>) {
     }
 }
 
+type Forces<'a> = &'a dyn Fn() -> Vec<Box<dyn Force>>;
 type Shared = Rc<RefCell<Simulation<Gpu>>>;
 
 /// A stage for each kernel of a solve, where those before it have led.
@@ -199,7 +201,9 @@ fn amended(name: &str, simulation: &Shared, kernel: Kernel, fields: &[(&str, Vec
         write(field, words);
     }
     let stage = Stage::amid(name, simulation, alone(kernel));
-    fields.iter().zip(before).for_each(|((field, _), words)| write(field, &words));
+    for ((field, _), words) in fields.iter().zip(before) {
+        write(field, &words);
+    }
     stage
 }
 

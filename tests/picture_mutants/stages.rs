@@ -7,12 +7,12 @@ use std::time::Duration;
 
 use glam::Vec4;
 use motes::kernel::{Access, Array, Backend, Kernel, Plan, Shader, Source, World};
-use motes::{Cpu, Gpu};
+use motes::{Cpu, Gpu, wgpu};
 
 use crate::alike::alike;
 use crate::scenes::Scene;
+use crate::support::Random;
 use crate::support::machines::alone;
-use crate::support::{Random, Shared};
 
 /// Elements behind every field, in which nothing may be written.
 const PAD: u64 = 5;
@@ -92,9 +92,9 @@ impl Stage {
 }
 
 /// Fields of a size of picture.
-pub fn canvas(shared: &Shared, count: usize) -> Canvas {
+pub fn canvas((device, queue): &(wgpu::Device, wgpu::Queue), count: usize) -> Canvas {
     let count = u32::try_from(count).expect("few");
-    let mut gpu = Gpu::new(&shared.found.device, &shared.found.queue, count).expect("a GPU");
+    let mut gpu = Gpu::new(device, queue, count).expect("a GPU");
     gpu.pad(PAD);
     gpu.pace(Duration::from_millis(80), Duration::from_secs(5));
     Rc::new(RefCell::new(gpu))
