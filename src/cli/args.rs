@@ -45,7 +45,7 @@ pub enum Command {
     Scenes(ScenesArgs),
     /// Run the oscillator and the decay of textbooks under every integrator, and draw who explodes, dies out or stays
     Stability(StabilityArgs),
-    /// Measure steps of gravity and of searches for neighbours, beside plain Rust on this processor
+    /// Measure steps of gravity, of searches for neighbours and of springs, beside plain Rust on this processor
     Bench(BenchArgs),
     /// List adapters and test what simulations rely on
     Doctor(DoctorArgs),
