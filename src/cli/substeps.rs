@@ -39,7 +39,7 @@ pub async fn load(args: &SceneArgs, set: Option<String>) -> Result<Loaded, Failu
             return Err(Error::Scene(format!(
                 "no dt makes {name} safe for {}: choose another integrator{}",
                 culprit(&verdict, &loaded.setup),
-                others(&loaded.scene)
+                others(&loaded.scene, &verdict)
             ))
             .into());
         }
@@ -139,11 +139,15 @@ pub fn way_out(verdict: &Verdict, scene: &Scene, setup: &Setup) -> Option<String
         None => "no dt is safe: choose another integrator".to_owned(),
     };
     let spring = culprit(verdict, setup);
-    Some(format!("dt = {dt} is too long for {name} and {spring}; {way}{}", others(scene)))
+    Some(format!("dt = {dt} is too long for {name} and {spring}; {way}{}", others(scene, verdict)))
 }
 
 /// Integrators that bear any step, after a comma.
-fn others(scene: &Scene) -> String {
+fn others(scene: &Scene, verdict: &Verdict) -> String {
+    // Joints stay explicit under all of them.
+    if verdict.joints > 0.0 {
+        return String::new();
+    }
     let bears = |entry: &&Entry| entry.name.ends_with("backward_euler") && entry.name != scene.integrator.name;
     let names: Vec<_> = INTEGRATORS.iter().filter(bears).map(|entry| entry.name).collect();
     if names.is_empty() { String::new() } else { format!(", or take {}, which bears any dt", names.join(" or ")) }

@@ -5,7 +5,7 @@ use super::mode::{Mode, Network};
 use super::oscillator::Oscillator;
 use super::others;
 use crate::error::Error;
-use crate::integrators::Integrator;
+use crate::integrators::{Integrator, SymplecticEuler};
 use crate::simulation::Setup;
 
 /// Makes an integrator, as its line in the register does.
@@ -59,7 +59,12 @@ impl Verdict {
             stiffness: acts("spring") * bound.stiffness.sum + joints + stiffness,
             damping: acts("spring") * bound.damping.sum + damping,
         };
-        let safe = safe(build, highest, duration).await?;
+        let mut safe = safe(build, highest, duration).await?;
+        if build().is_implicit() && joints > 0.0 {
+            // They stay explicit in the same step.
+            let bending = Mode { stiffness: joints, damping: 0.0 };
+            safe = safe.min(limit(|| Box::new(SymplecticEuler), bending, duration).await?);
+        }
         let by_damping = if safe.is_finite() && safe > 0.0 {
             safe * highest.stiffness < 2.0 * highest.damping
         } else {
