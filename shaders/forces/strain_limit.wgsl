@@ -27,7 +27,8 @@ fn strain_limit(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gr
         let excess = l - (1.0 + STRAIN) * rest;
         // What has no length at rest has no strain, and what is broken ties nobody.
         let tied = rest > 0.0 && (one.stiffness > 0.0 || one.damping > 0.0);
-        if tied && excess > 0.0 && mine > 0.0 {
+        let strained = excess > 0.0;
+        if tied && strained && mine > 0.0 {
             let part = mine / (mine + lightness(you));
             change += (part * excess / (l * max(springs, springs_of(one.partner)))) * r;
         }

@@ -122,7 +122,6 @@ pub fn all(device: &Device, stages: &mut Vec<Stage>) {
     }
 }
 
-type Forces<'a> = &'a dyn Fn() -> Vec<Box<dyn Force>>;
 type Shared = Rc<RefCell<Simulation<Gpu>>>;
 
 /// A stage for each kernel of a solve, where those before it have led.

@@ -14,6 +14,7 @@ mod neighbors;
 mod primitives;
 mod rods;
 mod stages;
+mod strained;
 #[path = "../support/mod.rs"]
 mod support;
 

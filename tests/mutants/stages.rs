@@ -191,6 +191,7 @@ pub fn all(shared: &Shared) -> Vec<Stage> {
     laws::planes(&device, &mut stages);
     crate::held::all(&device, &mut stages);
     crate::rods::rods(&device, &mut stages);
+    crate::strained::all(&device, &mut stages);
     pairs(shared, &device, &mut stages);
     crate::neighbors::all(shared, &device, &mut stages);
     primitives::all(&device, &mut stages);
