@@ -99,9 +99,6 @@ pub fn read(path: &Path, positions: &[DVec3], bounds: &Bounds, usual: &Usual) ->
             problems.note(|| format!("{line}: particle {a} is linked to itself"));
             continue;
         }
-        if let Some(before) = known.insert((a.min(b), a.max(b), tie == Tie::Rod), line) {
-            problems.note(|| format!("{line}: particles {a} and {b} are linked again; they are already at {before}"));
-        }
         let [rest, stiffness, damping] = numbers;
         let own = Usual {
             tie,
@@ -109,7 +106,16 @@ pub fn read(path: &Path, positions: &[DVec3], bounds: &Bounds, usual: &Usual) ->
             damping: damping.unwrap_or(usual.damping),
             ..*usual
         };
-        own.tie(&mut links, [a, b], bounds.shortest(positions[b as usize] - positions[a as usize]).length(), rest);
+        let mut one = Links::default();
+        own.tie(&mut one, [a, b], bounds.shortest(positions[b as usize] - positions[a as usize]).length(), rest);
+        let what = format!("{line}: what ties {a} and {b}");
+        let faults =
+            one.springs.iter().map(|link| link.check(&what)).chain(one.rods.iter().map(|rod| rod.check(&what)));
+        faults.filter_map(Result::err).for_each(|fault| problems.note(|| fault.to_string()));
+        links.append(&one, 0);
+        if let Some(before) = known.insert((a.min(b), a.max(b), tie == Tie::Rod), line) {
+            problems.note(|| format!("{line}: particles {a} and {b} are linked again; they are already at {before}"));
+        }
     }
     problems.check(path)?;
     Ok(links)

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::{Links, MOST_LINKS};
+use super::{Link, Links, MOST_LINKS, Rod};
 use crate::error::Error;
 
 impl Links {
@@ -16,18 +16,7 @@ impl Links {
         for (n, link) in self.springs.iter().enumerate() {
             let what = format!("spring {n}");
             apart(&what, &link.ends, masses)?;
-            let numbers = [("rest length", link.rest), ("stiffness", link.stiffness), ("damping", link.damping)];
-            numbers.iter().try_for_each(|(name, x)| not_negative(&what, name, *x))?;
-            if link.stiffness == 0.0 && link.damping == 0.0 {
-                return Err(Error::Scene(format!(
-                    "{what} has neither stiffness nor damping: it does nothing; remove it"
-                )));
-            }
-            if link.rope && link.rest == 0.0 {
-                return Err(Error::Scene(format!(
-                    "{what} is a rope of no length: it never is slack; make it a spring"
-                )));
-            }
+            link.check(&what)?;
             twice(&what, link.ends, &mut pairs)?;
             for id in link.ends {
                 degrees[id as usize] += 1;
@@ -43,10 +32,7 @@ impl Links {
         for (n, rod) in self.rods.iter().enumerate() {
             let what = format!("rod {n}");
             apart(&what, &rod.ends, masses)?;
-            not_negative(&what, "length", rod.length)?;
-            if rod.length == 0.0 {
-                return Err(Error::Scene(format!("{what} has no length: make its two particles one")));
-            }
+            rod.check(&what)?;
             twice(&what, rod.ends, &mut pairs)?;
         }
         for (n, joint) in self.joints.iter().enumerate() {
@@ -56,6 +42,39 @@ impl Links {
         }
         for (n, triangle) in self.triangles.iter().enumerate() {
             apart(&format!("triangle {n}"), triangle, masses)?;
+        }
+        Ok(())
+    }
+}
+
+impl Link {
+    /// Whether its numbers make sense; `what` names it.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] where they do not.
+    pub fn check(&self, what: &str) -> Result<(), Error> {
+        let numbers = [("rest length", self.rest), ("stiffness", self.stiffness), ("damping", self.damping)];
+        numbers.iter().try_for_each(|(name, x)| not_negative(what, name, *x))?;
+        if self.stiffness == 0.0 && self.damping == 0.0 {
+            let text = format!("{what} has neither stiffness nor damping: it does nothing; remove it");
+            return Err(Error::Scene(text));
+        }
+        if self.rope && self.rest == 0.0 {
+            return Err(Error::Scene(format!("{what} is a rope of no length: it never is slack; make it a spring")));
+        }
+        Ok(())
+    }
+}
+
+impl Rod {
+    /// Whether its length makes sense; `what` names it.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] where it does not.
+    pub fn check(&self, what: &str) -> Result<(), Error> {
+        not_negative(what, "length", self.length)?;
+        if self.length == 0.0 {
+            return Err(Error::Scene(format!("{what} has no length: make its two particles one")));
         }
         Ok(())
     }

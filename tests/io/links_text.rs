@@ -39,7 +39,7 @@ fn faults(text: impl AsRef<[u8]>) -> Vec<String> {
 fn some() -> Links {
     let spring = |ends, rest, damping, rope| Link { ends, rest, stiffness: 0.1, damping, rope };
     Links {
-        springs: vec![spring([3, 0], 1.5, 0.0, false), spring([1, 8], 5e-324, 1e300, true)],
+        springs: vec![spring([3, 0], 1.5, 0.0, false), spring([1, 8], 1.5e-37, 1e38, true)],
         rods: vec![Rod { ends: [0, 3], length: 1.0 / 3.0 }],
         ..Links::default()
     }
@@ -48,7 +48,7 @@ fn some() -> Links {
 #[test]
 fn the_text_itself() {
     let text = String::from_utf8(written(&some())).expect("text");
-    let expected = "a,b,rest,stiffness,damping,tie\n3,0,1.5,0.1,0.0,spring\n1,8,5e-324,0.1,1e300,rope\n0,3,0.3333333333333333,,,rod\n";
+    let expected = "a,b,rest,stiffness,damping,tie\n3,0,1.5,0.1,0.0,spring\n1,8,1.5e-37,0.1,1e38,rope\n0,3,0.3333333333333333,,,rod\n";
     assert_eq!(text, expected);
     assert_eq!(read(text).expect("links"), some());
 }
@@ -95,6 +95,22 @@ fn all_that_is_wrong_at_once() {
     assert_eq!(found, expected);
 }
 
+/// Numbers that a cell may have, and a link may not.
+#[test]
+fn links_that_make_no_sense_have_a_line() {
+    let found = faults(
+        "a,b,rest,stiffness,damping,tie\n0,1,1e300,,,spring\n1,2,,0,0,spring\n2,3,0,,,rope\n3,4,0,,,rod\n4,5,,1e-60,,spring\n",
+    );
+    let expected = [
+        "line 2: what ties 0 and 1 has the rest length 1e300, not a finite number, zero or above",
+        "line 3: what ties 1 and 2 has neither stiffness nor damping: it does nothing; remove it",
+        "line 4: what ties 2 and 3 is a rope of no length: it never is slack; make it a spring",
+        "line 5: what ties 3 and 4 has no length: make its two particles one",
+        "line 6: what ties 4 and 5 has the stiffness 1e-60, which single precision takes for 0: say 0, or more",
+    ];
+    assert_eq!(found, expected);
+}
+
 #[test]
 fn headers_and_files_that_are_none() {
     assert_eq!(faults("")[0], "is empty; its first line must name the columns, such as a,b,rest,stiffness,damping");
@@ -119,11 +135,10 @@ fn headers_and_files_that_are_none() {
 }
 
 prop_compose! {
-    /// Zero and above, of every size.
-    fn not_negative()(bits in any::<u64>(), special in 0..9_usize) -> f64 {
-        let x = f64::from_bits(bits).abs();
-        let specials = [0.0, f64::MIN_POSITIVE, 5e-324, f64::MAX, 0.1];
-        specials.get(special).copied().unwrap_or(if x.is_finite() { x } else { 1.0 })
+    /// Zero and above, of every size that single precision holds, with all digits of double.
+    fn not_negative()(mantissa in 1.0..2.0_f64, exponent in -126..127_i32, special in 0..9_usize) -> f64 {
+        let specials = [0.0, f64::from(f32::MIN_POSITIVE), f64::from(f32::MAX), 0.1];
+        specials.get(special).copied().unwrap_or(mantissa * 2f64.powi(exponent))
     }
 }
 
@@ -143,9 +158,9 @@ proptest! {
     ) {
         let springs = numbers.iter().zip(pairs());
         let springs = springs.map(|((rest, stiffness, damping, rope), ends)| Link {
-            ends, rest: *rest, stiffness: *stiffness, damping: *damping, rope: *rope,
+            ends, rest: *rest, stiffness: stiffness.max(0.1), damping: *damping, rope: *rope && *rest > 0.0,
         });
-        let rods = rods.iter().zip(pairs()).map(|(length, ends)| Rod { ends, length: *length });
+        let rods = rods.iter().zip(pairs()).map(|(length, ends)| Rod { ends, length: length.max(0.1) });
         let links = Links { springs: springs.collect(), rods: rods.collect(), ..Links::default() };
         prop_assert_eq!(read(written(&links)).expect("links"), links);
     }
