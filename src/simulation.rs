@@ -99,7 +99,7 @@ impl<B: Backend> Simulation<B> {
         if named(TARGET.name) {
             backend.write(TARGET.name, &places(&mut (0..particles.len())))?;
         }
-        let (links, breaks) = (particles.links.clone(), setup.forces.iter().any(|force| force.breaks()));
+        let (links, breaks) = (particles.links.clone(), setup.breaks());
         let (begun, dt, steps) = (false, setup.dt, 0);
         Ok(Self { backend, start, begun, step, measure, plan, solves, count, species, links, breaks, dt, steps })
     }

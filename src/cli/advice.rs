@@ -135,7 +135,7 @@ pub fn conserved(setup: &Setup) -> Result<Conserved, Error> {
         conserved.energy &= !law.kernel(&Problem::new(1, MACHINE))?.names("velocity");
     }
     // What breaks takes its energy with it.
-    conserved.energy &= !setup.forces.iter().any(|force| force.breaks());
+    conserved.energy &= !setup.breaks();
     // Who is held takes momentum; who is led does work as well.
     let held = &setup.particles.held;
     conserved.momentum &= held.is_empty();

@@ -4,6 +4,7 @@ use std::borrow::Cow;
 
 use glam::{DVec3, DVec4};
 
+use super::wind::Gusts;
 use super::{Force, Law, Over, params};
 use crate::settings::{Key, Kind, Settings, Value};
 
@@ -38,15 +39,12 @@ impl Air {
 
 impl Force for Air {
     fn laws(&self) -> Vec<Law> {
-        let [density, drag, lift, gust, period, wavelength] =
-            ["density", "drag", "lift", "gust", "period", "wavelength"].map(|name| self.0.number(name));
-        let wind = self.0.vector("wind");
+        let [density, drag, lift] = ["density", "drag", "lift"].map(|name| self.0.number(name));
+        let gusts = Gusts::new(self.0.vector("wind"), &self.0);
         let values = params(&self.0, &["wind", "density", "drag", "lift", "gust", "period", "wavelength"]);
         vec![Law::corners("air", Over::Triangles, crate::shader!("forces/air.wgsl"), values, move |at, _, world| {
             let [ab, ac] = [1, 2].map(|k| world.bounds.shortest(at[k].position - at[0].position));
-            let along = at[0].position.dot(wind.normalize_or_zero());
-            let phase = std::f64::consts::TAU * (world.time / period - along / wavelength).fract();
-            let air = wind * (1.0 + gust * phase.sin());
+            let air = gusts.air(at[0].position, world.time);
             let w = at.iter().map(|body| body.velocity).sum::<DVec3>() / 3.0 - air;
             let (area, Some(heading)) = (0.5 * ab.cross(ac).length(), w.try_normalize()) else { return DVec4::ZERO };
             let normal = ab.cross(ac).normalize_or_zero();

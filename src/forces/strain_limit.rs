@@ -48,12 +48,11 @@ impl StrainLimit {
         let constants = [problem.constants(&shader), vec![("STRAIN", self.strain)]].concat();
         let work = u64::from(problem.count) + u64::from(problem.network.ends());
         let pass = Pass { constants, work, ..Pass::new(shader, problem.count) };
-        let (strain, mask) = (self.strain, problem.mask.clone());
+        let (strain, whole) = (self.strain, problem.clone());
         let twin = move |host: &Host| {
             let (bodies, bounds) = (visit::bodies(host)?, host.world().bounds);
             let tied = visit::Tied::of(host)?;
-            let held = |id: usize| mask.get(id).is_some_and(|word| *word > 0);
-            let lightness = |id: usize| if held(id) { 0.0 } else { 1.0 / bodies[id].mass };
+            let lightness = |id: usize| if whole.is_held(id) { 0.0 } else { 1.0 / bodies[id].mass };
             let halves: Vec<_> = (0..bodies.len()).map(|id| tied.halves(id)).collect();
             let mut limited = host.write(LIMITED)?;
             for (me, place) in bodies.iter().zip(limited.iter_mut()) {

@@ -29,20 +29,45 @@ impl Wind {
     }
 }
 
+/// Air that blows in gusts, which travel with it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Gusts {
+    /// The mean velocity \[length / time\].
+    pub mean: DVec3,
+    /// The strength of gusts, as a part of the mean.
+    pub strength: f64,
+    /// From gust to gust \[time\].
+    pub period: f64,
+    /// The same along the wind \[length\].
+    pub wavelength: f64,
+}
+
+impl Gusts {
+    /// Of a force that has keys for all but the mean.
+    pub fn new(mean: DVec3, settings: &Settings) -> Self {
+        let [strength, period, wavelength] = ["gust", "period", "wavelength"].map(|name| settings.number(name));
+        Self { mean, strength, period, wavelength }
+    }
+    fn phase(&self, x: DVec3, time: f64) -> f64 {
+        TAU * (time / self.period - x.dot(self.mean.normalize_or_zero()) / self.wavelength).fract()
+    }
+    /// How the air moves somewhere \[length / time\].
+    pub fn air(&self, x: DVec3, time: f64) -> DVec3 {
+        self.mean * (1.0 + self.strength * self.phase(x, time).sin())
+    }
+}
+
 impl Force for Wind {
     fn laws(&self) -> Vec<Law> {
-        let (wind, rate, gust) = (self.0.vector("velocity"), self.0.number("rate"), self.0.number("gust"));
-        let (period, wavelength) = (self.0.number("period"), self.0.number("wavelength"));
+        let (gusts, rate) = (Gusts::new(self.0.vector("velocity"), &self.0), self.0.number("rate"));
         let values = params(&self.0, &["velocity", "rate", "gust", "period", "wavelength"]);
         vec![Law::each("wind", crate::shader!("forces/wind.wgsl"), values, move |me, world| {
-            let along = me.position.dot(wind.normalize_or_zero());
-            let phase = TAU * (world.time / period - along / wavelength).fract();
-            ((wind * (1.0 + gust * phase.sin()) - me.velocity) * rate).extend(0.0)
+            ((gusts.air(me.position, world.time) - me.velocity) * rate).extend(0.0)
         })
         .with_jacobian(Jacobian::Each(Arc::new(move |me, world, dx, dv| {
-            let way = wind.normalize_or_zero();
-            let phase = TAU * (world.time / period - me.position.dot(way) / wavelength).fract();
-            rate * (-gust * phase.cos() * TAU / wavelength * way.dot(dx) * wind - dv)
+            let Gusts { mean, strength, wavelength, .. } = gusts;
+            let steepness = -strength * gusts.phase(me.position, world.time).cos() * TAU / wavelength;
+            rate * (steepness * mean.normalize_or_zero().dot(dx) * mean - dv)
         })))]
     }
 }

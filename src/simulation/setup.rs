@@ -52,7 +52,7 @@ impl Setup {
             .of_species(&self.particles.species)
             .tied(&self.particles.links, &self.particles.held)
             .moved(&self.particles.motions, self.dt)
-            .breaking(self.forces.iter().any(|force| force.breaks()))
+            .breaking(self.breaks())
             .solved(self.solver);
         let mut start = Step::new(&self.forces, problem.clone());
         start.enclose();
@@ -63,6 +63,11 @@ impl Setup {
         self.integrator.step(&mut step);
         let measure = Step::measurement(&self.forces, problem)?;
         Ok(Plans { start: start.begun()?, step: step.done()?, measure })
+    }
+    /// Whether links may change as it runs.
+    #[must_use]
+    pub fn breaks(&self) -> bool {
+        self.forces.iter().any(|force| force.breaks())
     }
     /// The number of particles, if all is well.
     ///
