@@ -24,6 +24,7 @@ pub mod settings;
 pub mod simulation;
 pub mod solids;
 pub mod stability;
+pub mod tree;
 pub mod visit;
 
 pub use cpu::Cpu;

@@ -135,7 +135,7 @@ fn no_binding_number_is_written_in_rust() {
 }
 
 /// A module may name only what stands before it.
-const ORDER: [&str; 24] = [
+const ORDER: [&str; 25] = [
     "error",
     "settings",
     "links",
@@ -145,6 +145,7 @@ const ORDER: [&str; 24] = [
     "boundary",
     "primitives",
     "neighbors",
+    "tree",
     "visit",
     "forces",
     "particles",

@@ -1,0 +1,77 @@
+//! Far groups as one: an implicit binary tree over particles in Hilbert order, built on the device at each evaluation. It
+//! knows nothing of laws.
+//!
+//! Particles are sorted along a Hilbert curve and cut into leaves of [`LEAF`]; a node is what two nodes below it hold. Its
+//! place in the fields is a heap's: 1 is the root, 2 n and 2 n + 1 are the children of n, and all leaves stand
+//! [`height`](Tree::height) levels below the root. What stands behind the last leaf does not exist, and is not visited.
+
+mod build;
+mod opening;
+
+pub use opening::Opening;
+
+use crate::kernel::{Name, Problem};
+
+/// Particles of a leaf.
+pub const LEAF: u32 = 4;
+/// Targets that walk together: what a node three levels above the leaves holds.
+pub const GROUP: u32 = 8 * LEAF;
+
+/// A tree over all particles.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tree {
+    /// When a node is too near to be taken as one.
+    pub opening: Opening,
+    /// A node is opened, too, where any place in its box may be nearer than this \[length\]: there the law has no expansion.
+    pub core: f64,
+    /// Particles in it.
+    pub count: u32,
+}
+
+impl Tree {
+    /// Over all particles of a problem.
+    #[must_use]
+    pub fn new(opening: Opening, core: f64, problem: &Problem) -> Self {
+        Self { opening, core, count: problem.count }
+    }
+    /// How many leaves there are.
+    #[must_use]
+    pub fn leaves(&self) -> u32 {
+        self.count.div_ceil(LEAF).max(1)
+    }
+    /// Levels between the root and the leaves.
+    #[must_use]
+    pub fn height(&self) -> u32 {
+        self.leaves().next_power_of_two().ilog2()
+    }
+    /// Elements of the fields of nodes.
+    #[must_use]
+    pub fn nodes(&self) -> u64 {
+        2 << self.height()
+    }
+    /// What it is for.
+    #[must_use]
+    pub fn name(&self) -> String {
+        if self.core > 0.0 { format!("{} core={}", self.opening, self.core) } else { self.opening.to_string() }
+    }
+    /// A field of it, by its name in shaders.
+    #[must_use]
+    pub fn field(&self, name: &'static str) -> (&'static str, Name) {
+        (name, format!("{name} of {}", self.name()).into())
+    }
+}
+
+/// Ids, in the order of the Hilbert curve; who has the same key in ascending order.
+pub(crate) const TREE_ID: &str = "tree_id";
+/// Positions and masses in that order.
+pub(crate) const TREE_BODY: &str = "tree_body";
+/// Of each node: its centre of mass (of its box, where its mass is 0), and how near a target may come before it is opened
+/// \[length\]: the greater of l / θ + s (l + s, where the opening is relative) and core + s + l √3 / 2.
+pub(crate) const TREE_CENTER: &str = "tree_center";
+/// Of each node: its mass, and its second moments Σ m y yᵀ about the centre of mass, xx, yy and zz.
+pub(crate) const TREE_MASS: &str = "tree_mass";
+/// Of each node: xy, xz and yz of the second moments, and the longest side of its tight box \[length\].
+pub(crate) const TREE_SHAPE: &str = "tree_shape";
+/// Of each group of targets: G / (α a) with the least acceleration a that any of them felt last; 0 where somebody felt
+/// none. Where the opening is relative.
+pub(crate) const TREE_DEMAND: &str = "tree_demand";

@@ -1,0 +1,42 @@
+//! When a node is too near to be taken as one.
+
+/// The opening criteria. `d` is the least distance from the box of a group of targets to a node's centre of mass, `l` the
+/// longest side of the node's tight box, `s` the distance of its centre of mass from the middle of that box.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Opening {
+    /// A node is opened where d ≤ l / θ + s (Barnes & Hut 1986; the offset: Barnes 1994; for groups: Bédorf, Gaburov &
+    /// Portegies Zwart 2012).
+    Geometric {
+        /// θ, between 0 and 1: the smaller, the more exact.
+        theta: f64,
+    },
+    /// A node of mass M is opened where G M l² / d⁴ > α a, with a the least acceleration that any of the group felt last
+    /// (Springel 2005), or d ≤ l + s. Where somebody has felt nothing yet the criterion is the geometric one.
+    Relative {
+        /// α: about the relative error of a force.
+        alpha: f64,
+        /// G of the law \[length³ / mass / time²\].
+        g: f64,
+        /// θ of the geometric criterion.
+        theta: f64,
+    },
+}
+
+impl Opening {
+    /// Its θ.
+    #[must_use]
+    pub fn theta(self) -> f64 {
+        match self {
+            Self::Geometric { theta } | Self::Relative { theta, .. } => theta,
+        }
+    }
+}
+
+impl std::fmt::Display for Opening {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Geometric { theta } => write!(f, "θ={theta}"),
+            Self::Relative { alpha, g, theta } => write!(f, "α={alpha} g={g} θ={theta}"),
+        }
+    }
+}
