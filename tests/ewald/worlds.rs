@@ -1,0 +1,125 @@
+//! What a periodic world does, by the twins and on a device.
+
+use std::f64::consts::PI;
+
+use glam::{DVec3, DVec4};
+use motes::integrators::Step;
+use motes::kernel::{Backend, Machine};
+use motes::lockstep::compare;
+use motes::{ACCELERATION, POSITION, Particles, Setup, Simulation};
+
+use crate::support::machines::{gpu, machines};
+use crate::support::states::{accelerations_in, cpu_in, integrator, phase};
+use crate::support::{self, Shared};
+use crate::{MOST, cube, exact_sum, gravity, scattered};
+
+fn lattice(side: f64, number: u8) -> Particles {
+    let mut lattice = Particles::default();
+    let n = f64::from(number);
+    for x in 0..number {
+        for y in 0..number {
+            for z in 0..number {
+                let place = DVec3::new(f64::from(x), f64::from(y), f64::from(z)) + 0.5;
+                lattice.push(cube(side).low + place * side / n, DVec3::ZERO, 1.0 / n.powi(3), 0.0);
+            }
+        }
+    }
+    lattice
+}
+
+/// Nobody in a lattice knows where to go; and the energy of each is that of a mass alone in a smaller cube.
+#[test]
+fn a_lattice_feels_no_force() {
+    let side = 2.0;
+    for number in [2, 5] {
+        let lattice = lattice(side, number);
+        let felt = accelerations_in(&cube(side), &gravity(1.0, 0.0, "pairs"), &lattice, 0.0);
+        let n = f64::from(number);
+        let want = 0.5 * crate::exact::alone(crate::SPLITTING) * n / side / n.powi(3);
+        for a in &felt {
+            // Sums of up to 250 terms of up to 25 / 4 / 125.
+            assert!(a.truncate().length() < 1e-13, "{a}");
+            assert!((a.w - want).abs() < 2e-5 / side, "{} is not {want}", a.w);
+        }
+    }
+}
+
+/// A plane wave in a cold uniform world at rest grows as exp(√(4π G ρ) t) (Jeans 1902, without pressure), whatever its length:
+/// δ(t) = δ₀ cosh(ω t) from rest. The lattice makes it slower by about (k a)² of the mean distance a: a mode of two lattice
+/// spacings still grows at 0.97 ω, and the longest of 8 is within 1 % (Joyce et al. 2005, Marcos et al. 2006).
+#[test]
+fn a_plane_wave_grows_as_jeans_says() {
+    let (side, number, g) = (1.0, 8, 1.0 / (4.0 * PI));
+    let mut wave = lattice(side, number);
+    let shape = |x: f64| (2.0 * PI * x / side).sin();
+    let start: Vec<f64> = wave.position.iter().map(|x| x.x).collect();
+    let small = 1e-3;
+    for x in &mut wave.position {
+        x.x += small * shape(x.x - cube(side).low.x);
+    }
+    // ω is 1 here: two times e.
+    let dt = 0.05;
+    let mut simulation = cpu_in(&cube(side), &wave, gravity(g, 0.0, "pairs"), "leapfrog", dt);
+    simulation.step(40).expect("steps");
+    let places = phase(&mut simulation).0;
+    let low = cube(side).low.x;
+    let overlap: f64 = places.iter().zip(&start).map(|(x, q)| (x.x - q) * shape(q - low)).sum();
+    let norm: f64 = start.iter().map(|q| shape(q - low).powi(2)).sum();
+    let growth = overlap / norm / small;
+    let want = 2.0_f64.cosh();
+    assert!((growth / want - 1.0).abs() < 0.02, "it grows to {growth}, not {want}");
+    let across = places.iter().zip(&wave.position).map(|(x, q)| (x.y - q.y).abs().max((x.z - q.z).abs()));
+    assert!(across.fold(0.0, f64::max) < 1e-9, "it turns");
+}
+
+fn on_device(shared: &Shared, machine: Option<Machine>, count: usize, over: &'static str) {
+    let (side, g) = (3.5, 0.8);
+    let bounds = cube(side);
+    let cloud = scattered(count, &bounds, 4);
+    let mut gpu = gpu(shared, count);
+    let machine = machine.unwrap_or(gpu.machine());
+    gpu.pretend(machine);
+    let setup = Setup {
+        particles: cloud.clone(),
+        forces: gravity(g, 0.0, over),
+        integrator: integrator("symplectic_euler"),
+        dt: 0.01,
+        bounds,
+        solver: motes::Solver::default(),
+    };
+    let mut simulation = Simulation::on(gpu, &setup).expect("a simulation");
+    let number = simulation.count();
+    let problem = motes::forces::Problem::new(number, machine).at(&cloud.position, bounds);
+    let mut step = Step::new(&setup.forces, problem);
+    step.evaluate();
+    let plan = step.finished().expect("a plan");
+    let places: Vec<_> = cloud.position.iter().zip(&cloud.mass).map(|(x, m)| x.extend(*m).as_vec4()).collect();
+    simulation.write(POSITION, &places).expect("places");
+    let verdicts = pollster::block_on(compare(simulation.backend(), &plan, number)).expect("verdicts");
+    for v in &verdicts {
+        assert!(v.good(), "{over}, {count}: {v:?}");
+    }
+    if count > 300 {
+        return;
+    }
+    let got = pollster::block_on(simulation.read(ACCELERATION)).expect("accelerations");
+    let mass: f64 = cloud.mass.iter().sum();
+    for (got, want) in got.iter().zip(exact_sum(&cloud, side, g)) {
+        let error: DVec4 = got.as_dvec4() - want;
+        // The waves that are left out; and of a force that is larger than that of all, rounding.
+        let allowed = MOST * g * mass / (side * side) + 1e-5 * want.truncate().length();
+        assert!(error.truncate().length() < allowed, "{over}, {count}: {got} is not {want}");
+        assert!(error.w.abs() < 2e-5 * g * mass / side + 1e-5 * want.w.abs(), "{over}, {count}: {got} is not {want}");
+    }
+}
+
+#[test]
+fn a_device_sums_as_exactly() {
+    let shared = support::device();
+    for (_, machine) in machines(&shared) {
+        for count in [1, 2, 65] {
+            on_device(&shared, Some(machine), count, "pairs");
+        }
+    }
+    on_device(&shared, None, 1500, "pairs");
+}
