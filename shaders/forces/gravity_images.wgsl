@@ -13,12 +13,11 @@ fn gravity_images(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
     let i = folded(group, groups) * WORKGROUP + lane;
     if i < world.count {
         let me = position[i];
-        let there = fraction_of(me.xyz);
         var pull = vec3f();
         var potential = SELF * me.w;
         for (var wave = 0u; wave < WAVES; wave += 1u) {
             let k = gravity_wave[wave];
-            let here = k.w * wave_at(k.xyz, there);
+            let here = k.w * wave_at(k.xyz, me.xyz);
             let re = structure[2u * wave];
             let im = structure[2u * wave + 1u];
             pull += (here.x * im - here.y * re) * k.xyz;

@@ -15,7 +15,7 @@ fn gravity_structure(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroup
         var sum = vec2f();
         for (var i = first; i < end; i += 1u) {
             let p = position[i];
-            sum += p.w * wave_at(k, fraction_of(p.xyz));
+            sum += p.w * wave_at(k, p.xyz);
         }
         structure_parts[block * WAVES + wave] = sum;
     }

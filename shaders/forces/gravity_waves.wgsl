@@ -4,14 +4,8 @@
 
 override WAVES: u32 = 126u;
 
-// The part of a side by which a place is beyond a whole number of sides.
-fn fraction_of(x: vec3f) -> vec3f {
-    let sides = x * world.frequency;
-    return sides - round(sides);
-}
-
-fn wave_at(k: vec3f, there: vec3f) -> vec2f {
-    let all = dot(k, there);
+fn wave_at(k: vec3f, x: vec3f) -> vec2f {
+    let all = dot(k, x * world.frequency);
     let turn = all - round(all);
     let w = turn * turn;
     let sine = turn * (3.1415926 + w * (-5.1677101 + w * (2.5500775 + w * (-0.5982913 + w * 0.0776577))));

@@ -20,9 +20,10 @@ use crate::kernel::{ACCELERATION, Host, Kernel, POSITION, Pass, Problem, Shader,
 const TAPER: [f64; 9] = [1.0, 0.5, 0.375, 0.296_344, 0.309_035, 0.003_588, 0.434_914, -0.227_071, 0.161_508];
 /// Waves have |k|² up to this, in turns per side.
 const SHELLS: i32 = 14;
-/// Particles that an invocation takes into a structure factor: enough to keep a device busy, and few enough for a loop.
+/// Blocks into which particles are cut for a structure factor: enough to keep a device busy, and few to add.
 const BLOCKS: u32 = 512;
-const BLOCK: u32 = 32_768;
+/// Particles in a block: no fewer than are worth it, and no more than a loop may take.
+const BLOCK: std::ops::RangeInclusive<u32> = 32..=32_768;
 
 /// P, P′, P″ and P‴.
 fn taper(v: f64) -> [f64; 4] {
@@ -103,8 +104,9 @@ pub fn waves() -> Vec<DVec4> {
 pub fn fits(problem: &Problem) -> Result<(), Error> {
     let bounds = &problem.bounds;
     let period = bounds.period();
-    let cube = bounds.dimensions == 3 && bounds.sides == [Side::Periodic; 3] && period == DVec3::splat(period.x);
-    if cube {
+    // Sides as f32 knows them.
+    let even = (period - DVec3::splat(period.x)).abs().max_element() <= f64::from(f32::EPSILON) * period.x;
+    if bounds.dimensions == 3 && bounds.sides == [Side::Periodic; 3] && even {
         return Ok(());
     }
     Err(Error::Scene(format!(
@@ -127,7 +129,7 @@ pub fn kernels(
     let waves = Arc::new(waves());
     let count = problem.count;
     let number = u32::try_from(waves.len()).unwrap_or(u32::MAX);
-    let block = count.div_ceil(BLOCKS).clamp(1, BLOCK);
+    let block = count.div_ceil(BLOCKS).clamp(*BLOCK.start(), *BLOCK.end());
     let blocks = count.div_ceil(block).max(1);
     let join = |files: &[Source]| Shader::join(&[world, files].concat());
     let all = ("WAVES", f64::from(number));

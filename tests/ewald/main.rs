@@ -14,17 +14,17 @@ use motes::{Bounds, Particles, Side};
 use support::states::{force, word};
 
 /// The splitting of exact sums; see `two_splittings_agree`.
-pub const SPLITTING: f64 = 2.4;
+const SPLITTING: f64 = 2.4;
 /// What the force of a unit mass may be wrong by in a cube of side 1: waves beyond |k|² = 14, as the fit leaves them.
-pub const MOST: f64 = 4.7e-4;
+const MOST: f64 = 4.7e-4;
 
 /// A cube about somewhere else than the origin.
-pub fn cube(side: f64) -> Bounds {
+fn cube(side: f64) -> Bounds {
     let low = DVec3::new(-0.25, 0.5, 1.0) * side;
     Bounds::new(low, low + DVec3::splat(side), Side::Periodic)
 }
 
-pub fn gravity(g: f64, softening: f64, over: &'static str) -> Vec<Box<dyn Force>> {
+fn gravity(g: f64, softening: f64, over: &'static str) -> Vec<Box<dyn Force>> {
     let settings = [
         ("g", Value::Number(g)),
         ("softening", Value::Number(softening)),
@@ -35,7 +35,7 @@ pub fn gravity(g: f64, softening: f64, over: &'static str) -> Vec<Box<dyn Force>
 }
 
 /// Some in a cube, of various masses.
-pub fn scattered(count: usize, bounds: &Bounds, seed: u64) -> Particles {
+fn scattered(count: usize, bounds: &Bounds, seed: u64) -> Particles {
     let mut cloud = support::cloud(count, seed);
     for x in &mut cloud.position {
         *x = (bounds.low + (*x * 0.5 + 0.5) * (bounds.high - bounds.low)).as_vec3().as_dvec3();
@@ -44,7 +44,7 @@ pub fn scattered(count: usize, bounds: &Bounds, seed: u64) -> Particles {
 }
 
 /// What everybody feels of everybody, and of its own images: the exact sum.
-pub fn exact_sum(particles: &Particles, side: f64, g: f64) -> Vec<DVec4> {
+fn exact_sum(particles: &Particles, side: f64, g: f64) -> Vec<DVec4> {
     let alone = exact::alone(SPLITTING);
     let felt = |i: usize| {
         let others = (0..particles.len()).filter(|j| *j != i).map(|j| {

@@ -6,10 +6,11 @@ use glam::{DVec3, DVec4};
 use motes::integrators::Step;
 use motes::kernel::{Backend, Machine};
 use motes::lockstep::compare;
-use motes::{ACCELERATION, POSITION, Particles, Setup, Simulation};
+use motes::settings::Value;
+use motes::{ACCELERATION, Bounds, POSITION, Particles, Setup, Simulation};
 
-use crate::support::machines::{gpu, machines};
-use crate::support::states::{accelerations_in, cpu_in, integrator, phase};
+use crate::support::machines::{self, gpu, machines};
+use crate::support::states::{accelerations_in, cpu_in, force, integrator, phase, word};
 use crate::support::{self, Shared};
 use crate::{MOST, cube, exact_sum, gravity, scattered};
 
@@ -97,7 +98,8 @@ fn on_device(shared: &Shared, machine: Option<Machine>, count: usize, over: &'st
     simulation.write(POSITION, &places).expect("places");
     let verdicts = pollster::block_on(compare(simulation.backend(), &plan, number)).expect("verdicts");
     for v in &verdicts {
-        assert!(v.good(), "{over}, {count}: {v:?}");
+        // One alone feels its own waves, which cancel: what is left is rounding.
+        assert!(if count > 1 { v.good() } else { v.sound() }, "{over}, {count}: {v:?}");
     }
     if count > 300 {
         return;
@@ -122,4 +124,36 @@ fn a_device_sums_as_exactly() {
         }
     }
     on_device(&shared, None, 1500, "pairs");
+}
+
+/// Far groups as one, on the device and by the twin; and what that costs against the exact sum.
+#[test]
+fn a_tree_sums_as_exactly() {
+    let shared = support::device();
+    if machines::subgroups_of_eight(&shared) {
+        on_device(&shared, None, 1500, "tree");
+    }
+}
+
+/// The force between two fades out before the nearest image changes, so that far groups of it are met as in open space: the
+/// error of a force is the same part of what a neighbour does, wherever the box ends. What the forces of all add up to is
+/// less there than in open space, where all pull towards the middle.
+#[test]
+fn far_groups_are_met_as_in_open_space() {
+    let count = 1000;
+    let cloud = scattered(count, &cube(1.0), 4);
+    let error = |bounds: &Bounds, images: &'static str| {
+        let felt = |over: &'static str| {
+            let settings = [("softening", Value::Number(0.01)), ("over", word(over)), ("images", word(images))];
+            accelerations_in(bounds, &[force("gravity", &settings)], &cloud, 0.0)
+        };
+        let mut errors: Vec<f64> =
+            felt("tree").iter().zip(felt("pairs")).map(|(a, b)| (*a - b).truncate().length()).collect();
+        errors.sort_by(f64::total_cmp);
+        [errors[count / 2], errors[count * 99 / 100]]
+    };
+    let (open, closed) = (error(&Bounds::default(), "nearest"), error(&cube(1.0), "ewald"));
+    for (open, closed) in open.into_iter().zip(closed) {
+        assert!(closed > 0.0 && closed < 1.5 * open, "{closed:e} in the box, {open:e} outside");
+    }
 }
