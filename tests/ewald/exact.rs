@@ -21,7 +21,7 @@ fn erfc(x: f64) -> f64 {
     0.5 * gauss / fraction
 }
 
-/// Acceleration and potential at a place, by a splitting: near images to ±4, and waves as far as they count.
+/// Acceleration and potential at a place, by a splitting: images to ±3, and waves to ±4.
 pub fn field(r: DVec3, splitting: f64) -> DVec4 {
     image_field(r, splitting, false)
 }
@@ -38,7 +38,7 @@ fn image_field(r: DVec3, splitting: f64, without: bool) -> DVec4 {
     let all = |most| {
         steps(most).flat_map(move |x| steps(most).flat_map(move |y| steps(most).map(move |z| DVec3::new(x, y, z))))
     };
-    for n in all(4) {
+    for n in all(3) {
         let d = r - n;
         let s = d.length();
         if without && n == DVec3::ZERO {
@@ -50,7 +50,7 @@ fn image_field(r: DVec3, splitting: f64, without: bool) -> DVec4 {
             field -= (force * d).extend(tail / s);
         }
     }
-    for k in all(7).filter(|k| *k != DVec3::ZERO) {
+    for k in all(4).filter(|k| *k != DVec3::ZERO) {
         let square = k.length_squared();
         let much = (-PI * PI * square / (b * b)).exp() / (PI * square);
         let (sine, cosine) = (2.0 * PI * k.dot(r)).sin_cos();

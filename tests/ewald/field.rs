@@ -32,7 +32,7 @@ fn two_splittings_agree() {
     for _ in 0..40 {
         let r = random.vector() * 0.5;
         let (a, b) = (exact::field(r, 2.0), exact::field(r, SPLITTING));
-        // The least splitting leaves erfc(2 · 3.5) of the images that are not summed, the largest exp(−π² 64 / 2.4²) of the
+        // The least splitting leaves erfc(2 · 3.5) of the images that are not summed, the largest exp(−π² 25 / 2.4²) of the
         // waves: nothing; what is left is rounding.
         assert!((a - b).abs().max_element() < 1e-12 * a.abs().max_element().max(1.0), "{a} is not {b}");
     }

@@ -90,6 +90,7 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("gravity_structure.wgsl", "override BLOCK: u32 = 64u;", "64u", "65u", ALWAYS_SET),
     same("gravity_structure.wgsl", "&& first < end {", "<", "<=", "a block of nobody is nothing"),
     same("gravity_structure_sum.wgsl", "override BLOCKS: u32 = 1u;", "1u", "2u", ALWAYS_SET),
+    same("gravity_ewald_distant.wgsl", "if v > 0.0 {", ">", ">=", EDGE),
     same("gravity_ewald.wgsl", "let mass = select(", ">", ">=", "at the edge both are nothing"),
     same("corners.wgsl", "if i >= world.count", ">=", ">", NO_LINKS),
     same("tear.wgsl", "if i >= world.count", ">=", ">", NO_LINKS),

@@ -62,7 +62,9 @@ pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
         // So close that groups are met as one, and some not at all.
         let mut places = pollster::block_on(simulation.read(POSITION)).expect("places");
         let middle = (cube().low + 0.5 * SIDE).as_vec3();
-        places.iter_mut().for_each(|x| *x = (middle + 0.2 * (x.truncate() - middle)).extend(x.w));
+        for x in &mut places {
+            *x = (middle + 0.2 * (x.truncate() - middle)).extend(x.w);
+        }
         simulation.write(POSITION, &places).expect("places");
         fill(&mut simulation, &plan);
         // The tree stands when the walk begins.
