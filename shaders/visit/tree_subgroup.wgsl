@@ -9,8 +9,8 @@ const GROUP: u32 = 32u;
 const FAR: u32 = 128u;
 const NEAR: u32 = 64u;
 
-var<workgroup> far: array<u32, 2u * FAR>;
-var<workgroup> near: array<u32, 2u * NEAR>;
+// First the far groups, then the leaves.
+var<workgroup> list: array<u32, 2u * FAR + 2u * NEAR>;
 
 // What stands in the way of a lane's own body, or of nobody's: the way is not 0, and nothing is there.
 fn meet_body(me: Particle, slot: u32, mine: u32, index: u32, b: vec4f, sum: ptr<function, Sum>) {
@@ -101,33 +101,30 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
             let n = (node << levels) + place;
             let real = place < (1u << levels) && exists(n, below);
             let holds = own >> (tree.height - below) == n;
-            // The nodes between: first those of the level above, then those of the next.
-            let upper = place >= 4u;
-            let m = select((node << (levels - 1u)) + place, 2u * node + place - 4u, upper);
+            let itself = holds && below + 3u == tree.height;
+            // A node between stands on a lane that is below it: of the level above on the even ones, of the next on 1 and 5.
+            let upper = (place & 3u) == 1u;
+            let m = select(n >> 1u, n >> 2u, upper);
             let between = select(below - 1u, depth + 1u, upper);
-            let some = select(place < (1u << (levels - 1u)) && levels > 1u, place < 6u && levels == 3u, upper);
-            let also = some && exists(m, between) && own >> (tree.height - between) != m;
+            let some = select((place & 1u) == 0u && levels > 1u, levels == 3u, upper);
+            let also = place < (1u << levels) && some && exists(m, between) && own >> (tree.height - between) != m;
             let wide = also && !opens(select(1u, m, also), here);
             let above = subgroupBallot(wide).x;
-            let taken = (((above >> (place / 2u)) | (above >> (4u + place / 4u))) & 1u) != 0u;
-            let shut = real && !taken && !holds && !opens(select(1u, n, real), here);
+            let over = (above >> ((place & 4u) + 1u)) & 1u;
+            let taken = (over | (above >> (place & 6u))) & 1u;
+            let shut = real && taken == 0u && !holds && !opens(select(1u, n, real), here);
+            let far = shut || wide && (upper || over == 0u);
+            let others = real && taken == 0u && !shut && !itself;
             let leaf = below == tree.height;
-            let far_wide = wide && (upper || ((above >> (4u + place / 2u)) & 1u) == 0u);
 
-            let wides = subgroupBallot(far_wide).x;
-            if far_wide { far[(listed.x + countOneBits(wides & lower)) % (2u * FAR)] = m; }
-            listed.x += countOneBits(wides);
-            let shuts = subgroupBallot(shut).x;
-            if shut { far[(listed.x + countOneBits(shuts & lower)) % (2u * FAR)] = n; }
-            listed.x += countOneBits(shuts);
-            let others = real && !taken && !shut;
-            let leaves = subgroupBallot(others && leaf).x;
-            if others && leaf { near[(listed.y + countOneBits(leaves & lower)) % (2u * NEAR)] = n - (1u << tree.height); }
-            listed.y += countOneBits(leaves);
-            // The group itself has met.
-            let itself = holds && below + 3u == tree.height;
-            var open = subgroupBallot(others && !leaf && !itself).x;
-            open = select(open, open << (1u << levels), levels < 3u);
+            let fars = subgroupBallot(far).x;
+            let rest = subgroupBallot(others).x;
+            let at_far = (listed.x + countOneBits(fars & lower)) % (2u * FAR);
+            let at_near = 2u * FAR + (listed.y + countOneBits(rest & lower)) % (2u * NEAR);
+            if far || others && leaf { list[select(at_near, at_far, far)] = select(n, m, wide); }
+            listed.x += countOneBits(fars);
+            listed.y += select(0u, countOneBits(rest), leaf);
+            let open = select(rest << select(0u, 1u << levels, levels < 3u), 0u, leaf);
             if open != 0u {
                 waits = (waits << vec3u(8u)) | vec3u(open, waits.x >> 24u, waits.y >> 24u);
                 node = n - place;
@@ -153,7 +150,7 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
         var part_c = Sum();
         var part_d = Sum();
         for (; met.x < ends.x; met.x += LANES) {
-            let n = far[min(met.x + place, ends.x - 1u) % (2u * FAR)];
+            let n = list[min(met.x + place, ends.x - 1u) % (2u * FAR)];
             let x = tree_center[n].xyz;
             let g = group_at(n, met.x + place < ends.x);
             meet_group(subgroupBroadcast(x, 0u), group0(g), a, b, c, d, &part_a, &part_b, &part_c, &part_d);
@@ -168,7 +165,8 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
         }
         for (; met.y < ends.y; met.y += LANES / LEAF) {
             let entry = met.y + place / LEAF;
-            let slot = near[min(entry, ends.y - 1u) % (2u * NEAR)] * LEAF + place % LEAF;
+            let leaf = list[2u * FAR + min(entry, ends.y - 1u) % (2u * NEAR)];
+            let slot = (leaf - (1u << tree.height)) * LEAF + place % LEAF;
             let p = body(min(slot, last), slot < tree.count && entry < ends.y);
             let i = tree_id[min(slot, last)];
             meet(subgroupBroadcast(i, 0u), subgroupBroadcast(p, 0u), a, b, c, d, &part_a, &part_b, &part_c, &part_d);
