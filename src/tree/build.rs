@@ -1,15 +1,127 @@
 //! Builds a tree: keys along the curve, a sort, leaves, and level after level up to the root.
 
-use super::Tree;
+use std::sync::Arc;
+
+use super::{
+    GROUP, LEAF, Opening, TREE_BODY, TREE_CENTER, TREE_DEMAND, TREE_HIGH, TREE_ID, TREE_LOW, TREE_MASS, TREE_SHAPE,
+    Tree, curve, twin,
+};
 use crate::error::Error;
-use crate::kernel::{Kernel, Problem};
+use crate::kernel::{Field, Host, Kernel, Name, POSITION, Pass, Problem, Scalar, Shader, Source};
+use crate::primitives::{Items, Operation, radix_sort, reduce};
+
+/// What is not needed any more when a tree is built: all trees share it. First the corners of the box of all.
+pub(super) const LEAST: Field<glam::Vec4> = Field::new("tree_least");
+pub(super) const GREATEST: Field<glam::Vec4> = Field::new("tree_greatest");
+/// Its lowest corner, and cells per length.
+pub(super) const CUBE: Field<glam::Vec4> = Field::new("tree_cube");
+/// The word that is sorted by next, in the order that there is; and the upper words by id.
+pub(super) const KEY: Field<u32> = Field::new("tree_key");
+pub(super) const UPPER: Field<u32> = Field::new("tree_upper");
+
+/// What a twin of a tree is.
+type Rule = fn(&Tree, &Host) -> Result<(), Error>;
 
 impl Tree {
-    /// The kernels that build it from where particles are now.
+    /// The kernels that build it from where particles are now, and, where the opening is relative, from what they felt
+    /// last.
     ///
     /// # Errors
-    /// When a shader does not compile, or a field does not fit.
-    pub fn kernels(&self, _problem: &Problem) -> Result<Vec<Kernel>, Error> {
-        Ok(Vec::new())
+    /// When a shader does not compile, or there are more particles than a sort takes.
+    pub fn kernels(&self, problem: &Problem) -> Result<Vec<Kernel>, Error> {
+        let (machine, count) = (&problem.machine, self.count);
+        let position = Name::from(POSITION.name);
+        let corner =
+            |operation, into: &'static str| reduce(operation, Items::Vec4, &position, &into.into(), count, machine);
+        let sort = |bits| radix_sort(&KEY.name.into(), &self.field(TREE_ID).1, count, bits, machine);
+        let mut kernels = vec![
+            corner(Operation::Min, LEAST.name)?,
+            corner(Operation::Max, GREATEST.name)?,
+            self.kernel("cube", self.cube()?, twin::cube),
+            self.kernel("keys", self.each(&[crate::shader!("tree/key.wgsl"), HILBERT], count)?, twin::keys),
+            sort(curve::LOWER)?,
+            self.kernel("upper words", self.each(&[crate::shader!("tree/upper.wgsl")], count)?, twin::upper),
+            sort(curve::UPPER)?,
+            self.kernel("carry", self.each(&[crate::shader!("tree/carry.wgsl")], count)?, twin::carry),
+            self.levels()?,
+        ];
+        if let Opening::Relative { alpha, g, .. } = self.opening {
+            let mut pass = self.each(&[crate::shader!("tree/demand.wgsl")], self.groups())?;
+            pass.constants = vec![("GROUP", f64::from(GROUP)), ("STRICTNESS", g / alpha)];
+            pass.work = u64::from(count);
+            kernels.push(self.kernel("demand", pass, twin::demand));
+        }
+        Ok(kernels)
+    }
+
+    /// The fields that do not have one element for each particle, and their elements: for whoever binds them.
+    #[must_use]
+    pub fn sizes(&self) -> Vec<(Name, u64)> {
+        let nodes =
+            [TREE_CENTER, TREE_MASS, TREE_SHAPE, TREE_LOW, TREE_HIGH].map(|of| (self.field(of).1, self.nodes()));
+        let mut all = nodes.to_vec();
+        all.push((self.field(TREE_DEMAND).1, u64::from(self.groups())));
+        all
+    }
+
+    /// The fields of this tree in place of the names that shaders give them.
+    #[must_use]
+    pub fn fields(&self) -> [(&'static str, Name); 8] {
+        [TREE_ID, TREE_BODY, TREE_CENTER, TREE_MASS, TREE_SHAPE, TREE_LOW, TREE_HIGH, TREE_DEMAND]
+            .map(|name| self.field(name))
+    }
+
+    fn kernel(&self, name: &str, pass: Pass, twin: Rule) -> Kernel {
+        let tree = self.clone();
+        let corners = [LEAST.name, GREATEST.name, CUBE.name].map(|name| (name.into(), 1));
+        Kernel {
+            name: format!("{name} {}", self.name()),
+            passes: vec![pass],
+            twin: Some(Arc::new(move |host: &Host| twin(&tree, host))),
+            sizes: [corners.to_vec(), self.sizes()].concat(),
+            scratch: Vec::new(),
+            tables: Vec::new(),
+        }
+    }
+
+    fn each(&self, files: &[Source], threads: u32) -> Result<Pass, Error> {
+        let mut all = vec![crate::shader!("world.wgsl"), crate::shader!("fields.wgsl")];
+        all.extend_from_slice(files);
+        Ok(Pass::new(Shader::join(&all)?, threads).on(&self.fields()))
+    }
+
+    fn cube(&self) -> Result<Pass, Error> {
+        self.each(&[HILBERT, crate::shader!("tree/cube.wgsl")], 1)
+    }
+
+    /// The leaves, and each level above them.
+    fn levels(&self) -> Result<Kernel, Error> {
+        let node = crate::shader!("tree/node.wgsl");
+        let leaf = self.each(&[node.clone(), crate::shader!("tree/leaf.wgsl")], 1)?;
+        let inner = self.each(&[node, crate::shader!("tree/inner.wgsl")], 1)?;
+        let mut passes = Vec::new();
+        for above in 0..=self.height() {
+            let (first, nodes) = self.level(above);
+            let below = if above == 0 { 0 } else { self.level(above - 1).1 };
+            let pass = if above == 0 { &leaf } else { &inner };
+            let values =
+                [("first", first), ("nodes", nodes), ("below", below)].map(|(name, n)| (name, Scalar::Uint(n)));
+            let block = pass.shader.reflection().binding("level");
+            let block = block.map_or(Ok(Vec::new()), |b| b.packed.pack("level", &values))?;
+            let mut constants = vec![("OPENING", self.stretch()), ("CORE", self.core)];
+            if above == 0 {
+                constants.push(("LEAF", f64::from(LEAF)));
+            }
+            passes.push(Pass {
+                constants,
+                uniforms: vec![("level", block)],
+                ..Pass { fields: pass.fields.clone(), ..Pass::new(pass.shader.clone(), nodes) }
+            });
+        }
+        let mut kernel = self.kernel("nodes", leaf, twin::nodes);
+        kernel.passes = passes;
+        Ok(kernel)
     }
 }
+
+const HILBERT: Source = crate::shader!("tree/hilbert.wgsl");

@@ -6,9 +6,16 @@
 //! [`height`](Tree::height) levels below the root. What stands behind the last leaf does not exist, and is not visited.
 
 mod build;
+mod curve;
+mod nodes;
 mod opening;
+mod twin;
 
+pub use curve::hilbert;
+pub use nodes::Nodes;
 pub use opening::Opening;
+
+use std::ops::Range;
 
 use crate::kernel::{Name, Problem};
 
@@ -49,6 +56,45 @@ impl Tree {
     pub fn nodes(&self) -> u64 {
         2 << self.height()
     }
+    /// How many groups of targets there are.
+    #[must_use]
+    pub fn groups(&self) -> u32 {
+        self.count.div_ceil(GROUP)
+    }
+    /// The nodes of a level, which is so many above the leaves: the first, and how many exist.
+    #[must_use]
+    pub fn level(&self, above: u32) -> (u32, u32) {
+        let wide = 1_u64 << (self.height().saturating_sub(above));
+        let nodes = u64::from(self.count.div_ceil(LEAF)).div_ceil(1 << above.min(self.height()));
+        // Below 2³²: there are four particles for each leaf.
+        [wide, nodes].map(|n| u32::try_from(n).unwrap_or(u32::MAX)).into()
+    }
+    /// Whether there is such a node.
+    #[must_use]
+    pub fn exists(&self, n: u32) -> bool {
+        n > 0 && n.ilog2() <= self.height() && !self.range(n).is_empty()
+    }
+    /// Whether a node stands at the level of the leaves.
+    #[must_use]
+    pub fn is_leaf(&self, n: u32) -> bool {
+        n.checked_ilog2() == Some(self.height())
+    }
+    /// The particles of a node, by their places along the curve; none, where it does not exist.
+    #[must_use]
+    pub fn range(&self, n: u32) -> Range<usize> {
+        let level = n.checked_ilog2().unwrap_or(0);
+        let bodies = u64::from(LEAF) << self.height().saturating_sub(level);
+        let first = u64::from(n.saturating_sub(1 << level)) * bodies;
+        let place = |k: u64| usize::try_from(k.min(self.count.into())).unwrap_or(usize::MAX);
+        place(first)..place(first + bodies)
+    }
+    /// How far a node of side 1 reaches.
+    fn stretch(&self) -> f64 {
+        match self.opening {
+            Opening::Geometric { theta } => 1.0 / theta,
+            Opening::Relative { .. } => 1.0,
+        }
+    }
     /// What it is for.
     #[must_use]
     pub fn name(&self) -> String {
@@ -72,6 +118,10 @@ pub(crate) const TREE_CENTER: &str = "tree_center";
 pub(crate) const TREE_MASS: &str = "tree_mass";
 /// Of each node: xy, xz and yz of the second moments, and the longest side of its tight box \[length\].
 pub(crate) const TREE_SHAPE: &str = "tree_shape";
+/// Of each node: the lowest corner of its tight box, and 0.
+pub(crate) const TREE_LOW: &str = "tree_low";
+/// Of each node: the highest corner of its tight box, and 0.
+pub(crate) const TREE_HIGH: &str = "tree_high";
 /// Of each group of targets: G / (α a) with the least acceleration a that any of them felt last; 0 where somebody felt
 /// none. Where the opening is relative.
 pub(crate) const TREE_DEMAND: &str = "tree_demand";

@@ -1,0 +1,101 @@
+//! A tree as the host holds it, to be read.
+
+use std::ops::Range;
+
+use glam::{DMat3, DVec3, DVec4, Vec4};
+
+use super::{TREE_BODY, TREE_CENTER, TREE_DEMAND, TREE_ID, TREE_MASS, TREE_SHAPE, Tree};
+use crate::error::Error;
+use crate::kernel::{Host, Reading};
+
+/// What the fields of a tree hold. Nodes are named by their places in a heap, from 1 on.
+pub struct Nodes<'a> {
+    tree: Tree,
+    ids: Reading<'a, u32>,
+    bodies: Reading<'a, Vec4>,
+    center: Reading<'a, Vec4>,
+    mass: Reading<'a, Vec4>,
+    shape: Reading<'a, Vec4>,
+    demand: Option<Reading<'a, f32>>,
+}
+
+impl<'a> Nodes<'a> {
+    /// Opens the fields of a tree.
+    ///
+    /// # Errors
+    /// When the host has not all of them, or one is being written; it may do without what groups demand.
+    pub fn of(tree: &Tree, host: &'a Host) -> Result<Self, Error> {
+        let vectors = |name| host.reading::<Vec4>(&tree.field(name).1);
+        Ok(Self {
+            tree: tree.clone(),
+            ids: host.reading(&tree.field(TREE_ID).1)?,
+            bodies: vectors(TREE_BODY)?,
+            center: vectors(TREE_CENTER)?,
+            mass: vectors(TREE_MASS)?,
+            shape: vectors(TREE_SHAPE)?,
+            demand: host.reading(&tree.field(TREE_DEMAND).1).ok(),
+        })
+    }
+    /// Ids in the order of the curve.
+    #[must_use]
+    pub fn ids(&self) -> &[u32] {
+        &self.ids
+    }
+    /// Positions and masses in that order.
+    #[must_use]
+    pub fn bodies(&self) -> &[DVec4] {
+        &self.bodies
+    }
+    /// Whether there is such a node.
+    #[must_use]
+    pub fn exists(&self, n: u32) -> bool {
+        self.tree.exists(n)
+    }
+    /// Whether a node is a leaf.
+    #[must_use]
+    pub fn is_leaf(&self, n: u32) -> bool {
+        self.tree.is_leaf(n)
+    }
+    /// The bodies of a node, by their places in [`Nodes::bodies`].
+    #[must_use]
+    pub fn range(&self, n: u32) -> Range<usize> {
+        self.tree.range(n)
+    }
+    /// A node's centre of mass; of its box, where its mass is 0.
+    #[must_use]
+    pub fn center(&self, n: u32) -> DVec3 {
+        element(&self.center, n).truncate()
+    }
+    /// How near a target may come to a node's centre before it is opened \[length\], as the device holds it.
+    #[must_use]
+    pub fn reach(&self, n: u32) -> f32 {
+        element(&self.center, n).as_vec4().w
+    }
+    /// A node's mass.
+    #[must_use]
+    pub fn mass(&self, n: u32) -> f64 {
+        element(&self.mass, n).x
+    }
+    /// A node's second moments Σ m y yᵀ about its centre of mass.
+    #[must_use]
+    pub fn moments(&self, n: u32) -> DMat3 {
+        let ([_, xx, yy, zz], [xy, xz, yz, _]) =
+            (element(&self.mass, n).to_array(), element(&self.shape, n).to_array());
+        DMat3::from_cols_array_2d(&[[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+    }
+    /// The longest side of a node's tight box \[length\].
+    #[must_use]
+    pub fn length(&self, n: u32) -> f64 {
+        element(&self.shape, n).w
+    }
+    /// What a group of targets demands: G / (α a), or 0 where somebody has felt nothing yet, or the opening is geometric.
+    #[must_use]
+    pub fn demand(&self, group: usize) -> f64 {
+        self.demand.as_ref().and_then(|demand| demand.get(group)).copied().unwrap_or(0.0)
+    }
+}
+
+/// Of a node that is not there, nothing.
+fn element(field: &[DVec4], n: u32) -> DVec4 {
+    field.get(n as usize).copied().unwrap_or(DVec4::ZERO)
+}

@@ -1,0 +1,124 @@
+//! The twins of what builds a tree: sums over the bodies of each node, whatever its children are.
+
+use glam::{DMat3, DVec3, DVec4, Vec4};
+
+use super::build::{CUBE, GREATEST, KEY, LEAST, UPPER};
+use super::{
+    GROUP, Opening, TREE_BODY, TREE_CENTER, TREE_DEMAND, TREE_HIGH, TREE_ID, TREE_LOW, TREE_MASS, TREE_SHAPE, Tree,
+    curve,
+};
+use crate::error::Error;
+use crate::kernel::{ACCELERATION, Host, POSITION};
+
+/// The corner of the cube, and cells per length; 0 where single precision has no such number.
+pub(super) fn cube(_: &Tree, host: &Host) -> Result<(), Error> {
+    let (least, greatest) = (host.read(LEAST)?, host.read(GREATEST)?);
+    let low = least.first().map_or(DVec3::ZERO, |corner| corner.truncate());
+    let high = greatest.first().map_or(DVec3::ZERO, |corner| corner.truncate());
+    let side = (high - low).max_element();
+    let scale = if side > 2.5e-32 && side < 3.4e38 { f64::from(1 << curve::BITS) / side } else { 0.0 };
+    host.write(CUBE)?.iter_mut().take(1).for_each(|cube| *cube = low.extend(scale));
+    Ok(())
+}
+
+/// Cells by the device's own arithmetic, so that who stands at an edge is on one side for both.
+pub(super) fn keys(tree: &Tree, host: &Host) -> Result<(), Error> {
+    let (position, cube) = (host.read(POSITION)?, host.read(CUBE)?);
+    let cube = cube.first().map_or(Vec4::ZERO, |cube| cube.as_vec4());
+    let (mut lower, mut upper) = (host.write(KEY)?, host.write(UPPER)?);
+    let mut ids = host.writing::<u32>(&tree.field(TREE_ID).1)?;
+    for (i, position) in position.iter().enumerate().take(tree.count as usize) {
+        let away = (position.as_vec4().truncate() - cube.truncate()) * cube.w;
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "clamped; what is no number becomes 0"
+        )]
+        let cell = away.to_array().map(|x| (x as u32).min((1 << curve::BITS) - 1));
+        let key = curve::hilbert(cell);
+        lower[i] = u32::try_from(key & ((1 << curve::LOWER) - 1)).unwrap_or(0);
+        upper[i] = u32::try_from(key >> curve::LOWER).unwrap_or(0);
+        ids[i] = u32::try_from(i).unwrap_or(u32::MAX);
+    }
+    Ok(())
+}
+
+pub(super) fn upper(tree: &Tree, host: &Host) -> Result<(), Error> {
+    let (ids, upper) = (host.reading::<u32>(&tree.field(TREE_ID).1)?, host.read(UPPER)?);
+    for (key, id) in host.write(KEY)?.iter_mut().zip(ids.iter()) {
+        *key = upper.get(*id as usize).copied().unwrap_or(0);
+    }
+    Ok(())
+}
+
+pub(super) fn carry(tree: &Tree, host: &Host) -> Result<(), Error> {
+    let (ids, position) = (host.reading::<u32>(&tree.field(TREE_ID).1)?, host.read(POSITION)?);
+    for (body, id) in host.writing::<Vec4>(&tree.field(TREE_BODY).1)?.iter_mut().zip(ids.iter()) {
+        *body = position.get(*id as usize).copied().unwrap_or(DVec4::ZERO);
+    }
+    Ok(())
+}
+
+pub(super) fn nodes(tree: &Tree, host: &Host) -> Result<(), Error> {
+    let bodies = host.reading::<Vec4>(&tree.field(TREE_BODY).1)?;
+    let field = |name| host.writing::<Vec4>(&tree.field(name).1);
+    let (mut center, mut mass, mut shape) = (field(TREE_CENTER)?, field(TREE_MASS)?, field(TREE_SHAPE)?);
+    let (mut low, mut high) = (field(TREE_LOW)?, field(TREE_HIGH)?);
+    for above in 0..=tree.height() {
+        let (first, nodes) = tree.level(above);
+        for n in first..first + nodes {
+            let node = Node::of(&bodies[tree.range(n)]);
+            let (middle, sides) = (0.5 * (node.low + node.high), node.high - node.low);
+            let offset = node.center.distance(middle);
+            let side = sides.max_element();
+            let reach = (tree.stretch() * side).max(tree.core + side * 3.0_f64.sqrt() / 2.0) + offset;
+            let n = n as usize;
+            let m = node.moments;
+            center[n] = node.center.extend(reach);
+            mass[n] = DVec4::new(node.mass, m.x_axis.x, m.y_axis.y, m.z_axis.z);
+            shape[n] = DVec4::new(m.x_axis.y, m.x_axis.z, m.y_axis.z, side);
+            (low[n], high[n]) = (node.low.extend(0.0), node.high.extend(0.0));
+        }
+    }
+    Ok(())
+}
+
+pub(super) fn demand(tree: &Tree, host: &Host) -> Result<(), Error> {
+    let Opening::Relative { alpha, g, .. } = tree.opening else { return Ok(()) };
+    let (ids, acceleration) = (host.reading::<u32>(&tree.field(TREE_ID).1)?, host.read(ACCELERATION)?);
+    let mut demand = host.writing::<f32>(&tree.field(TREE_DEMAND).1)?;
+    for (demand, group) in demand.iter_mut().zip(ids.chunks(GROUP as usize)) {
+        let felt = group.iter().filter_map(|id| acceleration.get(*id as usize)).map(|a| a.truncate().length());
+        let least = felt.fold(f64::INFINITY, f64::min);
+        *demand = if least > 0.0 { g / (alpha * least) } else { 0.0 };
+    }
+    Ok(())
+}
+
+/// What some bodies are together.
+struct Node {
+    mass: f64,
+    center: DVec3,
+    /// Σ m y yᵀ about the centre.
+    moments: DMat3,
+    low: DVec3,
+    high: DVec3,
+}
+
+impl Node {
+    fn of(bodies: &[DVec4]) -> Self {
+        let places = || bodies.iter().map(|b| b.truncate());
+        let low = places().reduce(DVec3::min).unwrap_or_default();
+        let high = places().reduce(DVec3::max).unwrap_or_default();
+        let middle = 0.5 * (low + high);
+        let mass: f64 = bodies.iter().map(|b| b.w).sum();
+        let pull: DVec3 = bodies.iter().map(|b| b.w * (b.truncate() - middle)).sum();
+        let center = if mass == 0.0 { middle } else { middle + pull / mass };
+        let moment = |b: &DVec4| {
+            let y = b.truncate() - center;
+            b.w * DMat3::from_cols(y * y.x, y * y.y, y * y.z)
+        };
+        let moments = bodies.iter().map(moment).fold(DMat3::ZERO, |a, b| a + b);
+        Self { mass, center, moments, low, high }
+    }
+}
