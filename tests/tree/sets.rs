@@ -1,8 +1,8 @@
 //! Bodies to build trees of, and trees of them on a device.
 
-use glam::{DVec3, DVec4, Vec4};
+use glam::{DVec3, Vec4};
 use motes::gpu::Gpu;
-use motes::kernel::{ACCELERATION, Array, Backend, Element, Field, Host, Machine, POSITION, Plan, Problem, World};
+use motes::kernel::{ACCELERATION, Array, Backend, Element, Host, Machine, POSITION, Plan, Problem, World};
 use motes::tree::{Opening, Tree};
 
 use crate::support::{Random, Shared, machines};
@@ -29,7 +29,7 @@ pub fn awkward(count: usize) -> Vec<(&'static str, Vec<Vec4>)> {
     };
     let heavy = |i: usize| if i % 17 == 3 { 1e6 } else { 1.0 };
     let mut ratio = cloud(count, 4);
-    ratio.iter_mut().enumerate().for_each(|(i, b)| b.w *= heavy(i));
+    ratio.iter_mut().enumerate().for_each(|(i, b)| b.w *= heavy(i) as f32);
     let mut some = cloud(count, 5);
     some.iter_mut().enumerate().filter(|(i, _)| i % 3 > 0).for_each(|(_, b)| b.w = 0.0);
     let mut twice = cloud(count, 6);
@@ -111,11 +111,4 @@ impl Built {
         }
         host
     }
-}
-
-/// What a field of a tree holds, corner by corner.
-pub fn corners(host: &Host, tree: &Tree, name: &'static str) -> Vec<DVec4> {
-    let field: Field<Vec4> = Field::new("unused");
-    let _ = field;
-    host.reading::<Vec4>(&tree.field(name).1).expect("a field").to_vec()
 }
