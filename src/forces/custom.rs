@@ -1,6 +1,6 @@
 //! A user's own law: a WGSL file that is the equal of ours, with no Rust and no compiler.
 
-use super::{Force, Law, Over};
+use super::{Distant, Force, Law, Over};
 use crate::kernel::{Scalar, Source};
 use crate::settings::Value;
 
@@ -34,6 +34,7 @@ impl Force for Custom {
             twin: None,
             reciprocal: false,
             jacobian: None,
+            distant: Distant::default(),
         }]
     }
 }

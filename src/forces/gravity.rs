@@ -4,15 +4,21 @@ use std::borrow::Cow;
 
 use glam::{DVec3, DVec4};
 
-use super::{Force, Law, params};
+use super::{Force, Law, Over, params};
+use crate::kernel::{Source, World};
 use crate::settings::{Key, Kind, Settings, Value};
+use crate::tree::Opening;
+use crate::visit::{Body, Group};
 
 /// What a scene may say.
 pub const KEYS: &[Key] = &[
     Key::new("g", Kind::Number, Value::Number(1.0), "the gravitational constant [length³ / mass / time²]"),
     Key::new("softening", Kind::NotNegative, Value::Number(0.0), "the Plummer softening ε; the spline ends at 2.8 ε, so for PKDGRAV's own ε (which ends at 2 ε) say 2/2.8 of it [length]"),
     Key::new("kernel", Kind::Choice(&["plummer", "spline"]), Value::Text(Cow::Borrowed("plummer")), "how close encounters are softened"),
-    Key::new("over", Kind::Choice(&["pairs"]), Value::Text(Cow::Borrowed("pairs")), "who meets whom: everybody"),
+    Key::new("over", Kind::Choice(&["pairs", "tree", "auto"]), Value::Text(Cow::Borrowed("pairs")), "who meets whom: everybody, or far groups as one, through a tree; \"auto\": whichever is faster"),
+    Key::new("theta", Kind::Positive, Value::Number(0.5), "the opening angle θ of the tree, at most 1: a group of size l is met as one from l / θ on"),
+    Key::new("alpha", Kind::NotNegative, Value::Number(0.0), "above 0: the tree opens by relative force (GADGET): a group is met as one where its quadrupole is below α of the last acceleration"),
+    Key::new("multipoles", Kind::Choice(&["quadrupole", "monopole"]), Value::Text(Cow::Borrowed("quadrupole")), "what the tree knows of a far group"),
 ];
 
 /// `gravity`: a = G m r / (r² + ε²)^(3/2), or the spline of GADGET, which is exact beyond 2.8 ε
@@ -25,23 +31,61 @@ impl Gravity {
     pub fn new(settings: &Settings) -> Self {
         Self(settings.clone())
     }
+    /// Who meets whom, where groups nearer than `core` must not be met as one.
+    fn over(&self, core: f64) -> Over {
+        let (theta, alpha, g) = (self.0.number("theta"), self.0.number("alpha"), self.0.number("g"));
+        let opening = if alpha > 0.0 {
+            Opening::Relative { alpha, g: g.abs(), theta }
+        } else {
+            Opening::Geometric { theta }
+        };
+        match self.0.text("over") {
+            "pairs" => Over::Pairs,
+            word => Over::Tree { opening, core, auto: word == "auto" },
+        }
+    }
+    /// The law of far groups; none where they are met as one particle.
+    fn distant(&self, law: Source) -> Option<Source> {
+        (self.0.text("multipoles") == "quadrupole").then_some(law)
+    }
 }
 
 impl Force for Gravity {
     fn laws(&self) -> Vec<Law> {
         let values = params(&self.0, &["g", "softening"]);
         let (g, softening) = (self.0.number("g"), self.0.number("softening"));
+        let quadrupole = self.0.text("multipoles") == "quadrupole";
         vec![if self.0.text("kernel") == "spline" {
             let h = 2.8 * softening;
-            Law::pairs("gravity_spline", crate::shader!("forces/gravity_spline.wgsl"), values, move |_, you, r| {
-                spline(g * you.mass, h, r)
-            })
+            let files = (
+                crate::shader!("forces/gravity_spline.wgsl"),
+                self.distant(crate::shader!("forces/gravity_spline_distant.wgsl")),
+            );
+            let rule = move |_: &Body, you: &Body, r, _: &World| spline(g * you.mass, h, r);
+            // Beyond its support the spline is Newton's law.
+            let far = move |_: &Body, you: &Group, r, _: &World| multipole(g, you, 0.0, r, quadrupole);
+            Law::attracting("gravity_spline", self.over(h), files, values, rule, far)
         } else {
-            Law::pairs("gravity", crate::shader!("forces/gravity.wgsl"), values, move |_, you, r| {
-                plummer(g * you.mass, softening, r)
-            })
+            let files =
+                (crate::shader!("forces/gravity.wgsl"), self.distant(crate::shader!("forces/gravity_distant.wgsl")));
+            let rule = move |_: &Body, you: &Body, r, _: &World| plummer(g * you.mass, softening, r);
+            let far = move |_: &Body, you: &Group, r, _: &World| multipole(g, you, softening, r, quadrupole);
+            Law::attracting("gravity", self.over(0.0), files, values, rule, far)
         }]
     }
+}
+
+/// A far group: its mass at its centre, and its second moments about that (after McMillan & Aarseth 1993, softened).
+fn multipole(g: f64, you: &Group, softening: f64, r: DVec3, quadrupole: bool) -> DVec4 {
+    let point = plummer(g * you.mass, softening, r);
+    if !quadrupole {
+        return point;
+    }
+    let square = r.length_squared() + softening * softening;
+    let (trace, q) = (you.moments.x_axis.x + you.moments.y_axis.y + you.moments.z_axis.z, you.moments * r);
+    let (fifth, twist) = (square.powf(-2.5), r.dot(q));
+    let acceleration = r * (7.5 * twist / square - 1.5 * trace) - 3.0 * q;
+    point + g * (acceleration * fifth).extend(0.5 * trace * square.powf(-1.5) - 1.5 * twist * fifth)
 }
 
 /// Plummer (1911).

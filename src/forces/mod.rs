@@ -11,7 +11,7 @@ pub use crate::kernel::Problem;
 use crate::kernel::{Plan, Scalar};
 use crate::settings::{Key, Settings, Value};
 use crate::solids::Standing;
-pub use crate::visit::{Body, Jacobian, Law, Over};
+pub use crate::visit::{Body, Distant, Jacobian, Law, Over};
 
 /// What pushes particles.
 pub trait Force: Send + Sync {

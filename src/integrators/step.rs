@@ -14,6 +14,7 @@ use crate::error::Error;
 use crate::forces::{Force, Problem};
 use crate::kernel::{ACCELERATION, Kernel, Plan, Twin};
 use crate::neighbors::Grid;
+use crate::tree::Tree;
 
 /// Writes a plan in verbs. The first error is kept and given at the end, so that an integrator reads like its textbook.
 pub struct Step<'a> {
@@ -96,18 +97,15 @@ impl<'a> Step<'a> {
     }
     /// Who is held gets the velocity that brings it where it shall be at the end of the step.
     pub fn lead(&mut self) {
-        match held::lead(&self.problem) {
-            Ok(kernels) => kernels.into_iter().for_each(|kernel| self.add(Ok(kernel))),
-            Err(error) => {
-                self.error.get_or_insert(error);
-            }
-        }
+        self.add_all(held::lead(&self.problem));
     }
-    /// The grids that laws search: each once, however many laws do.
+    /// The grids that laws search and the trees that they walk: each once, however many laws do.
     fn neighbors(&mut self, chosen: impl Fn(usize) -> bool) {
         let mut grids: Vec<(Grid, bool)> = Vec::new();
+        let mut trees: Vec<Tree> = Vec::new();
         let forces = self.forces.iter().enumerate().filter(|(place, _)| chosen(*place));
         for law in forces.flat_map(|(_, force)| force.laws()) {
+            trees.extend(law.tree(&self.problem).filter(|tree| !trees.contains(tree)));
             match law.grid(&self.problem) {
                 Ok(Some((grid, moving))) => match grids.iter_mut().find(|(known, _)| *known == grid) {
                     Some((_, also)) => *also |= moving,
@@ -121,6 +119,9 @@ impl<'a> Step<'a> {
         }
         for (grid, moving) in grids {
             self.add(grid.kernel(&self.problem, moving));
+        }
+        for tree in trees {
+            self.add_all(tree.kernels(&self.problem));
         }
     }
     /// v ← v + c a dt, within the limits of speed
@@ -142,12 +143,7 @@ impl<'a> Step<'a> {
     }
     /// Whoever has left the box by a closed side comes in again.
     pub fn enclose(&mut self) {
-        match boundary::kernels(&self.problem) {
-            Ok(kernels) => kernels.into_iter().for_each(|kernel| self.add(Ok(kernel))),
-            Err(error) => {
-                self.error.get_or_insert(error);
-            }
-        }
+        self.add_all(boundary::kernels(&self.problem));
     }
     /// Forces are evaluated at t + c dt from here on, until the end of the step.
     pub fn at(&mut self, factor: f64) {
@@ -251,6 +247,14 @@ impl<'a> Step<'a> {
     fn flush(&mut self) {
         if let Some(factor) = self.kicked.take() {
             self.add(kick::kernel(self.problem.count, factor));
+        }
+    }
+    fn add_all(&mut self, kernels: Result<Vec<Kernel>, Error>) {
+        match kernels {
+            Ok(kernels) => kernels.into_iter().for_each(|kernel| self.add(Ok(kernel))),
+            Err(error) => {
+                self.error.get_or_insert(error);
+            }
         }
     }
     fn add(&mut self, kernel: Result<Kernel, Error>) {

@@ -5,6 +5,7 @@ use std::path::Path;
 use crate::forces::{self, Custom, FORCES, Force, Over};
 use crate::motion::Motion;
 use crate::settings::{Kind, Settings, Value};
+use crate::tree::Opening;
 
 use super::files::Files;
 use super::held;
@@ -14,7 +15,7 @@ use super::tree::{Data, Entry};
 use super::value;
 use super::walk::{self, Table};
 
-pub(super) const OWN: &[&str] = &["kind", "wgsl", "over", "range", "neighbors", "params"];
+pub(super) const OWN: &[&str] = &["kind", "wgsl", "over", "range", "neighbors", "theta", "params"];
 
 /// A force as the scene gives it.
 pub(super) enum Chosen {
@@ -73,9 +74,10 @@ fn over(table: &Table<'_>, report: &mut Report) -> Option<Over> {
     let wanted = match word {
         "within" | "near" => Some("range"),
         "nearest" => Some("neighbors"),
+        "tree" | "auto" => Some("theta"),
         _ => None,
     };
-    for given in ["range", "neighbors"].into_iter().filter_map(|key| table.get(key)) {
+    for given in ["range", "neighbors", "theta"].into_iter().filter_map(|key| table.get(key)) {
         if wanted != Some(given.key.as_str()) {
             let fault = Fault::at(&given.place, format!("a law over \"{word}\" has no use for `{}`", given.key));
             report.push(fault.label("remove it, or change `over`"));
@@ -90,9 +92,13 @@ fn over(table: &Table<'_>, report: &mut Report) -> Option<Over> {
             _ => Over::Pairs,
         });
     };
-    let kind = if wanted == "range" { Kind::Positive } else { Kind::Count };
+    let kind = if wanted == "neighbors" { Kind::Count } else { Kind::Positive };
     let Some(given) = table.get(wanted) else {
-        let about = if wanted == "range" { "how far one meets another [length]" } else { "how many are met" };
+        let about = match wanted {
+            "range" => "how far one meets another [length]",
+            "theta" => "the opening angle, at most 1: a group of size l is met as one from l / theta on",
+            _ => "how many are met",
+        };
         report.push(table.lacks(wanted, &value::wanted(kind), about));
         return None;
     };
@@ -100,6 +106,9 @@ fn over(table: &Table<'_>, report: &mut Report) -> Option<Over> {
     match word {
         "within" => Some(Over::Within { range: number }),
         "near" => Some(Over::Near { range: number, of: None }),
+        "tree" | "auto" => {
+            Some(Over::Tree { opening: Opening::Geometric { theta: number }, core: 0.0, auto: word == "auto" })
+        }
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count fits 32 bits")]
         _ => Some(Over::Nearest { count: number as u32 }),
     }
@@ -142,6 +151,7 @@ impl Chosen {
                 out.text("over", law.over.name());
                 match law.over {
                     Over::Within { range } | Over::Near { range, .. } => out.number("range", range),
+                    Over::Tree { opening, .. } => out.number("theta", opening.theta()),
                     Over::Nearest { count } => out.line("neighbors", &count.to_string()),
                     _ => {}
                 }

@@ -24,7 +24,7 @@ pub(super) fn cube(_: &Tree, host: &Host) -> Result<(), Error> {
 /// Cells by the device's own arithmetic, so that who stands at an edge is on one side for both.
 pub(super) fn keys(tree: &Tree, host: &Host) -> Result<(), Error> {
     let (position, cube) = (host.read(POSITION)?, host.read(CUBE)?);
-    let cube = cube.first().map_or(Vec4::ZERO, |cube| cube.as_vec4());
+    let cube = cube.first().map_or(Vec4::ZERO, |c| c.as_vec4());
     let (mut lower, mut upper) = (host.write(KEY)?, host.write(UPPER)?);
     let mut ids = host.writing::<u32>(&tree.field(TREE_ID).1)?;
     for (i, position) in position.iter().enumerate().take(tree.count as usize) {
@@ -75,8 +75,8 @@ pub(super) fn nodes(tree: &Tree, host: &Host) -> Result<(), Error> {
             let n = n as usize;
             let m = node.moments;
             center[n] = node.center.extend(reach);
-            mass[n] = DVec4::new(node.mass, m.x_axis.x, m.y_axis.y, m.z_axis.z);
-            shape[n] = DVec4::new(m.x_axis.y, m.x_axis.z, m.y_axis.z, side);
+            mass[n] = m.x_axis.extend(node.mass);
+            shape[n] = DVec4::new(m.y_axis.y, m.y_axis.z, m.z_axis.z, side);
             (low[n], high[n]) = (node.low.extend(0.0), node.high.extend(0.0));
         }
     }

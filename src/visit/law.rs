@@ -1,12 +1,15 @@
 //! What happens.
 
+use std::sync::Arc;
+
 use glam::{DVec3, DVec4};
 
-use super::{Body, Jacobian, Over, each, links, near, pairs, twin};
+use super::{Body, Group, Jacobian, Over, each, links, near, pairs, tree, twin, walk};
 use crate::error::Error;
 use crate::kernel::{Kernel, Problem, Scalar, Shader, Source, Twin, World};
 use crate::links::{Corner, Half};
 use crate::neighbors::Grid;
+use crate::tree::Tree;
 
 /// A law: what happens between `me` and `you`, or to `me` alone.
 #[derive(Clone)]
@@ -26,6 +29,17 @@ pub struct Law {
     pub reciprocal: bool,
     /// What it offers to implicit integrators.
     pub jacobian: Option<Jacobian>,
+    /// What it makes of a far group, over `tree`.
+    pub distant: Distant,
+}
+
+/// What a law makes of a far group.
+#[derive(Clone, Default)]
+pub struct Distant {
+    /// Its WGSL; without it a group is met as one particle.
+    pub wgsl: Option<Source>,
+    /// The twin that walks the same tree as the device.
+    pub walk: Option<Twin>,
 }
 
 /// Files that a law has by calling a function of theirs, and not having one of that name itself.
@@ -53,6 +67,7 @@ impl Law {
             twin: Some(twin::each(rule)),
             reciprocal: false,
             jacobian: None,
+            distant: Distant::default(),
         }
     }
     /// A law of all pairs that adds up: [`Law::between`] over [`Over::Pairs`].
@@ -76,6 +91,37 @@ impl Law {
         let gather = move |me: &Body, you: &Body, r, sum: &mut DVec4| *sum += rule(me, you, r);
         Self { reciprocal: true, ..Self::gathering(name, over, wgsl, params, gather, |_, sum, _| *sum) }
     }
+    /// A law between two that depends on the box too, and that knows what a far group does: `rule(me, you, r, world)` and
+    /// `far(me, group, r, world)`, with r from me to you or to the group's centre of mass, give acceleration and potential
+    /// per unit mass. `distant` is the WGSL of the latter, `fn distant(me: Particle, you: Group, r: vec3f, sum:
+    /// ptr<function, Sum>)`; without it the group is met as one particle.
+    pub fn attracting(
+        name: &str,
+        over: Over,
+        files: (Source, Option<Source>),
+        params: Vec<(String, Scalar)>,
+        rule: impl Fn(&Body, &Body, DVec3, &World) -> DVec4 + Send + Sync + 'static,
+        far: impl Fn(&Body, &Group, DVec3, &World) -> DVec4 + Send + Sync + 'static,
+    ) -> Self {
+        let rule = Arc::new(rule);
+        let (wgsl, distant) = files;
+        let every = rule.clone();
+        let gather = move |me: &Body, you: &Body, r, world: &World, sum: &mut DVec4| *sum += every(me, you, r, world);
+        let walk = match over {
+            Over::Tree { opening, core, .. } => Some(walk::twin(opening, core, rule, far)),
+            _ => None,
+        };
+        Self {
+            name: name.to_owned(),
+            over,
+            wgsl,
+            params,
+            twin: Some(twin::meetings(over, gather, |_, sum: &DVec4, _| *sum)),
+            reciprocal: true,
+            jacobian: None,
+            distant: Distant { wgsl: distant, walk },
+        }
+    }
     /// A law that makes something else of its neighbours than a sum of accelerations; `gather(me, you, r, sum)` takes
     /// them in, in any order, and `finish(me, sum, world)` gives acceleration and potential per unit mass.
     pub fn gathering<S: Default>(
@@ -86,8 +132,18 @@ impl Law {
         gather: impl Fn(&Body, &Body, DVec3, &mut S) + Send + Sync + 'static,
         finish: impl Fn(&Body, &S, &World) -> DVec4 + Send + Sync + 'static,
     ) -> Self {
+        let gather = move |me: &Body, you: &Body, r, _: &World, sum: &mut S| gather(me, you, r, sum);
         let twin = Some(twin::meetings(over, gather, finish));
-        Self { name: name.to_owned(), over, wgsl, params, twin, reciprocal: false, jacobian: None }
+        Self {
+            name: name.to_owned(),
+            over,
+            wgsl,
+            params,
+            twin,
+            reciprocal: false,
+            jacobian: None,
+            distant: Distant::default(),
+        }
     }
     /// A law of springs; `gather(me, you, r, link, sum)` takes one in, with r from me to you, and `finish(me, sum)` gives
     /// acceleration and potential per unit mass, of which each end holds half.
@@ -99,7 +155,16 @@ impl Law {
         finish: impl Fn(&Body, &S) -> DVec4 + Send + Sync + 'static,
     ) -> Self {
         let twin = Some(twin::links(gather, finish));
-        Self { name: name.to_owned(), over: Over::Links, wgsl, params, twin, reciprocal: true, jacobian: None }
+        Self {
+            name: name.to_owned(),
+            over: Over::Links,
+            wgsl,
+            params,
+            twin,
+            reciprocal: true,
+            jacobian: None,
+            distant: Distant::default(),
+        }
     }
     /// A law of joints or triangles; `rule(corners, place, stiffness, world)` gives the force on the corner of that
     /// place, and the energy of the whole, of which each corner holds a third.
@@ -111,17 +176,27 @@ impl Law {
         rule: impl Fn([&Body; 3], &Corner, &World) -> DVec4 + Send + Sync + 'static,
     ) -> Self {
         let twin = Some(twin::corners(over, rule));
-        Self { name: name.to_owned(), over, wgsl, params, twin, reciprocal: false, jacobian: None }
+        Self {
+            name: name.to_owned(),
+            over,
+            wgsl,
+            params,
+            twin,
+            reciprocal: false,
+            jacobian: None,
+            distant: Distant::default(),
+        }
     }
     /// Joins the law with its visit, for such a problem.
     ///
     /// # Errors
     /// [`Error::Shader`] when the WGSL does not compile, [`Error::Scene`] when a parameter is missing or unknown.
     pub fn kernel(self, problem: &Problem) -> Result<Kernel, Error> {
-        match self.over {
+        match self.over.chosen(problem) {
             Over::Each => each::kernel(self, problem),
             Over::Pairs | Over::Within { .. } => pairs::kernel(self, problem),
             Over::Near { .. } | Over::Nearest { .. } => near::kernel(self, problem),
+            Over::Tree { opening, core, .. } => tree::kernel(self, &Tree::new(opening, core, problem), problem),
             Over::Links | Over::Joints | Over::Triangles => links::kernel(self, problem),
         }
     }
@@ -131,6 +206,14 @@ impl Law {
     /// [`Error::Scene`] when its range is none.
     pub fn grid(&self, problem: &Problem) -> Result<Option<(Grid, bool)>, Error> {
         near::grid(self, problem)
+    }
+    /// The tree that it walks, if it walks one.
+    #[must_use]
+    pub fn tree(&self, problem: &Problem) -> Option<Tree> {
+        match self.over.chosen(problem) {
+            Over::Tree { opening, core, .. } => Some(Tree::new(opening, core, problem)),
+            _ => None,
+        }
     }
     pub(super) fn uniforms(&self, shader: &Shader) -> Result<Vec<(&'static str, Vec<u8>)>, Error> {
         let values: Vec<_> = self.params.iter().map(|(name, value)| (name.as_str(), *value)).collect();

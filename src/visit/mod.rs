@@ -10,11 +10,15 @@ mod over;
 mod pairs;
 pub mod random;
 mod tied;
+mod tree;
 mod twin;
+mod walk;
 
 pub use body::{Body, bodies};
 pub use jacobian::{Jacobian, ROW, ROWS};
-pub use law::Law;
+pub use law::{Distant, Law};
 pub use links::{LINK, LINK_START, bind};
 pub use over::Over;
 pub(crate) use tied::Tied;
+pub use tree::crossing;
+pub use walk::Group;

@@ -1,5 +1,7 @@
 //! Who meets whom.
 
+use crate::tree::Opening;
+
 /// The visits.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Over {
@@ -25,6 +27,15 @@ pub enum Over {
         /// How many.
         count: u32,
     },
+    /// Everybody meets everybody else, far groups of them taken as one, found through a tree.
+    Tree {
+        /// When a group is too near for that.
+        opening: Opening,
+        /// A group is too near, too, where any of it may be nearer than this \[length\].
+        core: f64,
+        /// Only where that is faster than that everybody meets everybody.
+        auto: bool,
+    },
     /// Everybody meets those that it is linked to.
     Links,
     /// Everybody looks at the joints that it is a part of.
@@ -36,7 +47,7 @@ pub enum Over {
 impl Over {
     /// The scene's words for the visits.
     pub const NAMES: &'static [&'static str] =
-        &["each", "pairs", "within", "near", "nearest", "links", "joints", "triangles"];
+        &["each", "pairs", "within", "near", "nearest", "tree", "auto", "links", "joints", "triangles"];
 
     /// The scene's word for it.
     #[must_use]
@@ -47,6 +58,8 @@ impl Over {
             Self::Within { .. } => "within",
             Self::Near { .. } => "near",
             Self::Nearest { .. } => "nearest",
+            Self::Tree { auto: false, .. } => "tree",
+            Self::Tree { auto: true, .. } => "auto",
             Self::Links => "links",
             Self::Joints => "joints",
             Self::Triangles => "triangles",

@@ -24,7 +24,7 @@ pub fn each(rule: impl Fn(&Body, &World) -> DVec4 + Send + Sync + 'static) -> Tw
 /// Those that meet, in the order of their ids.
 pub fn meetings<S: Default>(
     over: Over,
-    gather: impl Fn(&Body, &Body, DVec3, &mut S) + Send + Sync + 'static,
+    gather: impl Fn(&Body, &Body, DVec3, &World, &mut S) + Send + Sync + 'static,
     finish: impl Fn(&Body, &S, &World) -> DVec4 + Send + Sync + 'static,
 ) -> Twin {
     Arc::new(move |host| {
@@ -33,7 +33,7 @@ pub fn meetings<S: Default>(
         acceleration.par_iter_mut().zip(&bodies).for_each(|(a, me)| {
             let mut sum = S::default();
             let mut meet = |you: &Body| {
-                gather(me, you, world.bounds.shortest(you.position - me.position), &mut sum);
+                gather(me, you, world.bounds.shortest(you.position - me.position), &world, &mut sum);
             };
             let others = bodies.iter().filter(|you| you.index != me.index);
             match (over, over.range()) {

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use glam::{DVec3, DVec4};
-use motes::forces::{Force, Law, Over};
+use motes::forces::{Distant, Force, Law, Over};
 use motes::kernel::{ACCELERATION, Backend, Host, Source};
 use motes::{Bounds, Cpu, Particles, SPECIES, Setup, Simulation, VELOCITY};
 
@@ -32,6 +32,7 @@ impl Force for Sorting {
             twin: Some(Arc::new(twin)),
             reciprocal: false,
             jacobian: None,
+            distant: Distant::default(),
         }]
     }
 }

@@ -57,9 +57,11 @@ impl Sums {
         let (mut mass, mut first) = (0.0, DVec3::ZERO);
         for b in bodies {
             let x = b.truncate();
-            (low, high, mass, first) = (low.min(x), high.max(x), mass + b.w, first + b.w * x);
+            // From the first one on, so that those at one place are there to the bit.
+            let way = b.w * (x - bodies[0].truncate());
+            (low, high, mass, first) = (low.min(x), high.max(x), mass + b.w, first + way);
         }
-        let center = if mass > 0.0 { first / mass } else { low.midpoint(high) };
+        let center = if mass > 0.0 { bodies[0].truncate() + first / mass } else { low.midpoint(high) };
         let mut moments = DMat3::ZERO;
         for b in bodies {
             let y = b.truncate() - center;
@@ -187,7 +189,8 @@ const FIELDS: [&str; 7] = ["tree_id", "tree_body", "tree_center", "tree_mass", "
 fn runs_give_the_same_bits_and_ids_do_not_matter() {
     let shared = support::device();
     for machine in MACHINES {
-        for (name, bodies) in awkward(777).into_iter().filter(|(name, _)| !name.contains("massless")) {
+        // Of a cusp's middle many are in one cell, each elsewhere: there ids decide who comes first.
+        for (name, bodies) in awkward(777).into_iter().filter(|(name, _)| *name != "in a cusp") {
             let run = |bodies: &[Vec4]| {
                 let mut built = Built::new(&shared, bodies, &[], GEOMETRIC, 0.1, machine).run();
                 FIELDS.map(|field| built.bytes(field))
@@ -201,7 +204,7 @@ fn runs_give_the_same_bits_and_ids_do_not_matter() {
             let ids = bytemuck::pod_collect_to_vec::<u8, u32>(&second[0]);
             let bodies_of = bytemuck::pod_collect_to_vec::<u8, Vec4>(&second[1]);
             assert!(ids.iter().zip(&bodies_of).all(|(id, b)| turned[*id as usize] == *b), "{name}");
-            assert!(first[0] != second[0], "{name}: the order is no other one");
+            assert!(name == "at one place" || first[0] != second[0], "{name}: the order is no other one");
         }
     }
 }

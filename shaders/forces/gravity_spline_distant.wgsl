@@ -1,0 +1,14 @@
+// A far group by its mass M and second moments Q about the centre of mass, beyond the support of the spline:
+// φ = −G [M/r − tr Q / 2r³ + 3 r·Q r / 2r⁵],  a = G [(M/r³ − 3 tr Q / 2r⁵ + 15 r·Q r / 2r⁷) r − 3 Q r / r⁵]
+fn distant(me: Particle, you: Group, r: vec3f, sum: ptr<function, Sum>) {
+    let inverse = inverseSqrt(dot(r, r));
+    let square = inverse * inverse;
+    let q = you.diagonal * r + vec3f(you.mixed.x * r.y + you.mixed.y * r.z,
+                                     you.mixed.x * r.x + you.mixed.z * r.z,
+                                     you.mixed.y * r.x + you.mixed.z * r.y);
+    let trace = 0.5 * (you.diagonal.x + you.diagonal.y + you.diagonal.z);
+    let twist = 1.5 * square * dot(r, q);
+    let cube = inverse * square;
+    (*sum).acceleration += cube * ((you.mass + square * (5.0 * twist - 3.0 * trace)) * r - (3.0 * square) * q);
+    (*sum).potential -= inverse * (you.mass + square * (twist - trace));
+}

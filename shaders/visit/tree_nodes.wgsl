@@ -1,0 +1,59 @@
+// What all walks of the tree share: targets walk in groups, so that a group's nodes are looked up once and met by all.
+// A law says: fn gather(me, you, r: vec3f, sum: ptr<function, Sum>), with r from me to you, fn finish(me, sum: Sum) -> vec4f,
+// and it may say fn distant(me, you: Group, r: vec3f, sum: ptr<function, Sum>), with r from me to the centre of mass.
+//
+// Nodes have a heap's numbers: 1 is the root, 2 n and 2 n + 1 are below n, and leaves stand `height` levels below the root.
+struct Tree { first: u32, end: u32, count: u32, leaves: u32, height: u32, widened: f32 }
+
+@group(2) @binding(0) var<uniform> tree: Tree;
+@group(2) @binding(1) var<storage, read> tree_id: array<u32>;
+@group(2) @binding(2) var<storage, read> tree_body: array<vec4f>; // xyz, mass
+@group(2) @binding(3) var<storage, read> tree_center: array<vec4f>; // of mass, xyz; how near one may come to it
+@group(2) @binding(4) var<storage, read> tree_mass: array<vec4f>; // second moments xx, xy, xz about the centre of mass; mass
+@group(2) @binding(5) var<storage, read> tree_shape: array<vec4f>; // second moments yy, yz, zz; the longest side of its box
+@group(2) @binding(7) var<storage, read_write> alarm: array<atomic<u32>>;
+@group(1) @binding(2) var<storage, read_write> acceleration: array<vec4f>;
+
+const LEAF: u32 = 4u;
+// Turns that the loops of an invocation may take: with more, some adapters end them before they are done.
+override MOST: u32 = 60000u;
+
+// A far group of particles: its mass, and its second moments Σ m y yᵀ about the centre of mass.
+struct Group { mass: f32, diagonal: vec3f, mixed: vec3f }
+
+// Where a group of targets is: the middle of its box, half the sides, and how far apart its nodes must be.
+struct Place { middle: vec3f, half_side: vec3f, demand: f32 }
+
+// What a node holds; nothing, where it only fills a place.
+fn group_at(node: u32, real: bool) -> Group {
+    let m = select(vec4f(), tree_mass[node], real);
+    let q = select(vec4f(), tree_shape[node], real);
+    return Group(m.w, vec3f(m.x, q.x, q.z), vec3f(m.yz, q.y));
+}
+
+// The least distance from the group's box to a place, squared.
+fn apart(place: Place, x: vec3f) -> f32 {
+    let d = max(abs(shortest(x - place.middle)) - place.half_side, vec3f());
+    return d.x * d.x + d.y * d.y + d.z * d.z;
+}
+
+// A particle; without its mass, where it only fills a place.
+fn body(slot: u32, real: bool) -> vec4f {
+    let p = tree_body[slot];
+    return vec4f(p.xyz, select(0.0, p.w, real));
+}
+
+fn target_of(slot: u32) -> Particle {
+    let p = tree_body[slot];
+    return Particle(tree_id[slot], p.xyz, p.w);
+}
+
+// A node stands on the level of `depth`, and has particles.
+fn exists(node: u32, depth: u32) -> bool {
+    return ((node - (1u << depth)) << (tree.height - depth)) < tree.leaves;
+}
+
+fn deliver(me: Particle, sum: Sum) {
+    // Each of a pair holds half of its potential energy.
+    acceleration[me.index] += vec4f(1.0, 1.0, 1.0, 0.5) * finish(me, sum);
+}

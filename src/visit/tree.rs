@@ -1,0 +1,121 @@
+//! Everybody meets who is near, and far groups as one, through a tree.
+
+use super::{Law, Over};
+use crate::error::Error;
+use crate::kernel::{
+    ALARM, ALARM_WORDS, Binding, Kernel, Machine, Name, Pass, Problem, Scalar, Shader, Source, Threads,
+};
+use crate::tree::{GROUP, Opening, TREE_BODY, TREE_CENTER, TREE_DEMAND, TREE_ID, TREE_MASS, TREE_SHAPE, Tree};
+
+/// Targets of one dispatch, at most: a whole number of groups.
+const TARGETS: u32 = 1 << 18;
+
+/// How many particles there must be before the tree is faster than that everybody meets everybody. Measured on lavapipe by
+/// `motes bench tree`; for hardware it is an estimate, from the interactions of both and the rates of others.
+#[must_use]
+pub fn crossing(machine: &Machine) -> u32 {
+    if machine.software { 8192 } else { 49_152 }
+}
+
+impl Over {
+    /// What is visited for such a problem.
+    #[must_use]
+    pub fn chosen(self, problem: &Problem) -> Self {
+        match self {
+            Self::Tree { auto: true, .. } if problem.count < crossing(&problem.machine) => Self::Pairs,
+            other => other,
+        }
+    }
+}
+
+fn join(law: &Law, tree: &Tree, machine: &Machine) -> Result<std::sync::Arc<Shader>, Error> {
+    let mut files = vec![
+        crate::shader!("world.wgsl"),
+        crate::shader!("fields.wgsl"),
+        crate::shader!("particle.wgsl"),
+        crate::shader!("visit/tree_nodes.wgsl"),
+        match tree.opening {
+            Opening::Geometric { .. } => crate::shader!("visit/tree_geometric.wgsl"),
+            Opening::Relative { .. } => crate::shader!("visit/tree_relative.wgsl"),
+        },
+        law.distant.wgsl.clone().unwrap_or(crate::shader!("visit/tree_monopole.wgsl")),
+    ];
+    files.push(variant(machine));
+    files.extend(law.files());
+    Shader::join(&files)
+}
+
+fn variant(machine: &Machine) -> Source {
+    match (machine.software, machine.subgroup) {
+        (true, 8) => crate::shader!("visit/tree_subgroup.wgsl"),
+        _ => crate::shader!("visit/tree_subgroup.wgsl"),
+    }
+}
+
+pub fn kernel(law: Law, tree: &Tree, problem: &Problem) -> Result<Kernel, Error> {
+    law.requires_meetings()?;
+    let theta = tree.opening.theta();
+    if !(theta > 0.0 && theta <= 1.0) {
+        return Err(Error::Scene(format!(
+            "`{}` walks a tree with θ = {theta}: it must be above 0, and 1 at most",
+            law.name
+        )));
+    }
+    let shader = join(&law, tree, &problem.machine)?;
+    let params = law.uniforms(&shader)?;
+    let mut constants = problem.constants(&shader);
+    if shader.reflection().overrides.contains_key("GROUP") {
+        constants.push(("GROUP", f64::from(GROUP)));
+    }
+    let names = [TREE_ID, TREE_BODY, TREE_CENTER, TREE_MASS, TREE_SHAPE, TREE_DEMAND];
+    let fields = names.map(|name| tree.field(name));
+    let mut passes = Vec::new();
+    let mut first = 0;
+    while first < problem.count {
+        let end = problem.count.min(first.saturating_add(TARGETS));
+        let mut uniforms = params.clone();
+        if let Some(binding) = shader.reflection().binding("tree") {
+            uniforms.push(("tree", uniform(tree, binding, first, end)?));
+        }
+        let lanes = (end - first).div_ceil(GROUP) * shader.reflection().workgroup;
+        let work = meetings(tree, problem, end - first);
+        let threads = Threads::new(lanes);
+        let pass = Pass { constants: constants.clone(), uniforms, threads, work, ..Pass::new(shader.clone(), 0) };
+        passes.push(pass.on(&fields));
+        first = end;
+    }
+    let of = |name| tree.field(name).1;
+    let count = u64::from(tree.count);
+    let mut sizes: Vec<(Name, u64)> = vec![(of(TREE_ID), count), (of(TREE_BODY), count)];
+    sizes.extend([TREE_CENTER, TREE_MASS, TREE_SHAPE].map(|name| (of(name), tree.nodes())));
+    sizes.push((of(TREE_DEMAND), count.div_ceil(u64::from(GROUP))));
+    sizes.push((ALARM.name.into(), ALARM_WORDS as u64));
+    Ok(Kernel { name: law.name, passes, twin: law.distant.walk, sizes, scratch: Vec::new(), tables: Vec::new() })
+}
+
+/// About how many meetings of two a walk of so many targets is worth: a guess of time alone.
+fn meetings(tree: &Tree, problem: &Problem, targets: u32) -> u64 {
+    let levels = f64::from(tree.height()) + 1.0;
+    let theta = match tree.opening {
+        Opening::Geometric { theta } => theta,
+        Opening::Relative { .. } => 0.6,
+    };
+    // Far groups are those of a few shells on each level; one costs about as much as three meetings.
+    let each = (700.0 + 3.0 * 60.0 * levels / theta.powi(2)).min(f64::from(problem.count));
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "an estimate")]
+    let all = (each * f64::from(targets)) as u64;
+    all
+}
+
+/// The block `tree` of a shader, for the targets `first` ≤ k < `end`.
+fn uniform(tree: &Tree, binding: &Binding, first: u32, end: u32) -> Result<Vec<u8>, Error> {
+    let values = [
+        ("first", Scalar::Uint(first)),
+        ("end", Scalar::Uint(end)),
+        ("count", Scalar::Uint(tree.count)),
+        ("leaves", Scalar::Uint(tree.leaves())),
+        ("height", Scalar::Uint(tree.height())),
+        ("widened", Scalar::Float(1.0 / tree.opening.theta() - 1.0)),
+    ];
+    binding.packed.pack("tree", &values)
+}

@@ -1,0 +1,127 @@
+//! The twin of the walk of a tree: the same nodes are opened as on the device, and what is met adds up in f64.
+
+use std::sync::Arc;
+
+use glam::{DMat3, DVec3, DVec4, Vec3};
+use rayon::prelude::*;
+
+use super::body::{Body, bodies};
+use crate::kernel::{ACCELERATION, Bounds, Twin, World};
+use crate::tree::{GROUP, Nodes, Opening, Tree};
+
+/// A far group of particles, as a law's twin sees it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Group {
+    /// How heavy it is.
+    pub mass: f64,
+    /// Its second moments Σ m y yᵀ about its centre of mass \[mass length²\].
+    pub moments: DMat3,
+}
+
+/// Where a group of targets is, as the device has it.
+struct Place {
+    middle: Vec3,
+    half_side: Vec3,
+    demand: f32,
+}
+
+impl Place {
+    #[expect(clippy::cast_possible_truncation, reason = "as the device holds it")]
+    fn new(bodies: &[DVec4], demand: f64) -> Self {
+        let places = || bodies.iter().map(|x| x.truncate().as_vec3());
+        let (low, high) = (places().fold(Vec3::INFINITY, Vec3::min), places().fold(Vec3::NEG_INFINITY, Vec3::max));
+        Self { middle: 0.5 * (low + high), half_side: 0.5 * (high - low), demand: demand as f32 }
+    }
+    /// The least distance to a place, squared, by the device's own arithmetic.
+    fn apart(&self, x: DVec3, bounds: &Bounds) -> f32 {
+        let r = bounds.shortest_single((x.as_vec3() - self.middle).as_dvec3());
+        let d = (r.abs() - self.half_side).max(Vec3::ZERO);
+        d.x * d.x + d.y * d.y + d.z * d.z
+    }
+    /// Whether a node is opened.
+    #[expect(clippy::cast_possible_truncation, reason = "as the device holds it")]
+    fn opens(&self, tree: &Tree, nodes: &Nodes<'_>, node: u32, bounds: &Bounds) -> bool {
+        let d = self.apart(nodes.center(node), bounds);
+        let reach = nodes.reach(node);
+        let Opening::Relative { theta, .. } = tree.opening else { return d <= reach * reach };
+        let (mass, length) = (nodes.mass(node) as f32, nodes.length(node) as f32);
+        let widened = (1.0 / theta - 1.0) as f32;
+        let reach = if self.demand == 0.0 { reach + widened * length } else { reach };
+        d <= reach * reach || self.demand * mass * (length * length / d) > d
+    }
+}
+
+/// Every group of targets, from the root on.
+pub fn twin(
+    opening: Opening,
+    core: f64,
+    rule: Arc<impl Fn(&Body, &Body, DVec3, &World) -> DVec4 + Send + Sync + 'static>,
+    far: impl Fn(&Body, &Group, DVec3, &World) -> DVec4 + Send + Sync + 'static,
+) -> Twin {
+    Arc::new(move |host| {
+        let (bodies, world) = (bodies(host)?, host.world());
+        let tree = Tree { opening, core, count: world.count };
+        let nodes = Nodes::of(&tree, host)?;
+        let meet = |me: &Body, met: &Met| -> DVec4 {
+            let near = met.leaves.iter().flat_map(|leaf| nodes.range(*leaf)).filter_map(|slot| {
+                let you = &bodies[nodes.ids()[slot] as usize];
+                let r = world.bounds.shortest(you.position - me.position);
+                (you.index != me.index).then(|| rule(me, you, r, &world))
+            });
+            let far = met.far.iter().map(|node| {
+                let group = Group { mass: nodes.mass(*node), moments: nodes.moments(*node) };
+                far(me, &group, world.bounds.shortest(nodes.center(*node) - me.position), &world)
+            });
+            near.sum::<DVec4>() + far.sum::<DVec4>()
+        };
+        let slots: Vec<usize> = (0..tree.count as usize).collect();
+        let felt: Vec<(usize, DVec4)> = slots
+            .par_chunks(GROUP as usize)
+            .enumerate()
+            .flat_map_iter(|(group, slots)| {
+                let targets: Vec<DVec4> = slots.iter().map(|slot| nodes.bodies()[*slot]).collect();
+                let place = Place::new(&targets, nodes.demand(group));
+                let mut met = Met::default();
+                met.look(
+                    1,
+                    &|node| !place.opens(&tree, &nodes, node, &world.bounds),
+                    &nodes,
+                    slots[0]..slots[0] + slots.len(),
+                );
+                let of = |slot: &usize| nodes.ids()[*slot] as usize;
+                slots.iter().map(|slot| (of(slot), meet(&bodies[of(slot)], &met))).collect::<Vec<_>>()
+            })
+            .collect();
+        let mut acceleration = host.write(ACCELERATION)?;
+        for (id, a) in felt {
+            // Each of a pair holds half of its potential energy.
+            acceleration[id] += a * DVec4::new(1.0, 1.0, 1.0, 0.5);
+        }
+        Ok(())
+    })
+}
+
+/// Whom a group meets.
+#[derive(Default)]
+struct Met {
+    far: Vec<u32>,
+    leaves: Vec<u32>,
+}
+
+impl Met {
+    fn look(&mut self, node: u32, shut: &impl Fn(u32) -> bool, nodes: &Nodes<'_>, own: std::ops::Range<usize>) {
+        if !nodes.exists(node) {
+            return;
+        }
+        let range = nodes.range(node);
+        let holds = range.start <= own.start && own.end <= range.end;
+        if !holds && !own.contains(&range.start) && shut(node) {
+            self.far.push(node);
+        } else if nodes.is_leaf(node) {
+            self.leaves.push(node);
+        } else {
+            self.look(2 * node, shut, nodes, own.clone());
+            self.look(2 * node + 1, shut, nodes, own);
+        }
+    }
+}
