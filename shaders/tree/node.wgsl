@@ -22,7 +22,8 @@ override CORE: f32;
 fn together(a: Node, b: Node) -> Node {
     let mass = a.mass + b.mass;
     // Of two that weigh nothing neither moves the other.
-    let part = select(0.0, b.mass / mass, mass != 0.0);
+    var part = 0.0;
+    if mass != 0.0 { part = b.mass / mass; }
     let d = b.center - a.center;
     let weight = a.mass * part;
     return Node(

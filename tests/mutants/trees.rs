@@ -1,4 +1,4 @@
-//! Stages of what builds a tree: so many bodies that its levels fill rows of workgroups, and a few.
+//! Stages of what builds a tree: so many bodies that its levels fill workgroups, and a few.
 
 #![allow(clippy::cast_possible_truncation, reason = "numbers are rounded to what f32 holds")]
 
@@ -10,13 +10,26 @@ use motes::kernel::{ACCELERATION, Backend, Machine, POSITION, Problem};
 use motes::tree::{Opening, Tree};
 
 use crate::stages::{Device, Stage, moving};
-use crate::support::Random;
 use crate::support::equivalents::{Equivalent, same};
 use crate::support::machines::alone;
+use crate::support::{Random, Shared};
 
 const MACHINE: Machine = Machine { software: true, subgroup: 0, invocations: 256 };
 
-pub const EQUIVALENT: &[Equivalent] = &[];
+const EDGE: &str = "no cube is just so wide";
+
+pub const EQUIVALENT: &[Equivalent] = &[
+    same("tree/hilbert", "bit > 1u;", ">", ">=", "there is nothing below the last bit"),
+    same("tree/cube", "if side > LEAST", ">", ">=", EDGE),
+    same("tree/cube", "if side > LEAST", "<", "<=", EDGE),
+    same(
+        "tree/node",
+        "var part = 0.0;",
+        "0.0",
+        "1.0",
+        "where nothing weighs anything, the centre is put elsewhere in the end",
+    ),
+];
 
 /// Every kernel of a tree but the sorts and reductions, each amid what those before it left, its own results away.
 fn build(device: &Device, opening: Opening, core: f64, bodies: &[Vec4], felt: &[Vec4], stages: &mut Vec<Stage>) {
@@ -54,17 +67,36 @@ fn bodies(count: usize) -> Vec<Vec4> {
     all
 }
 
-pub fn all(device: &Device, stages: &mut Vec<Stage>) {
+pub fn all(shared: &Shared, stages: &mut Vec<Stage>) {
+    // A device of four workgroups in a row, four times, has not enough of them.
+    let device = &pollster::block_on(crate::support::limited(shared, |_| ()));
     let geometric = Opening::Geometric { theta: 0.7 };
     let relative = Opening::Relative { alpha: 0.005, g: 1.3, theta: 0.6 };
     let mut random = Random::new(41);
-    // So many groups of 32 that their workgroups are in two rows, and the last group is full.
-    let felt: Vec<Vec4> = (0..9024).map(|_| random.vector().extend(random.next()).as_vec4()).collect();
-    build(device, geometric, 0.3, &bodies(9024), &felt, stages);
-    build(device, relative, 0.0, &bodies(500), &felt[..500], stages);
+    // So many groups of 32 that they take two workgroups; the last group is full.
+    let felt: Vec<Vec4> = (0..2080).map(|_| random.vector().extend(random.next()).as_vec4()).collect();
+    let mut quiet = felt.clone();
+    quiet[1000] = Vec4::ZERO;
+    build(device, relative, 0.0, &bodies(2080), &quiet, stages);
+    build(device, geometric, 0.3, &bodies(500), &felt[..500], stages);
     // A few that felt next to nothing, in some directions nothing, and one group that felt nothing.
     let mut felt: Vec<Vec4> = felt.iter().take(77).map(|a| 1e-25 * *a).collect();
     (0..77).step_by(2).for_each(|i| felt[i].x = 0.0);
+    (0..77).step_by(3).for_each(|i| felt[i].y = 0.0);
     felt[5] = Vec4::ZERO;
     build(device, relative, 0.3, &bodies(77), &felt, stages);
+    // Cubes that are just wide enough, and too narrow.
+    for side in [3e-32, 1e-33_f32] {
+        let mut simulation = moving(device, 2, Some(MACHINE));
+        let gpu = simulation.backend();
+        let problem = Problem::new(2, MACHINE);
+        let kernels = Tree::new(geometric, 0.0, &problem).kernels(&problem).expect("kernels");
+        let kernel = kernels.into_iter().find(|kernel| kernel.name.starts_with("cube")).expect("a cube");
+        gpu.compile(&alone(kernel.clone())).expect("a program");
+        let corners = [("tree_least", [0.0; 4]), ("tree_greatest", [0.1 * side, 0.2 * side, side, 1.0])];
+        for (name, corner) in corners {
+            gpu.write_bytes(name, 0, bytemuck::cast_slice(&corner)).expect("a corner");
+        }
+        stages.push(Stage::new(&format!("a cube of {side}"), simulation, kernel));
+    }
 }
