@@ -1,7 +1,7 @@
 //! The build, kernel by kernel and as a whole.
 
 use glam::{DMat3, DVec3, DVec4, Vec4};
-use motes::kernel::{Backend, Problem, Threads};
+use motes::kernel::{Problem, Threads};
 use motes::lockstep::compare;
 use motes::primitives::MOST;
 use motes::tree::{GROUP, LEAF, Nodes, Opening, Tree};

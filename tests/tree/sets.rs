@@ -81,15 +81,11 @@ impl Built {
     }
     /// The bytes of a field.
     pub fn bytes(&mut self, name: &'static str) -> Vec<u8> {
-        let (name, stride) = match self.plan.fields(self.count).get_key_value(name) {
-            Some((name, bytes)) => (name.clone(), *bytes),
-            None => {
-                let name = self.tree.field(name).1;
-                let bytes = self.plan.fields(self.count).get(&*name).copied();
-                (name.to_string(), bytes.unwrap_or_else(|| panic!("no field {name}")))
-            }
-        };
-        pollster::block_on(self.gpu.bytes(&name, 0, stride)).expect("a field")
+        let fields = self.plan.fields(self.count);
+        let own = self.tree.field(name).1;
+        let name = if fields.contains_key(name) { name } else { &own };
+        let bytes = fields.get(name).copied().unwrap_or_else(|| panic!("no field {name}"));
+        pollster::block_on(self.gpu.bytes(name, 0, bytes)).expect("a field")
     }
     /// The field's elements.
     pub fn read<T: Element>(&mut self, name: &'static str) -> Vec<T> {
