@@ -14,9 +14,11 @@ struct Tree { first: u32, end: u32, count: u32, leaves: u32, height: u32, widene
 @group(2) @binding(7) var<storage, read_write> alarm: array<atomic<u32>>;
 @group(1) @binding(2) var<storage, read_write> acceleration: array<vec4f>;
 
-const LEAF: u32 = 4u;
+// Particles of a leaf, and of a group.
+override LEAF: u32;
+override GROUP: u32;
 // Turns that the loops of an invocation may take: with more, some adapters end them before they are done.
-override MOST: u32 = 60000u;
+override MOST: u32;
 
 // A far group of particles: its mass, and its second moments Σ m y yᵀ about the centre of mass.
 struct Group { mass: f32, diagonal: vec3f, mixed: vec3f }

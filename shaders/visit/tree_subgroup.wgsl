@@ -1,65 +1,14 @@
 // Groups of targets walk the tree, for adapters whose subgroups are all of eight lanes (lavapipe with 256-bit vectors): the
 // eight lanes look at the eight nodes three levels below one, and at the six between. Who is far enough goes into one list,
 // leaves go into another; when a list is long, each lane loads an entry of it and the eight are passed round by broadcast.
-const LANES: u32 = 8u;
 const WORKGROUP: u32 = 8u;
 const TARGETS: u32 = 4u;
-const GROUP: u32 = 32u;
 // Entries of the lists that are met together, and room for what a look at eight nodes adds. Powers of two: they are rings.
 const FAR: u32 = 128u;
 const NEAR: u32 = 64u;
 
 // First the far groups, then the leaves.
 var<workgroup> list: array<u32, 2u * FAR + 2u * NEAR>;
-
-// What stands in the way of a lane's own body, or of nobody's: the way is not 0, and nothing is there.
-fn meet_body(me: Particle, slot: u32, mine: u32, index: u32, b: vec4f, sum: ptr<function, Sum>) {
-    let nobody = slot == mine || slot >= tree.count;
-    let r = shortest(b.xyz - me.position);
-    gather(me, Particle(index, b.xyz, select(b.w, 0.0, nobody)), select(r, vec3f(1.0), nobody), sum);
-}
-
-// Everybody of the group meets everybody else of it.
-fn meet_own(first: u32, place: u32, a: Particle, b: Particle, c: Particle, d: Particle,
-            sum_a: ptr<function, Sum>, sum_b: ptr<function, Sum>, sum_c: ptr<function, Sum>, sum_d: ptr<function, Sum>) {
-    let mine = first + place;
-    for (var i = 0u; i < GROUP; i += 1u) {
-        let slot = first + i;
-        let you = body(min(slot, tree.count - 1u), true);
-        let index = tree_id[min(slot, tree.count - 1u)];
-        meet_body(a, slot, mine, index, you, sum_a);
-        meet_body(b, slot, mine + LANES, index, you, sum_b);
-        meet_body(c, slot, mine + 2u * LANES, index, you, sum_c);
-        meet_body(d, slot, mine + 3u * LANES, index, you, sum_d);
-    }
-}
-
-fn meet(index: u32, you: vec4f, a: Particle, b: Particle, c: Particle, d: Particle,
-        sum_a: ptr<function, Sum>, sum_b: ptr<function, Sum>, sum_c: ptr<function, Sum>, sum_d: ptr<function, Sum>) {
-    let p = Particle(index, you.xyz, you.w);
-    gather(a, p, shortest(p.position - a.position), sum_a);
-    gather(b, p, shortest(p.position - b.position), sum_b);
-    gather(c, p, shortest(p.position - c.position), sum_c);
-    gather(d, p, shortest(p.position - d.position), sum_d);
-}
-
-fn meet_group(x: vec3f, g: Group, a: Particle, b: Particle, c: Particle, d: Particle,
-              sum_a: ptr<function, Sum>, sum_b: ptr<function, Sum>, sum_c: ptr<function, Sum>, sum_d: ptr<function, Sum>) {
-    distant(a, g, shortest(x - a.position), sum_a);
-    distant(b, g, shortest(x - b.position), sum_b);
-    distant(c, g, shortest(x - c.position), sum_c);
-    distant(d, g, shortest(x - d.position), sum_d);
-}
-
-// What lane 0, 1, … holds; the lane of a broadcast must be a constant.
-fn group0(g: Group) -> Group { return Group(subgroupBroadcast(g.mass, 0u), subgroupBroadcast(g.diagonal, 0u), subgroupBroadcast(g.mixed, 0u)); }
-fn group1(g: Group) -> Group { return Group(subgroupBroadcast(g.mass, 1u), subgroupBroadcast(g.diagonal, 1u), subgroupBroadcast(g.mixed, 1u)); }
-fn group2(g: Group) -> Group { return Group(subgroupBroadcast(g.mass, 2u), subgroupBroadcast(g.diagonal, 2u), subgroupBroadcast(g.mixed, 2u)); }
-fn group3(g: Group) -> Group { return Group(subgroupBroadcast(g.mass, 3u), subgroupBroadcast(g.diagonal, 3u), subgroupBroadcast(g.mixed, 3u)); }
-fn group4(g: Group) -> Group { return Group(subgroupBroadcast(g.mass, 4u), subgroupBroadcast(g.diagonal, 4u), subgroupBroadcast(g.mixed, 4u)); }
-fn group5(g: Group) -> Group { return Group(subgroupBroadcast(g.mass, 5u), subgroupBroadcast(g.diagonal, 5u), subgroupBroadcast(g.mixed, 5u)); }
-fn group6(g: Group) -> Group { return Group(subgroupBroadcast(g.mass, 6u), subgroupBroadcast(g.diagonal, 6u), subgroupBroadcast(g.mixed, 6u)); }
-fn group7(g: Group) -> Group { return Group(subgroupBroadcast(g.mass, 7u), subgroupBroadcast(g.diagonal, 7u), subgroupBroadcast(g.mixed, 7u)); }
 
 @compute @workgroup_size(WORKGROUP)
 fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(subgroup_invocation_id) place: u32) {
