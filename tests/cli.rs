@@ -234,9 +234,6 @@ fn a_box_is_shown_and_what_it_keeps_is_claimed() {
     assert!(code == 0 && stdout.contains(shown) && stdout.contains("drift KICK=0.5 | periodic | "), "{stdout}{stderr}");
     let (code, stdout, stderr) = output(&mut motes(&["check", &scene, "--backend", "cpu"]));
     assert!(code == 0 && stdout.contains(shown) && stdout.contains("no Ewald sum"), "{stdout}{stderr}");
-    let set = ["check", &scene, "--backend", "cpu", "--set", "force.0.images=\"ewald\""];
-    let (code, stdout, stderr) = output(&mut motes(&set));
-    assert!(code == 0 && stdout.contains(shown) && !stdout.contains("Ewald"), "{stdout}{stderr}");
     let out = path(&folder, "out");
     let run = |set: &[&str]| {
         let mut args = vec!["run", &scene, "-o", &out, "--backend", "cpu", "--set", "output.formats=[\"csv\"]"];

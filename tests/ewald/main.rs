@@ -5,6 +5,7 @@ mod field;
 mod refusals;
 #[path = "../support/mod.rs"]
 mod support;
+mod told;
 mod worlds;
 
 use glam::{DVec3, DVec4};
