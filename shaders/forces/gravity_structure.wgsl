@@ -10,7 +10,8 @@ fn gravity_structure(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroup
     let block = folded(group, groups);
     let first = block * BLOCK;
     let end = min(first + BLOCK, world.count);
-    if wave < WAVES && first < end {
+    let some = first < end;
+    if wave < WAVES && some {
         let k = gravity_wave[wave].xyz;
         var sum = vec2f();
         for (var i = first; i < end; i += 1u) {

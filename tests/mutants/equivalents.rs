@@ -88,7 +88,7 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("gravity_images.wgsl", "override G: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
     same("gravity_images.wgsl", "override SELF: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
     same("gravity_structure.wgsl", "override BLOCK: u32 = 64u;", "64u", "65u", ALWAYS_SET),
-    same("gravity_structure.wgsl", "&& first < end {", "<", "<=", "a block of nobody is nothing"),
+    same("gravity_structure.wgsl", "let some = ", "<", "<=", "a block of nobody is nothing"),
     same("gravity_structure_sum.wgsl", "override BLOCKS: u32 = 1u;", "1u", "2u", ALWAYS_SET),
     same("gravity_ewald_distant.wgsl", "if v > 0.0 {", ">", ">=", EDGE),
     same("gravity_ewald.wgsl", "let mass = select(", ">", ">=", "at the edge both are nothing"),
