@@ -122,8 +122,13 @@ async fn measure(
         setup.forces = vec![gravity("tree", variant)?];
         runners.push(Runner::new(found, &setup)?);
     }
-    if last.is_none_or(|row| !row.pairs.is_empty() && 4.0 * median(&row.pairs) <= args.longest) {
-        setup.forces = vec![gravity("pairs", &VARIANTS[0])?];
+    setup.forces = vec![gravity("pairs", &VARIANTS[0])?];
+    let expected = match last {
+        Some(row) if row.pairs.is_empty() => f64::INFINITY,
+        Some(row) => 4.0 * median(&row.pairs),
+        None => probe(found, set, count)?,
+    };
+    if expected <= args.longest {
         runners.push(Runner::new(found, &setup)?);
     }
     // All take turns, so that what else the machine does falls on each. The first turn warms, the second tells how long.
@@ -147,6 +152,18 @@ async fn measure(
     }
     let pairs = runners.get_mut(VARIANTS.len()).map(|runner| std::mem::take(&mut runner.seconds));
     Ok(Row { count, walks, pairs: pairs.unwrap_or_default() })
+}
+
+/// About how many seconds a step of all pairs takes: by what few take, where there are many.
+fn probe(found: &gpu::Found, set: &Set, count: u32) -> Result<f64, Failure> {
+    const FEW: u32 = 8192;
+    if count <= FEW {
+        return Ok(0.0);
+    }
+    let few = Setup { forces: vec![gravity("pairs", &VARIANTS[0])?], ..setup(set, FEW)? };
+    let mut runner = Runner::new(found, &few)?;
+    runner.run()?;
+    Ok(runner.run()? * (f64::from(count) / f64::from(FEW)).powi(2))
 }
 
 /// Seconds of building the tree, without the walk.
