@@ -195,6 +195,7 @@ pub fn all(shared: &Shared) -> Vec<Stage> {
     pairs(shared, &device, &mut stages);
     crate::neighbors::all(shared, &device, &mut stages);
     primitives::all(&device, &mut stages);
+    crate::trees::all(shared, &mut stages);
     stages
 }
 
