@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use glam::{DMat3, DVec3};
 
 use super::build::{CENTER, COUNT, G, PARTICLE_RADIUS, Reader, SEED, VELOCITY};
-use super::hernquist::Halo;
+use super::halo::Halo;
 use super::random::Random;
 use super::rotation::{Galaxy, Rotation};
 use super::{Particles, Shape};

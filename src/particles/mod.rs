@@ -3,10 +3,12 @@
 mod build;
 pub mod chain;
 pub mod cloth;
+pub mod clusters;
 pub mod disk;
 mod exponential_disk;
 pub mod hair;
-mod hernquist;
+mod halo;
+pub mod hernquist;
 pub mod jelly;
 pub mod lattice;
 pub mod plummer;
@@ -59,8 +61,10 @@ pub struct Shape {
 /// Every generator.
 pub const SHAPES: &[Shape] = &[
     plummer::PLUMMER,
+    hernquist::HERNQUIST,
     sphere::SPHERE,
     disk::DISK,
+    clusters::CLUSTERS,
     lattice::LATTICE,
     random_box::RANDOM_BOX,
     spray::SPRAY,

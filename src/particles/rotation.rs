@@ -4,7 +4,7 @@
 use std::f64::consts::PI;
 
 use super::exponential_disk::Spectrum;
-use super::hernquist;
+use super::halo;
 
 /// The masses and lengths of a galaxy.
 #[derive(Debug, Clone, Copy)]
@@ -56,7 +56,7 @@ impl Galaxy {
     pub(super) fn spherical(&self, r: f64) -> f64 {
         let x = r / self.disk_scale;
         let disk = self.disk_mass * (1.0 - (1.0 + x) * libm::exp(-x));
-        self.g * (disk + self.halo_mass * hernquist::enclosed(r / self.halo_scale)) * r / self.softened(r * r)
+        self.g * (disk + self.halo_mass * halo::enclosed(r / self.halo_scale)) * r / self.softened(r * r)
     }
 
     /// The halo's pull on the disk at a radius, averaged over the heights there: R ∂Φ/∂R and z ∂Φ/∂z.
@@ -69,7 +69,7 @@ impl Galaxy {
             let weight = STEP * 4.0 * fade / ((1.0 + fade) * (1.0 + fade));
             let z = height * self.disk_height;
             let r2 = radius * radius + z * z;
-            let inside = hernquist::enclosed(r2.sqrt() / self.halo_scale);
+            let inside = halo::enclosed(r2.sqrt() / self.halo_scale);
             let turn = weight * self.g * self.halo_mass * inside / self.softened(r2);
             inward += turn * radius * radius;
             across += turn * z * z;
