@@ -2,7 +2,7 @@
 
 use super::{Law, Over};
 use crate::error::Error;
-use crate::kernel::{ALARM, ALARM_WORDS, Binding, Kernel, Machine, Pass, Problem, Scalar, Shader, Source, Threads};
+use crate::kernel::{ALARM, ALARM_WORDS, Binding, Kernel, Machine, Pass, Problem, Scalar, Shader, Side, Source, Threads};
 use crate::tree::{GROUP, LEAF, Opening, Tree};
 
 /// Turns that loops may take where a driver ends them after 65 535.
@@ -56,6 +56,13 @@ pub fn kernel(law: Law, tree: &Tree, problem: &Problem) -> Result<Kernel, Error>
     if !(theta > 0.0 && theta <= 1.0) {
         return Err(Error::Scene(format!(
             "`{}` walks a tree with θ = {theta}: it must be above 0, and 1 at most",
+            law.name
+        )));
+    }
+    if law.distant.walk.is_none() && problem.bounds.has(Side::Periodic) {
+        return Err(Error::Scene(format!(
+            "`{}` walks a tree in a periodic box: the nearest image jumps from side to side half a box away, and no group can \
+             be met as one there; meet everybody (over = \"pairs\"), or open the box",
             law.name
         )));
     }
