@@ -132,6 +132,9 @@ pub struct CompareArgs {
     /// An adapter, by a part of its name or by its number in `motes doctor`
     #[arg(long, value_name = "NAME")]
     pub adapter: Option<String>,
+    /// Compare forces through the tree with direct sums alone, at these opening angles, with and without quadrupoles
+    #[arg(long, value_name = "ANGLES", value_delimiter = ',')]
+    pub theta: Vec<f64>,
     /// Print the result as JSON
     #[arg(long)]
     pub json: bool,
