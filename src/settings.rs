@@ -43,6 +43,8 @@ pub enum Kind {
     Flag,
     /// The name of a motion of the scene, or an empty text: none.
     Motion,
+    /// A colour by name or as "#ffcc88", or an empty text: none.
+    Color,
 }
 
 /// A key: its name in the scene, what it accepts, what it is when left out (`None`: it must be given), and what it means.

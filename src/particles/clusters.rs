@@ -17,6 +17,7 @@ pub const CLUSTERS: Shape = Shape {
     name: "clusters",
     about: "clumps of clumps, a fractal, cold or with Gaussian velocities (Soneira & Peebles 1978)",
     keys: KEYS,
+    parts: &[],
     build,
 };
 

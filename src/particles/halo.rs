@@ -1,4 +1,4 @@
-//! The halo of a galaxy: Hernquist's profile  ρ(r) ∝ 1 / (r (r + a)³)  (Hernquist 1990), cut at ten scale lengths, in
+//! The halo and the bulge of a galaxy: Hernquist's profile  ρ(r) ∝ 1 / (r (r + a)³)  (Hernquist 1990), cut at ten scale lengths, in
 //! balance with the whole galaxy's gravity.
 //!
 //! The second moment of the velocities solves the isotropic Jeans equation (Hernquist 1993), the disk counted as if it
@@ -16,7 +16,7 @@ const INNER: f64 = 1e-4;
 const ROWS: u32 = 2000;
 
 /// Dispersion and escape speed over radius.
-pub(super) struct Halo {
+pub(super) struct Round {
     scale: f64,
     /// ln r of the first row, and from row to row.
     first: f64,
@@ -25,16 +25,15 @@ pub(super) struct Halo {
     rows: Vec<(f64, f64)>,
 }
 
-/// Share of the halo's mass within r, for r in scale lengths.
+/// Share of the mass within r, for r in scale lengths.
 pub(super) fn enclosed(r: f64) -> f64 {
     let share = |r: f64| (r / (r + 1.0)) * (r / (r + 1.0));
     if r >= CUT { 1.0 } else { share(r) / share(CUT) }
 }
 
-impl Halo {
-    /// Integrates pressure and potential inwards from the cut.
-    pub(super) fn new(galaxy: &Galaxy) -> Self {
-        let scale = galaxy.halo_scale;
+impl Round {
+    /// Integrates pressure and potential inwards from the cut of a part of such a scale length.
+    pub(super) fn new(galaxy: &Galaxy, scale: f64) -> Self {
         let first = libm::log(INNER * scale);
         let step = libm::log(CUT / INNER) / f64::from(ROWS - 1);
         let radius = |row: u32| libm::exp(first + step * f64::from(row));

@@ -15,6 +15,7 @@ pub const HERNQUIST: Shape = Shape {
     name: "hernquist",
     about: "Hernquist's sphere, a galaxy or halo with a cusp ρ ∝ 1/r, in equilibrium (Hernquist 1990)",
     keys: KEYS,
+    parts: &[],
     build,
 };
 

@@ -33,6 +33,8 @@ pub const SCENES: &[Builtin] = scenes![
     "solar_system",
     "galaxy",
     "merger",
+    "plummer",
+    "cold_collapse",
     "fountain",
     "pendulum",
     "double_pendulum",

@@ -6,6 +6,7 @@ use glam::DVec3;
 
 use crate::settings::{Kind, Value};
 
+use super::color;
 use super::report::{Fault, Report, listed, nearest};
 use super::tree::{Data, Node};
 
@@ -27,6 +28,7 @@ pub(super) fn wanted(kind: Kind) -> String {
         Kind::Choice(known) => format!("one of {}", listed(known.iter().copied())),
         Kind::Flag => "true or false".to_owned(),
         Kind::Motion => "the name of a motion".to_owned(),
+        Kind::Color => color::WANTED.to_owned(),
     }
 }
 
@@ -50,6 +52,10 @@ pub(super) fn read(node: &Node, key: &str, kind: Kind, report: &mut Report) -> O
         Kind::Motion => match &node.data {
             Data::Text(name) => Some(Value::Text(Cow::Owned(name.clone()))),
             _ => refuse(node, key, &wanted(kind), report),
+        },
+        Kind::Color => match &node.data {
+            Data::Text(text) if text.is_empty() => Some(Value::Text(Cow::Borrowed(""))),
+            _ => color::read(node, key, report).map(|rgb| Value::Text(Cow::Owned(color::shown(rgb)))),
         },
     }
 }

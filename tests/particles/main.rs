@@ -5,6 +5,7 @@ mod disk;
 mod models;
 mod tied;
 mod tied_bodies;
+mod waves;
 
 use std::borrow::Cow;
 
@@ -92,9 +93,12 @@ fn the_bits_never_change() {
 #[test]
 fn every_key_matters() {
     for shape in SHAPES {
-        let base = settings(shape.name, &[("count", 40.0), ("virial", 0.2), ("jitter", 0.1), ("speed", 0.1)]);
+        let numbers = [("count", 40.0), ("virial", 0.2), ("jitter", 0.1), ("speed", 0.1)];
+        let more = [("bulge_mass", 0.3), ("displacement", 0.2), ("growth", 0.4)];
+        let base = settings(shape.name, &[&numbers[..], &more].concat());
         let before = hash(&made(shape.name, &base));
-        for key in shape.keys {
+        // Colours are for pictures.
+        for key in shape.keys.iter().filter(|key| key.kind != Kind::Color) {
             let other = match key.kind {
                 Kind::Vector | Kind::Direction => Value::Vector(DVec3::new(2.0, 3.0, 4.0)),
                 Kind::Count | Kind::Whole => Value::Number(37.0),
@@ -158,6 +162,8 @@ fn bad_settings_are_errors() {
         ("disk", "halo_fraction", Value::Number(1.0), "halo_fraction is 1; it must be 0 or above and below 1"),
         ("disk", "halo_fraction", Value::Number(0.0), "no particle is left for the halo"),
         ("disk", "halo_fraction", Value::Number(0.999), "no particle is left for the disk"),
+        ("disk", "bulge_fraction", Value::Number(-0.5), "bulge_fraction is -0.5; it must be 0 or above and below 1"),
+        ("disk", "bulge_mass", Value::Number(-1.0), "bulge_mass is -1; it must be 0 or above"),
         ("disk", "normal", Value::Vector(DVec3::ZERO), "a direction must not be zero"),
         ("disk", "disk_scale", Value::Number(0.0), "disk_scale is 0"),
         ("lattice", "size", Value::Vector(DVec3::new(2.0, 2.5, 2.0)), "three whole numbers"),
