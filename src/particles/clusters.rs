@@ -8,7 +8,7 @@ use glam::DVec3;
 
 use super::build::{CENTER, COUNT, PARTICLE_RADIUS, Reader, SEED, VELOCITY};
 use super::random::Random;
-use super::{Particles, Shape};
+use super::{Particles, Shape, one_part};
 use crate::error::Error;
 use crate::settings::{Key, Kind, Settings, Value};
 
@@ -17,7 +17,7 @@ pub const CLUSTERS: Shape = Shape {
     name: "clusters",
     about: "clumps of clumps, a fractal, cold or with Gaussian velocities (Soneira & Peebles 1978)",
     keys: KEYS,
-    parts: &[],
+    parts: one_part,
     build,
 };
 

@@ -6,7 +6,7 @@
 
 use super::build::{CENTER, COUNT, G, PARTICLE_RADIUS, Reader, SEED, VELOCITY};
 use super::random::Random;
-use super::{Particles, Shape};
+use super::{Particles, Shape, one_part};
 use crate::error::Error;
 use crate::settings::{Key, Kind, Settings, Value};
 
@@ -15,7 +15,7 @@ pub const HERNQUIST: Shape = Shape {
     name: "hernquist",
     about: "Hernquist's sphere, a galaxy or halo with a cusp ρ ∝ 1/r, in equilibrium (Hernquist 1990)",
     keys: KEYS,
-    parts: &[],
+    parts: one_part,
     build,
 };
 
