@@ -27,6 +27,8 @@ pub enum Kind {
     Positive,
     /// A finite number, zero or above.
     NotNegative,
+    /// A number above zero, one at most.
+    Fraction,
     /// A whole number, one or above, that fits 32 bits.
     Count,
     /// A whole number, zero or above, that fits 53 bits (a seed).

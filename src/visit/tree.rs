@@ -2,7 +2,9 @@
 
 use super::{Law, Over};
 use crate::error::Error;
-use crate::kernel::{ALARM, ALARM_WORDS, Binding, Kernel, Machine, Pass, Problem, Scalar, Shader, Side, Source, Threads};
+use crate::kernel::{
+    ALARM, ALARM_WORDS, Binding, Kernel, Machine, Pass, Problem, Scalar, Shader, Side, Source, Threads,
+};
 use crate::tree::{GROUP, LEAF, Opening, Tree};
 
 /// Turns that loops may take where a driver ends them after 65 535.
