@@ -17,7 +17,7 @@ use crate::settings::{Key, Kind, Settings, Value};
 /// The shape `disk`.
 pub const DISK: Shape = Shape {
     name: "disk",
-    about: "a disk galaxy in a halo, near equilibrium: the disk's particles first, then the halo's (Hernquist 1993)",
+    about: "a disk galaxy in a halo, with a bulge or without, near equilibrium: the disk's particles first, then the halo's, then the bulge's (Hernquist 1993)",
     keys: KEYS,
     build,
     parts,
