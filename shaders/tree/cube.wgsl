@@ -15,6 +15,6 @@ fn cube() {
     let sides = tree_greatest[0].xyz - low;
     let side = max(sides.x, max(sides.y, sides.z));
     var scale = 0.0;
-    if side > LEAST && side < GREATEST { scale = f32(LAST + 1u) / side; }
+    if side > LEAST && side < GREATEST { scale = f32(CELLS) / side; }
     tree_cube[0] = vec4f(low, scale);
 }

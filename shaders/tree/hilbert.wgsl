@@ -2,14 +2,14 @@
 // Conf. Proc. 707, 381, 2004): 63 bits, the upper 32 and the lower 31.
 
 const BITS: u32 = 21u;
-const LAST: u32 = 0x1fffffu;
+const CELLS: u32 = 1u << BITS;
 
 // Turns the first axis and another at one level: where the other's bit is set, the first runs backwards below it;
 // elsewhere the two are exchanged.
 fn turned(first: u32, other: u32, bit: u32) -> vec2u {
     let below = bit - 1u;
     let exchange = (first ^ other) & below;
-    return select(vec2u(first ^ exchange, other ^ exchange), vec2u(first ^ below, other), (other & bit) > 0u);
+    return select(vec2u(first ^ exchange, other ^ exchange), vec2u(first ^ below, other), (other & bit) != 0u);
 }
 
 // Ten bits of each, each to every third place.
@@ -30,7 +30,7 @@ fn woven(x: vec3u) -> u32 {
 fn hilbert(cell: vec3u) -> vec2u {
     var x = cell;
     for (var bit = 1u << (BITS - 1u); bit > 1u; bit >>= 1u) {
-        x.x = select(x.x, x.x ^ (bit - 1u), (x.x & bit) > 0u);
+        x.x = select(x.x, x.x ^ (bit - 1u), (x.x & bit) != 0u);
         let y = turned(x.x, x.y, bit);
         let z = turned(y.x, x.z, bit);
         x = vec3u(z.x, y.y, z.y);

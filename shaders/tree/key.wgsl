@@ -14,7 +14,7 @@ fn key(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec
         let cube = tree_cube[0];
         // A place that is no number is in some cell: who looks at particles will see that.
         let cell = vec3u((position[i].xyz - cube.xyz) * cube.w);
-        let words = hilbert(min(cell, vec3u(LAST)));
+        let words = hilbert(min(cell, vec3u(CELLS - 1u)));
         tree_upper[i] = words.x;
         tree_key[i] = words.y;
         tree_id[i] = i;

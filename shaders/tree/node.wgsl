@@ -1,14 +1,15 @@
-// What a node is: its mass M, its centre of mass c, its second moments Σ m y yᵀ with y = x - c, and its tight box. Two are
+// What a node is: its mass M, its centre of mass c, its second moments Σ m y yᵀ with y = x - c (first xx, xy and xz, then
+// yy, yz and zz, so that each vector is as large as what its parts may cancel from), and its tight box. Two are
 // put together by the parallel axis theorem, so that nothing is the difference of large sums:
 // Σ m y yᵀ = those of both + m₁ m₂ / M d dᵀ, with d from one centre to the other.
-struct Node { mass: f32, center: vec3f, squares: vec3f, products: vec3f, low: vec3f, high: vec3f }
+struct Node { mass: f32, center: vec3f, first: vec3f, second: vec3f, low: vec3f, high: vec3f }
 // The nodes of one level: where they begin, how many there are, and how many there are on the level below.
 struct Level { first: u32, nodes: u32, below: u32 }
 
 @group(2) @binding(0) var<uniform> level: Level;
 @group(2) @binding(1) var<storage, read_write> tree_center: array<vec4f>; // center, reach
-@group(2) @binding(2) var<storage, read_write> tree_mass: array<vec4f>;   // mass, xx, yy, zz
-@group(2) @binding(3) var<storage, read_write> tree_shape: array<vec4f>;  // xy, xz, yz, longest side
+@group(2) @binding(2) var<storage, read_write> tree_mass: array<vec4f>;   // xx, xy, xz, mass
+@group(2) @binding(3) var<storage, read_write> tree_shape: array<vec4f>;  // yy, yz, zz, longest side
 @group(2) @binding(4) var<storage, read_write> tree_low: array<vec4f>;    // xyz
 @group(2) @binding(5) var<storage, read_write> tree_high: array<vec4f>;   // xyz
 
@@ -21,14 +22,15 @@ override CORE: f32;
 fn together(a: Node, b: Node) -> Node {
     let mass = a.mass + b.mass;
     // Of two that weigh nothing neither moves the other.
-    let part = select(0.0, b.mass / mass, mass != 0.0);
+    var part = 0.0;
+    if mass != 0.0 { part = b.mass / mass; }
     let d = b.center - a.center;
     let weight = a.mass * part;
     return Node(
         mass,
         a.center + part * d,
-        a.squares + b.squares + (weight * d) * d,
-        a.products + b.products + (weight * d.xxy) * d.yzz,
+        a.first + b.first + (weight * d.x) * d,
+        a.second + b.second + (weight * d.yyz) * d.yzz,
         min(a.low, b.low),
         max(a.high, b.high),
     );
@@ -37,7 +39,7 @@ fn together(a: Node, b: Node) -> Node {
 fn known(n: u32) -> Node {
     let center = tree_center[n];
     let mass = tree_mass[n];
-    return Node(mass.x, center.xyz, mass.yzw, tree_shape[n].xyz, tree_low[n].xyz, tree_high[n].xyz);
+    return Node(mass.w, center.xyz, mass.xyz, tree_shape[n].xyz, tree_low[n].xyz, tree_high[n].xyz);
 }
 
 fn keep(n: u32, node: Node) {
@@ -47,8 +49,8 @@ fn keep(n: u32, node: Node) {
     let side = max(sides.x, max(sides.y, sides.z));
     let reach = max(OPENING * side, CORE + HALF_DIAGONAL * side) + distance(center, middle);
     tree_center[n] = vec4f(center, reach);
-    tree_mass[n] = vec4f(node.mass, node.squares);
-    tree_shape[n] = vec4f(node.products, side);
+    tree_mass[n] = vec4f(node.first, node.mass);
+    tree_shape[n] = vec4f(node.second, side);
     tree_low[n] = vec4f(node.low, 0.0);
     tree_high[n] = vec4f(node.high, 0.0);
 }

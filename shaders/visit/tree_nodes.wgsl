@@ -9,14 +9,16 @@ struct Tree { first: u32, end: u32, count: u32, leaves: u32, height: u32, widene
 @group(2) @binding(1) var<storage, read> tree_id: array<u32>;
 @group(2) @binding(2) var<storage, read> tree_body: array<vec4f>; // xyz, mass
 @group(2) @binding(3) var<storage, read> tree_center: array<vec4f>; // of mass, xyz; how near one may come to it
-@group(2) @binding(4) var<storage, read> tree_mass: array<vec4f>; // mass; second moments xx, yy, zz about the centre of mass
-@group(2) @binding(5) var<storage, read> tree_shape: array<vec4f>; // second moments xy, xz, yz; the longest side of its box
+@group(2) @binding(4) var<storage, read> tree_mass: array<vec4f>; // second moments xx, xy, xz about the centre of mass; mass
+@group(2) @binding(5) var<storage, read> tree_shape: array<vec4f>; // second moments yy, yz, zz; the longest side of its box
 @group(2) @binding(7) var<storage, read_write> alarm: array<atomic<u32>>;
 @group(1) @binding(2) var<storage, read_write> acceleration: array<vec4f>;
 
-const LEAF: u32 = 4u;
+// Particles of a leaf, and of a group.
+override LEAF: u32;
+override GROUP: u32;
 // Turns that the loops of an invocation may take: with more, some adapters end them before they are done.
-override MOST: u32 = 60000u;
+override MOST: u32;
 
 // A far group of particles: its mass, and its second moments Σ m y yᵀ about the centre of mass.
 struct Group { mass: f32, diagonal: vec3f, mixed: vec3f }
@@ -28,7 +30,7 @@ struct Place { middle: vec3f, half_side: vec3f, demand: f32 }
 fn group_at(node: u32, real: bool) -> Group {
     let m = select(vec4f(), tree_mass[node], real);
     let q = select(vec4f(), tree_shape[node], real);
-    return Group(m.x, m.yzw, q.xyz);
+    return Group(m.w, vec3f(m.x, q.x, q.z), vec3f(m.yz, q.y));
 }
 
 // The least distance from the group's box to a place, squared.

@@ -10,5 +10,5 @@ fn opens(node: u32, place: Place) -> bool {
     let d = apart(place, center.xyz);
     let reach = center.w + select(0.0, tree.widened * length, place.demand == 0.0);
     // l² / d² is at most 1 here, so that nothing overflows.
-    return d <= reach * reach || place.demand * tree_mass[node].x * (length * length / d) > d;
+    return d <= reach * reach || place.demand * tree_mass[node].w * (length * length / d) > d;
 }

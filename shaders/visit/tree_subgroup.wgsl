@@ -1,65 +1,14 @@
 // Groups of targets walk the tree, for adapters whose subgroups are all of eight lanes (lavapipe with 256-bit vectors): the
 // eight lanes look at the eight nodes three levels below one, and at the six between. Who is far enough goes into one list,
 // leaves go into another; when a list is long, each lane loads an entry of it and the eight are passed round by broadcast.
-const LANES: u32 = 8u;
 const WORKGROUP: u32 = 8u;
 const TARGETS: u32 = 4u;
-const GROUP: u32 = 32u;
 // Entries of the lists that are met together, and room for what a look at eight nodes adds. Powers of two: they are rings.
 const FAR: u32 = 128u;
 const NEAR: u32 = 64u;
 
-var<workgroup> far: array<u32, 2u * FAR>;
-var<workgroup> near: array<u32, 2u * NEAR>;
-
-// What stands in the way of a lane's own body, or of nobody's: the way is not 0, and nothing is there.
-fn meet_body(me: Particle, slot: u32, mine: u32, index: u32, b: vec4f, sum: ptr<function, Sum>) {
-    let nobody = slot == mine || slot >= tree.count;
-    let r = shortest(b.xyz - me.position);
-    gather(me, Particle(index, b.xyz, select(b.w, 0.0, nobody)), select(r, vec3f(1.0), nobody), sum);
-}
-
-// Everybody of the group meets everybody else of it.
-fn meet_own(first: u32, place: u32, a: Particle, b: Particle, c: Particle, d: Particle,
-            sum_a: ptr<function, Sum>, sum_b: ptr<function, Sum>, sum_c: ptr<function, Sum>, sum_d: ptr<function, Sum>) {
-    let mine = first + place;
-    for (var i = 0u; i < GROUP; i += 1u) {
-        let slot = first + i;
-        let you = body(min(slot, tree.count - 1u), true);
-        let index = tree_id[min(slot, tree.count - 1u)];
-        meet_body(a, slot, mine, index, you, sum_a);
-        meet_body(b, slot, mine + LANES, index, you, sum_b);
-        meet_body(c, slot, mine + 2u * LANES, index, you, sum_c);
-        meet_body(d, slot, mine + 3u * LANES, index, you, sum_d);
-    }
-}
-
-fn meet(index: u32, you: vec4f, a: Particle, b: Particle, c: Particle, d: Particle,
-        sum_a: ptr<function, Sum>, sum_b: ptr<function, Sum>, sum_c: ptr<function, Sum>, sum_d: ptr<function, Sum>) {
-    let p = Particle(index, you.xyz, you.w);
-    gather(a, p, shortest(p.position - a.position), sum_a);
-    gather(b, p, shortest(p.position - b.position), sum_b);
-    gather(c, p, shortest(p.position - c.position), sum_c);
-    gather(d, p, shortest(p.position - d.position), sum_d);
-}
-
-fn meet_group(x: vec3f, g: Group, a: Particle, b: Particle, c: Particle, d: Particle,
-              sum_a: ptr<function, Sum>, sum_b: ptr<function, Sum>, sum_c: ptr<function, Sum>, sum_d: ptr<function, Sum>) {
-    distant(a, g, shortest(x - a.position), sum_a);
-    distant(b, g, shortest(x - b.position), sum_b);
-    distant(c, g, shortest(x - c.position), sum_c);
-    distant(d, g, shortest(x - d.position), sum_d);
-}
-
-// What lane 0, 1, … holds; the lane of a broadcast must be a constant.
-fn group0(g: Group) -> Group { return Group(subgroupBroadcast(g.mass, 0u), subgroupBroadcast(g.diagonal, 0u), subgroupBroadcast(g.mixed, 0u)); }
-fn group1(g: Group) -> Group { return Group(subgroupBroadcast(g.mass, 1u), subgroupBroadcast(g.diagonal, 1u), subgroupBroadcast(g.mixed, 1u)); }
-fn group2(g: Group) -> Group { return Group(subgroupBroadcast(g.mass, 2u), subgroupBroadcast(g.diagonal, 2u), subgroupBroadcast(g.mixed, 2u)); }
-fn group3(g: Group) -> Group { return Group(subgroupBroadcast(g.mass, 3u), subgroupBroadcast(g.diagonal, 3u), subgroupBroadcast(g.mixed, 3u)); }
-fn group4(g: Group) -> Group { return Group(subgroupBroadcast(g.mass, 4u), subgroupBroadcast(g.diagonal, 4u), subgroupBroadcast(g.mixed, 4u)); }
-fn group5(g: Group) -> Group { return Group(subgroupBroadcast(g.mass, 5u), subgroupBroadcast(g.diagonal, 5u), subgroupBroadcast(g.mixed, 5u)); }
-fn group6(g: Group) -> Group { return Group(subgroupBroadcast(g.mass, 6u), subgroupBroadcast(g.diagonal, 6u), subgroupBroadcast(g.mixed, 6u)); }
-fn group7(g: Group) -> Group { return Group(subgroupBroadcast(g.mass, 7u), subgroupBroadcast(g.diagonal, 7u), subgroupBroadcast(g.mixed, 7u)); }
+// First the far groups, then the leaves.
+var<workgroup> list: array<u32, 2u * FAR + 2u * NEAR>;
 
 @compute @workgroup_size(WORKGROUP)
 fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(subgroup_invocation_id) place: u32) {
@@ -101,33 +50,30 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
             let n = (node << levels) + place;
             let real = place < (1u << levels) && exists(n, below);
             let holds = own >> (tree.height - below) == n;
-            // The nodes between: first those of the level above, then those of the next.
-            let upper = place >= 4u;
-            let m = select((node << (levels - 1u)) + place, 2u * node + place - 4u, upper);
+            let itself = holds && below + 3u == tree.height;
+            // A node between stands on a lane that is below it: of the level above on the even ones, of the next on 1 and 5.
+            let upper = (place & 3u) == 1u;
+            let m = select(n >> 1u, n >> 2u, upper);
             let between = select(below - 1u, depth + 1u, upper);
-            let some = select(place < (1u << (levels - 1u)) && levels > 1u, place < 6u && levels == 3u, upper);
-            let also = some && exists(m, between) && own >> (tree.height - between) != m;
+            let some = select((place & 1u) == 0u && levels > 1u, levels == 3u, upper);
+            let also = place < (1u << levels) && some && exists(m, between) && own >> (tree.height - between) != m;
             let wide = also && !opens(select(1u, m, also), here);
             let above = subgroupBallot(wide).x;
-            let taken = (((above >> (place / 2u)) | (above >> (4u + place / 4u))) & 1u) != 0u;
-            let shut = real && !taken && !holds && !opens(select(1u, n, real), here);
+            let over = (above >> ((place & 4u) + 1u)) & 1u;
+            let taken = (over | (above >> (place & 6u))) & 1u;
+            let shut = real && taken == 0u && !holds && !opens(select(1u, n, real), here);
+            let far = shut || wide && (upper || over == 0u);
+            let others = real && taken == 0u && !shut && !itself;
             let leaf = below == tree.height;
-            let far_wide = wide && (upper || ((above >> (4u + place / 2u)) & 1u) == 0u);
 
-            let wides = subgroupBallot(far_wide).x;
-            if far_wide { far[(listed.x + countOneBits(wides & lower)) % (2u * FAR)] = m; }
-            listed.x += countOneBits(wides);
-            let shuts = subgroupBallot(shut).x;
-            if shut { far[(listed.x + countOneBits(shuts & lower)) % (2u * FAR)] = n; }
-            listed.x += countOneBits(shuts);
-            let others = real && !taken && !shut;
-            let leaves = subgroupBallot(others && leaf).x;
-            if others && leaf { near[(listed.y + countOneBits(leaves & lower)) % (2u * NEAR)] = n - (1u << tree.height); }
-            listed.y += countOneBits(leaves);
-            // The group itself has met.
-            let itself = holds && below + 3u == tree.height;
-            var open = subgroupBallot(others && !leaf && !itself).x;
-            open = select(open, open << (1u << levels), levels < 3u);
+            let fars = subgroupBallot(far).x;
+            let rest = subgroupBallot(others).x;
+            let at_far = (listed.x + countOneBits(fars & lower)) % (2u * FAR);
+            let at_near = 2u * FAR + (listed.y + countOneBits(rest & lower)) % (2u * NEAR);
+            if far || others && leaf { list[select(at_near, at_far, far)] = select(n, m, wide); }
+            listed.x += countOneBits(fars);
+            listed.y += select(0u, countOneBits(rest), leaf);
+            let open = select(rest << select(0u, 1u << levels, levels < 3u), 0u, leaf);
             if open != 0u {
                 waits = (waits << vec3u(8u)) | vec3u(open, waits.x >> 24u, waits.y >> 24u);
                 node = n - place;
@@ -153,7 +99,7 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
         var part_c = Sum();
         var part_d = Sum();
         for (; met.x < ends.x; met.x += LANES) {
-            let n = far[min(met.x + place, ends.x - 1u) % (2u * FAR)];
+            let n = list[min(met.x + place, ends.x - 1u) % (2u * FAR)];
             let x = tree_center[n].xyz;
             let g = group_at(n, met.x + place < ends.x);
             meet_group(subgroupBroadcast(x, 0u), group0(g), a, b, c, d, &part_a, &part_b, &part_c, &part_d);
@@ -168,7 +114,8 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
         }
         for (; met.y < ends.y; met.y += LANES / LEAF) {
             let entry = met.y + place / LEAF;
-            let slot = near[min(entry, ends.y - 1u) % (2u * NEAR)] * LEAF + place % LEAF;
+            let leaf = list[2u * FAR + min(entry, ends.y - 1u) % (2u * NEAR)];
+            let slot = (leaf - (1u << tree.height)) * LEAF + place % LEAF;
             let p = body(min(slot, last), slot < tree.count && entry < ends.y);
             let i = tree_id[min(slot, last)];
             meet(subgroupBroadcast(i, 0u), subgroupBroadcast(p, 0u), a, b, c, d, &part_a, &part_b, &part_c, &part_d);

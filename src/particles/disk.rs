@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 use glam::{DMat3, DVec3};
 
 use super::build::{CENTER, COUNT, G, PARTICLE_RADIUS, Reader, SEED, VELOCITY};
-use super::hernquist::Round;
+use super::halo::Round;
 use super::random::Random;
 use super::rotation::{Galaxy, Rotation, Sphere};
 use super::{Particles, Shape};

@@ -3,10 +3,12 @@
 mod build;
 pub mod chain;
 pub mod cloth;
+pub mod clusters;
 pub mod disk;
 mod exponential_disk;
 pub mod hair;
-mod hernquist;
+mod halo;
+pub mod hernquist;
 pub mod jelly;
 pub mod lattice;
 pub mod plummer;
@@ -68,8 +70,10 @@ fn one_part(_: &Settings) -> Vec<(&'static str, u32)> {
 /// Every generator.
 pub const SHAPES: &[Shape] = &[
     plummer::PLUMMER,
+    hernquist::HERNQUIST,
     sphere::SPHERE,
     disk::DISK,
+    clusters::CLUSTERS,
     lattice::LATTICE,
     random_box::RANDOM_BOX,
     spray::SPRAY,

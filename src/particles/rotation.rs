@@ -4,7 +4,7 @@
 use std::f64::consts::PI;
 
 use super::exponential_disk::Spectrum;
-use super::hernquist;
+use super::halo;
 
 /// The masses and lengths of a galaxy.
 #[derive(Debug, Clone, Copy)]
@@ -29,7 +29,7 @@ pub(super) struct Sphere {
 impl Sphere {
     /// Mass within r \[mass\].
     fn enclosed(&self, r: f64) -> f64 {
-        self.mass * hernquist::enclosed(r / self.scale)
+        self.mass * halo::enclosed(r / self.scale)
     }
 }
 
@@ -83,7 +83,7 @@ impl Galaxy {
             let weight = STEP * 4.0 * fade / ((1.0 + fade) * (1.0 + fade));
             let z = height * self.disk_height;
             let r2 = radius * radius + z * z;
-            let pull = |part: Sphere| weight * self.g * part.mass * hernquist::enclosed(r2.sqrt() / part.scale);
+            let pull = |part: Sphere| weight * self.g * part.mass * halo::enclosed(r2.sqrt() / part.scale);
             let turn = (pull(self.halo) + pull(self.bulge)) / self.softened(r2);
             inward += turn * radius * radius;
             across += turn * z * z;

@@ -114,9 +114,9 @@ pub(crate) const TREE_BODY: &str = "tree_body";
 /// Of each node: its centre of mass (of its box, where its mass is 0), and how near a target may come before it is opened
 /// \[length\]: the greater of l / θ + s (l + s, where the opening is relative) and core + s + l √3 / 2.
 pub(crate) const TREE_CENTER: &str = "tree_center";
-/// Of each node: its mass, and its second moments Σ m y yᵀ about the centre of mass, xx, yy and zz.
+/// Of each node: xx, xy and xz of its second moments Σ m y yᵀ about the centre of mass, and its mass.
 pub(crate) const TREE_MASS: &str = "tree_mass";
-/// Of each node: xy, xz and yz of the second moments, and the longest side of its tight box \[length\].
+/// Of each node: yy, yz and zz of the second moments, and the longest side of its tight box \[length\].
 pub(crate) const TREE_SHAPE: &str = "tree_shape";
 /// Of each node: the lowest corner of its tight box, and 0.
 pub(crate) const TREE_LOW: &str = "tree_low";

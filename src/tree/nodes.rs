@@ -74,12 +74,12 @@ impl<'a> Nodes<'a> {
     /// A node's mass.
     #[must_use]
     pub fn mass(&self, n: u32) -> f64 {
-        element(&self.mass, n).x
+        element(&self.mass, n).w
     }
     /// A node's second moments Σ m y yᵀ about its centre of mass.
     #[must_use]
     pub fn moments(&self, n: u32) -> DMat3 {
-        let ([_, xx, yy, zz], [xy, xz, yz, _]) =
+        let ([xx, xy, xz, _], [yy, yz, zz, _]) =
             (element(&self.mass, n).to_array(), element(&self.shape, n).to_array());
         DMat3::from_cols_array_2d(&[[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
     }

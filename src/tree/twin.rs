@@ -75,8 +75,8 @@ pub(super) fn nodes(tree: &Tree, host: &Host) -> Result<(), Error> {
             let n = n as usize;
             let m = node.moments;
             center[n] = node.center.extend(reach);
-            mass[n] = DVec4::new(node.mass, m.x_axis.x, m.y_axis.y, m.z_axis.z);
-            shape[n] = DVec4::new(m.x_axis.y, m.x_axis.z, m.y_axis.z, side);
+            mass[n] = m.x_axis.extend(node.mass);
+            shape[n] = DVec4::new(m.y_axis.y, m.y_axis.z, m.z_axis.z, side);
             (low[n], high[n]) = (node.low.extend(0.0), node.high.extend(0.0));
         }
     }

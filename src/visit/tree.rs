@@ -2,11 +2,11 @@
 
 use super::{Law, Over};
 use crate::error::Error;
-use crate::kernel::{
-    ALARM, ALARM_WORDS, Binding, Kernel, Machine, Name, Pass, Problem, Scalar, Shader, Source, Threads,
-};
-use crate::tree::{GROUP, Opening, TREE_BODY, TREE_CENTER, TREE_DEMAND, TREE_ID, TREE_MASS, TREE_SHAPE, Tree};
+use crate::kernel::{ALARM, ALARM_WORDS, Binding, Kernel, Machine, Pass, Problem, Scalar, Shader, Side, Source, Threads};
+use crate::tree::{GROUP, LEAF, Opening, Tree};
 
+/// Turns that loops may take where a driver ends them after 65 535.
+const TURNS: u32 = 60_000;
 /// Targets of one dispatch, at most: a whole number of groups.
 const TARGETS: u32 = 1 << 18;
 
@@ -40,16 +40,14 @@ fn join(law: &Law, tree: &Tree, machine: &Machine) -> Result<std::sync::Arc<Shad
         },
         law.distant.wgsl.clone().unwrap_or(crate::shader!("visit/tree_monopole.wgsl")),
     ];
-    files.push(variant(machine));
+    files.extend(variant(machine));
     files.extend(law.files());
     Shader::join(&files)
 }
 
-fn variant(machine: &Machine) -> Source {
-    match (machine.software, machine.subgroup) {
-        (true, 8) => crate::shader!("visit/tree_subgroup.wgsl"),
-        _ => crate::shader!("visit/tree_subgroup.wgsl"),
-    }
+fn variant(machine: &Machine) -> Vec<Source> {
+    let _ = machine;
+    vec![crate::shader!("visit/tree_broadcast.wgsl"), crate::shader!("visit/tree_subgroup.wgsl")]
 }
 
 pub fn kernel(law: Law, tree: &Tree, problem: &Problem) -> Result<Kernel, Error> {
@@ -61,14 +59,18 @@ pub fn kernel(law: Law, tree: &Tree, problem: &Problem) -> Result<Kernel, Error>
             law.name
         )));
     }
+    if law.distant.walk.is_none() && problem.bounds.has(Side::Periodic) {
+        return Err(Error::Scene(format!(
+            "`{}` walks a tree in a periodic box: the nearest image jumps from side to side half a box away, and no group can \
+             be met as one there; meet everybody (over = \"pairs\"), or open the box",
+            law.name
+        )));
+    }
     let shader = join(&law, tree, &problem.machine)?;
     let params = law.uniforms(&shader)?;
     let mut constants = problem.constants(&shader);
-    if shader.reflection().overrides.contains_key("GROUP") {
-        constants.push(("GROUP", f64::from(GROUP)));
-    }
-    let names = [TREE_ID, TREE_BODY, TREE_CENTER, TREE_MASS, TREE_SHAPE, TREE_DEMAND];
-    let fields = names.map(|name| tree.field(name));
+    let most = if problem.machine.software { TURNS } else { u32::MAX };
+    constants.extend([("GROUP", GROUP), ("LEAF", LEAF), ("MOST", most)].map(|(name, n)| (name, f64::from(n))));
     let mut passes = Vec::new();
     let mut first = 0;
     while first < problem.count {
@@ -81,14 +83,10 @@ pub fn kernel(law: Law, tree: &Tree, problem: &Problem) -> Result<Kernel, Error>
         let work = meetings(tree, problem, end - first);
         let threads = Threads::new(lanes);
         let pass = Pass { constants: constants.clone(), uniforms, threads, work, ..Pass::new(shader.clone(), 0) };
-        passes.push(pass.on(&fields));
+        passes.push(pass.on(&tree.fields()));
         first = end;
     }
-    let of = |name| tree.field(name).1;
-    let count = u64::from(tree.count);
-    let mut sizes: Vec<(Name, u64)> = vec![(of(TREE_ID), count), (of(TREE_BODY), count)];
-    sizes.extend([TREE_CENTER, TREE_MASS, TREE_SHAPE].map(|name| (of(name), tree.nodes())));
-    sizes.push((of(TREE_DEMAND), count.div_ceil(u64::from(GROUP))));
+    let mut sizes = tree.sizes();
     sizes.push((ALARM.name.into(), ALARM_WORDS as u64));
     Ok(Kernel { name: law.name, passes, twin: law.distant.walk, sizes, scratch: Vec::new(), tables: Vec::new() })
 }

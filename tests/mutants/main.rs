@@ -6,6 +6,7 @@ mod curious;
 mod equivalent_neighbors;
 mod equivalent_primitives;
 mod equivalents;
+mod ewald;
 mod held;
 mod implicit;
 mod laws;
@@ -17,6 +18,7 @@ mod stages;
 mod strained;
 #[path = "../support/mod.rs"]
 mod support;
+mod trees;
 
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
@@ -114,7 +116,8 @@ fn every_mutant_is_noticed() {
     let shared = support::device();
     let has_subgroups = support::machines::subgroups_of_eight(&shared);
     let equivalents =
-        [EQUIVALENT, SOLVES, equivalent_primitives::EQUIVALENT, equivalent_neighbors::EQUIVALENT].concat();
+        [EQUIVALENT, SOLVES, equivalent_primitives::EQUIVALENT, equivalent_neighbors::EQUIVALENT, trees::EQUIVALENT]
+            .concat();
     let ledger = Mutex::new(Ledger::new(&equivalents));
     // `MUTANTS=near,order cargo test --test mutants -- --nocapture` looks at files of such names alone.
     let only = std::env::var("MUTANTS").unwrap_or_default();

@@ -156,6 +156,26 @@ fn a_disk_without_a_halo_is_balanced_too() {
 }
 
 #[test]
+fn a_thin_disk_alone_is_thin_and_turns_as_freeman_says() {
+    let p = galaxy(&[
+        ("count", Value::Number(40_000.0)),
+        ("halo_mass", Value::Number(0.0)),
+        ("disk_height", Value::Number(0.05)),
+        ("toomre_q", Value::Number(0.3)),
+        ("softening", Value::Number(0.0)),
+    ]);
+    assert_eq!((p.len(), p.mass[39_999]), (40_000, 1.0 / 40_000.0));
+    // Quantiles of R e^-R, and of |z| under sech²(z / 0.05), as above.
+    close("R", quantile(p.position.iter().map(|x| x.truncate().length()), 0.5), 1.678_347, 0.03);
+    close("z", quantile(p.position.iter().map(|x| x.z.abs()), 0.9), 0.073_611, 0.03);
+    // Freeman (1970) at 2.2 R_d, less z₀ R e^-R for the thickness; cold, so that asymmetric drift takes some σ² alone,
+    // which is (3.36 · 0.3 Σ / κ)², a hundredth of v².
+    let ring = (0..p.len()).filter(|i| (p.position[*i].truncate().length() - 2.2).abs() < 0.05);
+    let around = |i: usize| p.velocity[i].truncate().dot(p.position[i].truncate().normalize().perp());
+    close("v", mean(ring.map(around)), (0.386_912_f64 - 0.05 * 2.2 * (-2.2_f64).exp()).sqrt(), 0.02);
+}
+
+#[test]
 fn it_turns_about_its_normal_and_its_parts_share_a_centre() {
     let normal = DVec3::new(1.0, -2.0, 3.0);
     let center = DVec3::new(5.0, 6.0, 7.0);
