@@ -35,6 +35,7 @@ pub const SCENES: &[Builtin] = scenes![
     "merger",
     "plummer",
     "cold_collapse",
+    "periodic_box",
     "fountain",
     "pendulum",
     "double_pendulum",

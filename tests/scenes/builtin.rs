@@ -12,8 +12,18 @@ fn builtin(name: &str) -> Scene {
 #[test]
 fn every_one_loads_and_says_what_to_see() {
     let names: Vec<_> = SCENES.iter().map(|s| s.name).collect();
-    let bodies =
-        ["throw", "kepler", "figure_eight", "solar_system", "galaxy", "merger", "plummer", "cold_collapse", "fountain"];
+    let bodies = [
+        "throw",
+        "kepler",
+        "figure_eight",
+        "solar_system",
+        "galaxy",
+        "merger",
+        "plummer",
+        "cold_collapse",
+        "periodic_box",
+        "fountain",
+    ];
     let tied = ["pendulum", "double_pendulum", "spring_chain", "stiff", "cloth", "flag", "tear", "jelly", "hair"];
     assert_eq!(names, [&bodies[..], &tied, &["flock", "fish_school", "vicsek", "murmuration"]].concat());
     for builtin in SCENES {
