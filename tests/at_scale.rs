@@ -3,9 +3,13 @@
 mod support;
 
 use glam::DVec3;
+use motes::forces::Problem;
+use motes::integrators::Step;
+use motes::kernel::Machine;
 use motes::scene::{Options, Scene, Source};
 use motes::{Gpu, Measure, Particles, Setup, Simulation, Snapshot};
 use support::Shared;
+use support::states::{force, word};
 
 /// A scene on the device, with what is told of it here.
 fn scene(shared: &Shared, name: &str, overrides: &[&str]) -> (Simulation<Gpu>, u64) {
@@ -112,4 +116,27 @@ fn tides_draw_a_bridge_and_two_tails() {
         // At the start 9 % of e^-R (1 + R) are out there, half of them on each side.
         assert!(tail > 0.12 && bridge > 0.06, "tail {tail}, bridge {bridge}");
     }
+}
+
+/// What binds at most 2 GiB takes a hundred million bodies, and has room left.
+#[test]
+fn a_hundred_million_bodies_fit_a_large_gpu() {
+    const COUNT: u32 = 100_000_000;
+    let machine = Machine { software: false, subgroup: 0, invocations: 1 << 18 };
+    let forces = [force("gravity", &[("over", word("tree"))])];
+    let mut step = Step::new(&forces, Problem::new(COUNT, machine));
+    step.kick(0.5);
+    step.drift(1.0);
+    step.evaluate();
+    let plan = step.done().expect("a plan");
+    let fields = plan.fields(COUNT);
+    for (name, bytes) in &fields {
+        assert!(*bytes < 1 << 31, "{name} has {bytes} bytes");
+    }
+    let all: u64 = fields.values().sum();
+    // Positions, velocities, accelerations and their sorted copy are 6.4 GB; nodes and keys are not twice as much.
+    assert!((6_400_000_000..20_000_000_000).contains(&all), "{all} bytes");
+    // And no dispatch is so long that a watchdog ends it.
+    let longest = plan.steps().flat_map(|kernel| &kernel.passes).map(|pass| pass.work).max().expect("passes");
+    assert!(longest < 1 << 31, "{longest} meetings in one dispatch");
 }
