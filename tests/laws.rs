@@ -11,7 +11,7 @@ use motes::kernel::{Access, Machine, World};
 use motes::settings::{Kind, Settings, Value};
 use support::choices::{self, nudged};
 use support::machines;
-use support::states::{accelerations, felt, force, one, vector, word};
+use support::states::{accelerations, felt, felt_after, force, one, vector, word};
 
 const TIME: f64 = 0.83;
 
@@ -125,7 +125,10 @@ fn every_key_is_read() {
     for entry in forces::FORCES {
         let variants = choices::variants(entry.keys);
         let world = World { time: TIME, dt: 0.01, ..World::default() };
-        let at = |settings: &Settings| felt(&[(entry.build)(settings)], &support::cloud(100, 3), world);
+        let cloud = support::cloud(100, 3);
+        // What some have felt before, and some have not: by it, or by angles alone, a tree decides what is far.
+        let before: Vec<_> = cloud.position.iter().map(|x| DVec4::X * if x.x > 0.0 { 0.3 } else { 0.0 }).collect();
+        let at = |settings: &Settings| felt_after(&[(entry.build)(settings)], &cloud, world, &before);
         // What wants a box of its own has tests of its own.
         for key in entry.keys.iter().filter(|key| !matches!(key.kind, Kind::Choice(["nearest", "ewald"]))) {
             assert!(

@@ -152,7 +152,7 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
 
     let mut out = Writer::default();
     out.0.push('\n');
-    out.comment("Every value of the run, defaults included.");
+    out.comment(source::RESOLVED);
     let simulation = simulation::read(one("simulation"), report);
     simulation.write(&mut out);
     let solver = solver::read(one("solver"), &mut out, report);

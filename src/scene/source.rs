@@ -10,6 +10,8 @@ use super::report::{listed, nearest, shorten};
 
 /// The longest scene that is read \[bytes\]. Many particles belong in a file of their own.
 pub(super) const LONGEST: u64 = 16 << 20;
+/// What a scene that is written back says of itself, behind its own first comment.
+pub(super) const RESOLVED: &str = "Every value of the run, defaults included.";
 
 /// Where a scene comes from.
 #[derive(Debug, Clone)]
@@ -133,5 +135,7 @@ pub(super) fn about(text: &str) -> String {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let lines = text.lines().map(str::trim).skip_while(|l| l.is_empty());
     let comments = lines.map_while(|l| l.strip_prefix('#')).map(|l| l.strip_prefix(' ').unwrap_or(l));
-    comments.collect::<Vec<_>>().join("\n").trim_end().to_owned()
+    let about = comments.collect::<Vec<_>>().join("\n").trim_end().to_owned();
+    // What says nothing about itself would say this of itself, once it has been written back.
+    if about == RESOLVED { String::new() } else { about }
 }

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use motes::forces::Over;
 use motes::scene::{Options, SCENES, Scene, Source};
+use motes::tree::Opening;
 
 use crate::SMALL;
 
@@ -194,6 +195,8 @@ fn a_law_of_ones_own_is_read_from_its_file() {
         ("within", "range = 2", Over::Within { range: 2.0 }),
         ("nearest", "neighbors = 7", Over::Nearest { count: 7 }),
         ("pairs", "", Over::Pairs),
+        ("tree", "theta = 0.25", Over::Tree { opening: Opening::Geometric { theta: 0.25 }, core: 0.0, auto: false }),
+        ("auto", "theta = 0.75", Over::Tree { opening: Opening::Geometric { theta: 0.75 }, core: 0.0, auto: true }),
     ] {
         let scene = format!("{SMALL}[[force]]\nwgsl = \"swirl.wgsl\"\nover = \"{over}\"\n{more}\n");
         let files: &[(&str, &[u8])] = &[("scene.toml", scene.as_bytes()), ("swirl.wgsl", b"fn gather() {}")];
@@ -206,7 +209,8 @@ fn a_law_of_ones_own_is_read_from_its_file() {
         );
     }
 
-    let wrong = format!("{SMALL}[[force]]\nwgsl = \"swirl.wgsl\"\nover = \"tree\"\nparams = {{ strength = \"2\" }}\n");
+    let wrong =
+        format!("{SMALL}[[force]]\nwgsl = \"swirl.wgsl\"\nover = \"everybody\"\nparams = {{ strength = \"2\" }}\n");
     let (report, code) = fault(&[("scene.toml", wrong.as_bytes()), ("swirl.wgsl", b"\xff")]);
     let expected = r#"error: cannot read swirl.wgsl: stream did not contain valid UTF-8
   --> scene.toml:7:8
@@ -214,12 +218,12 @@ fn a_law_of_ones_own_is_read_from_its_file() {
  7 | wgsl = "swirl.wgsl"
    |        ^^^^^^^^^^^^
 
-error: unknown over "tree"
+error: unknown over "everybody"
   --> scene.toml:8:8
    |
- 8 | over = "tree"
-   |        ^^^^^^
-   = known: `each`, `pairs`, `within`, `near`, `nearest`, `links`, `joints`, `triangles`
+ 8 | over = "everybody"
+   |        ^^^^^^^^^^^
+   = known: `each`, `pairs`, `within`, `near`, `nearest`, `tree`, `auto`, `links`, `joints`, `triangles`
 
 error: `strength` must be a number, three numbers, or true or false, not the text "2"
   --> scene.toml:9:23

@@ -17,6 +17,7 @@ mod particles;
 mod resolved;
 mod solver;
 mod syntax;
+mod trees;
 mod words;
 
 use std::path::PathBuf;

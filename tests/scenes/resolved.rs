@@ -1,11 +1,12 @@
 //! The scene written back: every value of the run, and the same run again.
 
+use motes::forces::Law;
 use motes::scene::{Format, Options, SCENES, Scene, Source};
 
 use crate::{SMALL, load};
 
 /// Loads what was resolved and compares everything.
-fn assert_reloads(scene: &Scene, folder: &str) {
+pub(crate) fn assert_reloads(scene: &Scene, folder: &str) {
     let source =
         Source::Text { name: format!("{}.toml", scene.name), text: scene.resolved.clone(), folder: folder.into() };
     let again =
@@ -23,8 +24,8 @@ fn assert_reloads(scene: &Scene, folder: &str) {
 
 fn laws(scene: &Scene) -> Vec<String> {
     let laws = scene.forces.iter().flat_map(|f| f.laws());
-    laws.map(|l| format!("{} {:?}", l.name, l.params.iter().map(|(n, v)| format!("{n} {v:?}")).collect::<Vec<_>>()))
-        .collect()
+    let params = |l: &Law| l.params.iter().map(|(n, v)| format!("{n} {v:?}")).collect::<Vec<_>>();
+    laws.map(|l| format!("{} {:?} {:?}", l.name, l.over, params(&l))).collect()
 }
 
 #[test]
@@ -126,6 +127,7 @@ frames = 0
 "#;
     assert!(scene.resolved.starts_with(expected), "{}", scene.resolved);
     assert_eq!(scene.groups[0].color, None);
+    assert_reloads(&scene, ".");
 }
 
 #[test]

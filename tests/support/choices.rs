@@ -56,6 +56,11 @@ pub fn swing() -> Motion {
 /// Another value of the same kind: not the old one, not 0, not 1.
 pub fn nudged(kind: Kind, value: &Value) -> Value {
     match value {
+        // Above 0, and 1 at most.
+        Value::Number(x) if kind == Kind::Fraction => {
+            let more = x * 1.3 + 0.17;
+            Value::Number(f64::from((if more < 1.0 { more } else { x * 0.6 }) as f32))
+        }
         Value::Number(x) if matches!(kind, Kind::Whole | Kind::Count | Kind::Species) => Value::Number(x + 2.0),
         Value::Number(x) if *x > 1.0 && x.fract() == 0.0 => Value::Number(x + 2.0),
         Value::Number(x) => Value::Number(f64::from((x * 1.3 + 0.17) as f32)),

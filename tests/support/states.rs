@@ -89,6 +89,16 @@ pub fn felt(
     particles: &Particles,
     world: World,
 ) -> (Vec<DVec4>, [Vec<DVec4>; 2], Option<Array>) {
+    felt_after(forces, particles, world, &vec![DVec4::ZERO; particles.len()])
+}
+
+/// The same where the particles have felt something before.
+pub fn felt_after(
+    forces: &[Box<dyn Force>],
+    particles: &Particles,
+    world: World,
+    before: &[DVec4],
+) -> (Vec<DVec4>, [Vec<DVec4>; 2], Option<Array>) {
     let count = u32::try_from(particles.len()).expect("few");
     let mut cpu = Cpu::new(count).expect("some");
     let problem = motes::forces::Problem::new(count, cpu.machine())
@@ -107,6 +117,7 @@ pub fn felt(
     let join = |v: &[DVec3], w: &[f64]| Array::Vec4(v.iter().zip(w).map(|(v, w)| v.extend(*w)).collect());
     cpu.write(POSITION.name, &join(&particles.position, &particles.mass)).expect("position");
     cpu.write(VELOCITY.name, &join(&particles.velocity, &particles.radius)).expect("velocity");
+    cpu.write(ACCELERATION.name, &Array::Vec4(before.to_vec())).expect("acceleration");
     if cpu.host().contains(SPECIES.name) {
         cpu.write(SPECIES.name, &Array::Uint(particles.species.clone())).expect("species");
     }
