@@ -46,8 +46,11 @@ fn join(law: &Law, tree: &Tree, machine: &Machine) -> Result<std::sync::Arc<Shad
 }
 
 fn variant(machine: &Machine) -> Vec<Source> {
-    let _ = machine;
-    vec![crate::shader!("visit/tree_broadcast.wgsl"), crate::shader!("visit/tree_subgroup.wgsl")]
+    match (machine.software, machine.subgroup) {
+        (true, 8) => vec![crate::shader!("visit/tree_broadcast.wgsl"), crate::shader!("visit/tree_subgroup.wgsl")],
+        (true, _) => vec![crate::shader!("visit/tree_alone.wgsl")],
+        (false, _) => vec![crate::shader!("visit/tree_tile.wgsl")],
+    }
 }
 
 pub fn kernel(law: Law, tree: &Tree, problem: &Problem) -> Result<Kernel, Error> {

@@ -21,6 +21,16 @@ pub fn machines(shared: &Shared) -> Vec<(&'static str, Machine)> {
     all
 }
 
+/// Machines that bring about each walk of a tree.
+pub fn walkers(shared: &Shared) -> Vec<(&'static str, Machine)> {
+    let named = |(name, machine): (&'static str, Machine)| match name {
+        "loop" => Some(("alone", machine)),
+        "tile" | "subgroup" => Some((name, machine)),
+        _ => None,
+    };
+    machines(shared).into_iter().filter_map(named).collect()
+}
+
 /// Whether the file for subgroups can run here.
 pub fn subgroups_of_eight(shared: &Shared) -> bool {
     let info = shared.found.device.adapter_info();
