@@ -1,0 +1,162 @@
+//! Stages of what walks a tree: every walk over so many bodies that nodes of all kinds are met.
+
+#![allow(clippy::cast_possible_truncation, reason = "numbers are rounded to what f32 holds")]
+
+use std::cell::RefCell;
+use std::rc::Rc;
+
+use glam::{DVec3, Vec4};
+use motes::forces::{Force, Law, Over};
+use motes::integrators::Step;
+use motes::kernel::{ACCELERATION, ALARM, Backend, Kernel, Machine, POSITION, Plan, Problem, QUIET, Source};
+use motes::settings::Value;
+use motes::tree::Opening;
+use motes::{Gpu, Simulation};
+
+use crate::stages::{Device, Stage, moving};
+use crate::support::equivalents::Equivalent;
+use crate::support::machines::{alone, walkers};
+use crate::support::states::{force, word};
+use crate::support::{Random, Shared};
+
+pub const EQUIVALENT: &[Equivalent] = &[];
+
+/// Nine workgroups in a row, nine times, are two more than these many have groups.
+const ROW: u32 = 9;
+const MANY: usize = 79 * 32 - 3;
+
+/// Bodies of which half are in a small part of the place, some without mass.
+fn bodies(count: usize) -> Vec<Vec4> {
+    let mut random = Random::new(43);
+    let mass = |i: usize| if i % 11 == 4 { 0.0 } else { (0.3 + 0.01 * (i % 7) as f64) / count as f64 };
+    let place = |i: usize, x: DVec3| if i % 2 == 0 { x } else { x * x.length_squared() * 0.3 };
+    (0..count).map(|i| place(i, random.vector()).extend(mass(i)).as_vec4()).collect()
+}
+
+fn gravity(words: [&'static str; 2], theta: f64, alpha: f64) -> Box<dyn Force> {
+    let numbers = [("theta", theta), ("alpha", alpha), ("softening", 0.17), ("g", 1.3)];
+    let mut settings: Vec<_> = numbers.iter().map(|(key, x)| (*key, Value::Number(*x))).collect();
+    settings.extend([("over", word("tree")), ("kernel", word(words[0])), ("multipoles", word(words[1]))]);
+    force("gravity", &settings)
+}
+
+/// A law that adds up whole masses, so that to leave out a body, or to meet it twice, is seen whatever it weighs.
+struct Counted;
+
+impl Force for Counted {
+    fn laws(&self) -> Vec<Law> {
+        let wgsl = "struct Sum { mass: f32, way: vec3f }
+            fn merge(total: ptr<function, Sum>, part: Sum) { (*total).mass += part.mass; (*total).way += part.way; }
+            fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
+                (*sum).mass += 1e6 * you.mass;
+                (*sum).way += f32(you.index % 1000u) * (you.position - me.position - r);
+            }
+            fn finish(me: Particle, sum: Sum) -> vec4f { return vec4f(sum.mass, sum.way); }";
+        let over = Over::Tree { opening: Opening::Geometric { theta: 0.8 }, core: 0.0, auto: false };
+        let none = |_: &_, _: &_, _, (): &mut ()| ();
+        vec![Law::gathering("counted", over, Source::ours("counted", wgsl), Vec::new(), none, |_, (), _| {
+            glam::DVec4::ZERO
+        })]
+    }
+}
+
+/// Bodies on a device, the tree over them, and the kernel that walks it.
+struct Scene {
+    simulation: Rc<RefCell<Simulation<Gpu>>>,
+    walk: Kernel,
+}
+
+fn scene(device: &Device, machine: Machine, bodies: &[Vec4], felt: f64, law: Box<dyn Force>) -> Scene {
+    let mut simulation = moving(device, bodies.len(), Some(machine));
+    let forces = [law];
+    let mut step = Step::new(&forces, Problem::new(bodies.len() as u32, machine));
+    step.evaluate();
+    let plan = step.finished().expect("a plan");
+    let program = simulation.backend().compile(&plan).expect("a program");
+    simulation.write(POSITION, bodies).expect("bodies");
+    let mut random = Random::new(47);
+    let mut last: Vec<Vec4> = bodies.iter().map(|_| (random.vector() * felt).extend(0.3).as_vec4()).collect();
+    // One group of them has felt nothing yet.
+    last[bodies.len() / 3] = Vec4::ZERO;
+    simulation.write(ACCELERATION, &last).expect("what they felt");
+    simulation.backend().run(&program, 1).expect("a run");
+    simulation.write(ACCELERATION, &last).expect("what is there already");
+    let walk = plan.kernels.into_iter().find(|kernel| kernel.passes[0].shader.reflection().entry == "walk");
+    Scene { simulation: Rc::new(RefCell::new(simulation)), walk: walk.expect("a walk") }
+}
+
+impl Scene {
+    fn with_most(&self, most: u32) -> Plan {
+        let mut kernel = self.walk.clone();
+        let constants = kernel.passes.iter_mut().flat_map(|pass| &mut pass.constants);
+        constants.filter(|(name, _)| *name == "MOST").for_each(|(_, n)| *n = f64::from(most));
+        alone(kernel)
+    }
+    /// What the alarm says after a walk of so many turns at most.
+    fn alarm(&self, most: u32) -> Vec<f32> {
+        let mut simulation = self.simulation.borrow_mut();
+        simulation.write(ALARM, &QUIET).expect("an alarm");
+        let gpu = simulation.backend();
+        let program = gpu.compile(&self.with_most(most)).expect("a program");
+        gpu.run(&program, 1).expect("a run");
+        let bytes = pollster::block_on(gpu.bytes(ALARM.name, 0, 4 * QUIET.len() as u64)).expect("an alarm");
+        simulation.write(ALARM, &QUIET).expect("an alarm");
+        bytemuck::pod_collect_to_vec(&bytes)
+    }
+    /// The fewest turns that are enough.
+    fn turns(&self) -> u32 {
+        let quiet = |most: u32| self.alarm(most)[2].to_bits() == u32::MAX;
+        let (mut few, mut enough) = (1, 3000);
+        assert!(!quiet(few) && quiet(enough), "a walk takes some turns");
+        while enough - few > 1 {
+            let middle = few.midpoint(enough);
+            if quiet(middle) { enough = middle } else { few = middle }
+        }
+        enough
+    }
+    fn stage(&self, name: &str, plan: Plan) -> Stage {
+        self.simulation.borrow_mut().write(ALARM, &QUIET).expect("an alarm");
+        Stage::amid(name, &self.simulation, plan)
+    }
+}
+
+pub fn all(shared: &Shared, stages: &mut Vec<Stage>) {
+    let device = &pollster::block_on(crate::support::limited(shared, |limits| {
+        limits.max_compute_workgroups_per_dimension = ROW;
+    }));
+    for (name, machine) in walkers(shared) {
+        for (case, count, law) in [
+            ("few", 300, gravity(["plummer", "quadrupole"], 0.7, 0.0)),
+            ("many", MANY, gravity(["plummer", "quadrupole"], 0.9, 0.0)),
+            ("relative", 1000, gravity(["plummer", "monopole"], 0.6, 0.03)),
+            ("spline", 1000, gravity(["spline", "quadrupole"], 0.8, 0.0)),
+        ] {
+            let scene = scene(device, machine, &bodies(count), 3.7, law);
+            if case != "few" {
+                stages.push(scene.stage(&format!("walk {name}, {case}"), scene.with_most(60_000)));
+                continue;
+            }
+            let most = scene.turns();
+            println!("TURNS {name} {most}");
+            stages.push(scene.stage(&format!("walk {name}, {case}"), scene.with_most(most)));
+            for less in [1, 2, 17] {
+                let told = scene.alarm(most - less);
+                let stage = scene.stage(&format!("walk {name}, {less} turns too few"), scene.with_most(most - less));
+                stages.push(stage.told(ALARM.name, told));
+            }
+        }
+        let scene = scene(device, machine, &bodies(700), 3.7, Box::new(Counted));
+        let plan = scene.with_most(60_000);
+        let told = {
+            let mut simulation = scene.simulation.borrow_mut();
+            let last = pollster::block_on(simulation.read(ACCELERATION)).expect("what is there");
+            let gpu = simulation.backend();
+            let program = gpu.compile(&plan).expect("a program");
+            gpu.run(&program, 1).expect("a run");
+            let felt = pollster::block_on(simulation.read(ACCELERATION)).expect("masses");
+            simulation.write(ACCELERATION, &last).expect("what was there");
+            felt.iter().flat_map(|a| a.to_array()).collect::<Vec<f32>>()
+        };
+        stages.push(scene.stage(&format!("walk {name}, counted"), plan).told(ACCELERATION.name, told));
+    }
+}
