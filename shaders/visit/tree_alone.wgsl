@@ -47,7 +47,7 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
             }
             spent += 1u;
         }
-        if spent > MOST { atomicMin(&alarm[2], me.index); }
+        if more || bodies > 0u { atomicMin(&alarm[2], me.index); }
         merge(&near, far);
         if acts_on(me) { deliver(me, near); }
     }

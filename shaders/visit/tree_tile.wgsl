@@ -53,15 +53,14 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
     var far = 0u;
     var near = 0u;
     var spent = GROUP;
-    // A workgroup behind the last group has nothing to do.
-    var top = select(0u, 1u, mine * GROUP < tree.end);
+    var top = 1u;
     if lane == 0u { waits[0] = 1u; }
     while top > 0u && spent <= MOST {
         let some = min(top, WORKGROUP);
         top -= some;
         if lane <= OPEN { atomicStore(&votes[lane], 0u); }
         workgroupBarrier();
-        let node = waits[top + min(lane, some - 1u)];
+        let node = waits[top + lane];
         let depth = firstLeadingBit(node);
         let real = lane < some && exists(node, depth);
         let open = real && (is_own(node, depth, own) || opens(node, here));
@@ -86,7 +85,7 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
         while far >= select(WORKGROUP, 1u, done) {
             let full = min(far, WORKGROUP);
             far -= full;
-            let n = fars[far + min(lane, full - 1u)];
+            let n = fars[far + lane];
             workgroupBarrier();
             tile[lane] = group_at(n, true);
             places[lane] = tree_center[n];
@@ -97,7 +96,7 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
         while near >= select(WORKGROUP / LEAF, 1u, done) {
             let full = min(near, WORKGROUP / LEAF);
             near -= full;
-            let leaf = leaves[near + min(lane / LEAF, full - 1u)];
+            let leaf = leaves[near + lane / LEAF];
             let slot = (leaf - (1u << tree.height)) * LEAF + lane % LEAF;
             workgroupBarrier();
             places[lane] = tree_body[min(slot, last)];
@@ -108,6 +107,6 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
             spent += full * LEAF + 1u;
         }
     }
-    if spent > MOST { atomicMin(&alarm[2], me.index); }
+    if top > 0u { atomicMin(&alarm[2], me.index); }
     if k < tree.end && acts_on(me) { deliver(me, sum); }
 }

@@ -40,6 +40,13 @@ fn weighed(mut bodies: Vec<Vec4>, heavy: bool) -> Vec<Vec4> {
     bodies
 }
 
+/// Bodies a few roundings apart: those that hold a group are told by their places, not by their sizes.
+fn roundings() -> Vec<Vec4> {
+    let mut random = Random::new(16);
+    let mut place = || (1e6 + 0.0625 * (3.0 * random.next()).round()) as f32;
+    (0..1024).map(|_| Vec4::new(place(), place(), place(), 0.0)).collect()
+}
+
 fn complete(of: &str, walk: &mut Walk, bodies: &[Vec4]) -> f32 {
     let total: f32 = bodies.iter().map(|b| b.w).sum();
     let seen = walk.run();
@@ -63,6 +70,10 @@ fn everybody_sees_everybody_else_once() {
             // Of those at one place none is ever far.
             assert!((met > 0.99) == (set == "at one place"), "{name}, {set}: {met} of all are met by themselves");
         }
+        let crowd = weighed(roundings(), false);
+        let mut walk = Walk::new(&shared, machine, &crowd, Box::new(Alone(counted(over(1.0)))));
+        let met = complete(&format!("{name}, a few roundings apart"), &mut walk, &crowd);
+        assert!(met < 0.9, "{name}: nobody is far");
         let mut last = 2.0;
         for theta in [0.3, 0.5, 0.7, 1.0] {
             let bodies = weighed(crate::sets::cloud(4099, 11), true);

@@ -125,19 +125,7 @@ impl Walk {
     pub fn cut(mut self, targets: u32) -> Self {
         let count = self.count;
         let passes = self.passes();
-        let whole = passes[0].clone();
-        let part = |first: u32| {
-            let mut pass = whole.clone();
-            let end = (first + targets).min(count);
-            let block = &mut pass.uniforms.iter_mut().find(|(name, _)| *name == "tree").expect("a tree").1;
-            // The first two members of the block.
-            for (place, n) in [first, end].into_iter().enumerate() {
-                block[4 * place..4 * place + 4].copy_from_slice(&n.to_le_bytes());
-            }
-            pass.threads.count = whole.threads.count / count.div_ceil(32) * (end - first).div_ceil(32);
-            pass
-        };
-        *passes = (0..count).step_by(targets as usize).map(part).collect();
+        *passes = machines::parts(&passes[0], count, targets);
         self
     }
     /// What everybody feels.
