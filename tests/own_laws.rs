@@ -81,8 +81,8 @@ fn it_runs_over_a_tree_and_means_nearly_the_same() {
     let all: Vec<Vec<f64>> = last.iter().map(|text| numbers(text)).collect();
     let apart = |other: &[f64]| all[0].iter().zip(other).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     let [fine, coarse, auto] = [1, 2, 3].map(|i| apart(&all[i]));
-    println!("{fine:e} {coarse:e} {auto:e}");
-    assert!(fine > 0.0 && fine < coarse, "{fine} {coarse}");
+    // A step of 0.1 under pulls of about 1, of which θ = 0.4 leaves out θ² / 8 or less.
+    assert!(fine > 0.0 && fine < 2e-3 && fine < coarse, "{fine} {coarse}");
     assert!(auto == 0.0, "2000 are too few for a tree: {auto}");
 }
 

@@ -10,6 +10,9 @@ const TURNS: u32 = 60_000;
 /// Targets of one dispatch, at most: a whole number of groups.
 const TARGETS: u32 = 1 << 18;
 
+/// The θ that is none: single precision holds l / θ of what is larger.
+const LEAST: f64 = 1e-30;
+
 /// How many particles there must be before the tree is faster than that everybody meets everybody. Measured on lavapipe by
 /// `motes bench tree`; for hardware it is an estimate, from the interactions of both and the rates of others.
 #[must_use]
@@ -56,7 +59,7 @@ fn variant(machine: &Machine) -> Vec<Source> {
 pub fn kernel(law: Law, tree: &Tree, problem: &Problem) -> Result<Kernel, Error> {
     law.requires_meetings()?;
     let theta = tree.opening.theta();
-    if !(theta > 0.0 && theta <= 1.0) {
+    if !(theta > LEAST && theta <= 1.0) {
         return Err(Error::Scene(format!(
             "`{}` walks a tree with θ = {theta}: it must be above 0, and 1 at most",
             law.name

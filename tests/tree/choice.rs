@@ -30,13 +30,30 @@ fn auto_is_whichever_is_faster() {
 fn an_opening_angle_is_above_0_and_1_at_most() {
     let problem = Problem::new(100, Machine { software: false, subgroup: 0, invocations: 1 });
     for alpha in [0.0, 0.005] {
-        for theta in [1.001, 2.0, 1e-300, 1.0, 0.01] {
+        for theta in [1.001, 2.0, 0.0, -0.5, 1e-300, f64::NAN, 1e-6, 0.01, 1.0] {
             let law = gravity("tree", Settings { theta, alpha, ..USUAL }).laws().swap_remove(0);
             match law.kernel(&problem) {
-                Ok(_) => assert!(theta <= 1.0, "{theta}"),
-                Err(Error::Scene(said)) => assert!(theta > 1.0 && said.contains(&format!("θ = {theta}")), "{said}"),
+                Ok(_) => assert!((1e-6..=1.0).contains(&theta), "{theta}"),
+                Err(Error::Scene(said)) => {
+                    assert!(!(1e-6..=1.0).contains(&theta) && said.contains(&format!("θ = {theta}")), "{said}")
+                }
                 Err(other) => panic!("{theta}: {other}"),
             }
+        }
+    }
+}
+
+/// What no device here holds can still be planned; of nobody there is nothing to walk.
+#[test]
+fn plans_for_none_and_for_the_most() {
+    for machine in [true, false].map(|software| Machine { software, subgroup: 8, invocations: 1 }) {
+        for (count, dispatches) in [(0, 0), (1, 1), (1 << 18, 1), ((1 << 18) + 1, 2), (1 << 27, 512)] {
+            let law = gravity("tree", USUAL).laws().swap_remove(0);
+            let kernel = law.kernel(&Problem::new(count, machine)).expect("a kernel");
+            assert_eq!(kernel.passes.len(), dispatches, "{count}");
+            let lanes: u64 = kernel.passes.iter().map(|pass| u64::from(pass.threads.count)).sum();
+            let workgroup = kernel.passes.first().map_or(1, |pass| pass.shader.reflection().workgroup);
+            assert_eq!(lanes, u64::from(count.div_ceil(32)) * u64::from(workgroup), "{count}");
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Each walk against its twin, which opens the same nodes of the same tree and adds up in f64.
 
-use glam::Vec4;
-use motes::Gpu;
+use glam::{DVec3, Vec4};
+use motes::{Bounds, Gpu, Side};
 
 use crate::sets::{awkward, cloud};
 use crate::support::machines::walkers;
@@ -80,6 +80,21 @@ fn awkward_sets_agree_with_their_twin() {
         for (set, bodies) in awkward(777).into_iter().filter(|(set, _)| *set != "massless") {
             let law = gravity("tree", Settings { theta: 0.7, ..USUAL });
             agrees(&mut Walk::new(&shared, machine, &bodies, law), &format!("{name}, {set}"), 777);
+        }
+    }
+}
+
+/// Who looks across a side sees nearest images, and opens what they are near to.
+#[test]
+fn they_agree_across_the_sides_of_a_box() {
+    let shared = support::device();
+    let (low, high) = (DVec3::splat(-1.0), DVec3::new(1.0, 1.5, 1.0));
+    let bounds = Bounds { low, high, sides: [Side::Periodic, Side::Periodic, Side::Open], dimensions: 3 };
+    for settings in settings().into_iter().step_by(3) {
+        for (name, machine) in walkers(&shared) {
+            let gpu = support::machines::gpu(&shared, 1000);
+            let walk = Walk::within(gpu, machine, &cloud(1000, 8), bounds, gravity("tree", settings));
+            agrees(&mut walk.felt(&felt(1000)), &format!("{name}, {settings:?}"), 1000);
         }
     }
 }
