@@ -50,7 +50,7 @@ const TURNS: [(&str, u32); 3] = [("tile", 1724), ("alone", 2602), ("subgroup", 3
 fn bodies(count: usize) -> Vec<Vec4> {
     let mut random = Random::new(43);
     let mass = |i: usize| if i % 11 == 4 { 0.0 } else { (0.3 + 0.01 * (i % 7) as f64) / count as f64 };
-    let place = |i: usize, x: DVec3| if i % 2 == 0 { x } else { x * x.length_squared() * 0.3 };
+    let place = |i: usize, x: DVec3| if i.is_multiple_of(2) { x } else { x * x.length_squared() * 0.3 };
     (0..count).map(|i| place(i, random.vector()).extend(mass(i)).as_vec4()).collect()
 }
 
@@ -149,7 +149,7 @@ impl Scene {
         gpu.run(&program, 1).expect("a run");
         let felt = pollster::block_on(simulation.read(ACCELERATION)).expect("masses");
         simulation.write(ACCELERATION, &last).expect("what was there");
-        felt.iter().flat_map(|a| a.to_array()).collect()
+        felt.iter().flat_map(Vec4::to_array).collect()
     }
     /// The walk in dispatches of so many targets.
     fn in_parts(&self, targets: u32) -> Plan {

@@ -35,7 +35,7 @@ fn an_opening_angle_is_above_0_and_1_at_most() {
             match law.kernel(&problem) {
                 Ok(_) => assert!((1e-6..=1.0).contains(&theta), "{theta}"),
                 Err(Error::Scene(said)) => {
-                    assert!(!(1e-6..=1.0).contains(&theta) && said.contains(&format!("θ = {theta}")), "{said}")
+                    assert!(!(1e-6..=1.0).contains(&theta) && said.contains(&format!("θ = {theta}")), "{said}");
                 }
                 Err(other) => panic!("{theta}: {other}"),
             }

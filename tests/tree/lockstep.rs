@@ -16,7 +16,7 @@ fn settings() -> Vec<Settings> {
     for kernel in ["plummer", "spline"] {
         for multipoles in ["quadrupole", "monopole"] {
             all.push(Settings { kernel, multipoles, theta: 0.7, ..USUAL });
-            all.push(Settings { kernel, multipoles, theta: 0.6, alpha: 0.005, softening: 0.01, ..USUAL });
+            all.push(Settings { kernel, multipoles, theta: 0.6, alpha: 0.005, softening: 0.01 });
         }
     }
     all
