@@ -51,10 +51,12 @@ pub enum Error {
         /// The step, counted from 0, in which that was seen.
         step: u64,
     },
-    /// More particles are within reach of one than a search for neighbours can visit. Mended by a shorter range.
+    /// More particles are within reach of one than a search for neighbours or a walk of a tree can visit. Mended by a shorter
+    /// range, or by a greater opening angle.
     #[error(
-        "particle {particle} has more than 240000 others in the cells around it, which is more than one search can visit: \
-         choose a shorter range, or look for what drives all particles to one place"
+        "particle {particle} has more others close around it than can be visited at once (240000 in the cells of a search, \
+         some 300000 that a tree cannot take as one): choose a shorter range or a greater theta, or look for what drives all \
+         particles to one place"
     )]
     Crowded {
         /// The lowest id of such a particle.

@@ -1,6 +1,10 @@
 //! The second opinion: every kernel of a plan against its f64 twin, each given the device's own inputs, so that errors
 //! do not accumulate and one tolerance serves all.
 
+mod truncation;
+
+pub use truncation::{Truncation, truncation};
+
 use glam::DVec4;
 
 use crate::error::Error;

@@ -27,6 +27,8 @@ pub enum Kind {
     Positive,
     /// A finite number, zero or above.
     NotNegative,
+    /// A number above zero, one at most.
+    Fraction,
     /// A whole number, one or above, that fits 32 bits.
     Count,
     /// A whole number, zero or above, that fits 53 bits (a seed).
@@ -43,6 +45,8 @@ pub enum Kind {
     Flag,
     /// The name of a motion of the scene, or an empty text: none.
     Motion,
+    /// A colour by name or as "#ffcc88", or an empty text: none.
+    Color,
 }
 
 /// A key: its name in the scene, what it accepts, what it is when left out (`None`: it must be given), and what it means.

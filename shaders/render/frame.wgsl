@@ -31,6 +31,7 @@ struct Frame {
     solids: u32,
     lamp: f32,     // half the height of what the lamp sees [length]
     map: u32,      // pixels of what the lamp sees, each way
+    slab: f32,     // what is farther from the centre, towards the eye or away from it, is not drawn [length]
 }
 @group(3) @binding(0) var<uniform> frame: Frame;
 
@@ -55,6 +56,7 @@ fn see(p: vec3f) -> Seen {
     }
     let half = 0.5 * vec2f(f32(frame.width), f32(frame.height));
     let place = half + scale * vec2f(dot(frame.right, r), -dot(frame.up, r));
+    visible = visible && abs(z) <= frame.slab;
     visible = visible && abs(place.x) < FAR_OUT && abs(place.y) < FAR_OUT;
     return Seen(place, depth, scale, visible);
 }

@@ -184,6 +184,7 @@ pub fn advice(scene: &Scene, setup: &Setup) -> Result<Vec<String>, Error> {
     for law in laws {
         let name = law.name.clone();
         let (untwinned, over, offered) = (law.twin.is_none(), law.over, law.jacobian.is_some());
+        let all_images = law.wgsl.ours && law.wgsl.file.ends_with("gravity_ewald.wgsl");
         if let Some(twin) = law.twin.as_ref().filter(|_| setup.bounds.dimensions == 2) {
             in_the_plane(&name, twin, setup)?;
         }
@@ -200,9 +201,15 @@ pub fn advice(scene: &Scene, setup: &Setup) -> Result<Vec<String>, Error> {
                 if implicit { 1 } else { reduced },
             ));
         }
-        if over == Over::Pairs && setup.bounds.has(Side::Periodic) {
+        if over == Over::Pairs && setup.bounds.has(Side::Periodic) && !all_images {
             remarks.push(format!(
-                "`{name}` in a periodic box comes from the nearest image of everybody alone: there is no Ewald sum"
+                "`{name}` in a periodic box comes from the nearest image of everybody alone: all other images are left \
+                 out, there is no Ewald sum{}",
+                if name == "gravity" {
+                    "; images = \"ewald\" has it, in a cube that is periodic on all sides"
+                } else {
+                    ""
+                }
             ));
         }
         if let Over::Near { of: Some(kind), .. } = over

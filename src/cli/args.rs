@@ -45,7 +45,7 @@ pub enum Command {
     Scenes(ScenesArgs),
     /// Run the oscillator and the decay of textbooks under every integrator, and draw who explodes, dies out or stays
     Stability(StabilityArgs),
-    /// Measure steps of gravity, of searches for neighbours and of springs, beside plain Rust on this processor
+    /// Measure steps of gravity, through a tree too, of searches for neighbours and of springs, beside plain Rust
     Bench(BenchArgs),
     /// List adapters and test what simulations rely on
     Doctor(DoctorArgs),
@@ -132,6 +132,9 @@ pub struct CompareArgs {
     /// An adapter, by a part of its name or by its number in `motes doctor`
     #[arg(long, value_name = "NAME")]
     pub adapter: Option<String>,
+    /// Compare forces through the tree with direct sums alone, at these opening angles, with and without quadrupoles
+    #[arg(long, value_name = "ANGLES", value_delimiter = ',')]
+    pub theta: Vec<f64>,
     /// Print the result as JSON
     #[arg(long)]
     pub json: bool,
@@ -176,6 +179,8 @@ fn positive(text: &str) -> Result<f64, String> {
 pub enum Topic {
     /// All pairs, and the integrators
     Gravity,
+    /// Gravity through a tree, beside all pairs
+    Tree,
     /// Searches for neighbours
     Neighbors,
     /// Sheets of springs
@@ -196,7 +201,7 @@ pub struct BenchArgs {
     /// Leave out sizes of which a step is expected to take longer than this [s]
     #[arg(long, value_name = "S", default_value_t = 10.0)]
     pub longest: f64,
-    /// Draw how the time of a step grows with the agents into this SVG
+    /// Draw how the time of a step grows into this SVG: with the bodies for `tree`, with the agents otherwise
     #[arg(long, value_name = "FILE")]
     pub plot: Option<PathBuf>,
     /// How often each thing is measured; the median counts

@@ -35,10 +35,11 @@ pub async fn check(args: &SceneArgs) -> Result<(), Failure> {
             *entry = bytes.max(*entry);
         }
     }
+    let wide = fields.keys().map(|name| name.chars().count()).max().unwrap_or(0).max(20);
     for (name, bytes) in &fields {
-        out!("  {name:20} {:>12}", size(*bytes));
+        out!("  {name:wide$} {:>12}", size(*bytes));
     }
-    out!("  {:20} {:>12}", "in all", size(fields.values().sum()));
+    out!("  {:wide$} {:>12}", "in all", size(fields.values().sum()));
     out!("\na step: {} dispatches\n  {}", plans.step.dispatches(), plans.step);
 
     let per_step = match &engine {
@@ -51,7 +52,7 @@ pub async fn check(args: &SceneArgs) -> Result<(), Failure> {
     let total = per_step.mul_f64(scene.steps as f64);
     out!("\ntime: {} per step, about {} in all, without writing files", duration(per_step), duration(total));
     let remarks = advice(&scene, &setup)?;
-    for remark in engine.remark().into_iter().chain(remarks) {
+    for remark in engine.remarks(&setup)?.into_iter().chain(remarks) {
         out!("note: {remark}");
     }
     out!("\nno faults");

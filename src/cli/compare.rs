@@ -3,12 +3,14 @@
 use glam::DVec3;
 use motes::kernel::Backend;
 use motes::lockstep::{self, Verdict};
+use motes::scene::Scene;
 use motes::{Cpu, Gpu, Measure, Setup, Simulation, Snapshot, gpu};
 use serde_json::json;
 
 use super::args::{BackendChoice, CompareArgs, DeviceArgs, SceneArgs};
 use super::engine;
 use super::failure::Failure;
+use super::far;
 
 /// Force errors beyond this median fail: the rounding of one f32 is 6e-8, and a sum of many adds some of it up.
 const MEDIAN: f64 = 1e-6;
@@ -19,18 +21,14 @@ const ROUNDS: usize = 3;
 
 /// Compares the device with the twins.
 pub async fn compare(args: &CompareArgs) -> Result<(), Failure> {
-    let mut scene = engine::load(&SceneArgs {
-        scene: args.scene.clone(),
-        steps: None,
-        until: None,
-        overrides: args.overrides.clone(),
-        allow_outside: args.allow_outside,
-        auto_substeps: false,
-        device: DeviceArgs { backend: BackendChoice::Gpu, adapter: args.adapter.clone() },
-    })?;
-    let setup = engine::setup(&mut scene);
     let found = engine::open(gpu::adapters(&gpu::instance()).await, args.adapter.as_deref()).await?;
+    if !args.theta.is_empty() {
+        return far::sweep(args, &found).await;
+    }
+    let mut scene = load(args, &[])?;
+    let setup = engine::setup(&mut scene);
     let verdicts = kernels(&found, &setup).await?;
+    let far = far::errors(&found, &setup).await?;
     let over = steps(&found, &setup, args.steps).await?;
     let forces: Vec<&Verdict> =
         verdicts.iter().filter(|v| v.field == "acceleration" && v.kernel != "clear" && v.good()).collect();
@@ -43,11 +41,12 @@ pub async fn compare(args: &CompareArgs) -> Result<(), Failure> {
         let rows: Vec<_> = verdicts.iter().map(row).collect();
         let value = json!({ "scene": scene.name, "particles": setup.particles.len(), "device": found.describe(),
             "tolerance": lockstep::TOLERANCE, "kernels": rows, "steps": args.steps, "position_error": over.position,
-            "position_scale": over.scale, "energy_error": over.energy, "good": good });
+            "position_scale": over.scale, "energy_error": over.energy, "far_groups": far::rows(&far), "good": good });
         out!("{value:#}");
     } else {
         out!("{}: {} particles, {} against f64 twins\n", scene.name, setup.particles.len(), found.describe());
         print_kernels(&verdicts);
+        far::print(&far);
         out!("\n{} steps of the device against {} of the twins", args.steps, args.steps);
         out!(
             "  positions differ by {:.1e} (rms) of a system of size {:.1e}, at most by {:.1e}",
@@ -59,6 +58,19 @@ pub async fn compare(args: &CompareArgs) -> Result<(), Failure> {
         out!("\n{}", if good { "they agree" } else { "THEY DISAGREE" });
     }
     if good { Ok(()) } else { Err(Failure::Disagreement) }
+}
+
+/// The scene, with some more values set.
+pub fn load(args: &CompareArgs, more: &[String]) -> Result<Scene, Failure> {
+    engine::load(&SceneArgs {
+        scene: args.scene.clone(),
+        steps: None,
+        until: None,
+        overrides: [args.overrides.as_slice(), more].concat(),
+        allow_outside: args.allow_outside,
+        auto_substeps: false,
+        device: DeviceArgs { backend: BackendChoice::Gpu, adapter: args.adapter.clone() },
+    })
 }
 
 /// Every kernel of some steps, each given the device's own inputs.

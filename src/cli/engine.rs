@@ -7,6 +7,7 @@ use motes::{Cpu, Error, Gpu, Setup};
 
 use super::args::{BackendChoice, DeviceArgs, SceneArgs};
 use super::failure::Failure;
+use super::far;
 
 /// What runs the kernels.
 pub enum Engine {
@@ -46,8 +47,12 @@ impl Engine {
             Self::Cpu(_) => Cpu::new(count)?.machine(),
         })
     }
-    /// What a user should know of it.
-    pub fn remark(&self) -> Option<String> {
+    /// What a user should know of it, and of what it makes of a setup.
+    pub fn remarks(&self, setup: &Setup) -> Result<Vec<String>, Failure> {
+        let far = far::remarks(setup, &self.machine(1)?);
+        Ok(self.remark().into_iter().chain(far).collect())
+    }
+    fn remark(&self) -> Option<String> {
         match self {
             Self::Cpu(Some(reason)) => {
                 Some(format!("{reason}; running the f64 twins instead, which are exact and slow"))

@@ -25,6 +25,7 @@ mod doctor;
 mod engine;
 mod explain;
 mod failure;
+mod far;
 mod film;
 mod output;
 mod plot;

@@ -110,7 +110,7 @@ impl Run {
             scene.name, scene.steps, scene.dt, scene.integrator.name
         ));
         progress.say(&format!("on {device}"));
-        for remark in engine.remark().into_iter().chain(advice(&scene, setup)?) {
+        for remark in engine.remarks(setup)?.into_iter().chain(advice(&scene, setup)?) {
             progress.say(&format!("note: {remark}"));
             progress.event("remark", json!({ "text": remark }));
         }

@@ -4,8 +4,9 @@ use std::borrow::Cow;
 
 use glam::{DVec3, DVec4};
 
-use super::{Force, Law, Over, params};
-use crate::kernel::{Source, World};
+use super::{Force, Law, Over, Problem, ewald, params};
+use crate::error::Error;
+use crate::kernel::{Plan, Side, Source, World};
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::tree::Opening;
 use crate::visit::{Body, Group};
@@ -16,8 +17,9 @@ pub const KEYS: &[Key] = &[
     Key::new("softening", Kind::NotNegative, Value::Number(0.0), "the Plummer softening ε; the spline ends at 2.8 ε, so for PKDGRAV's own ε (which ends at 2 ε) say 2/2.8 of it [length]"),
     Key::new("kernel", Kind::Choice(&["plummer", "spline"]), Value::Text(Cow::Borrowed("plummer")), "how close encounters are softened"),
     Key::new("over", Kind::Choice(&["pairs", "tree", "auto"]), Value::Text(Cow::Borrowed("pairs")), "who meets whom: everybody, or far groups as one, through a tree; \"auto\": whichever is faster"),
-    Key::new("theta", Kind::Positive, Value::Number(0.5), "the opening angle θ of the tree, at most 1: a group of size l is met as one from l / θ on"),
+    Key::new("theta", Kind::Fraction, Value::Number(0.5), "the opening angle θ of the tree, at most 1: a group of size l is met as one from l / θ on"),
     Key::new("alpha", Kind::NotNegative, Value::Number(0.0), "above 0: the tree opens by relative force (GADGET): a group is met as one where its quadrupole is below α of the last acceleration"),
+    Key::new("images", Kind::Choice(&["nearest", "ewald"]), Value::Text(Cow::Borrowed("nearest")), "in a periodic box: the nearest image of everybody alone, or all images in a uniform background, in a cube (Ewald 1921)"),
     Key::new("multipoles", Kind::Choice(&["quadrupole", "monopole"]), Value::Text(Cow::Borrowed("quadrupole")), "what the tree knows of a far group"),
 ];
 
@@ -44,6 +46,29 @@ impl Gravity {
             word => Over::Tree { opening, core, auto: word == "auto" },
         }
     }
+    fn all_images(&self) -> bool {
+        self.0.text("images") == "ewald"
+    }
+    /// Whether there is such a law in the box of a problem.
+    fn fits(&self, problem: &Problem) -> Result<(), Error> {
+        if self.all_images() {
+            if self.0.text("kernel") == "spline" {
+                return Err(Error::Scene(
+                    "gravity with images = \"ewald\" is softened by kernel = \"plummer\" alone: leave out \"spline\"".to_owned(),
+                ));
+            }
+            return ewald::fits(problem);
+        }
+        let tree = matches!(self.over(0.0).chosen(problem), Over::Tree { .. });
+        if tree && problem.bounds.has(Side::Periodic) {
+            return Err(Error::Scene(format!(
+                "gravity over = \"tree\" in a periodic box ({}) cannot meet nearest images alone: their force jumps half a box \
+                 away, within a group. Say images = \"ewald\" in a cube that is periodic on all sides, or over = \"pairs\"",
+                problem.bounds
+            )));
+        }
+        Ok(())
+    }
     /// The law of far groups; none where they are met as one particle.
     fn distant(&self, law: Source) -> Option<Source> {
         (self.0.text("multipoles") == "quadrupole").then_some(law)
@@ -55,7 +80,24 @@ impl Force for Gravity {
         let values = params(&self.0, &["g", "softening"]);
         let (g, softening) = (self.0.number("g"), self.0.number("softening"));
         let quadrupole = self.0.text("multipoles") == "quadrupole";
-        vec![if self.0.text("kernel") == "spline" {
+        vec![if self.all_images() {
+            let files = (
+                crate::shader!("forces/gravity_ewald.wgsl"),
+                self.distant(crate::shader!("forces/gravity_ewald_distant.wgsl")),
+            );
+            let frequency = |world: &World| world.bounds.frequency().x;
+            let rule = move |_: &Body, you: &Body, r, world: &World| {
+                ewald::pair(g * you.mass, softening, r, frequency(world))
+            };
+            let far = move |_: &Body, you: &Group, r, world: &World| {
+                if quadrupole {
+                    ewald::group((g, you.mass, you.moments), softening, r, frequency(world))
+                } else {
+                    ewald::pair(g * you.mass, softening, r, frequency(world))
+                }
+            };
+            Law::attracting("gravity_ewald", self.over(0.0), files, values, rule, far)
+        } else if self.0.text("kernel") == "spline" {
             let h = 2.8 * softening;
             let files = (
                 crate::shader!("forces/gravity_spline.wgsl"),
@@ -72,6 +114,26 @@ impl Force for Gravity {
             let far = move |_: &Body, you: &Group, r, _: &World| multipole(g, you, softening, r, quadrupole);
             Law::attracting("gravity", self.over(0.0), files, values, rule, far)
         }]
+    }
+    fn evaluate(&self, plan: &mut Plan, earlier: usize, problem: &Problem) -> Result<(), Error> {
+        self.fits(problem)?;
+        let name = |name: &str| if earlier == 0 { name.to_owned() } else { format!("{name} {}", earlier + 1) };
+        for law in self.laws() {
+            plan.push(&name(&law.name), || law.kernel(problem))?;
+        }
+        if self.all_images() {
+            let sources = [
+                crate::shader!("forces/gravity_waves.wgsl"),
+                crate::shader!("forces/gravity_structure.wgsl"),
+                crate::shader!("forces/gravity_structure_sum.wgsl"),
+                crate::shader!("forces/gravity_images.wgsl"),
+            ];
+            let world = [crate::shader!("world.wgsl"), crate::shader!("fields.wgsl")];
+            let [structure, images] = ewald::kernels(self.0.number("g"), &world, sources, problem)?;
+            plan.push(&name("gravity structure"), || Ok(structure))?;
+            plan.push(&name("gravity images"), || Ok(images))?;
+        }
+        Ok(())
     }
 }
 

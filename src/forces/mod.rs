@@ -1,6 +1,7 @@
 //! Forces. Each is one `.wgsl` and one `.rs` of the same name, and one line in the register below.
 
 mod custom;
+mod ewald;
 mod kind;
 
 pub use custom::Custom;

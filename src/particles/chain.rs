@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use glam::DVec3;
 
 use super::build::{MASS, PARTICLE_RADIUS, Reader, VELOCITY, hold};
-use super::{Particles, Shape};
+use super::{Particles, Shape, one_part};
 use crate::error::Error;
 use crate::links::{Joint, Link, Rod};
 use crate::settings::{Key, Kind, Settings, Value};
@@ -16,6 +16,7 @@ pub const CHAIN: Shape = Shape {
     about: "particles in a row, tied one to the next by springs, ropes or rods: pendulums, strings, beams",
     keys: KEYS,
     build,
+    parts: one_part,
 };
 
 const KEYS: &[Key] = &[

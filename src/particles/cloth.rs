@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::build::{CENTER, MASS, PARTICLE_RADIUS, Reader, SEED, VELOCITY, hold};
 use super::random::Random;
-use super::{Particles, Shape};
+use super::{Particles, Shape, one_part};
 use crate::error::Error;
 use crate::links::{Link, Links};
 use crate::settings::{Key, Kind, Settings, Value};
@@ -17,6 +17,7 @@ pub const CLOTH: Shape = Shape {
     about: "a sheet of springs: along the threads, across the squares, and over two against bending (Provot 1995)",
     keys: KEYS,
     build,
+    parts: one_part,
 };
 
 const KEYS: &[Key] = &[

@@ -1,13 +1,15 @@
-//! A disk galaxy: an exponential disk, sech² across, in a Hernquist halo, near equilibrium (Hernquist 1993).
+//! A disk galaxy: an exponential disk, sech² across, in a Hernquist halo, around a Hernquist bulge, near equilibrium
+//! (Hernquist 1993).
 
+use std::borrow::Cow;
 use std::f64::consts::TAU;
 
 use glam::{DMat3, DVec3};
 
 use super::build::{CENTER, COUNT, G, PARTICLE_RADIUS, Reader, SEED, VELOCITY};
-use super::hernquist::Halo;
+use super::halo::Round;
 use super::random::Random;
-use super::rotation::{Galaxy, Rotation};
+use super::rotation::{Galaxy, Rotation, Sphere};
 use super::{Particles, Shape};
 use crate::error::Error;
 use crate::settings::{Key, Kind, Settings, Value};
@@ -15,11 +17,13 @@ use crate::settings::{Key, Kind, Settings, Value};
 /// The shape `disk`.
 pub const DISK: Shape = Shape {
     name: "disk",
-    about: "a disk galaxy in a halo, near equilibrium: the disk's particles first, then the halo's (Hernquist 1993)",
+    about: "a disk galaxy in a halo, with a bulge or without, near equilibrium: the disk's particles first, then the halo's, then the bulge's (Hernquist 1993)",
     keys: KEYS,
     build,
+    parts,
 };
 
+const NONE: Value = Value::Text(Cow::Borrowed(""));
 const KEYS: &[Key] = &[
     COUNT,
     SEED,
@@ -39,6 +43,16 @@ const KEYS: &[Key] = &[
         Value::Number(0.75),
         "share of the particles that are halo (below 1); their ids follow the disk's",
     ),
+    Key::new("halo_color", Kind::Color, NONE, "the halo in pictures; \"black\" hides it; left out: as the disk"),
+    Key::new("bulge_mass", Kind::NotNegative, Value::Number(0.0), "mass of the bulge [mass]; 0 leaves it out"),
+    Key::new("bulge_scale", Kind::Positive, Value::Number(0.2), "a of the bulge's density, as of the halo's [length]"),
+    Key::new(
+        "bulge_fraction",
+        Kind::NotNegative,
+        Value::Number(0.1),
+        "share of the particles that are bulge (below 1), where it has a mass; their ids follow the halo's",
+    ),
+    Key::new("bulge_color", Kind::Color, NONE, "the bulge in pictures; left out: as the disk"),
     Key::new(
         "toomre_q",
         Kind::NotNegative,
@@ -58,8 +72,8 @@ const KEYS: &[Key] = &[
     PARTICLE_RADIUS,
 ];
 
-/// `count` particles: first those of the disk, then those of the halo, equal masses within each. Both have their own centre
-/// of mass at rest at `center`, up to `velocity`, so that the disk starts in the middle of its halo.
+/// `count` particles: first those of the disk, then those of the halo and of the bulge, equal masses within each. All have
+/// their own centre of mass at rest at `center`, up to `velocity`, so that the disk starts in the middle of its halo.
 fn build(settings: &Settings) -> Result<Particles, Error> {
     let reader = Reader { shape: "disk", settings };
     let (count, _) = reader.room()?;
@@ -69,8 +83,8 @@ fn build(settings: &Settings) -> Result<Particles, Error> {
         disk_mass: reader.positive("disk_mass")?,
         disk_scale: reader.positive("disk_scale")?,
         disk_height: reader.positive("disk_height")?,
-        halo_mass: reader.not_negative("halo_mass")?,
-        halo_scale: reader.positive("halo_scale")?,
+        halo: Sphere { mass: reader.not_negative("halo_mass")?, scale: reader.positive("halo_scale")? },
+        bulge: Sphere { mass: reader.not_negative("bulge_mass")?, scale: reader.positive("bulge_scale")? },
         softening: reader.not_negative("softening")?,
         toomre_q: reader.not_negative("toomre_q")?,
     };
@@ -78,7 +92,7 @@ fn build(settings: &Settings) -> Result<Particles, Error> {
     let center = reader.vector("center")?;
     let velocity = reader.vector("velocity")?;
     let radius = reader.not_negative("particle_radius")?;
-    let (disk_count, halo_count) = split(&reader, count, galaxy.halo_mass)?;
+    let [disk_count, halo_count, bulge_count] = split(&reader, count)?;
 
     let mut disk = Particles::default();
     let rotation = Rotation::new(&galaxy);
@@ -89,36 +103,58 @@ fn build(settings: &Settings) -> Result<Particles, Error> {
         disk.push(tilt * position, tilt * velocity, galaxy.disk_mass / f64::from(disk_count), radius);
     }
     let mut particles = disk.centered(center, velocity);
-    if halo_count > 0 {
-        let mut dark = Particles::default();
-        let halo = Halo::new(&galaxy);
-        for _ in 0..halo_count {
-            let (position, velocity) = halo.draw(&mut random);
-            dark.push(position, velocity, galaxy.halo_mass / f64::from(halo_count), radius);
+    for (Sphere { mass, scale }, count) in [(galaxy.halo, halo_count), (galaxy.bulge, bulge_count)] {
+        if count > 0 {
+            let mut part = Particles::default();
+            let round = Round::new(&galaxy, scale);
+            for _ in 0..count {
+                let (position, velocity) = round.draw(&mut random);
+                part.push(position, velocity, mass / f64::from(count), radius);
+            }
+            particles.append(&part.centered(center, velocity));
         }
-        particles.append(&dark.centered(center, velocity));
     }
     reader.finished(particles)
 }
 
-/// How many particles are disk and how many halo.
+/// How many particles are disk, halo and bulge.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
     reason = "a share below 1 of a number that fits 32 bits"
 )]
-fn split(reader: &Reader, count: usize, halo_mass: f64) -> Result<(u32, u32), Error> {
-    let fraction = reader.number("halo_fraction", "0 or above and below 1", |x| (0.0..1.0).contains(&x))?;
-    let count = u32::try_from(count).unwrap_or(u32::MAX);
-    let halo = if halo_mass > 0.0 { (f64::from(count) * fraction).round() as u32 } else { 0 };
-    let disk = count - halo;
-    if halo_mass > 0.0 && halo == 0 {
-        Err(reader.error("no particle is left for the halo: raise count or halo_fraction, or set halo_mass to 0"))
-    } else if disk == 0 {
-        Err(reader.error("no particle is left for the disk: raise count or lower halo_fraction"))
-    } else {
-        Ok((disk, halo))
+fn counts(settings: &Settings) -> [u32; 3] {
+    let count = u32::try_from(settings.whole("count")).unwrap_or(u32::MAX);
+    let share = |mass, fraction| {
+        let wanted = settings.number(mass) > 0.0;
+        if wanted { (f64::from(count) * settings.number(fraction)).round() as u32 } else { 0 }
+    };
+    let (halo, bulge) = (share("halo_mass", "halo_fraction"), share("bulge_mass", "bulge_fraction"));
+    [count.saturating_sub(halo.saturating_add(bulge)), halo, bulge]
+}
+
+/// The same, checked.
+fn split(reader: &Reader, count: usize) -> Result<[u32; 3], Error> {
+    for fraction in ["halo_fraction", "bulge_fraction"] {
+        reader.number(fraction, "0 or above and below 1", |x| (0.0..1.0).contains(&x))?;
     }
+    let [disk, halo, bulge] = counts(reader.settings);
+    let empty = |mass: &str, part: u32| part == 0 && reader.settings.number(mass) > 0.0;
+    if empty("halo_mass", halo) {
+        Err(reader.error("no particle is left for the halo: raise count or halo_fraction, or set halo_mass to 0"))
+    } else if empty("bulge_mass", bulge) {
+        Err(reader.error("no particle is left for the bulge: raise count or bulge_fraction, or set bulge_mass to 0"))
+    } else if disk == 0 || [disk, halo, bulge].iter().map(|n| *n as usize).sum::<usize>() != count {
+        Err(reader.error("no particle is left for the disk: raise count or lower halo_fraction or bulge_fraction"))
+    } else {
+        Ok([disk, halo, bulge])
+    }
+}
+
+/// Halo and bulge.
+fn parts(settings: &Settings) -> Vec<(&'static str, u32)> {
+    let [_, halo, bulge] = counts(settings);
+    vec![("halo_color", halo), ("bulge_color", bulge)]
 }
 
 /// One star of the disk, turning about z.

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::build::{CENTER, PARTICLE_RADIUS, Reader, SEED, hold};
 use super::random::Random;
-use super::{Particles, Shape};
+use super::{Particles, Shape, one_part};
 use crate::error::Error;
 use crate::links::{Joint, Rod};
 use crate::settings::{Key, Kind, Settings, Value};
@@ -15,6 +15,7 @@ pub const HAIR: Shape = Shape {
     about: "strands of rods and joints that stand on a head; the first two particles of each are fixed",
     keys: KEYS,
     build,
+    parts: one_part,
 };
 
 const KEYS: &[Key] = &[

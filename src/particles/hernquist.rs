@@ -1,88 +1,113 @@
-//! The halo of a galaxy: Hernquist's profile  ρ(r) ∝ 1 / (r (r + a)³)  (Hernquist 1990), cut at ten scale lengths, in
-//! balance with the whole galaxy's gravity.
+//! Hernquist's sphere in equilibrium, a galaxy or halo with a cusp:  ρ(r) = M a / (2π r (r + a)³)  (Hernquist 1990).
 //!
-//! The second moment of the velocities solves the isotropic Jeans equation (Hernquist 1993), the disk counted as if it
-//! were spherical. Their shape is that of a polytrope,  `p(v) ∝ v² (1 - v²/v_esc²)^n`, with n chosen at every radius for that
-//! moment: Gaussian deep inside, and never an escaper. (For Plummer's sphere it is exact, with n = 7/2.)
+//! Velocities are drawn from the model's own distribution function, his equation 17, by rejection without any table. The
+//! model ends nowhere, so particles are drawn from its inner `cutoff` alone, and have just the mass of that: forces and
+//! motions inside are those of the endless model, and only who leaves the cut meets nobody on the way in.
 
-use glam::DVec3;
-
+use super::build::{CENTER, COUNT, G, PARTICLE_RADIUS, Reader, SEED, VELOCITY};
 use super::random::Random;
-use super::rotation::Galaxy;
+use super::{Particles, Shape, one_part};
+use crate::error::Error;
+use crate::settings::{Key, Kind, Settings, Value};
 
-/// Radius of the cut, in scale lengths.
-pub(super) const CUT: f64 = 10.0;
-const INNER: f64 = 1e-4;
-const ROWS: u32 = 2000;
+/// The shape `hernquist`.
+pub const HERNQUIST: Shape = Shape {
+    name: "hernquist",
+    about: "Hernquist's sphere, a galaxy or halo with a cusp ρ ∝ 1/r, in equilibrium (Hernquist 1990)",
+    keys: KEYS,
+    parts: one_part,
+    build,
+};
 
-/// Dispersion and escape speed over radius.
-pub(super) struct Halo {
-    scale: f64,
-    /// ln r of the first row, and from row to row.
-    first: f64,
-    step: f64,
-    /// Squares of the dispersion per axis and of the escape speed \[length² / time²\].
-    rows: Vec<(f64, f64)>,
+const KEYS: &[Key] = &[
+    COUNT,
+    SEED,
+    Key::new("mass", Kind::Positive, Value::Number(1.0), "mass of all particles together [mass]"),
+    Key::new(
+        "scale",
+        Kind::Positive,
+        Value::Number(1.0 / 3.0),
+        "scale a [length]; half of the mass lies within 2.414 a; 1/3 gives the energy -1/4 for g = mass = 1",
+    ),
+    G,
+    Key::new(
+        "cutoff",
+        Kind::Positive,
+        Value::Number(0.99),
+        "share of the endless model's mass that is drawn from, from the centre outwards (below 1); 0.99 ends at 199 a",
+    ),
+    CENTER,
+    VELOCITY,
+    PARTICLE_RADIUS,
+];
+
+/// `count` particles of equal mass; their centre of mass is at rest at `center`, up to `velocity`.
+fn build(settings: &Settings) -> Result<Particles, Error> {
+    let reader = Reader { shape: "hernquist", settings };
+    let (count, mut particles) = reader.room()?;
+    let mut random = Random::new(settings.whole("seed"));
+    let total = reader.positive("mass")?;
+    let scale = reader.positive("scale")?;
+    let g = reader.positive("g")?;
+    let cutoff = reader.number("cutoff", "above 0 and below 1", |x| x > 0.0 && x < 1.0)?;
+    let radius = reader.not_negative("particle_radius")?;
+    let mass = total / f64::from(u32::try_from(count).unwrap_or(u32::MAX));
+    for _ in 0..count {
+        // M(r)/M = r² / (r + a)², turned round.
+        let root = (cutoff * random.uniform()).sqrt();
+        let r = root / (1.0 - root);
+        let position = random.direction() * (scale * r);
+        // The endless model is heavier than what is drawn of it.
+        let escape = (2.0 * g * total / (cutoff * scale * (1.0 + r))).sqrt();
+        let velocity = random.direction() * (escape * speed(r, &mut random));
+        particles.push(position, velocity, mass, radius);
+    }
+    reader.finished(particles.centered(reader.vector("center")?, reader.vector("velocity")?))
 }
 
-/// Share of the halo's mass within r, for r in scale lengths.
-pub(super) fn enclosed(r: f64) -> f64 {
-    let share = |r: f64| (r / (r + 1.0)) * (r / (r + 1.0));
-    if r >= CUT { 1.0 } else { share(r) / share(CUT) }
-}
-
-impl Halo {
-    /// Integrates pressure and potential inwards from the cut.
-    pub(super) fn new(galaxy: &Galaxy) -> Self {
-        let scale = galaxy.halo_scale;
-        let first = libm::log(INNER * scale);
-        let step = libm::log(CUT / INNER) / f64::from(ROWS - 1);
-        let radius = |row: u32| libm::exp(first + step * f64::from(row));
-        let density = |r: f64| 1.0 / (r * (r + scale) * (r + scale) * (r + scale));
-
-        let edge = radius(ROWS - 1);
-        let mut r = edge;
-        let mut gravity = galaxy.spherical(edge);
-        let mut pressure = 0.0;
-        let mut depth = gravity * edge; // of a point mass, from the edge to infinity
-        let mut rows = vec![(0.0, 2.0 * depth)];
-        for row in (0..ROWS - 1).rev() {
-            let inner = radius(row);
-            let pull = galaxy.spherical(inner);
-            // Trapezoids in ln r.
-            pressure += 0.5 * step * (density(r) * gravity * r + density(inner) * pull * inner);
-            depth += 0.5 * step * (gravity * r + pull * inner);
-            rows.push((pressure / density(inner), 2.0 * depth));
-            (r, gravity) = (inner, pull);
+/// A speed in units of the escape speed at a radius r in units of a.
+///
+/// With q² = a |E| / G M, the speeds x have the density  `x² h(q) q⁵ (1 - q²)^(-5/2)`.  For  q² = u / (r + u),  which is
+/// x² = r (1 - u) / (r + u),  that is  `√(1 - u) h(q) q⁵`  for u between 0 and 1: bounded however near the centre is.
+fn speed(r: f64, random: &mut Random) -> f64 {
+    loop {
+        let u = random.uniform();
+        let height = H_0 * random.uniform();
+        let square = u / (r + u);
+        // 1 at most: q² is 1 / (1 + r) for a body at rest, and less for others.
+        let part = square * (1.0 + r);
+        if height < (1.0 - u).sqrt() * part * part * part.sqrt() * h(square) {
+            return (r * (1.0 - u) / (r + u)).sqrt();
         }
-        rows.reverse();
-        Self { scale, first, step, rows }
     }
+}
 
-    /// Position and velocity of one particle.
-    pub(super) fn draw(&self, random: &mut Random) -> (DVec3, DVec3) {
-        // M(r) ∝ r² / (r + a)², turned round.
-        let root = random.uniform().sqrt() * CUT / (CUT + 1.0);
-        let r = self.scale * root / (1.0 - root);
-        let position = random.direction() * r;
-        let (dispersion, escape) = self.at(r);
-        // Mean of v² is 3/2 v_esc² / (n + 5/2) = 3 σ².
-        let n = (0.5 * escape / dispersion - 2.5).clamp(0.0, 1e9);
-        // v² / v_esc² has a beta distribution (3/2, n + 1): the quotient of two gamma numbers, of which half the square of
-        // three normal numbers is one.
-        let normals = random.normals();
-        let rest = 2.0 * random.gamma(n + 1.0);
-        let velocity = normals * (escape / (normals.length_squared() + rest)).sqrt();
-        (position, velocity)
+/// h(0), its largest value.
+const H_0: f64 = 25.6;
+
+/// h(q) = (3 arcsin q + q √(1 - q²) (1 - 2q²) (8q⁴ - 8q² - 3)) / q⁵, of q².
+fn h(square: f64) -> f64 {
+    if square < 0.01 {
+        // The closed form loses its digits here; the next term of the series is 1e-11.
+        let series = [25.6, -192.0 / 7.0, 16.0 / 3.0, 8.0 / 11.0, 3.0 / 13.0];
+        return series.iter().rev().fold(0.0, |sum, c| sum * square + c);
     }
+    let q = square.sqrt();
+    let rest = q * (1.0 - square).sqrt() * (1.0 - 2.0 * square) * (8.0 * square * (square - 1.0) - 3.0);
+    (3.0 * libm::asin(q) + rest) / (square * square * q)
+}
 
-    /// The squares of dispersion and escape speed at a radius.
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "held within the table")]
-    fn at(&self, r: f64) -> (f64, f64) {
-        let place = ((libm::log(r) - self.first) / self.step).clamp(0.0, f64::from(ROWS - 2));
-        let row = place as usize;
-        let part = (place - place.floor()).clamp(0.0, 1.0);
-        let (low, high) = (self.rows[row], self.rows[row + 1]);
-        (low.0 + (high.0 - low.0) * part, low.1 + (high.1 - low.1) * part)
+#[cfg(test)]
+mod tests {
+    use super::h;
+
+    #[test]
+    fn the_series_meets_the_closed_form() {
+        // Values in 30 digits; the closed form keeps 1e-13 of them at q = 0.1, where the two meet.
+        for (q, wanted) in [(0.01, 25.597_257_230_5), (0.1, 25.326_248_348_6), (0.5, 19.088_567_921_2)] {
+            assert!((h(q * q) / wanted - 1.0_f64).abs() < 1e-11, "{q}: {}", h(q * q));
+        }
+        let (below, above) = (h(0.01 - 1e-12), h(0.01 + 1e-12));
+        assert!((below - above).abs() < 1e-9, "{below} {above}");
     }
 }

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::build::{CENTER, MASS, PARTICLE_RADIUS, Reader, VELOCITY};
-use super::{Particles, Shape};
+use super::{Particles, Shape, one_part};
 use crate::error::Error;
 use crate::links::{Link, Links};
 use crate::settings::{Key, Kind, Settings, Value};
@@ -15,6 +15,7 @@ pub const JELLY: Shape = Shape {
             Poisson's ratio 1/4",
     keys: KEYS,
     build,
+    parts: one_part,
 };
 
 const KEYS: &[Key] = &[

@@ -1,16 +1,22 @@
-//! A simple cubic lattice, straight or jittered.
+//! A simple cubic lattice, straight, jittered or with waves in it.
 
 use glam::DVec3;
 
 use super::build::{CENTER, PARTICLE_RADIUS, Reader, SEED, VELOCITY};
 use super::random::Random;
-use super::{Particles, Shape};
+use super::zeldovich::displacements;
+use super::{Particles, Shape, one_part};
 use crate::error::Error;
 use crate::settings::{Key, Kind, Settings, Value};
 
 /// The shape `lattice`.
-pub const LATTICE: Shape =
-    Shape { name: "lattice", about: "a simple cubic lattice, straight or jittered", keys: KEYS, build };
+pub const LATTICE: Shape = Shape {
+    name: "lattice",
+    about: "a simple cubic lattice, straight, jittered, or displaced by random waves that grow by gravity (Zel'dovich 1970)",
+    keys: KEYS,
+    build,
+    parts: one_part,
+};
 
 const KEYS: &[Key] = &[
     Key::required("size", Kind::Vector, "particles along x, y and z: three whole numbers, 1 or above"),
@@ -21,6 +27,24 @@ const KEYS: &[Key] = &[
         Kind::NotNegative,
         Value::Number(0.0),
         "largest displacement along each axis, in spacings; 0.5 lets neighbours just touch",
+    ),
+    Key::new(
+        "displacement",
+        Kind::NotNegative,
+        Value::Number(0.0),
+        "random waves, periodic over the lattice: root mean square of their displacement along each axis, in spacings",
+    ),
+    Key::new(
+        "spectrum",
+        Kind::Number,
+        Value::Number(-2.0),
+        "n of the power k^n of the density in those waves: the lower it is, the more there is in long ones",
+    ),
+    Key::new(
+        "growth",
+        Kind::Number,
+        Value::Number(0.0),
+        "velocity of each particle over its displacement by waves [1 / time]; sqrt(4 pi g density) for the growing mode",
     ),
     SEED,
     CENTER,
@@ -49,6 +73,16 @@ fn build(settings: &Settings) -> Result<Particles, Error> {
     let center = reader.vector("center")?;
     let velocity = reader.vector("velocity")?;
     let radius = reader.not_negative("particle_radius")?;
+    let displacement = reader.not_negative("displacement")?;
+    let [spectrum, growth] = ["spectrum", "growth"].map(|key| reader.number(key, "finite", |_| true));
+    let (spectrum, growth) = (spectrum?, growth?);
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "whole, of a product that fits 32 bits"
+    )]
+    let sides = size.to_array().map(|n| n as usize);
+    let waves = if displacement > 0.0 { displacements(sides, spectrum, &mut random) } else { Vec::new() };
     let middle = (size - DVec3::ONE) * 0.5;
     for k in steps(size.z) {
         for j in steps(size.y) {
@@ -60,7 +94,8 @@ fn build(settings: &Settings) -> Result<Particles, Error> {
                     let z = random.between(-jitter, jitter);
                     place += DVec3::new(x, y, z);
                 }
-                particles.push(place * spacing + center, velocity, mass, radius);
+                let wave = waves.get(particles.len()).map_or(DVec3::ZERO, |wave| *wave * displacement);
+                particles.push((place + wave) * spacing + center, velocity + wave * spacing * growth, mass, radius);
             }
         }
     }

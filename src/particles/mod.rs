@@ -3,10 +3,12 @@
 mod build;
 pub mod chain;
 pub mod cloth;
+pub mod clusters;
 pub mod disk;
 mod exponential_disk;
 pub mod hair;
-mod hernquist;
+mod halo;
+pub mod hernquist;
 pub mod jelly;
 pub mod lattice;
 pub mod plummer;
@@ -15,6 +17,7 @@ pub mod random_box;
 mod rotation;
 pub mod sphere;
 pub mod spray;
+mod zeldovich;
 
 use glam::DVec3;
 
@@ -54,13 +57,23 @@ pub struct Shape {
     pub keys: &'static [Key],
     /// Makes the particles. The same settings give the same bits on every platform.
     pub build: fn(&Settings) -> Result<Particles, Error>,
+    /// What follows on its first part, where it has several, in the order of ids: the key of the colour of each, and how
+    /// many particles are of it. For settings that `build` takes.
+    pub parts: fn(&Settings) -> Vec<(&'static str, u32)>,
+}
+
+/// The parts of a shape that is all of one kind.
+fn one_part(_: &Settings) -> Vec<(&'static str, u32)> {
+    Vec::new()
 }
 
 /// Every generator.
 pub const SHAPES: &[Shape] = &[
     plummer::PLUMMER,
+    hernquist::HERNQUIST,
     sphere::SPHERE,
     disk::DISK,
+    clusters::CLUSTERS,
     lattice::LATTICE,
     random_box::RANDOM_BOX,
     spray::SPRAY,

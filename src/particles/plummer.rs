@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 
 use super::build::{CENTER, COUNT, G, PARTICLE_RADIUS, Reader, SEED, VELOCITY};
 use super::random::Random;
-use super::{Particles, Shape};
+use super::{Particles, Shape, one_part};
 use crate::error::Error;
 use crate::settings::{Key, Kind, Settings, Value};
 
@@ -15,6 +15,7 @@ pub const PLUMMER: Shape = Shape {
     about: "Plummer's sphere, a star cluster in equilibrium (Plummer 1911; Aarseth, Hénon & Wielen 1974)",
     keys: KEYS,
     build,
+    parts: one_part,
 };
 
 const KEYS: &[Key] = &[

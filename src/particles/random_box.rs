@@ -4,13 +4,18 @@ use glam::DVec3;
 
 use super::build::{CENTER, COUNT, PARTICLE_RADIUS, Reader, SEED, VELOCITY};
 use super::random::Random;
-use super::{Particles, Shape};
+use super::{Particles, Shape, one_part};
 use crate::error::Error;
 use crate::settings::{Key, Kind, Settings, Value};
 
 /// The shape `box`.
-pub const RANDOM_BOX: Shape =
-    Shape { name: "box", about: "a box filled uniformly at random, at rest or warm", keys: KEYS, build };
+pub const RANDOM_BOX: Shape = Shape {
+    name: "box",
+    about: "a box filled uniformly at random, at rest or warm",
+    keys: KEYS,
+    build,
+    parts: one_part,
+};
 
 const KEYS: &[Key] = &[
     COUNT,

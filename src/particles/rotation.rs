@@ -4,7 +4,7 @@
 use std::f64::consts::PI;
 
 use super::exponential_disk::Spectrum;
-use super::hernquist;
+use super::halo;
 
 /// The masses and lengths of a galaxy.
 #[derive(Debug, Clone, Copy)]
@@ -13,10 +13,24 @@ pub(super) struct Galaxy {
     pub disk_mass: f64,
     pub disk_scale: f64,
     pub disk_height: f64,
-    pub halo_mass: f64,
-    pub halo_scale: f64,
+    pub halo: Sphere,
+    pub bulge: Sphere,
     pub softening: f64,
     pub toomre_q: f64,
+}
+
+/// A part with Hernquist's profile.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Sphere {
+    pub mass: f64,
+    pub scale: f64,
+}
+
+impl Sphere {
+    /// Mass within r \[mass\].
+    fn enclosed(&self, r: f64) -> f64 {
+        self.mass * halo::enclosed(r / self.scale)
+    }
 }
 
 /// The disk's state at one radius; all are \[length / time\] or its square, frequencies \[1 / time²\].
@@ -56,11 +70,11 @@ impl Galaxy {
     pub(super) fn spherical(&self, r: f64) -> f64 {
         let x = r / self.disk_scale;
         let disk = self.disk_mass * (1.0 - (1.0 + x) * libm::exp(-x));
-        self.g * (disk + self.halo_mass * hernquist::enclosed(r / self.halo_scale)) * r / self.softened(r * r)
+        self.g * (disk + self.halo.enclosed(r) + self.bulge.enclosed(r)) * r / self.softened(r * r)
     }
 
-    /// The halo's pull on the disk at a radius, averaged over the heights there: R ∂Φ/∂R and z ∂Φ/∂z.
-    fn halo_pull(&self, radius: f64) -> (f64, f64) {
+    /// The pull of halo and bulge on the disk at a radius, averaged over the heights there: R ∂Φ/∂R and z ∂Φ/∂z.
+    fn round_pull(&self, radius: f64) -> (f64, f64) {
         const STEP: f64 = 0.1;
         let (mut inward, mut across) = (0.0, 0.0);
         for i in 0..80_u32 {
@@ -69,8 +83,8 @@ impl Galaxy {
             let weight = STEP * 4.0 * fade / ((1.0 + fade) * (1.0 + fade));
             let z = height * self.disk_height;
             let r2 = radius * radius + z * z;
-            let inside = hernquist::enclosed(r2.sqrt() / self.halo_scale);
-            let turn = weight * self.g * self.halo_mass * inside / self.softened(r2);
+            let pull = |part: Sphere| weight * self.g * part.mass * halo::enclosed(r2.sqrt() / part.scale);
+            let turn = (pull(self.halo) + pull(self.bulge)) / self.softened(r2);
             inward += turn * radius * radius;
             across += turn * z * z;
         }
@@ -92,7 +106,7 @@ impl Rotation {
         let mut rings: Vec<Ring> = (0..RINGS)
             .map(|row| {
                 let x = radius(row);
-                let (inward, across) = galaxy.halo_pull(x * scale);
+                let (inward, across) = galaxy.round_pull(x * scale);
                 let circular = unit * spectrum.inward(x) + inward;
                 // ⟨σ_z²⟩ = ⟨z ∂Φ/∂z⟩: the virial theorem across the plane.
                 let vertical = unit * spectrum.across(x) + across;

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::build::{CENTER, COUNT, G, PARTICLE_RADIUS, Reader, SEED, VELOCITY};
 use super::random::Random;
-use super::{Particles, Shape};
+use super::{Particles, Shape, one_part};
 use crate::error::Error;
 use crate::settings::{Key, Kind, Settings, Value};
 
@@ -14,6 +14,7 @@ pub const SPHERE: Shape = Shape {
     about: "a uniform sphere, cold or with Gaussian velocities (van Albada 1982)",
     keys: KEYS,
     build,
+    parts: one_part,
 };
 
 const KEYS: &[Key] = &[

@@ -4,13 +4,18 @@ use glam::{DMat3, DVec3};
 
 use super::build::{CENTER, COUNT, PARTICLE_RADIUS, Reader, SEED, VELOCITY};
 use super::random::Random;
-use super::{Particles, Shape};
+use super::{Particles, Shape, one_part};
 use crate::error::Error;
 use crate::settings::{Key, Kind, Settings, Value};
 
 /// The shape `spray`.
-pub const SPRAY: Shape =
-    Shape { name: "spray", about: "thrown from a nozzle into a cone: sparks, drops, a fountain", keys: KEYS, build };
+pub const SPRAY: Shape = Shape {
+    name: "spray",
+    about: "thrown from a nozzle into a cone: sparks, drops, a fountain",
+    keys: KEYS,
+    build,
+    parts: one_part,
+};
 
 const KEYS: &[Key] = &[
     COUNT,

@@ -75,6 +75,8 @@ pub struct Frame {
     pub lamp: f64,
     /// Pixels of the map of shadows, each way.
     pub map: u32,
+    /// What is farther from the centre, towards the eye or away from it, is not drawn \[length\].
+    pub slab: f64,
 }
 
 /// Where a place is seen.
@@ -108,12 +110,13 @@ impl Frame {
     pub(super) fn see(&self, x: DVec3) -> Seen {
         let camera = &self.camera;
         let r = x - camera.center;
-        let depth = camera.distance - r.dot(camera.back);
+        let z = r.dot(camera.back);
+        let depth = camera.distance - z;
         let near = NEAR * camera.distance;
         let parallel = camera.distance == 0.0;
         let scale = if parallel { self.scale() } else { self.scale() * camera.distance / depth.max(near) };
         let place = 0.5 * self.size() + scale * DVec2::new(r.dot(camera.right), -r.dot(camera.up));
-        let visible = (parallel || depth > near) && place.abs().max_element() < FAR_OUT;
+        let visible = (parallel || depth > near) && z.abs() <= self.slab && place.abs().max_element() < FAR_OUT;
         Seen { place, depth, scale, visible }
     }
     /// What is linear in the picture, and back: one over the depth where rays meet in an eye.
@@ -129,7 +132,7 @@ impl Frame {
     pub(super) fn pixel(&self, x: u32, y: u32) -> usize {
         y as usize * self.width as usize + x as usize
     }
-    fn values(&self) -> [(&'static str, Scalar); 31] {
+    fn values(&self) -> [(&'static str, Scalar); 32] {
         let camera = &self.camera;
         let float = Scalar::Float;
         [
@@ -164,6 +167,7 @@ impl Frame {
             ("solids", Scalar::Uint(self.solids)),
             ("lamp", float(self.lamp)),
             ("map", Scalar::Uint(self.map)),
+            ("slab", float(self.slab)),
         ]
     }
     /// Elements of the fields that do not have one for each particle.

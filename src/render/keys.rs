@@ -36,6 +36,12 @@ pub const KEYS: &[Key] = &[
         "half the height of the picture at the centre, without auto_frame [length]",
     ),
     Key::new(
+        "slab",
+        Kind::NotNegative,
+        Value::Number(0.0),
+        "draw only a slab of this thickness about the centre, across the line of sight; 0: everything [length]",
+    ),
+    Key::new(
         "style",
         Kind::Choice(&["auto", "glow", "balls"]),
         word("auto"),

@@ -28,8 +28,8 @@ pub fn from_lamp(frame: &Frame) -> Frame {
         extent: frame.lamp,
         distance: 0.0,
     };
-    // A line is as wide as the map can hold without gaps.
-    Frame { camera, width: frame.map, height: frame.map, fine: 1, thread: 0.75, ..*frame }
+    // A line is as wide as the map can hold without gaps; and a slab across the lamp's own line of sight would be another one.
+    Frame { camera, width: frame.map, height: frame.map, fine: 1, thread: 0.75, slab: NEVER, ..*frame }
 }
 
 /// What shadows are made of.

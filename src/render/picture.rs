@@ -127,6 +127,7 @@ impl Picture {
             facets: facets.count,
             solids: facets.solids(),
             map: 1024,
+            slab: if settings.number("slab") > 0.0 { 0.5 * settings.number("slab") } else { NEVER },
             lamp: LAMP_VIEW * camera.extent * (width / height).max(1.0),
         };
         Ok(Self { frame, color, trail, exposure: settings.number("exposure"), facets })

@@ -31,16 +31,15 @@ const NAMED: &[(&str, [u8; 3])] = &[
     ("skyblue", [0x87, 0xce, 0xeb]),
 ];
 
+/// What a colour is, for "… must be …".
+pub(super) const WANTED: &str = "a colour such as \"#ffcc88\" or \"gold\"";
+
 /// Reads `"#ffcc88"`, `"#fc8"` or a name; red, green and blue come back in sRGB.
-pub(super) fn read(node: &Node, report: &mut Report) -> Option<[u8; 3]> {
-    const WANTED: &str = "a colour such as \"#ffcc88\" or \"gold\"";
-    let Data::Text(text) = &node.data else { return super::value::refuse(node, "color", WANTED, report) };
-    if let Some((_, rgb)) = NAMED.iter().find(|(name, _)| *name == text) {
-        return Some(*rgb);
-    }
-    let hex = text.strip_prefix('#').and_then(digits);
+pub(super) fn read(node: &Node, key: &str, report: &mut Report) -> Option<[u8; 3]> {
+    let Data::Text(text) = &node.data else { return super::value::refuse(node, key, WANTED, report) };
+    let hex = known(text);
     if hex.is_none() {
-        let mut fault = Fault::at(&node.place, format!("`color` must be {WANTED}, not \"{}\"", shorten(text)));
+        let mut fault = Fault::at(&node.place, format!("`{key}` must be {WANTED}, not \"{}\"", shorten(text)));
         if text.starts_with('#') {
             fault = fault.label("three or six digits, 0 to 9 and a to f");
         } else if let Some(near) = nearest(text, NAMED.iter().map(|(name, _)| *name)) {
@@ -49,6 +48,17 @@ pub(super) fn read(node: &Node, report: &mut Report) -> Option<[u8; 3]> {
         report.push(fault);
     }
     hex
+}
+
+/// The colour that a text names, if it names one.
+pub(super) fn known(text: &str) -> Option<[u8; 3]> {
+    let named = NAMED.iter().find(|(name, _)| *name == text).map(|(_, rgb)| *rgb);
+    named.or_else(|| text.strip_prefix('#').and_then(digits))
+}
+
+/// A colour as six digits.
+pub(super) fn shown([r, g, b]: [u8; 3]) -> String {
+    format!("#{r:02x}{g:02x}{b:02x}")
 }
 
 fn digits(text: &str) -> Option<[u8; 3]> {

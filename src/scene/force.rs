@@ -92,7 +92,11 @@ fn over(table: &Table<'_>, report: &mut Report) -> Option<Over> {
             _ => Over::Pairs,
         });
     };
-    let kind = if wanted == "neighbors" { Kind::Count } else { Kind::Positive };
+    let kind = match wanted {
+        "neighbors" => Kind::Count,
+        "theta" => Kind::Fraction,
+        _ => Kind::Positive,
+    };
     let Some(given) = table.get(wanted) else {
         let about = match wanted {
             "range" => "how far one meets another [length]",

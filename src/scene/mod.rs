@@ -76,7 +76,8 @@ pub struct Scene {
     pub bounds: Bounds,
     /// All particles, in the order of the scene; at least one.
     pub particles: Particles,
-    /// One for each `[[particles]]`, in their order; together they cover every id.
+    /// One for each `[[particles]]`, or for each of its parts (a disk, its halo), in their order; together they cover every
+    /// id.
     pub groups: Vec<Group>,
     /// The forces, in the order of the scene; there may be none.
     pub forces: Vec<Box<dyn Force>>,
@@ -92,7 +93,7 @@ pub struct Scene {
     pub remarks: Vec<String>,
 }
 
-/// Particles that came from one entry of the scene.
+/// Particles that came from one entry of the scene, or one part of them.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Group {
     /// Their ids.
@@ -175,7 +176,11 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
         let room = options.most_particles.saturating_sub(start);
         if let Some(block) = particles::read(table, room, (files, &motions), report) {
             particles.append(&block.particles);
-            groups.push(Group { ids: start..ids(&particles), color: block.color });
+            let mut end = start;
+            for (count, color) in block.parts {
+                groups.push(Group { ids: end..end + count, color });
+                end += count;
+            }
             out.0 += &block.resolved;
         }
     }

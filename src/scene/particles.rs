@@ -45,7 +45,8 @@ const BODY: &[Key] = &[
 /// One entry, read.
 pub(super) struct Block {
     pub(super) particles: Particles,
-    pub(super) color: Option<[u8; 3]>,
+    /// Its parts, as the picture tells them apart: how many particles, and their colour; the last has the rest.
+    pub(super) parts: Vec<(u32, Option<[u8; 3]>)>,
     /// The entry as the resolved scene has it.
     pub(super) resolved: String,
 }
@@ -57,15 +58,16 @@ pub(super) fn read(
     (files, motions): (&Files, &[Motion]),
     report: &mut Report,
 ) -> Option<Block> {
-    let color = table.get("color").and_then(|e| color::read(&e.node, report));
+    let color = table.get("color").and_then(|e| color::read(&e.node, "color", report));
     let species = table.get("species").and_then(|e| species(e, report));
     let mut out = Writer::default();
     out.header("[[particles]]");
     let entry = table.one_of(&["file", "shape", "bodies"], report)?;
     let faults = report.len();
+    let mut others = Vec::new();
     let particles = match entry.key.as_str() {
         "file" => from_file(table, entry, files, &mut out, report),
-        "shape" => from_shape(table, entry, room, &mut out, report),
+        "shape" => from_shape(table, entry, room, &mut others, &mut out, report),
         _ => from_bodies(table, entry, &mut out, report),
     };
     let particles = particles.filter(|_| report.len() == faults)?;
@@ -73,8 +75,8 @@ pub(super) fn read(
         report.push(if entry.key == "file" { fault.in_input() } else { fault });
         return None;
     }
-    if let Some([r, g, b]) = color {
-        out.text("color", &format!("#{r:02x}{g:02x}{b:02x}"));
+    if let Some(rgb) = color {
+        out.text("color", &color::shown(rgb));
     }
     // A file may have species of its own.
     let species = species.or((entry.key != "file").then_some(0));
@@ -83,7 +85,16 @@ pub(super) fn read(
     }
     let mut particles = species.into_iter().fold(particles, Particles::of_species);
     held::read(table, motions, &mut particles, &mut out, report);
-    Some(Block { particles, color, resolved: out.0 })
+    // Parts that nobody tells apart are one.
+    if others.iter().all(|(_, own)| own.is_none()) {
+        others.clear();
+    }
+    let first = particles.len() - others.iter().map(|(count, _)| *count as usize).sum::<usize>();
+    let first = (u32::try_from(first).unwrap_or(u32::MAX), color);
+    // What has no colour of its own has that of the whole.
+    let others = others.into_iter().map(|(count, own)| (count, own.or(color)));
+    let parts = std::iter::once(first).chain(others).collect();
+    Some(Block { particles, parts, resolved: out.0 })
 }
 
 fn beside(what: &'static str) -> Vec<&'static str> {
@@ -133,7 +144,15 @@ fn from_file(
     }
 }
 
-fn from_shape(table: &Table<'_>, entry: &Entry, room: u32, out: &mut Writer, report: &mut Report) -> Option<Particles> {
+/// `parts` gets what follows on the shape's first part: how many particles each has, and its own colour.
+fn from_shape(
+    table: &Table<'_>,
+    entry: &Entry,
+    room: u32,
+    parts: &mut Vec<(u32, Option<[u8; 3]>)>,
+    out: &mut Writer,
+    report: &mut Report,
+) -> Option<Particles> {
     let names: Vec<_> = SHAPES.iter().map(|s| s.name).collect();
     let name = walk::choice(entry, "shape", &names, report)?;
     let shape = SHAPES.iter().find(|s| s.name == name)?;
@@ -153,7 +172,11 @@ fn from_shape(table: &Table<'_>, entry: &Entry, room: u32, out: &mut Writer, rep
     out.text("shape", name);
     out.settings(shape.keys, &settings);
     match (shape.build)(&settings) {
-        Ok(particles) => Some(particles),
+        Ok(particles) => {
+            let own = |key| color::known(settings.text(key));
+            parts.extend((shape.parts)(&settings).into_iter().map(|(key, count)| (count, own(key))));
+            Some(particles)
+        }
         Err(why) => {
             let message = match why {
                 Error::Scene(message) => message,

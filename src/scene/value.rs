@@ -6,6 +6,7 @@ use glam::DVec3;
 
 use crate::settings::{Kind, Value};
 
+use super::color;
 use super::report::{Fault, Report, listed, nearest};
 use super::tree::{Data, Node};
 
@@ -18,6 +19,7 @@ pub(super) fn wanted(kind: Kind) -> String {
         Kind::Number => "a number".to_owned(),
         Kind::Positive => "a number above zero".to_owned(),
         Kind::NotNegative => "a number, zero or above".to_owned(),
+        Kind::Fraction => "a number above zero, 1 at most".to_owned(),
         Kind::Count => "a whole number, one or above".to_owned(),
         Kind::Whole => "a whole number, zero or above".to_owned(),
         Kind::Species => "a whole number, zero or above, or \"all\"".to_owned(),
@@ -27,13 +29,14 @@ pub(super) fn wanted(kind: Kind) -> String {
         Kind::Choice(known) => format!("one of {}", listed(known.iter().copied())),
         Kind::Flag => "true or false".to_owned(),
         Kind::Motion => "the name of a motion".to_owned(),
+        Kind::Color => color::WANTED.to_owned(),
     }
 }
 
 /// Reads a value of this kind; what is wrong goes into the report.
 pub(super) fn read(node: &Node, key: &str, kind: Kind, report: &mut Report) -> Option<Value> {
     match kind {
-        Kind::Number | Kind::Positive | Kind::NotNegative | Kind::Count | Kind::Whole => {
+        Kind::Number | Kind::Positive | Kind::NotNegative | Kind::Fraction | Kind::Count | Kind::Whole => {
             number(node, key, kind, &wanted(kind), report).map(Value::Number)
         }
         Kind::Species => match &node.data {
@@ -50,6 +53,10 @@ pub(super) fn read(node: &Node, key: &str, kind: Kind, report: &mut Report) -> O
         Kind::Motion => match &node.data {
             Data::Text(name) => Some(Value::Text(Cow::Owned(name.clone()))),
             _ => refuse(node, key, &wanted(kind), report),
+        },
+        Kind::Color => match &node.data {
+            Data::Text(text) if text.is_empty() => Some(Value::Text(Cow::Borrowed(""))),
+            _ => color::read(node, key, report).map(|rgb| Value::Text(Cow::Owned(color::shown(rgb)))),
         },
     }
 }
@@ -84,6 +91,7 @@ pub(super) fn number(node: &Node, key: &str, kind: Kind, wanted: &str, report: &
     };
     let low = match kind {
         Kind::Positive => value <= 0.0,
+        Kind::Fraction => value <= 0.0 || value > 1.0,
         Kind::NotNegative | Kind::Whole | Kind::Species => value < 0.0,
         Kind::Count => value < 1.0,
         _ => false,
@@ -96,7 +104,7 @@ pub(super) fn number(node: &Node, key: &str, kind: Kind, wanted: &str, report: &
         let end =
             if whole { format!("it may be at most {largest}") } else { "single precision ends at 3.4e38".to_owned() };
         report.push(Fault::at(&node.place, format!("`{key}` is too large")).label(end));
-    } else if is_lost(value) && (kind == Kind::Positive || value != 0.0) {
+    } else if is_lost(value) && (matches!(kind, Kind::Positive | Kind::Fraction) || value != 0.0) {
         report.push(Fault::at(&node.place, format!("`{key}` is too small")).label("it is zero in single precision"));
     } else {
         return Some(value);

@@ -47,13 +47,7 @@ impl Setup {
     /// # Errors
     /// When the setup makes no sense, or a shader does not compile.
     pub fn plans(&self, machine: Machine) -> Result<Plans, Error> {
-        let problem = Problem::new(self.check()?, machine)
-            .at(&self.particles.position, self.bounds)
-            .of_species(&self.particles.species)
-            .tied(&self.particles.links, &self.particles.held)
-            .moved(&self.particles.motions, self.dt)
-            .breaking(self.breaks())
-            .solved(self.solver);
+        let problem = self.problem(machine)?;
         let mut start = Step::new(&self.forces, problem.clone());
         start.enclose();
         start.lead();
@@ -63,6 +57,19 @@ impl Setup {
         self.integrator.step(&mut step);
         let measure = Step::measurement(&self.forces, problem)?;
         Ok(Plans { start: start.begun()?, step: step.done()?, measure })
+    }
+    /// What plans are written for.
+    ///
+    /// # Errors
+    /// When the setup makes no sense.
+    pub fn problem(&self, machine: Machine) -> Result<Problem, Error> {
+        Ok(Problem::new(self.check()?, machine)
+            .at(&self.particles.position, self.bounds)
+            .of_species(&self.particles.species)
+            .tied(&self.particles.links, &self.particles.held)
+            .moved(&self.particles.motions, self.dt)
+            .breaking(self.breaks())
+            .solved(self.solver))
     }
     /// Whether links may change as it runs.
     #[must_use]

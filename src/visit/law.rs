@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::{DVec3, DVec4};
 
+use super::twin::Sample;
 use super::{Body, Group, Jacobian, Over, each, links, near, pairs, tree, twin, walk};
 use crate::error::Error;
 use crate::kernel::{Kernel, Problem, Scalar, Shader, Source, Twin, World};
@@ -40,6 +41,8 @@ pub struct Distant {
     pub wgsl: Option<Source>,
     /// The twin that walks the same tree as the device.
     pub walk: Option<Twin>,
+    /// What some targets feel of everybody.
+    pub sample: Option<Sample>,
 }
 
 /// Files that a law has by calling a function of theirs, and not having one of that name itself.
@@ -105,7 +108,7 @@ impl Law {
     ) -> Self {
         let rule = Arc::new(rule);
         let (wgsl, distant) = files;
-        let every = rule.clone();
+        let (every, sample) = (rule.clone(), Some(twin::sample(rule.clone())));
         let gather = move |me: &Body, you: &Body, r, world: &World, sum: &mut DVec4| *sum += every(me, you, r, world);
         let walk = match over {
             Over::Tree { opening, core, .. } => Some(walk::twin(opening, core, rule, far)),
@@ -119,7 +122,7 @@ impl Law {
             twin: Some(twin::meetings(over, gather, |_, sum: &DVec4, _| *sum)),
             reciprocal: true,
             jacobian: None,
-            distant: Distant { wgsl: distant, walk },
+            distant: Distant { wgsl: distant, walk, sample },
         }
     }
     /// A law that makes something else of its neighbours than a sum of accelerations; `gather(me, you, r, sum)` takes

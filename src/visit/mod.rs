@@ -21,4 +21,5 @@ pub use links::{LINK, LINK_START, bind};
 pub use over::Over;
 pub(crate) use tied::Tied;
 pub use tree::crossing;
+pub use twin::Sample;
 pub use walk::Group;

@@ -2,13 +2,17 @@
 
 use super::{Law, Over};
 use crate::error::Error;
-use crate::kernel::{ALARM, ALARM_WORDS, Binding, Kernel, Machine, Pass, Problem, Scalar, Shader, Source, Threads};
+use crate::kernel::{
+    ALARM, ALARM_WORDS, Binding, Kernel, Machine, Pass, Problem, Scalar, Shader, Side, Source, Threads,
+};
 use crate::tree::{GROUP, LEAF, Opening, Tree};
 
 /// Turns that loops may take where a driver ends them after 65 535.
 const TURNS: u32 = 60_000;
 /// Targets of one dispatch, at most: a whole number of groups.
 const TARGETS: u32 = 1 << 18;
+/// What one dispatch meets, at most: about a tenth of a second on a GPU that is not fast.
+const MEETINGS: f64 = (1 << 30) as f64;
 
 /// The θ that is none: single precision holds l / θ of what is larger.
 const LEAST: f64 = 1e-30;
@@ -65,21 +69,32 @@ pub fn kernel(law: Law, tree: &Tree, problem: &Problem) -> Result<Kernel, Error>
             law.name
         )));
     }
+    if law.distant.walk.is_none() && problem.bounds.has(Side::Periodic) {
+        return Err(Error::Scene(format!(
+            "`{}` walks a tree in a periodic box: the nearest image jumps from side to side half a box away, and no group can \
+             be met as one there; meet everybody (over = \"pairs\"), or open the box",
+            law.name
+        )));
+    }
     let shader = join(&law, tree, &problem.machine)?;
     let params = law.uniforms(&shader)?;
     let mut constants = problem.constants(&shader);
     let most = if problem.machine.software { TURNS } else { u32::MAX };
     constants.extend([("GROUP", GROUP), ("LEAF", LEAF), ("MOST", most)].map(|(name, n)| (name, f64::from(n))));
+    let each = meetings(tree, problem);
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "few")]
+    let groups = (MEETINGS / each / f64::from(GROUP)).clamp(1.0, f64::from(TARGETS / GROUP)) as u32;
     let mut passes = Vec::new();
     let mut first = 0;
     while first < problem.count {
-        let end = problem.count.min(first.saturating_add(TARGETS));
+        let end = problem.count.min(first.saturating_add(groups * GROUP));
         let mut uniforms = params.clone();
         if let Some(binding) = shader.reflection().binding("tree") {
             uniforms.push(("tree", uniform(tree, binding, first, end)?));
         }
         let lanes = (end - first).div_ceil(GROUP) * shader.reflection().workgroup;
-        let work = meetings(tree, problem, end - first);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "an estimate")]
+        let work = (each * f64::from(end - first)) as u64;
         let threads = Threads::new(lanes);
         let pass = Pass { constants: constants.clone(), uniforms, threads, work, ..Pass::new(shader.clone(), 0) };
         passes.push(pass.on(&tree.fields()));
@@ -90,18 +105,15 @@ pub fn kernel(law: Law, tree: &Tree, problem: &Problem) -> Result<Kernel, Error>
     Ok(Kernel { name: law.name, passes, twin: law.distant.walk, sizes, scratch: Vec::new(), tables: Vec::new() })
 }
 
-/// About how many meetings of two a walk of so many targets is worth: a guess of time alone.
-fn meetings(tree: &Tree, problem: &Problem, targets: u32) -> u64 {
+/// About how many meetings of two a target's walk is worth: a guess of time alone.
+fn meetings(tree: &Tree, problem: &Problem) -> f64 {
     let levels = f64::from(tree.height()) + 1.0;
     let theta = match tree.opening {
         Opening::Geometric { theta } => theta,
         Opening::Relative { .. } => 0.6,
     };
     // Far groups are those of a few shells on each level; one costs about as much as three meetings.
-    let each = (700.0 + 3.0 * 60.0 * levels / theta.powi(2)).min(f64::from(problem.count));
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "an estimate")]
-    let all = (each * f64::from(targets)) as u64;
-    all
+    (700.0 + 180.0 * levels / theta.powi(2)).min(f64::from(problem.count))
 }
 
 /// The block `tree` of a shader, for the targets `first` ≤ k < `end`.

@@ -8,7 +8,8 @@ use rayon::prelude::*;
 use super::Over;
 use super::body::{Body, bodies};
 use super::tied::{Tied, row};
-use crate::kernel::{ACCELERATION, Bounds, Twin, World};
+use crate::error::Error;
+use crate::kernel::{ACCELERATION, Bounds, Host, Twin, World};
 use crate::links::{Corner, Half};
 
 /// Each particle alone.
@@ -49,6 +50,23 @@ pub fn meetings<S: Default>(
             *a += finish(me, &sum, &world) * DVec4::new(1.0, 1.0, 1.0, 0.5);
         });
         Ok(())
+    })
+}
+
+/// What chosen targets feel of everybody, by their ids: acceleration, and their share of the potential per unit mass.
+pub type Sample = Arc<dyn Fn(&Host, &[usize]) -> Result<Vec<DVec4>, Error> + Send + Sync>;
+
+/// The same as [`meetings`] of a law that adds up, for some targets alone.
+pub fn sample(rule: Arc<impl Fn(&Body, &Body, DVec3, &World) -> DVec4 + Send + Sync + 'static>) -> Sample {
+    Arc::new(move |host, targets| {
+        let (bodies, world) = (bodies(host)?, host.world());
+        let felt = |id: &usize| -> Option<DVec4> {
+            let me = bodies.get(*id)?;
+            let others = bodies.iter().filter(|you| you.index != me.index);
+            let met = others.map(|you| rule(me, you, world.bounds.shortest(you.position - me.position), &world));
+            Some(met.sum::<DVec4>() * DVec4::new(1.0, 1.0, 1.0, 0.5))
+        };
+        Ok(targets.par_iter().filter_map(felt).collect())
     })
 }
 

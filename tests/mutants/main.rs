@@ -6,6 +6,7 @@ mod curious;
 mod equivalent_neighbors;
 mod equivalent_primitives;
 mod equivalents;
+mod ewald;
 mod held;
 mod implicit;
 mod laws;

@@ -1,9 +1,11 @@
 //! The generators: same bits for ever, the totals they promise, and the models' published numbers within sampling error.
 
+mod clustered;
 mod disk;
 mod models;
 mod tied;
 mod tied_bodies;
+mod waves;
 
 use std::borrow::Cow;
 
@@ -65,8 +67,10 @@ fn totals(p: &Particles) -> (f64, DVec3, DVec3) {
 fn the_bits_never_change() {
     let stored = [
         ("plummer", 0xe3b5_8a2c_371b_8eec),
+        ("hernquist", 0x6fb8_bfc8_a05d_861f),
         ("sphere", 0x85a1_99b2_52d8_1b88),
         ("disk", 0x6c6c_7862_37bc_89f1),
+        ("clusters", 0x8f8b_9f69_a873_c01d),
         ("lattice", 0x138f_3cc1_8be2_c72b),
         ("box", 0x7947_fcef_4d33_1765),
         ("spray", 0x75af_c8eb_4624_d16b),
@@ -89,9 +93,12 @@ fn the_bits_never_change() {
 #[test]
 fn every_key_matters() {
     for shape in SHAPES {
-        let base = settings(shape.name, &[("count", 40.0), ("virial", 0.2), ("jitter", 0.1), ("speed", 0.1)]);
+        let numbers = [("count", 40.0), ("virial", 0.2), ("jitter", 0.1), ("speed", 0.1)];
+        let more = [("bulge_mass", 0.3), ("displacement", 0.2), ("growth", 0.4)];
+        let base = settings(shape.name, &[&numbers[..], &more].concat());
         let before = hash(&made(shape.name, &base));
-        for key in shape.keys {
+        // Colours are for pictures.
+        for key in shape.keys.iter().filter(|key| key.kind != Kind::Color) {
             let other = match key.kind {
                 Kind::Vector | Kind::Direction => Value::Vector(DVec3::new(2.0, 3.0, 4.0)),
                 Kind::Count | Kind::Whole => Value::Number(37.0),
@@ -107,12 +114,21 @@ fn every_key_matters() {
 #[test]
 fn totals_are_exact() {
     let (center, velocity) = (DVec3::new(3.0, -2.0, 1.0), DVec3::new(-0.5, 0.25, 4.0));
-    for (name, mass) in [("plummer", 2.5), ("sphere", 2.5), ("disk", 7.0), ("box", 500.0 * 2.5)] {
+    for (name, mass) in
+        [("plummer", 2.5), ("hernquist", 2.5), ("sphere", 2.5), ("disk", 7.0), ("clusters", 2.5), ("box", 500.0 * 2.5)]
+    {
         let p = made(
             name,
             &settings(
                 name,
-                &[("count", 500.0), ("mass", 2.5), ("virial", 0.4), ("speed", 1.0), ("particle_radius", 0.1)],
+                &[
+                    ("count", 500.0),
+                    ("mass", 2.5),
+                    ("virial", 0.4),
+                    ("speed", 1.0),
+                    ("dispersion", 1.0),
+                    ("particle_radius", 0.1),
+                ],
             )
             .with("center", Value::Vector(center))
             .with("velocity", Value::Vector(velocity)),
@@ -138,11 +154,16 @@ fn bad_settings_are_errors() {
         ("plummer", "scale", Value::Number(1e-320), "too far apart"),
         ("plummer", "center", Value::Vector(DVec3::INFINITY), "center"),
         ("plummer", "count", Value::Number(1e10), "10000000000 particles need ids beyond"),
+        ("hernquist", "cutoff", Value::Number(1.0), "cutoff is 1; it must be above 0 and below 1"),
+        ("clusters", "children", Value::Number(1.0), "children is 1; it must be 2 or above"),
+        ("clusters", "dimension", Value::Number(3.1), "dimension is 3.1; it must be above 0 and at most 3"),
         ("sphere", "virial", Value::Number(-0.1), "virial is -0.1; it must be 0 or above"),
         ("sphere", "radius", Value::Text(Cow::Borrowed("big")), "radius is 0"),
         ("disk", "halo_fraction", Value::Number(1.0), "halo_fraction is 1; it must be 0 or above and below 1"),
         ("disk", "halo_fraction", Value::Number(0.0), "no particle is left for the halo"),
         ("disk", "halo_fraction", Value::Number(0.999), "no particle is left for the disk"),
+        ("disk", "bulge_fraction", Value::Number(-0.5), "bulge_fraction is -0.5; it must be 0 or above and below 1"),
+        ("disk", "bulge_mass", Value::Number(-1.0), "bulge_mass is -1; it must be 0 or above"),
         ("disk", "normal", Value::Vector(DVec3::ZERO), "a direction must not be zero"),
         ("disk", "disk_scale", Value::Number(0.0), "disk_scale is 0"),
         ("lattice", "size", Value::Vector(DVec3::new(2.0, 2.5, 2.0)), "three whole numbers"),

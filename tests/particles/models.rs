@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use crate::{made, make, settings};
 
 /// Acceleration and potential of every particle, G = 1, Plummer softening, direct sum.
-fn gravity(p: &Particles, softening: f64) -> Vec<(DVec3, f64)> {
+pub fn gravity(p: &Particles, softening: f64) -> Vec<(DVec3, f64)> {
     (0..p.len())
         .into_par_iter()
         .map(|i| {
@@ -25,7 +25,7 @@ fn gravity(p: &Particles, softening: f64) -> Vec<(DVec3, f64)> {
 }
 
 /// Mean and its standard error.
-fn mean(values: impl Iterator<Item = f64>) -> (f64, f64) {
+pub fn mean(values: impl Iterator<Item = f64>) -> (f64, f64) {
     let (n, sum, squares) = values.fold((0.0, 0.0, 0.0), |(n, s, q), x| (n + 1.0, s + x, q + x * x));
     let mean = sum / n;
     (mean, ((squares / n - mean * mean) / n).sqrt())
@@ -33,7 +33,7 @@ fn mean(values: impl Iterator<Item = f64>) -> (f64, f64) {
 
 /// `got`, a mean with its standard error, lies within four of them of `wanted`; `slack` is the model's own error.
 #[track_caller]
-fn near(what: &str, got: (f64, f64), wanted: f64, slack: f64) {
+pub fn near(what: &str, got: (f64, f64), wanted: f64, slack: f64) {
     let room = 4.0 * got.1 + slack * wanted.abs();
     assert!((got.0 - wanted).abs() <= room, "{what}: {} is not {wanted} ± {room}", got.0);
     assert!(room < 0.2 * wanted.abs(), "{what}: the test is too weak, ± {room} of {wanted}");
@@ -41,7 +41,7 @@ fn near(what: &str, got: (f64, f64), wanted: f64, slack: f64) {
 
 /// The share of values below a bound, within four standard errors of a binomial distribution.
 #[track_caller]
-fn share(what: &str, values: &[f64], bound: f64, wanted: f64) {
+pub fn share(what: &str, values: &[f64], bound: f64, wanted: f64) {
     #[expect(clippy::cast_precision_loss, reason = "a few thousand")]
     let n = values.len() as f64;
     #[expect(clippy::cast_precision_loss, reason = "a few thousand")]
@@ -49,7 +49,7 @@ fn share(what: &str, values: &[f64], bound: f64, wanted: f64) {
     near(what, (got, (wanted * (1.0 - wanted) / n).sqrt()), wanted, 0.0);
 }
 
-fn lengths(vectors: &[DVec3]) -> Vec<f64> {
+pub fn lengths(vectors: &[DVec3]) -> Vec<f64> {
     vectors.iter().map(|v| v.length()).collect()
 }
 

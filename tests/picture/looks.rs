@@ -27,6 +27,24 @@ fn bright(image: &Image, x: f64, y: f64) -> u8 {
 }
 
 #[test]
+fn a_slab_leaves_out_what_is_before_and_behind_it() {
+    let (mut particles, settings) = line(&[DVec3::ZERO; 4]);
+    for x in &mut particles.position {
+        // From −0.75 behind the centre to 0.75 before it; of a slab of 1 the two in the middle are part.
+        x.z = x.x;
+    }
+    for (slab, seen) in [(0.0, [true; 4]), (1.0, [false, true, true, false])] {
+        let settings = settings.clone().with("slab", Value::Number(slab)).with("color", word("group"));
+        let mut picture = Picture::new(&settings, &particles, &[], Trail::default()).unwrap();
+        (picture.frame.bloom, picture.frame.glow) = (0.0, 4.0);
+        let image = &on_gpu(&particles, &[&picture])[0];
+        assert_close(image, &on_cpu(&particles, &picture), "a slab");
+        assert_eq!([-0.75, -0.25, 0.25, 0.75].map(|x| bright(image, x + 0.005, 0.0) > 0), seen);
+        assert_eq!(image.outside, if slab > 0.0 { 2 } else { 0 });
+    }
+}
+
+#[test]
 fn a_stroke_reaches_from_where_the_particle_was_and_a_particle_at_rest_is_a_light() {
     let (particles, settings) = line(&[DVec3::Y, DVec3::new(0.0, -2.0, 0.0), DVec3::ZERO, 0.5 * DVec3::X]);
     let settings = settings.with("color", word("heading")).with("tail", Value::Number(0.4));

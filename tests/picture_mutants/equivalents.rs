@@ -34,6 +34,7 @@ pub const EQUIVALENT: &[Equivalent] = &[
     ),
     same("disc.wgsl", "< p.w + 0.5;", "<", "<=", TIE),
     same("frame.wgsl", "visible = depth > NEAR * frame.distance;", ">", ">=", TIE),
+    same("frame.wgsl", "visible = visible && abs(z) <= frame.slab;", "<=", "<", TIE),
     same("frame.wgsl", "abs(place.x) < FAR_OUT && abs(place.y) < FAR_OUT;", "<", "<=", TIE),
     same("project.wgsl", "let ball = size >= frame.solid;", ">=", ">", TIE),
     same("frame.wgsl", "let negative = bits >= 0x80000000u;", ">=", ">", ZERO),

@@ -217,6 +217,7 @@ pub fn many() -> Vec<Scene> {
         sizes(particles, 0.1);
         picture.frame.marker = 1.4;
         picture.frame.solid = 1.0;
+        picture.frame.slab = 0.9;
     });
     vec![lights, dazzling, faint, crowd]
 }

@@ -12,7 +12,18 @@ fn builtin(name: &str) -> Scene {
 #[test]
 fn every_one_loads_and_says_what_to_see() {
     let names: Vec<_> = SCENES.iter().map(|s| s.name).collect();
-    let bodies = ["throw", "kepler", "figure_eight", "solar_system", "galaxy", "merger", "fountain"];
+    let bodies = [
+        "throw",
+        "kepler",
+        "figure_eight",
+        "solar_system",
+        "galaxy",
+        "merger",
+        "plummer",
+        "cold_collapse",
+        "periodic_box",
+        "fountain",
+    ];
     let tied = ["pendulum", "double_pendulum", "spring_chain", "stiff", "cloth", "flag", "tear", "jelly", "hair"];
     assert_eq!(names, [&bodies[..], &tied, &["flock", "fish_school", "vicsek", "murmuration"]].concat());
     for builtin in SCENES {
@@ -86,9 +97,24 @@ fn the_figure_eight_and_kepler_have_their_published_energies() {
 fn groups_and_colours_cover_all_particles() {
     let merger = builtin("merger");
     let ids: Vec<_> = merger.groups.iter().map(|g| g.ids.clone()).collect();
-    assert_eq!(ids, [0..5120, 5120..10_240]);
-    assert_eq!(merger.groups[0].color, Some([0x7f, 0xb2, 0xff]));
-    assert_eq!(merger.particles.len(), 10_240);
+    // Disk, halo and bulge of each.
+    assert_eq!(ids, [0..50_000, 50_000..90_000, 90_000..100_000, 100_000..150_000, 150_000..190_000, 190_000..200_000]);
+    let colors = merger.groups.iter().map(|g| g.color.map_or(0, |[r, g, b]| u32::from_be_bytes([0, r, g, b])));
+    let [blue, orange, pale] = [0x5b_9bff, 0xff_9140, 0xff_f0d8];
+    assert_eq!(colors.collect::<Vec<_>>(), [blue, 0, pale, orange, 0, pale]);
+    assert_eq!(merger.particles.len(), 200_000);
+    // A disk whose parts have no colours is one group, and its halo may take the disk's.
+    let disk = |more: &str| {
+        let text = format!("[simulation]\ndt = 0.1\nsteps = 1\n[[particles]]\nshape = \"disk\"\ncount = 40\n{more}");
+        crate::load(&text, &[]).map(|scene| scene.groups).map_err(|faults| faults.to_string())
+    };
+    let of = |ids, color| motes::scene::Group { ids, color };
+    assert_eq!(disk(""), Ok(vec![of(0..40, None)]));
+    let bulge = "color = \"gold\"\nbulge_mass = 1\nbulge_color = \"#fff\"\n";
+    let gold = Some([255, 215, 0]);
+    assert_eq!(disk(bulge), Ok(vec![of(0..6, gold), of(6..36, gold), of(36..40, Some([255; 3]))]));
+    let wrong = disk("halo_color = \"blak\"").err().unwrap_or_default();
+    assert!(wrong.contains("`halo_color` must be a colour") && wrong.contains("did you mean \"black\"?"), "{wrong}");
     for (color, rgb) in [("#fc8", [0xff, 0xcc, 0x88]), ("#0102fF", [1, 2, 255]), ("skyblue", [0x87, 0xce, 0xeb])] {
         let scene = crate::load(crate::SMALL, &[&format!("particles.0.color={color}")]);
         assert_eq!(scene.unwrap_or_else(|faults| panic!("{faults}")).groups[0].color, Some(rgb));

@@ -24,6 +24,8 @@ pub fn forces(entry: &Entry) -> Vec<(String, Box<dyn Force>)> {
 /// What a key is set to: all its words, or one number that f32 holds.
 fn values(key: &Key) -> Vec<Value> {
     match (key.kind, &key.default) {
+        // What wants a box of its own has tests of its own.
+        (Kind::Choice(["nearest", "ewald"]), _) => vec![Value::Text("nearest".into())],
         (Kind::Choice(words), _) => words.iter().map(|w| Value::Text(Cow::Borrowed(*w))).collect(),
         (Kind::Flag, _) => vec![Value::Flag(false), Value::Flag(true)],
         // Who goes along with a motion has tests of its own.

@@ -40,13 +40,24 @@ pub fn one(position: DVec3, velocity: DVec3) -> Particles {
 
 /// A simulation by the twins.
 pub fn cpu(particles: &Particles, forces: Vec<Box<dyn Force>>, name: &str, dt: f64) -> Simulation<Cpu> {
+    cpu_in(&Bounds::default(), particles, forces, name, dt)
+}
+
+/// The same in a box.
+pub fn cpu_in(
+    bounds: &Bounds,
+    particles: &Particles,
+    forces: Vec<Box<dyn Force>>,
+    name: &str,
+    dt: f64,
+) -> Simulation<Cpu> {
     let count = u32::try_from(particles.len()).expect("few");
     let setup = Setup {
         particles: particles.clone(),
         forces,
         integrator: integrator(name),
         dt,
-        bounds: Bounds::default(),
+        bounds: *bounds,
         solver: motes::Solver::default(),
     };
     Simulation::on(Cpu::new(count).expect("some"), &setup).expect("a simulation")

@@ -2,11 +2,14 @@
 
 mod agents;
 mod bodies;
+mod direct;
 mod gravity;
 mod neighbors;
 mod plot;
+mod scaling;
 mod sheet;
 mod springs;
+mod tree;
 
 use std::time::Instant;
 
@@ -30,10 +33,11 @@ pub async fn bench(args: &BenchArgs) -> Result<(), Failure> {
     }
     let mut value = json!({ "device": found.describe(), "commit": commit(), "version": env!("CARGO_PKG_VERSION"),
         "cores": cores, "repeat": args.repeat });
-    for topic in [Topic::Gravity, Topic::Neighbors, Topic::Springs] {
+    for topic in [Topic::Gravity, Topic::Tree, Topic::Neighbors, Topic::Springs] {
         if args.topic.is_none_or(|wanted| wanted == topic) {
             let part = match topic {
                 Topic::Gravity => gravity::bench(args, &found).await?,
+                Topic::Tree => tree::bench(args, &found)?,
                 Topic::Neighbors => neighbors::bench(args, &found).await?,
                 Topic::Springs => springs::bench(args, &found)?,
             };
@@ -43,7 +47,10 @@ pub async fn bench(args: &BenchArgs) -> Result<(), Failure> {
         }
     }
     if let Some(path) = &args.plot {
-        plot::neighbors(path, &value)?;
+        match args.topic {
+            Some(Topic::Tree) => plot::tree(path, &value)?,
+            _ => plot::neighbors(path, &value)?,
+        }
     }
     if args.json {
         out!("{value:#}");

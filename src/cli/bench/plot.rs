@@ -1,4 +1,4 @@
-//! How the time of a step grows with the agents, out of the numbers that `motes bench --json` gives.
+//! How the time of a step grows, out of the numbers that `motes bench --json` gives.
 
 use std::path::Path;
 
@@ -10,48 +10,95 @@ use serde_json::Value;
 const SIZE: (u32, u32) = (880, 520);
 const INK: RGBColor = RGBColor(38, 42, 51);
 const FAINT: RGBColor = RGBColor(226, 229, 235);
-/// What is drawn: the rows, the times in them, what it is called, its colour.
-const LINES: [(&str, &str, &str, RGBColor); 3] = [
-    ("circles", "seconds_per_step", "circles, 33 neighbours each", RGBColor(36, 104, 196)),
-    ("circles", "plain_seconds_per_step", "circles in plain Rust", RGBColor(150, 156, 168)),
-    ("boids", "seconds_per_step", "boids, 7 neighbours each", RGBColor(214, 112, 32)),
-];
+const BLUE: RGBColor = RGBColor(36, 104, 196);
+const GRAY: RGBColor = RGBColor(150, 156, 168);
+const ORANGE: RGBColor = RGBColor(214, 112, 32);
+const GREEN: RGBColor = RGBColor(46, 140, 96);
+
+/// What is measured at some sizes.
+struct Line {
+    /// Sizes, and the median time of a step in milliseconds.
+    points: Vec<(f64, f64)>,
+    name: String,
+    color: RGBColor,
+    /// The power of the size that a step is expected to grow with: drawn through the largest size.
+    growth: i32,
+}
 
 /// Draws the searches of a bench.
 ///
 /// # Errors
 /// [`Error::Output`] when there is nothing to draw, or the file cannot be written.
 pub fn neighbors(path: &Path, bench: &Value) -> Result<(), Error> {
-    let mut svg = String::new();
-    draw(&mut svg, bench).map_err(|message| Error::Output { file: path.to_owned(), message })?;
-    atomically(path, |out| std::io::Write::write_all(out, svg.as_bytes()))
+    let line = |rows: &str, times: &str, name: &str, color| Line {
+        points: points(&bench[rows], "agents", times),
+        name: name.to_owned(),
+        color,
+        growth: 1,
+    };
+    let lines = [
+        line("circles", "seconds_per_step", "circles, 33 neighbours each", BLUE),
+        line("circles", "plain_seconds_per_step", "circles in plain Rust", GRAY),
+        line("boids", "seconds_per_step", "boids, 7 neighbours each", ORANGE),
+    ];
+    write(path, "agents", &lines, "there are no searches to draw: let `motes bench` measure neighbors")
 }
 
-/// Agents and the median time of a step, in milliseconds.
-fn points(bench: &Value, rows: &str, times: &str) -> Vec<(f64, f64)> {
-    let rows = bench[rows].as_array().map_or(&[][..], Vec::as_slice);
+/// Draws gravity through a tree, the first way of opening it, and all pairs over the bodies of the first set.
+///
+/// # Errors
+/// [`Error::Output`] when there is nothing to draw, or the file cannot be written.
+pub fn tree(path: &Path, bench: &Value) -> Result<(), Error> {
+    let sets = bench["tree"].as_array().map_or(&[][..], Vec::as_slice);
+    let walk = |(set, color): (&Value, RGBColor)| {
+        let variant = &set["variants"][0];
+        let name = [&variant["name"], &set["set"]].map(|word| word.as_str().unwrap_or_default()).join(", ");
+        Line {
+            points: points(&variant["sizes"], "bodies", "seconds_per_step"),
+            name: format!("tree, {name}"),
+            color,
+            growth: 1,
+        }
+    };
+    let mut lines: Vec<Line> = sets.iter().zip([BLUE, ORANGE, GREEN]).map(walk).collect();
+    if let Some(set) = sets.first() {
+        let points = points(&set["pairs"], "bodies", "seconds_per_step");
+        lines.push(Line { points, name: "all pairs".to_owned(), color: GRAY, growth: 2 });
+    }
+    write(path, "bodies", &lines, "there is no tree to draw: let `motes bench tree` measure one")
+}
+
+/// Sizes and the median time of a step, in milliseconds.
+fn points(rows: &Value, sizes: &str, times: &str) -> Vec<(f64, f64)> {
+    let rows = rows.as_array().map_or(&[][..], Vec::as_slice);
     let point = |row: &Value| {
         let times: Vec<f64> = row[times].as_array()?.iter().filter_map(Value::as_f64).collect();
-        (!times.is_empty()).then(|| Some((row["agents"].as_f64()?, 1e3 * super::median(&times))))?
+        (!times.is_empty()).then(|| Some((row[sizes].as_f64()?, 1e3 * super::median(&times))))?
     };
     rows.iter().filter_map(point).collect()
 }
 
-fn draw(svg: &mut String, bench: &Value) -> Result<(), String> {
-    let lines = LINES.map(|(rows, times, name, color)| (points(bench, rows, times), name, color));
-    let all = || lines.iter().flat_map(|(points, _, _)| points);
-    let ends = |of: fn(&(f64, f64)) -> f64| all().map(of).fold((f64::MAX, 0.0_f64), |(a, b), x| (a.min(x), b.max(x)));
-    let (agents, times) = (ends(|p| p.0), ends(|p| p.1));
-    if agents.1 <= 0.0 || times.0 <= 0.0 {
-        return Err("there are no searches to draw: let `motes bench` measure neighbors".to_owned());
+fn write(path: &Path, sizes: &str, lines: &[Line], nothing: &str) -> Result<(), Error> {
+    let fault = |message| Error::Output { file: path.to_owned(), message };
+    if lines.iter().all(|line| line.points.is_empty()) {
+        return Err(fault(nothing.to_owned()));
     }
+    let mut svg = String::new();
+    draw(&mut svg, sizes, lines).map_err(fault)?;
+    atomically(path, |out| std::io::Write::write_all(out, svg.as_bytes()))
+}
+
+fn draw(svg: &mut String, sizes: &str, lines: &[Line]) -> Result<(), String> {
+    let all = || lines.iter().flat_map(|line| &line.points);
+    let ends = |of: fn(&(f64, f64)) -> f64| all().map(of).fold((f64::MAX, 0.0_f64), |(a, b), x| (a.min(x), b.max(x)));
+    let (counts, times) = (ends(|p| p.0), ends(|p| p.1));
     let root = SVGBackend::with_string(svg, SIZE).into_drawing_area();
     root.fill(&WHITE).map_err(|e| e.to_string())?;
     let mut chart = ChartBuilder::on(&root)
         .margin(18)
         .x_label_area_size(46)
         .y_label_area_size(74)
-        .build_cartesian_2d((0.8 * agents.0..1.25 * agents.1).log_scale(), (0.7 * times.0..1.5 * times.1).log_scale())
+        .build_cartesian_2d((0.8 * counts.0..1.25 * counts.1).log_scale(), (0.7 * times.0..1.5 * times.1).log_scale())
         .map_err(|e| e.to_string())?;
     let text = |size: i32| ("sans-serif", size).into_font().color(&INK);
     chart
@@ -61,17 +108,20 @@ fn draw(svg: &mut String, bench: &Value) -> Result<(), String> {
         .light_line_style(TRANSPARENT)
         .label_style(text(14))
         .axis_desc_style(text(15))
-        .x_desc("agents")
+        .x_desc(sizes)
         .y_desc("a step [ms]")
         .x_label_formatter(&|x| super::large(*x))
         .y_label_formatter(&|y| format!("{y}"))
         .draw()
         .map_err(|e| e.to_string())?;
-    for (points, name, color) in lines {
-        // As it would be if a step took as long for every agent as it does in the largest flock.
+    for Line { points, name, color, growth } in lines {
+        let color = *color;
+        // As it would be if a step grew just so on the way to the largest size.
         if let Some((most, time)) = points.last().copied() {
-            let straight = [agents.0, most].map(|n| (n, time * n / most));
-            chart.draw_series(LineSeries::new(straight, color.mix(0.35))).map_err(|e| e.to_string())?;
+            let ideal = |n: f64| time * (n / most).powi(*growth);
+            let least = counts.0.max(most * (0.7 * times.0 / time).powf(1.0 / f64::from(*growth)));
+            let ends = [least, most].map(|n| (n, ideal(n)));
+            chart.draw_series(LineSeries::new(ends, color.mix(0.35))).map_err(|e| e.to_string())?;
         }
         let dots = points.iter().map(|at| Circle::new(*at, 4, color.filled()));
         let series = chart.draw_series(dots).map_err(|e| e.to_string())?;

@@ -78,8 +78,10 @@ impl Step<'_> {
             self.at(by.until);
             self.add(update::reach(count, factor));
         }
+        // Trees are built by what was felt last, before that is cleared.
+        let laws = self.laws(|place| !which[place]);
         self.clear();
-        self.gather(|place| !which[place]);
+        self.felt(laws);
         if ahead {
             self.add(update::reach(count, 0.0));
         } else {

@@ -1,0 +1,18 @@
+// Adds the blocks of the structure factor, in their order: real and imaginary parts, wave by wave.
+@group(3) @binding(1) var<storage, read_write> structure_parts: array<vec2f>;
+@group(3) @binding(2) var<storage, read_write> structure: array<f32>;
+
+override WAVES: u32 = 126u;
+override BLOCKS: u32 = 1u;
+const WORKGROUP: u32 = 64u;
+
+@compute @workgroup_size(WORKGROUP)
+fn gravity_structure_sum(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let wave = group.x * WORKGROUP + lane;
+    if wave < WAVES {
+        var sum = vec2f();
+        for (var block = 0u; block < BLOCKS; block += 1u) { sum += structure_parts[block * WAVES + wave]; }
+        structure[2u * wave] = sum.x;
+        structure[2u * wave + 1u] = sum.y;
+    }
+}

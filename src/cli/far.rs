@@ -1,0 +1,117 @@
+//! What is to be said of forces that take far groups as one.
+
+use motes::forces::Over;
+use motes::kernel::{Backend, Machine};
+use motes::lockstep::{Truncation, truncation};
+use motes::{Gpu, Setup, Simulation, gpu, visit};
+use serde_json::{Value, json};
+
+use super::args::CompareArgs;
+use super::compare::load;
+use super::engine;
+use super::failure::Failure;
+
+/// Targets that are compared with direct sums.
+const TARGETS: usize = 1000;
+
+/// Whom the laws of `over = "auto"` meet on a machine.
+pub fn remarks(setup: &Setup, machine: &Machine) -> Vec<String> {
+    let count = setup.particles.len();
+    let from = visit::crossing(machine);
+    let remark = |law: motes::forces::Law| match law.over {
+        Over::Tree { auto: true, .. } if count < from as usize => Some(format!(
+            "`{}` lets everybody meet everybody: a tree is faster from about {from} particles on here",
+            law.name
+        )),
+        Over::Tree { auto, opening, .. } => Some(format!(
+            "`{}` takes far groups as one, through a tree ({opening}{}): `motes compare` says how exact that is",
+            law.name,
+            if auto { format!("; faster from about {from} particles on here") } else { String::new() }
+        )),
+        _ => None,
+    };
+    setup.forces.iter().flat_map(|force| force.laws()).filter_map(remark).collect()
+}
+
+/// How wrong the forces of such laws are at the start.
+pub async fn errors(found: &gpu::Found, setup: &Setup) -> Result<Vec<Truncation>, Failure> {
+    let gpu = Gpu::new(&found.device, &found.queue, setup.check()?)?;
+    let mut simulation = Simulation::on(gpu, setup)?;
+    // What is felt at the start decides which groups are opened, where the opening is relative.
+    simulation.snapshot().await?;
+    let problem = setup.problem(simulation.backend().machine())?;
+    Ok(truncation(simulation.backend(), &setup.forces, &problem, TARGETS).await?)
+}
+
+/// The same for JSON.
+pub fn rows(errors: &[Truncation]) -> Value {
+    let three = |e: [f64; 3]| json!({ "median": e[0], "p99": e[1], "max": e[2] });
+    let row = |e: &Truncation| {
+        json!({ "law": e.law, "targets": e.targets, "device": three(e.device), "walk": three(e.walk),
+            "rounding": three(e.rounding) })
+    };
+    errors.iter().map(row).collect()
+}
+
+/// The same for a terminal.
+pub fn print(errors: &[Truncation]) {
+    for e in errors {
+        out!("\n{}: {} targets against everybody, summed in f64: |a − a′| / |a′|", e.law, e.targets);
+        out!("  {:24}  {:>9}  {:>9}  {:>9}", "", "median", "99 %", "max");
+        for (what, [median, most, max]) in
+            [("the device", e.device), ("the same walk in f64", e.walk), ("device against that walk", e.rounding)]
+        {
+            out!("  {what:24}  {median:9.1e}  {most:9.1e}  {max:9.1e}");
+        }
+    }
+}
+
+/// Errors over opening angles, with and without quadrupoles.
+pub async fn sweep(args: &CompareArgs, found: &gpu::Found) -> Result<(), Failure> {
+    let mut rows = Vec::new();
+    let mut header = !args.json;
+    for theta in &args.theta {
+        let mut line = Vec::new();
+        for multipoles in ["monopole", "quadrupole"] {
+            let gravity = gravity(args)?;
+            let set = |key: &str, value: &str| format!("force.{gravity}.{key}={value}");
+            let more = [set("over", "tree"), set("theta", &format!("{theta:?}")), set("multipoles", multipoles)];
+            let mut scene = load(args, &more)?;
+            let setup = engine::setup(&mut scene);
+            if header {
+                out!(
+                    "{}: {} particles, {}, {TARGETS} targets against everybody, summed in f64\n",
+                    scene.name,
+                    setup.particles.len(),
+                    found.describe()
+                );
+                out!(
+                    "| θ | monopole: median | 99 % | max | quadrupole: median | 99 % | max |\n|---|---|---|---|---|---|---|"
+                );
+                header = false;
+            }
+            let errors = errors(found, &setup).await?;
+            let device = errors.first().map_or([f64::NAN; 3], |e| e.device);
+            line.extend(device.map(|x| format!("{x:.1e}")));
+            rows.push(json!({ "theta": theta, "multipoles": multipoles, "errors": self::rows(&errors) }));
+        }
+        if !args.json {
+            out!("| {theta} | {} |", line.join(" | "));
+        }
+    }
+    if args.json {
+        out!("{:#}", json!({ "scene": args.scene, "device": found.describe(), "rows": rows }));
+    }
+    Ok(())
+}
+
+/// Which force of the scene is gravity.
+fn gravity(args: &CompareArgs) -> Result<usize, Failure> {
+    let mut scene = load(args, &[])?;
+    let setup = engine::setup(&mut scene);
+    let has = |law: motes::forces::Law| law.name.starts_with("gravity");
+    let found = setup.forces.iter().position(|force| force.laws().into_iter().any(has));
+    found.ok_or_else(|| {
+        motes::Error::Scene(format!("{} has no gravity: --theta compares what a tree makes of that", scene.name)).into()
+    })
+}

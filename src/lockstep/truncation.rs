@@ -1,0 +1,103 @@
+//! How wrong forces through a tree are, and why: what is left out by taking groups as one, and what is rounded.
+
+use glam::DVec4;
+
+use crate::error::Error;
+use crate::forces::{Force, Problem};
+use crate::gpu::Gpu;
+use crate::integrators::Step;
+use crate::kernel::{ACCELERATION, Array, Backend, Host, Plan};
+
+use super::fields;
+
+/// Relative errors |a − a′| / |a′| of the accelerations of a sample: median, 99th percentile, maximum.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Truncation {
+    /// The law.
+    pub law: String,
+    /// Targets of the sample.
+    pub targets: usize,
+    /// The device against the direct sum over everybody, in f64.
+    pub device: [f64; 3],
+    /// A walk of the same tree in f64 against the direct sum: what is left out.
+    pub walk: [f64; 3],
+    /// The device against the walk in f64: what is rounded.
+    pub rounding: [f64; 3],
+}
+
+/// Looks at every law that walks a tree, at the present state of a device: evaluates it alone, and looks at `targets` of its
+/// particles, spread evenly over their ids. Accelerations are not what they were after it.
+///
+/// # Errors
+/// What the device says.
+pub async fn truncation(
+    gpu: &mut Gpu,
+    forces: &[Box<dyn Force>],
+    problem: &Problem,
+    targets: usize,
+) -> Result<Vec<Truncation>, Error> {
+    let felt = gpu.read(ACCELERATION.name, &Array::Vec4(Vec::new()), problem.count as usize).await?;
+    let mut all = Vec::new();
+    for force in forces {
+        let law = force.laws().into_iter().find(|law| law.tree(problem).is_some());
+        let Some((law, tree)) = law.and_then(|law| Some((law.clone(), law.tree(problem)?))) else { continue };
+        let (Some(walk), Some(sample)) = (law.distant.walk.clone(), law.distant.sample.clone()) else { continue };
+        // What was felt last decides which nodes are opened, where the opening is relative.
+        gpu.write(ACCELERATION.name, &felt)?;
+        let mut step = Step::new(std::slice::from_ref(force), problem.clone());
+        step.evaluate();
+        let plan = step.finished()?;
+        let program = gpu.compile(&plan)?;
+        gpu.run(&program, 1)?;
+        let host = host(gpu, &plan, problem).await?;
+        let Some(Array::Vec4(device)) = host.get(ACCELERATION.name) else { continue };
+        host.write(ACCELERATION)?.fill(DVec4::ZERO);
+        walk(&host)?;
+        let Some(Array::Vec4(walked)) = host.get(ACCELERATION.name) else { continue };
+        let count = device.len();
+        let wanted = targets.clamp(1, count.max(1));
+        let ids: Vec<usize> = (0..wanted.min(count)).map(|k| k * count / wanted).collect();
+        let exact = sample(&host, &ids)?;
+        let chosen = |from: &[DVec4]| ids.iter().map(|id| from[*id]).collect::<Vec<_>>();
+        let (device, walked) = (chosen(&device), chosen(&walked));
+        all.push(Truncation {
+            law: format!("{} {}", law.name, tree.name()),
+            targets: ids.len(),
+            device: percentiles(&device, &exact),
+            walk: percentiles(&walked, &exact),
+            rounding: percentiles(&device, &walked),
+        });
+    }
+    gpu.write(ACCELERATION.name, &felt)?;
+    Ok(all)
+}
+
+/// What the fields of a plan hold, on the host.
+async fn host(gpu: &mut Gpu, plan: &Plan, problem: &Problem) -> Result<Host, Error> {
+    let mut host = Host::default();
+    for kernel in &plan.kernels {
+        for (name, bytes, kind, _) in fields(kernel, problem.count) {
+            if !host.contains(&name) && gpu.size(&name) >= bytes {
+                host.insert(&name, kind.like(&gpu.bytes(&name, 0, bytes).await?));
+            }
+        }
+    }
+    for name in [crate::kernel::POSITION.name, crate::kernel::VELOCITY.name] {
+        if !host.contains(name) {
+            let bytes = 16 * u64::from(problem.count);
+            host.insert(name, Array::Vec4(Vec::new()).like(&gpu.bytes(name, 0, bytes).await?));
+        }
+    }
+    host.set_world(gpu.world().await?);
+    Ok(host)
+}
+
+/// Of who feels anything.
+fn percentiles(got: &[DVec4], want: &[DVec4]) -> [f64; 3] {
+    let feels = got.iter().zip(want).filter(|(_, want)| want.truncate().length() > 0.0);
+    let mut errors: Vec<f64> =
+        feels.map(|(got, want)| (*got - *want).truncate().length() / want.truncate().length()).collect();
+    errors.sort_by(f64::total_cmp);
+    let at = |q: usize| errors.get((errors.len() * q / 100).min(errors.len().saturating_sub(1))).copied();
+    [50, 99, 100].map(|q| at(q).unwrap_or(0.0))
+}

@@ -1,0 +1,77 @@
+//! Stages in a periodic cube: gravity of all images, each of its kernels alone, and far groups of it through a tree.
+#![allow(clippy::cast_possible_truncation, reason = "numbers are rounded to what f32 holds")]
+
+use glam::{DVec3, Vec4};
+use motes::forces::{Force, Problem};
+use motes::integrators::Step;
+use motes::kernel::{Backend, Machine, Plan, World};
+use motes::settings::Value;
+use motes::{Bounds, Gpu, POSITION, Side, Simulation};
+
+use crate::stages::{Device, FEW, Stage, fill, moving, stage};
+use crate::support::machines::subgroups_of_eight;
+use crate::support::states::{force, word};
+use crate::support::{Random, Shared};
+
+const SIDE: f64 = 1.75;
+
+fn cube() -> Bounds {
+    let low = DVec3::new(-0.4, 2.5, 0.3);
+    Bounds::new(low, low + SIDE, Side::Periodic)
+}
+
+fn gravity(over: &'static str) -> Vec<Box<dyn Force>> {
+    let settings = [
+        ("g", Value::Number(1.3)),
+        ("softening", Value::Number(0.17)),
+        ("over", word(over)),
+        ("theta", Value::Number(0.9)),
+        ("images", word("ewald")),
+    ];
+    vec![force("gravity", &settings)]
+}
+
+/// All over the cube, and a side away from it.
+fn spread(device: &Device, count: usize, machine: Machine) -> Simulation<Gpu> {
+    let mut simulation = moving(device, count, Some(machine));
+    let clock = pollster::block_on(simulation.backend().world()).expect("a clock");
+    simulation.backend().set_world(World { bounds: cube(), ..clock }).expect("a world");
+    let mut random = Random::new(7);
+    let places: Vec<Vec4> = (0..count)
+        .map(|_| (cube().low + SIDE * (0.5 + 1.5 * random.vector())).as_vec3().extend(0.3 + 0.1 * random.narrow()))
+        .collect();
+    simulation.write(POSITION, &places).expect("places");
+    simulation
+}
+
+pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
+    let machine = Machine { software: true, subgroup: 0, invocations: 1 };
+    let problem = |machine, count: usize| Problem::new(u32::try_from(count).expect("few"), machine).at(&[], cube());
+    let mut plan = Plan::default();
+    gravity("pairs")[0].evaluate(&mut plan, 0, &problem(machine, FEW)).expect("a plan");
+    for kernel in plan.kernels {
+        stages.push(stage(&format!("all images, {}", kernel.name), spread(device, FEW, machine), kernel));
+    }
+    if subgroups_of_eight(shared) {
+        let machine = Machine { subgroup: 8, ..machine };
+        let forces = gravity("tree");
+        let mut step = Step::new(&forces, problem(machine, FEW));
+        step.evaluate();
+        let plan = step.finished().expect("a plan");
+        let mut simulation = spread(device, FEW, machine);
+        // So close that groups are met as one, and some not at all.
+        let mut places = pollster::block_on(simulation.read(POSITION)).expect("places");
+        let middle = (cube().low + 0.5 * SIDE).as_vec3();
+        for x in &mut places {
+            *x = (middle + 0.2 * (x.truncate() - middle)).extend(x.w);
+        }
+        simulation.write(POSITION, &places).expect("places");
+        fill(&mut simulation, &plan);
+        // The tree stands when the walk begins.
+        let gpu = simulation.backend();
+        let program = gpu.compile(&plan).expect("a good plan");
+        gpu.run(&program, 1).expect("a run");
+        let walk = plan.kernels.into_iter().find(|kernel| kernel.name == "gravity_ewald").expect("a walk");
+        stages.push(Stage::new("all images, far groups", simulation, walk));
+    }
+}
