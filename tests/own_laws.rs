@@ -44,6 +44,48 @@ fn it_runs_over_every_visit_and_means_the_same() {
     assert!(force.iter().zip(&few).any(|(a, b)| (a - b).abs() > 1e-4), "the nearest seven are everybody in range");
 }
 
+/// A law over a tree, with a sum of its own and nothing about far groups: they are met as one, at their centre of mass.
+const FAR: &str = "struct Sum { pull: vec3f }
+fn merge(total: ptr<function, Sum>, part: Sum) { (*total).pull += part.pull; }
+fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
+    (*sum).pull += (you.mass / (0.1 + dot(r, r))) * r;
+}
+fn finish(me: Particle, sum: Sum) -> vec4f { return vec4f(sum.pull, 0.0); }
+";
+
+#[test]
+fn it_runs_over_a_tree_and_means_nearly_the_same() {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("law.wgsl"), FAR).expect("written");
+    let mut last = Vec::new();
+    for over in [
+        "over = \"pairs\"",
+        "over = \"tree\"\ntheta = 0.4",
+        "over = \"tree\"\ntheta = 1.0",
+        "over = \"auto\"\ntheta = 1.0",
+    ] {
+        let scene = format!(
+            "[simulation]\ndt = 0.1\nsteps = 1\n[[particles]]\nshape = \"sphere\"\ncount = 2000\n[[force]]\n\
+             wgsl = \"law.wgsl\"\n{over}\n[output]\nformats = [\"csv\"]\n"
+        );
+        std::fs::write(folder.path().join("scene.toml"), scene).expect("written");
+        let arguments = ["run", "scene.toml", "-o", "out", "--backend", "gpu"];
+        let program = env!("CARGO_BIN_EXE_motes");
+        let output = Command::new(program).args(arguments).current_dir(folder.path()).output().expect("it runs");
+        assert!(output.status.success(), "{over}: {}", String::from_utf8_lossy(&output.stderr));
+        last.push(std::fs::read_to_string(folder.path().join("out/snapshot_1.csv")).expect("a state"));
+    }
+    let numbers = |text: &str| -> Vec<f64> {
+        text.lines().skip(1).flat_map(|line| line.split(',')).map(|n| n.parse().expect("a number")).collect()
+    };
+    let all: Vec<Vec<f64>> = last.iter().map(|text| numbers(text)).collect();
+    let apart = |other: &[f64]| all[0].iter().zip(other).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    let [fine, coarse, auto] = [1, 2, 3].map(|i| apart(&all[i]));
+    // A step of 0.1 under pulls of about 1, of which θ = 0.4 leaves out θ² / 8 or less.
+    assert!(fine > 0.0 && fine < 2e-3 && fine < coarse, "{fine} {coarse}");
+    assert!(auto == 0.0, "2000 are too few for a tree: {auto}");
+}
+
 #[test]
 fn a_name_that_nobody_fills_is_refused() {
     let folder = tempfile::tempdir().expect("a folder");

@@ -33,6 +33,26 @@ fn group_at(node: u32, real: bool) -> Group {
     return Group(m.w, vec3f(m.x, q.x, q.z), vec3f(m.yz, q.y));
 }
 
+// Where a group is: the box of its targets, of which `first` is there.
+fn place_of(group: u32, first: u32) -> Place {
+    var low = tree_body[first].xyz;
+    var high = low;
+    for (var k = first + 1u; k < min(first + GROUP, tree.count); k += 1u) {
+        low = min(low, tree_body[k].xyz);
+        high = max(high, tree_body[k].xyz);
+    }
+    return Place(0.5 * (low + high), 0.5 * (high - low), demand_of(group));
+}
+
+// The leaf at which a group begins.
+fn leaf_of(group: u32) -> u32 { return (1u << tree.height) + group * (GROUP / LEAF); }
+
+// A node holds the group that begins at a leaf, or is held by it.
+fn is_own(node: u32, depth: u32, leaf: u32) -> bool {
+    let below = tree.height - depth;
+    return leaf >> below == node || (node << below) - leaf < GROUP / LEAF;
+}
+
 // The least distance from the group's box to a place, squared.
 fn apart(place: Place, x: vec3f) -> f32 {
     let d = max(abs(shortest(x - place.middle)) - place.half_side, vec3f());

@@ -15,7 +15,7 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
     let mine = tree.first / GROUP + folded(group, groups);
     let first = min(mine * GROUP, tree.end - 1u);
     let last = tree.count - 1u;
-    let k = first + place;
+    let k = mine * GROUP + place;
     let a = target_of(min(k, last));
     let b = target_of(min(k + LANES, last));
     let c = target_of(min(k + 2u * LANES, last));
@@ -136,7 +136,7 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
         spent += 3u;
         workgroupBarrier();
     }
-    if spent > MOST { atomicMin(&alarm[2], a.index); }
+    if more || any(met < listed) { atomicMin(&alarm[2], a.index); }
     if k < tree.end && acts_on(a) { deliver(a, sum_a); }
     if k + LANES < tree.end && acts_on(b) { deliver(b, sum_b); }
     if k + 2u * LANES < tree.end && acts_on(c) { deliver(c, sum_c); }

@@ -14,6 +14,9 @@ const TARGETS: u32 = 1 << 18;
 /// What one dispatch meets, at most: about a tenth of a second on a GPU that is not fast.
 const MEETINGS: f64 = (1 << 30) as f64;
 
+/// The θ that is none: single precision holds l / θ of what is larger.
+const LEAST: f64 = 1e-30;
+
 /// How many particles there must be before the tree is faster than that everybody meets everybody. Measured on lavapipe by
 /// `motes bench tree`; for hardware it is an estimate, from the interactions of both and the rates of others.
 #[must_use]
@@ -50,14 +53,17 @@ fn join(law: &Law, tree: &Tree, machine: &Machine) -> Result<std::sync::Arc<Shad
 }
 
 fn variant(machine: &Machine) -> Vec<Source> {
-    let _ = machine;
-    vec![crate::shader!("visit/tree_broadcast.wgsl"), crate::shader!("visit/tree_subgroup.wgsl")]
+    match (machine.software, machine.subgroup) {
+        (true, 8) => vec![crate::shader!("visit/tree_broadcast.wgsl"), crate::shader!("visit/tree_subgroup.wgsl")],
+        (true, _) => vec![crate::shader!("visit/tree_alone.wgsl")],
+        (false, _) => vec![crate::shader!("visit/tree_tile.wgsl")],
+    }
 }
 
 pub fn kernel(law: Law, tree: &Tree, problem: &Problem) -> Result<Kernel, Error> {
     law.requires_meetings()?;
     let theta = tree.opening.theta();
-    if !(theta > 0.0 && theta <= 1.0) {
+    if !(theta > LEAST && theta <= 1.0) {
         return Err(Error::Scene(format!(
             "`{}` walks a tree with θ = {theta}: it must be above 0, and 1 at most",
             law.name

@@ -6,6 +6,7 @@ use glam::{DMat3, DVec3, DVec4, Vec3};
 use rayon::prelude::*;
 
 use super::body::{Body, bodies};
+use crate::error::Error;
 use crate::kernel::{ACCELERATION, Bounds, Twin, World};
 use crate::tree::{GROUP, Nodes, Opening, Tree};
 
@@ -62,6 +63,9 @@ pub fn twin(
         let (bodies, world) = (bodies(host)?, host.world());
         let tree = Tree { opening, core, count: world.count };
         let nodes = Nodes::of(&tree, host)?;
+        if nodes.ids().iter().any(|id| *id as usize >= bodies.len()) {
+            return Err(Error::Scene(format!("the tree {opening} is not one of these {} particles", bodies.len())));
+        }
         let meet = |me: &Body, met: &Met| -> DVec4 {
             let near = met.leaves.iter().flat_map(|leaf| nodes.range(*leaf)).filter_map(|slot| {
                 let you = &bodies[nodes.ids()[slot] as usize];

@@ -28,8 +28,9 @@ pub fn all(device: &Device, stages: &mut Vec<Stage>) {
             }
             for settings in all {
                 let force = (entry.build)(&settings);
-                // A search wants its grid, and has stages of its own; by force everybody meets the same.
-                if force.laws().iter().any(|law| matches!(law.over, Over::Near { .. } | Over::Nearest { .. })) {
+                // A search wants its grid or its tree, and has stages of its own; by force everybody meets the same.
+                let searches = |over| matches!(over, Over::Near { .. } | Over::Nearest { .. } | Over::Tree { .. });
+                if force.laws().iter().any(|law| searches(law.over)) {
                     continue;
                 }
                 let problem = Problem::new(u32::try_from(FEW).expect("few"), machine).tied(&support::links(FEW), &[]);

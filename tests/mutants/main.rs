@@ -19,6 +19,7 @@ mod strained;
 #[path = "../support/mod.rs"]
 mod support;
 mod trees;
+mod walks;
 
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
@@ -115,9 +116,15 @@ fn work(
 fn every_mutant_is_noticed() {
     let shared = support::device();
     let has_subgroups = support::machines::subgroups_of_eight(&shared);
-    let equivalents =
-        [EQUIVALENT, SOLVES, equivalent_primitives::EQUIVALENT, equivalent_neighbors::EQUIVALENT, trees::EQUIVALENT]
-            .concat();
+    let equivalents = [
+        EQUIVALENT,
+        SOLVES,
+        equivalent_primitives::EQUIVALENT,
+        equivalent_neighbors::EQUIVALENT,
+        trees::EQUIVALENT,
+        walks::EQUIVALENT,
+    ]
+    .concat();
     let ledger = Mutex::new(Ledger::new(&equivalents));
     // `MUTANTS=near,order cargo test --test mutants -- --nocapture` looks at files of such names alone.
     let only = std::env::var("MUTANTS").unwrap_or_default();

@@ -197,6 +197,7 @@ pub fn all(shared: &Shared) -> Vec<Stage> {
     crate::neighbors::all(shared, &device, &mut stages);
     primitives::all(&device, &mut stages);
     crate::trees::all(shared, &mut stages);
+    crate::walks::all(shared, &mut stages);
     stages
 }
 

@@ -21,6 +21,16 @@ pub fn machines(shared: &Shared) -> Vec<(&'static str, Machine)> {
     all
 }
 
+/// Machines that bring about each walk of a tree.
+pub fn walkers(shared: &Shared) -> Vec<(&'static str, Machine)> {
+    let named = |(name, machine): (&'static str, Machine)| match name {
+        "loop" => Some(("alone", machine)),
+        "tile" | "subgroup" => Some((name, machine)),
+        _ => None,
+    };
+    machines(shared).into_iter().filter_map(named).collect()
+}
+
 /// Whether the file for subgroups can run here.
 pub fn subgroups_of_eight(shared: &Shared) -> bool {
     let info = shared.found.device.adapter_info();
@@ -91,4 +101,20 @@ pub fn cut(kernel: &Kernel, finish: &Pass, count: usize, layers: u32, slice: u32
     last.constants.push(("LAYERS", f64::from(layers)));
     passes.push(last);
     Kernel { passes, sizes: vec![("parts".into(), u64::from(layers * count))], ..kernel.clone() }
+}
+
+/// A walk of a tree in dispatches of so many targets, which are whole groups of 32.
+pub fn parts(whole: &Pass, count: u32, targets: u32) -> Vec<Pass> {
+    let part = |first: u32| {
+        let mut pass = whole.clone();
+        let end = (first + targets).min(count);
+        let block = &mut pass.uniforms.iter_mut().find(|(name, _)| *name == "tree").expect("a tree").1;
+        // The first two members of the block.
+        for (place, n) in [first, end].into_iter().enumerate() {
+            block[4 * place..4 * place + 4].copy_from_slice(&n.to_le_bytes());
+        }
+        pass.threads.count = whole.threads.count / count.div_ceil(32) * (end - first).div_ceil(32);
+        pass
+    };
+    (0..count).step_by(targets as usize).map(part).collect()
 }

@@ -1,10 +1,15 @@
-//! Trees: what the device builds, against its twins and against direct sums.
+//! Trees: what the device builds and how it walks, against twins and against direct sums.
 
 #![allow(clippy::cast_possible_truncation, reason = "numbers are rounded to what f32 holds")]
 
 #[path = "../support/mod.rs"]
 mod support;
 
+mod accuracy;
 mod build;
+mod choice;
+mod complete;
 mod curve;
+mod lockstep;
 mod sets;
+mod walks;

@@ -1,0 +1,54 @@
+// Targets walk the tree side by side, for processors that play a GPU: a lane for each, no barrier, no memory of where it has
+// been. Below a node its left child comes next; then the next node of its level, or of the level of the first above it that
+// has one. All of a group open the same nodes. A turn has one node, or one body of a leaf: whoever plays lanes by
+// vectors takes every way of every branch, so there are few.
+const WORKGROUP: u32 = 32u;
+
+@compute @workgroup_size(WORKGROUP)
+fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let mine = tree.first / GROUP + folded(group, groups);
+    let k = mine * GROUP + lane;
+    if k < tree.end {
+        let me = target_of(k);
+        let here = place_of(mine, mine * GROUP);
+        let own = leaf_of(mine);
+        var near = Sum();
+        var far = Sum();
+        var node = 1u;
+        var depth = 0u;
+        var slot = 0u;
+        var bodies = 0u;
+        var more = true;
+        var spent = GROUP;
+        while (more || bodies > 0u) && spent <= MOST {
+            if bodies > 0u {
+                if slot != k && slot < tree.count {
+                    let you = target_of(slot);
+                    gather(me, you, shortest(you.position - me.position), &near);
+                }
+                slot += 1u;
+                bodies -= 1u;
+            } else {
+                let real = exists(node, depth);
+                let open = real && (is_own(node, depth, own) || opens(node, here));
+                if real && !open { distant(me, group_at(node, true), shortest(tree_center[node].xyz - me.position), &far); }
+                if open && depth < tree.height {
+                    node = 2u * node;
+                    depth += 1u;
+                } else {
+                    slot = (node - (1u << tree.height)) * LEAF;
+                    bodies = select(0u, LEAF, open);
+                    // Behind the last of all levels stands a power of two.
+                    let up = countTrailingZeros(node + 1u);
+                    node = (node + 1u) >> up;
+                    depth -= up;
+                    more = node > 1u;
+                }
+            }
+            spent += 1u;
+        }
+        if more || bodies > 0u { atomicMin(&alarm[2], me.index); }
+        merge(&near, far);
+        if acts_on(me) { deliver(me, near); }
+    }
+}
