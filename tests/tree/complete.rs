@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Vec4};
 use motes::forces::{Body, Law, Over};
-use motes::kernel::{Bounds, Side, Source};
+use motes::kernel::Source;
 use motes::tree::Opening;
 
 use crate::sets::awkward;
@@ -104,19 +104,5 @@ fn so_they_do_by_any_opening() {
             let mut walk = Walk::new(&shared, machine, &bodies, Box::new(Alone(law))).felt(&felt);
             complete(&format!("{name}, {opening}, core {core}"), &mut walk, &bodies);
         }
-    }
-}
-
-/// In a box that repeats, everybody is there once, too.
-#[test]
-fn so_they_do_in_a_periodic_box() {
-    let shared = support::device();
-    let (low, high) = (DVec3::splat(-1.0), DVec3::splat(1.0));
-    let bounds = Bounds { low, high, sides: [Side::Periodic, Side::Open, Side::Periodic], dimensions: 3 };
-    let bodies = weighed(crate::sets::cloud(1030, 15), true);
-    for (name, machine) in walkers(&shared) {
-        let gpu = support::machines::gpu(&shared, bodies.len());
-        let law = Box::new(Alone(counted(over(0.7))));
-        complete(name, &mut Walk::within(gpu, machine, &bodies, bounds, law), &bodies);
     }
 }

@@ -1,10 +1,12 @@
 //! Each walk against its twin, which opens the same nodes of the same tree and adds up in f64.
 
 use glam::{DVec3, Vec4};
+use motes::settings::Value;
 use motes::{Bounds, Gpu, Side};
 
 use crate::sets::{awkward, cloud};
 use crate::support::machines::walkers;
+use crate::support::states::{force, word};
 use crate::support::{self, Random};
 use crate::walks::{Settings, USUAL, Walk, gravity};
 
@@ -84,18 +86,21 @@ fn awkward_sets_agree_with_their_twin() {
     }
 }
 
-/// Who looks across a side sees nearest images, and opens what they are near to.
+/// All images of a cube that repeats, far groups of them as one.
 #[test]
-fn they_agree_across_the_sides_of_a_box() {
+fn they_agree_in_a_periodic_cube() {
     let shared = support::device();
-    let (low, high) = (DVec3::splat(-1.0), DVec3::new(1.0, 1.5, 1.0));
-    let bounds = Bounds { low, high, sides: [Side::Periodic, Side::Periodic, Side::Open], dimensions: 3 };
-    for settings in settings().into_iter().step_by(3) {
-        for (name, machine) in walkers(&shared) {
-            let gpu = support::machines::gpu(&shared, 1000);
-            let walk = Walk::within(gpu, machine, &cloud(1000, 8), bounds, gravity("tree", settings));
-            agrees(&mut walk.felt(&felt(1000)), &format!("{name}, {settings:?}"), 1000);
-        }
+    let bounds = Bounds::new(DVec3::splat(-1.0), DVec3::splat(1.0), Side::Periodic);
+    for (name, machine) in walkers(&shared) {
+        let settings = [
+            ("over", word("tree")),
+            ("theta", Value::Number(0.9)),
+            ("softening", Value::Number(0.17)),
+            ("images", word("ewald")),
+        ];
+        let gpu = support::machines::gpu(&shared, 600);
+        let mut walk = Walk::within(gpu, machine, &cloud(600, 8), bounds, force("gravity", &settings));
+        agrees(&mut walk, &format!("{name}, all images"), 600);
     }
 }
 

@@ -114,7 +114,7 @@ impl Walk {
     /// The passes that walk.
     pub fn passes(&mut self) -> &mut Vec<Pass> {
         let mut kernels = self.plan.kernels.iter_mut().map(|kernel| &mut kernel.passes);
-        kernels.find(|passes| walks(&passes[0])).expect("a walk")
+        kernels.find(|passes| passes.first().is_some_and(walks)).expect("a walk")
     }
     /// Whether the plan has a file.
     pub fn has(&self, file: &str) -> bool {
@@ -137,7 +137,9 @@ impl Walk {
     /// The verdict of the walk against its twin.
     pub fn verdict(&mut self) -> Verdict {
         let all = pollster::block_on(compare(self.simulation.backend(), &self.plan, self.count)).expect("a comparison");
-        all.into_iter().rfind(|verdict| verdict.field == ACCELERATION.name).expect("a walk")
+        let name = self.plan.kernels.iter().find(|kernel| walks(&kernel.passes[0])).map(|kernel| kernel.name.clone());
+        let walk = |verdict: &Verdict| Some(&verdict.kernel) == name.as_ref() && verdict.field == ACCELERATION.name;
+        all.into_iter().find(walk).expect("a walk")
     }
 }
 
