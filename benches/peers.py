@@ -209,9 +209,9 @@ def spline_direct(position, mass, targets):
                                   softening_source=support, method="bruteforce", parallel=True)
 
 
-def matched(peer, targets, exact, wanted):
-    """Sets the opening angle at which the 99th percentile of the error is that of motes."""
-    theta, tried = 0.5, []
+def matched(peer, targets, exact, wanted, theta):
+    """Sets the opening angle at which the 99th percentile of the error is that of motes; the first trial is `theta`."""
+    tried = []
     for _ in range(TRIALS):
         peer.set(theta)
         error = errors(peer.forces(targets), exact)
@@ -236,8 +236,8 @@ def following(tried, wanted):
     return float(np.clip(theta * factor, 0.05, 2.0))
 
 
-def measured(args, count, folder):
-    """All programs on so many bodies."""
+def measured(args, count, folder, last):
+    """All programs on so many bodies; angles are sought from where those of the last size were found."""
     position, mass = plummer(count)
     targets = np.arange(0, count, max(1, count // TARGETS))[:TARGETS]
     exact = direct(position, mass, targets)
@@ -251,7 +251,8 @@ def measured(args, count, folder):
     peers += [(Pytreegrav(position, mass, quadrupole), splined) for quadrupole in (False, True)]
     row["peers"] = []
     for peer, reference in peers:
-        theta, its = matched(peer, targets, reference, error["p99"])
+        start = next((one["theta"] for one in last["peers"] if one["name"] == peer.name), 0.5) if last else 0.5
+        theta, its = matched(peer, targets, reference, error["p99"], start)
         row["peers"].append({"name": peer.name, "theta": theta, "error": its, **peer.about()})
     take_turns(args, motes, [peer for peer, _ in peers], row)
     return row
@@ -287,7 +288,7 @@ def main():
     rows = []
     for count in args.bodies:
         with tempfile.TemporaryDirectory() as folder:
-            rows.append(measured(args, count, Path(folder)))
+            rows.append(measured(args, count, Path(folder), rows[-1] if rows else None))
     table(rows)
     if args.json:
         result = {"cores": os.cpu_count(), "softening": SOFTENING, "support": SUPPORT, "repeat": args.repeat, "sizes": rows}
