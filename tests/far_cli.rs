@@ -111,6 +111,9 @@ fn a_comparison_tells_what_is_left_out_from_what_is_rounded() {
     for (of, told) in [("device", device), ("walk", walk), ("rounding", rounding)] {
         assert_eq!(shown(three(&json["far_groups"][0][of])), shown(told), "{of}");
     }
+    // Two digits do not tell them apart; all digits do.
+    let [device, walk] = ["device", "walk"].map(|of| three(&json["far_groups"][0][of]));
+    assert!(device != walk, "{json}");
     // Who meets everybody takes nobody as one.
     let (code, json, _) = motes(&["compare", "--steps", "2", "--json", "--set", "force.1.over=pairs", &path]);
     let json: Value = serde_json::from_str(&json).expect("JSON");

@@ -104,7 +104,7 @@ mod tests {
     #[test]
     fn the_series_meets_the_closed_form() {
         // Values in 30 digits; the closed form keeps 1e-13 of them at q = 0.1, where the two meet.
-        for (q, wanted) in [(0.01, 25.597_257_230_5), (0.1, 25.326_248_348_6), (0.5, 19.088_567_921_2)] {
+        for (q, wanted) in [(0.01, 25.597_257_196_2), (0.1, 25.326_248_348_6), (0.5, 19.088_567_921_2)] {
             assert!((h(q * q) / wanted - 1.0_f64).abs() < 1e-11, "{q}: {}", h(q * q));
         }
         let (below, above) = (h(0.01 - 1e-12), h(0.01 + 1e-12));
