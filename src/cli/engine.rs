@@ -49,7 +49,7 @@ impl Engine {
     }
     /// What a user should know of it, and of what it makes of a setup.
     pub fn remarks(&self, setup: &Setup) -> Result<Vec<String>, Failure> {
-        let far = far::remarks(setup, &self.machine(1)?);
+        let far = far::remarks(setup, self.machine(1)?)?;
         Ok(self.remark().into_iter().chain(far).collect())
     }
     fn remark(&self) -> Option<String> {

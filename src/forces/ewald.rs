@@ -105,19 +105,31 @@ pub fn waves() -> Vec<DVec4> {
 ///
 /// # Errors
 /// [`Error::Scene`] with the sides that are in its way.
-pub fn fits(problem: &Problem) -> Result<(), Error> {
+pub fn fits(problem: &Problem, softening: f64) -> Result<(), Error> {
     let bounds = &problem.bounds;
     let period = bounds.period();
     // Sides as f32 knows them.
     let even = (period - DVec3::splat(period.x)).abs().max_element() <= f64::from(f32::EPSILON) * period.x;
     if bounds.dimensions == 3 && bounds.sides == [Side::Periodic; 3] && even {
-        return Ok(());
+        // The law between two ends at half a side, and the waves know of no softening.
+        if softening <= WIDEST * period.x {
+            return Ok(());
+        }
+        return Err(Error::Scene(format!(
+            "gravity with images = \"ewald\" has a softening of {softening} in a cube of side {}: it may be {} at most, for what \
+             comes as waves is not softened",
+            period.x,
+            WIDEST * period.x
+        )));
     }
     Err(Error::Scene(format!(
         "gravity with images = \"ewald\" wants a cube that is periodic on all sides; here {bounds}: give [box] three equal \
          sides that are \"periodic\", or say images = \"nearest\""
     )))
 }
+
+/// The widest softening, of a side.
+const WIDEST: f64 = 0.125;
 
 /// What comes beside the law between two: the structure factor, and what each particle makes of it. Before the sources of
 /// the waves, the structure factor, its sum, and the images are those of the world.

@@ -57,10 +57,9 @@ impl Gravity {
                     "gravity with images = \"ewald\" is softened by kernel = \"plummer\" alone: leave out \"spline\"".to_owned(),
                 ));
             }
-            return ewald::fits(problem);
+            return ewald::fits(problem, self.0.number("softening"));
         }
-        let tree = matches!(self.over(0.0).chosen(problem), Over::Tree { .. });
-        if tree && problem.bounds.has(Side::Periodic) {
+        if self.0.text("over") == "tree" && problem.bounds.has(Side::Periodic) {
             return Err(Error::Scene(format!(
                 "gravity over = \"tree\" in a periodic box ({}) cannot meet nearest images alone: their force jumps half a box \
                  away, within a group. Say images = \"ewald\" in a cube that is periodic on all sides, or over = \"pairs\"",
@@ -96,7 +95,7 @@ impl Force for Gravity {
                     ewald::pair(g * you.mass, softening, r, frequency(world))
                 }
             };
-            Law::attracting("gravity_ewald", self.over(0.0), files, values, rule, far)
+            Law::attracting("gravity_ewald", self.over(0.0), files, values, rule, far).of_all_images()
         } else if self.0.text("kernel") == "spline" {
             let h = 2.8 * softening;
             let files = (

@@ -14,7 +14,7 @@ use crate::error::Error;
 use crate::forces::{Force, Problem};
 use crate::kernel::{ACCELERATION, Kernel, Plan, Twin};
 use crate::neighbors::Grid;
-use crate::tree::Tree;
+use crate::tree::{Opening, Tree};
 
 /// Writes a plan in verbs. The first error is kept and given at the end, so that an integrator reads like its textbook.
 pub struct Step<'a> {
@@ -177,8 +177,17 @@ impl<'a> Step<'a> {
         if !self.evaluated {
             self.evaluate();
         }
+        // Who opens groups by what was felt last, has felt something then.
+        if self.looks_back() {
+            self.evaluate();
+        }
         self.add(watch::kernel(self.problem.count));
         self.finished()
+    }
+    /// Whether what is felt depends on what was felt last.
+    fn looks_back(&self) -> bool {
+        let mut laws = self.forces.iter().flat_map(|force| force.laws());
+        laws.any(|law| law.tree(&self.problem).is_some_and(|tree| matches!(tree.opening, Opening::Relative { .. })))
     }
     /// The plan of one step: what the integrator wrote, the clock's tick, and a look for broken numbers.
     ///

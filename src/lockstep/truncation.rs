@@ -51,15 +51,17 @@ pub async fn truncation(
         gpu.run(&program, 1)?;
         let host = host(gpu, &plan, problem).await?;
         let Some(Array::Vec4(device)) = host.get(ACCELERATION.name) else { continue };
+        // What a force adds beside this law, waves from afar, is the same for all three, and counts in what errors are of.
+        let beside = beside(gpu, &plan, &law.name, &device, problem).await?;
         host.write(ACCELERATION)?.fill(DVec4::ZERO);
         walk(&host)?;
         let Some(Array::Vec4(walked)) = host.get(ACCELERATION.name) else { continue };
         let count = device.len();
         let wanted = targets.clamp(1, count.max(1));
         let ids: Vec<usize> = (0..wanted.min(count)).map(|k| k * count / wanted).collect();
-        let exact = sample(&host, &ids)?;
-        let chosen = |from: &[DVec4]| ids.iter().map(|id| from[*id]).collect::<Vec<_>>();
-        let (device, walked) = (chosen(&device), chosen(&walked));
+        let exact: Vec<_> = sample(&host, &ids)?.into_iter().zip(&ids).map(|(a, id)| a + beside[*id]).collect();
+        let device: Vec<_> = ids.iter().map(|id| device[*id]).collect();
+        let walked: Vec<_> = ids.iter().map(|id| walked[*id] + beside[*id]).collect();
         all.push(Truncation {
             law: format!("{} {}", law.name, tree.name()),
             targets: ids.len(),
@@ -70,6 +72,25 @@ pub async fn truncation(
     }
     gpu.write(ACCELERATION.name, &felt)?;
     Ok(all)
+}
+
+/// What the plan's kernels behind that of a law have added to it, on the device.
+async fn beside(gpu: &mut Gpu, plan: &Plan, law: &str, all: &[DVec4], problem: &Problem) -> Result<Vec<DVec4>, Error> {
+    let last = plan.order.iter().position(|index| plan.kernels.get(*index).is_some_and(|kernel| kernel.name == law));
+    let end = last.map_or(plan.order.len(), |place| place + 1);
+    if end == plan.order.len() {
+        return Ok(vec![DVec4::ZERO; all.len()]);
+    }
+    // The tree stands; what is felt is cleared and summed up again, by the law alone.
+    let zeros = Array::Vec4(vec![DVec4::ZERO; all.len()]);
+    gpu.write(ACCELERATION.name, &zeros)?;
+    let alone =
+        Plan { kernels: plan.kernels.clone(), order: plan.order.get(end - 1..end).unwrap_or_default().to_vec() };
+    let program = gpu.compile(&alone)?;
+    gpu.run(&program, 1)?;
+    let own = gpu.read(ACCELERATION.name, &zeros, problem.count as usize).await?;
+    let Array::Vec4(own) = own else { return Ok(vec![DVec4::ZERO; all.len()]) };
+    Ok(all.iter().zip(own).map(|(all, own)| *all - own).collect())
 }
 
 /// What the fields of a plan hold, on the host.

@@ -48,6 +48,7 @@ impl Setup {
     /// When the setup makes no sense, or a shader does not compile.
     pub fn plans(&self, machine: Machine) -> Result<Plans, Error> {
         let problem = self.problem(machine)?;
+        self.weigh(&problem)?;
         let mut start = Step::new(&self.forces, problem.clone());
         start.enclose();
         start.lead();
@@ -57,6 +58,20 @@ impl Setup {
         self.integrator.step(&mut step);
         let measure = Step::measurement(&self.forces, problem)?;
         Ok(Plans { start: start.begun()?, step: step.done()?, measure })
+    }
+    /// Refuses a tree whose nodes single precision cannot hold.
+    fn weigh(&self, problem: &Problem) -> Result<(), Error> {
+        let walks = self.forces.iter().flat_map(|force| force.laws()).any(|law| law.tree(problem).is_some());
+        let mass: f64 = self.particles.mass.iter().sum();
+        let side = (problem.extent.1 - problem.extent.0).max_element();
+        let moment = mass * side * side;
+        if walks && moment > f64::from(f32::MAX) {
+            return Err(Error::Scene(format!(
+                "a tree keeps the second moments of its groups, here up to {moment:.0e}, and single precision ends at 3.4e38: \
+                 choose larger units of mass or length, or over = \"pairs\""
+            )));
+        }
+        Ok(())
     }
     /// What plans are written for.
     ///

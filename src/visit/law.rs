@@ -7,7 +7,7 @@ use glam::{DVec3, DVec4};
 use super::twin::Sample;
 use super::{Body, Group, Jacobian, Over, each, links, near, pairs, tree, twin, walk};
 use crate::error::Error;
-use crate::kernel::{Kernel, Problem, Scalar, Shader, Source, Twin, World};
+use crate::kernel::{Kernel, Problem, Scalar, Shader, Side, Source, Twin, World};
 use crate::links::{Corner, Half};
 use crate::neighbors::Grid;
 use crate::tree::Tree;
@@ -43,6 +43,8 @@ pub struct Distant {
     pub walk: Option<Twin>,
     /// What some targets feel of everybody.
     pub sample: Option<Sample>,
+    /// Whether it sees all images in a periodic box, so that nothing jumps half a box away.
+    pub images: bool,
 }
 
 /// Files that a law has by calling a function of theirs, and not having one of that name itself.
@@ -122,7 +124,7 @@ impl Law {
             twin: Some(twin::meetings(over, gather, |_, sum: &DVec4, _| *sum)),
             reciprocal: true,
             jacobian: None,
-            distant: Distant { wgsl: distant, walk, sample },
+            distant: Distant { wgsl: distant, walk, sample, images: false },
         }
     }
     /// A law that makes something else of its neighbours than a sum of accelerations; `gather(me, you, r, sum)` takes
@@ -195,7 +197,7 @@ impl Law {
     /// # Errors
     /// [`Error::Shader`] when the WGSL does not compile, [`Error::Scene`] when a parameter is missing or unknown.
     pub fn kernel(self, problem: &Problem) -> Result<Kernel, Error> {
-        match self.over.chosen(problem) {
+        match self.chosen(problem) {
             Over::Each => each::kernel(self, problem),
             Over::Pairs | Over::Within { .. } => pairs::kernel(self, problem),
             Over::Near { .. } | Over::Nearest { .. } => near::kernel(self, problem),
@@ -210,10 +212,25 @@ impl Law {
     pub fn grid(&self, problem: &Problem) -> Result<Option<(Grid, bool)>, Error> {
         near::grid(self, problem)
     }
+    /// The same law, of all images in a periodic box.
+    #[must_use]
+    pub fn of_all_images(mut self) -> Self {
+        self.distant.images = true;
+        self
+    }
+    /// Whom it visits for such a problem.
+    #[must_use]
+    pub fn chosen(&self, problem: &Problem) -> Over {
+        match self.over {
+            // Half a box away nearest images jump, and no group can be met as one there.
+            Over::Tree { auto: true, .. } if problem.bounds.has(Side::Periodic) && !self.distant.images => Over::Pairs,
+            over => over.chosen(problem),
+        }
+    }
     /// The tree that it walks, if it walks one.
     #[must_use]
     pub fn tree(&self, problem: &Problem) -> Option<Tree> {
-        match self.over.chosen(problem) {
+        match self.chosen(problem) {
             Over::Tree { opening, core, .. } => Some(Tree::new(opening, core, problem)),
             _ => None,
         }

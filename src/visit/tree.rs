@@ -21,7 +21,7 @@ const LEAST: f64 = 1e-30;
 /// `motes bench tree`; for hardware it is an estimate, from the interactions of both and the rates of others.
 #[must_use]
 pub fn crossing(machine: &Machine) -> u32 {
-    if machine.software { 8192 } else { 49_152 }
+    if machine.software { 6144 } else { 49_152 }
 }
 
 impl Over {
@@ -69,7 +69,7 @@ pub fn kernel(law: Law, tree: &Tree, problem: &Problem) -> Result<Kernel, Error>
             law.name
         )));
     }
-    if law.distant.walk.is_none() && problem.bounds.has(Side::Periodic) {
+    if !law.distant.images && problem.bounds.has(Side::Periodic) {
         return Err(Error::Scene(format!(
             "`{}` walks a tree in a periodic box: the nearest image jumps from side to side half a box away, and no group can \
              be met as one there; meet everybody (over = \"pairs\"), or open the box",
