@@ -2,7 +2,6 @@
 // eight lanes look at the eight nodes three levels below one, and at the six between. Who is far enough goes into one list,
 // leaves go into another; when a list is long, each lane loads an entry of it and the eight are passed round by broadcast.
 const WORKGROUP: u32 = 8u;
-const TARGETS: u32 = 4u;
 // Entries of the lists that are met together, and room for what a look at eight nodes adds. Powers of two: they are rings.
 const FAR: u32 = 128u;
 const NEAR: u32 = 64u;
@@ -33,8 +32,9 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
     let own = (1u << tree.height) + first / LEAF;
     let lower = (1u << place) - 1u;
 
-    // Nodes that are still to be looked at, as bits: eight children of a node are a byte, those of the lowest come last.
-    var waits = vec3u();
+    // Nodes that are still to be looked at, as bits: eight children of a node are a byte, those of the lowest come last. Of
+    // 25 levels at most, the lowest three are leaves' and wait for nobody: that leaves eight bytes.
+    var waits = vec2u();
     var node = 1u;
     var depth = 0u;
     var levels = (tree.height + 2u) % 3u + 1u;
@@ -43,20 +43,21 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
     var listed = vec2u();
     var met = vec2u();
     var spent = 0u;
-    while (more || any(met < listed)) && spent <= MOST {
+    while more && spent <= MOST {
         // Looks at nodes until a list is long, or until there are none.
-        while more && listed.x - met.x < FAR && listed.y - met.y < NEAR && spent <= MOST {
+        while more && listed.x - met.x < FAR
+            && listed.y - met.y < NEAR && spent <= MOST {
             let below = depth + levels;
             let n = (node << levels) + place;
-            let real = place < (1u << levels) && exists(n, below);
+            let real = exists(n, below);
             let holds = own >> (tree.height - below) == n;
             let itself = holds && below + 3u == tree.height;
             // A node between stands on a lane that is below it: of the level above on the even ones, of the next on 1 and 5.
             let upper = (place & 3u) == 1u;
             let m = select(n >> 1u, n >> 2u, upper);
             let between = select(below - 1u, depth + 1u, upper);
-            let some = select((place & 1u) == 0u && levels > 1u, levels == 3u, upper);
-            let also = place < (1u << levels) && some && exists(m, between) && own >> (tree.height - between) != m;
+            let some = select((place & 1u) == 0u, levels == 3u, upper);
+            let also = some && exists(m, between) && own >> (tree.height - between) != m;
             let wide = also && !opens(select(1u, m, also), here);
             let above = subgroupBallot(wide).x;
             let over = (above >> ((place & 4u) + 1u)) & 1u;
@@ -75,12 +76,12 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
             listed.y += select(0u, countOneBits(rest), leaf);
             let open = select(rest << select(0u, 1u << levels, levels < 3u), 0u, leaf);
             if open != 0u {
-                waits = (waits << vec3u(8u)) | vec3u(open, waits.x >> 24u, waits.y >> 24u);
+                waits = (waits << vec2u(8u)) | vec2u(open, waits.x >> 24u);
                 node = n - place;
                 depth = below;
             }
             while (waits.x & 255u) == 0u && depth > top {
-                waits = (waits >> vec3u(8u)) | vec3u(waits.y << 24u, waits.z << 24u, 0u);
+                waits = (waits >> vec2u(8u)) | vec2u(waits.y << 24u, 0u);
                 node = node / 8u;
                 depth -= 3u;
                 spent += 1u;
@@ -93,7 +94,7 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
         }
         workgroupBarrier();
         // Whole eights are met, and at the end what is left.
-        let ends = select(listed, listed - (listed - met) % vec2u(LANES, LANES / LEAF), vec2<bool>(more));
+        let ends = select(listed, listed - listed % vec2u(LANES, LANES / LEAF), vec2<bool>(more));
         var part_a = Sum();
         var part_b = Sum();
         var part_c = Sum();
@@ -136,7 +137,7 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
         spent += 3u;
         workgroupBarrier();
     }
-    if more || any(met < listed) { atomicMin(&alarm[2], a.index); }
+    if more { atomicMin(&alarm[2], a.index); }
     if k < tree.end && acts_on(a) { deliver(a, sum_a); }
     if k + LANES < tree.end && acts_on(b) { deliver(b, sum_b); }
     if k + 2u * LANES < tree.end && acts_on(c) { deliver(c, sum_c); }

@@ -22,6 +22,9 @@ use crate::support::{Random, Shared};
 const EDGE: &str = "no node is just so far";
 const ROOM: &str = "it is more room than there need be";
 const ALL_KNOW: &str = "all know the same, and whoever says it says the same";
+const DEEP: &str = "only trees of more than 131 072 bodies wait in a second word; tests/tree/complete.rs counts one";
+const NO_GROUP: &str = "a group that is not there only has to stay inside of the fields";
+const FILLS: &str = "who only fills a place has no mass";
 const SET_FIRST: &str = "it is set before it is looked at";
 
 pub const EQUIVALENT: &[Equivalent] = &[
@@ -35,6 +38,43 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("tree_tile", "let last =", "-", "+", "who is not there is not met, and meets nobody"),
     same("tree_tile", "if lane == 0u {", "==", "!=", ALL_KNOW),
     same("tree_tile", "if lane == 0u {", "0u", "1u", ALL_KNOW),
+    same("tree_subgroup", "const FAR", "128u", "129u", ROOM),
+    same("tree_subgroup", "var<workgroup> list", "2u", "3u", ROOM),
+    same("tree_subgroup", "let first =", "-", "+", NO_GROUP),
+    same("tree_subgroup", "let first =", "1u", "2u", NO_GROUP),
+    same(
+        "tree_subgroup",
+        "while more && spent",
+        "<=",
+        "<",
+        "turns are counted in threes here, and it is in the loop within that they end",
+    ),
+    same("tree_subgroup", "while more && spent", "&&", "||", "it turns idly until turns are spent"),
+    same("tree_subgroup", "while more && listed.x", "<", "<=", ROOM),
+    same(
+        "tree_subgroup",
+        "let also =",
+        "-",
+        "+",
+        "what holds the group is nearer than its own side, or it is the root",
+    ),
+    same("tree_subgroup", "waits = (waits << ", "24u", "25u", DEEP),
+    same("tree_subgroup", "waits = (waits >> ", "24u", "25u", DEEP),
+    same("tree_subgroup", "waits = (waits >> ", "0u", "1u", "a bit that comes in from above is behind what waits"),
+    same("tree_subgroup", "let wide =", "1u", "2u", "it only is a place to read from"),
+    same("tree_subgroup", "let shut =", "1u", "2u", "it only is a place to read from"),
+    same(
+        "tree_subgroup",
+        "if far || others && leaf",
+        "&&",
+        "||",
+        "what is written behind the end of a list is written over",
+    ),
+    same("tree_subgroup", "let n = list[", "-", "+", FILLS),
+    same("tree_subgroup", "let leaf = list[", "-", "+", FILLS),
+    same("tree_broadcast", "gather(me, Particle(index", "1.0", "1.5", "nobody is there, wherever that is"),
+    same("tree_broadcast", "let you = body(", "-", "+", "who is not there is not met"),
+    same("tree_broadcast", "let index = tree_id[", "-", "+", "who is not there is not met"),
     same("tree_alone", "var slot = 0u;", "0u", "1u", SET_FIRST),
     same("tree_alone", "more = node > 1u;", "1u", "2u", "it is odd"),
 ];
@@ -177,6 +217,9 @@ pub fn all(shared: &Shared, stages: &mut Vec<Stage>) {
             stages.push(stage.told(ACCELERATION.name, told));
         }
         for (case, count, law) in [
+            // One group, and two of which the last is not whole.
+            ("a group", 32, gravity(["plummer", "monopole"], 0.9, 0.0)),
+            ("two groups", 37, gravity(["plummer", "monopole"], 0.9, 0.0)),
             ("few", 300, gravity(["plummer", "quadrupole"], 0.7, 0.0)),
             ("many", MANY, gravity(["plummer", "quadrupole"], 0.5, 0.0)),
             ("relative", 1000, gravity(["plummer", "monopole"], 0.6, 0.03)),

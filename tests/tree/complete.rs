@@ -106,3 +106,15 @@ fn so_they_do_by_any_opening() {
         }
     }
 }
+
+/// So many that what waits to be looked at takes a second word.
+#[test]
+fn so_they_do_in_a_deep_tree() {
+    const COUNT: usize = 262_145;
+    let shared = support::device();
+    let machine = walkers(&shared).into_iter().last().expect("a walk").1;
+    let place = |i: usize| DVec3::new((i % 64) as f64, (i / 64 % 64) as f64, (i / 4096) as f64);
+    let bodies: Vec<Vec4> = (0..COUNT).map(|i| place(i).extend(1.0).as_vec4()).collect();
+    let mut walk = Walk::new(&shared, machine, &bodies, Box::new(Alone(counted(over(1.0)))));
+    complete("deep", &mut walk, &bodies);
+}
