@@ -23,6 +23,7 @@ const EDGE: &str = "no node is just so far";
 const ROOM: &str = "it is more room than there need be";
 const ALL_KNOW: &str = "all know the same, and whoever says it says the same";
 const DEEP: &str = "only trees of more than 131 072 bodies wait in a second word; tests/tree/complete.rs counts one";
+const LAST_LEAF: &str = "turns would have to end within the very last leaf";
 const NO_GROUP: &str = "a group that is not there only has to stay inside of the fields";
 const FILLS: &str = "who only fills a place has no mass";
 const SET_FIRST: &str = "it is set before it is looked at";
@@ -75,6 +76,19 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("tree_broadcast", "gather(me, Particle(index", "1.0", "1.5", "nobody is there, wherever that is"),
     same("tree_broadcast", "let you = body(", "-", "+", "who is not there is not met"),
     same("tree_broadcast", "let index = tree_id[", "-", "+", "who is not there is not met"),
+    same("tree_tile", "var far = 0u;", "0u", "1u", "fields and lists begin with zeros: node 0 of a heap is nobody"),
+    same(
+        "tree_tile",
+        "var near = 0u;",
+        "0u",
+        "1u",
+        "lists begin with zeros, and 0 is no leaf: its particles are behind the last",
+    ),
+    same("tree_tile", "while top > 0u", ">", ">=", "it turns idly until turns are spent"),
+    same("tree_tile", "if top > 0u", "0u", "1u", "turns would have to end with just one node waiting"),
+    same("tree_alone", "if k < tree.end {", "<", "<=", "behind the last stands nobody whose id is in the fields"),
+    same("tree_alone", "if more || bodies", ">", "<", LAST_LEAF),
+    same("tree_alone", "if more || bodies", "0u", "1u", LAST_LEAF),
     same("tree_alone", "var slot = 0u;", "0u", "1u", SET_FIRST),
     same("tree_alone", "more = node > 1u;", "1u", "2u", "it is odd"),
 ];
