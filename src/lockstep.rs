@@ -123,8 +123,9 @@ pub async fn compare(gpu: &mut Gpu, plan: &Plan, count: u32) -> Result<Vec<Verdi
             let (data, tail) = all.split_at(usize::try_from(*bytes).unwrap_or(0).min(all.len()));
             let spilled = tail.chunks_exact(4).any(|word| word != sentinel(place));
             let (Some(start), Some(want)) = (began, host.get(name)) else { continue };
-            // What has another length than particles have is made anew each time, whatever it was.
-            let made = kernel.size(name).is_some().then(|| start.like(&vec![0; usize::try_from(*bytes).unwrap_or(0)]));
+            // What has another length than particles have is made anew each time, whatever it was. Whole numbers are exact.
+            let anew = kernel.size(name).is_some() && !matches!(start, Array::Uint(_));
+            let made = anew.then(|| start.like(&vec![0; usize::try_from(*bytes).unwrap_or(0)]));
             let start = made.as_ref().unwrap_or(start);
             let mut verdict = judge(start, &want, &kind.like(data), *parts, None);
             verdict.conditioned = verdict.worst;
