@@ -33,15 +33,6 @@ fn snapshot(simulation: &mut Simulation<Gpu>) -> Snapshot {
     pollster::block_on(simulation.snapshot()).expect("a snapshot")
 }
 
-/// The radius that holds a part of the particles.
-fn lagrangian(particles: &Particles, share: f64) -> f64 {
-    let mut radii: Vec<f64> = particles.position.iter().map(|x| x.length()).collect();
-    radii.sort_by(f64::total_cmp);
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a part of a small number")]
-    let place = (radii.len() as f64 * share) as usize;
-    radii[place.min(radii.len() - 1)]
-}
-
 #[test]
 fn plummers_sphere_stays() {
     let shared = support::device();
@@ -52,7 +43,7 @@ fn plummers_sphere_stays() {
         let now = snapshot(&mut simulation);
         // r = a / √(M^(−2/3) − 1); for 4096 bodies the inner radii are off by √N noise, and all of them wander a little.
         for (share, want, part) in [(0.1, 0.308_678, 0.08), (0.5, 0.768_571, 0.05), (0.9, 2.183_670, 0.04)] {
-            let got = lagrangian(&now.particles, share);
+            let got = support::lagrangian(&now.particles, share);
             assert!((got / want - 1.0).abs() < part, "{share} of the mass within {got}, not {want}");
         }
         let sums = Measure::of(&now);
@@ -77,7 +68,7 @@ fn a_cold_sphere_collapses_and_settles() {
         simulation.step(16).expect("steps");
         let now = snapshot(&mut simulation);
         worst = worst.max(Measure::of(&now).drift_from(&first).abs());
-        let half = lagrangian(&now.particles, 0.5);
+        let half = support::lagrangian(&now.particles, 0.5);
         if half < smallest.0 {
             smallest = (half, now.time);
         }
@@ -86,7 +77,7 @@ fn a_cold_sphere_collapses_and_settles() {
     assert!((1.3..1.7).contains(&smallest.1), "it is smallest at {}", smallest.1);
     let end = snapshot(&mut simulation);
     let sums = Measure::of(&end);
-    let (virial, half) = (-sums.kinetic / sums.potential, lagrangian(&end.particles, 0.5));
+    let (virial, half) = (-sums.kinetic / sums.potential, support::lagrangian(&end.particles, 0.5));
     // Three runs ended with −K/W of 0.476 to 0.505 and a radius of 0.352 to 0.376; and as much again.
     assert!((0.46..0.52).contains(&virial) && (0.34..0.39).contains(&half), "{virial} {half}");
 }

@@ -154,15 +154,6 @@ fn rest(particles: &mut Particles) {
     particles.velocity.iter_mut().for_each(|p| *p -= v);
 }
 
-/// The radius that holds a part of the particles.
-fn lagrangian(particles: &Particles, share: f64) -> f64 {
-    let mut radii: Vec<f64> = particles.position.iter().map(|x| x.length()).collect();
-    radii.sort_by(f64::total_cmp);
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a part of a small number")]
-    let place = (radii.len() as f64 * share) as usize;
-    radii[place.min(radii.len() - 1)]
-}
-
 #[test]
 fn plummer_stays() {
     let shared = support::device();
@@ -181,7 +172,7 @@ fn plummer_stays() {
         simulation.step(if time == 0 { 0 } else { 128 }).expect("steps");
         let now = snapshot(&mut simulation);
         for (share, want, part) in radii {
-            let got = lagrangian(&now.particles, share);
+            let got = support::lagrangian(&now.particles, share);
             assert!((got / want - 1.0).abs() < part, "t = {time}: {share} of the mass within {got}, not {want}");
         }
         let sums = Measure::of(&now);
@@ -229,14 +220,14 @@ fn a_cold_sphere_collapses() {
         simulation.step(16).expect("steps");
         let now = snapshot(&mut simulation);
         worst = worst.max(Measure::of(&now).drift_from(&first).abs());
-        smallest = smallest.min(lagrangian(&now.particles, 0.5));
+        smallest = smallest.min(support::lagrangian(&now.particles, 0.5));
     }
     // Seeds differ by a half of it; twice the step would make 9e-3 (published), and no step at all nothing.
     assert!((4e-4..2e-3).contains(&worst), "worst ΔE / E = {worst:e}");
     let end = snapshot(&mut simulation);
     let sums = Measure::of(&end);
     let (virial, inner, half) =
-        (-sums.kinetic / sums.potential, lagrangian(&end.particles, 0.1), lagrangian(&end.particles, 0.5));
+        (-sums.kinetic / sums.potential, support::lagrangian(&end.particles, 0.1), support::lagrangian(&end.particles, 0.5));
     // Three runs ended with −K/W of 0.476 to 0.505, r10 of 0.136 to 0.157, r50 of 0.352 to 0.376; and as much again.
     assert!((0.46..0.52).contains(&virial), "−K / W = {virial}");
     assert!((0.126..0.168).contains(&inner) && (0.34..0.39).contains(&half), "radii {inner} and {half}");

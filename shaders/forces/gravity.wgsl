@@ -3,8 +3,10 @@ struct Params { g: f32, softening: f32 }
 
 @group(3) @binding(0) var<uniform> params: Params;
 
+fn smoothing() -> f32 { return params.softening * params.softening; }
+
 fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
-    let inverse = inverseSqrt(dot(r, r) + params.softening * params.softening);
+    let inverse = inverseSqrt(dot(r, r) + smoothing());
     let potential = you.mass * inverse;
     (*sum).acceleration += (potential * inverse * inverse) * r;
     (*sum).potential -= potential;

@@ -1,7 +1,7 @@
-// A far group by its mass M and second moments Q about the centre of mass, with ρ² = r² + ε² (after McMillan & Aarseth 1993):
+// A far group by its mass M and second moments Q about the centre of mass, with ρ² = r² + ε², or r² where the law ends its softening (after McMillan & Aarseth 1993):
 // φ = −G [M/ρ − tr Q / 2ρ³ + 3 r·Q r / 2ρ⁵],  a = G [(M/ρ³ − 3 tr Q / 2ρ⁵ + 15 r·Q r / 2ρ⁷) r − 3 Q r / ρ⁵]
 fn distant(me: Particle, you: Group, r: vec3f, sum: ptr<function, Sum>) {
-    let inverse = inverseSqrt(dot(r, r) + params.softening * params.softening);
+    let inverse = inverseSqrt(dot(r, r) + smoothing());
     let square = inverse * inverse;
     let q = you.diagonal * r + vec3f(you.mixed.x * r.y + you.mixed.y * r.z,
                                      you.mixed.x * r.x + you.mixed.z * r.z,

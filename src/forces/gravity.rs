@@ -100,7 +100,7 @@ impl Force for Gravity {
             let h = 2.8 * softening;
             let files = (
                 crate::shader!("forces/gravity_spline.wgsl"),
-                self.distant(crate::shader!("forces/gravity_spline_distant.wgsl")),
+                self.distant(crate::shader!("forces/gravity_distant.wgsl")),
             );
             let rule = move |_: &Body, you: &Body, r, _: &World| spline(g * you.mass, h, r);
             // Beyond its support the spline is Newton's law.

@@ -16,6 +16,8 @@ pub(super) const CENTER: Key =
 pub(super) const VELOCITY: Key =
     Key::new("velocity", Kind::Vector, Value::Vector(DVec3::ZERO), "how it moves as a whole [length / time]");
 pub(super) const MASS: Key = Key::new("mass", Kind::Positive, Value::Number(1.0), "mass of each particle [mass]");
+pub(super) const TOTAL_MASS: Key =
+    Key::new("mass", Kind::Positive, Value::Number(1.0), "mass of all particles together [mass]");
 pub(super) const PARTICLE_RADIUS: Key = Key::new(
     "particle_radius",
     Kind::NotNegative,

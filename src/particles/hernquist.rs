@@ -4,7 +4,7 @@
 //! model ends nowhere, so particles are drawn from its inner `cutoff` alone, and have just the mass of that: forces and
 //! motions inside are those of the endless model, and only who leaves the cut meets nobody on the way in.
 
-use super::build::{CENTER, COUNT, G, PARTICLE_RADIUS, Reader, SEED, VELOCITY};
+use super::build::{CENTER, COUNT, G, PARTICLE_RADIUS, Reader, SEED, TOTAL_MASS, VELOCITY};
 use super::random::Random;
 use super::{Particles, Shape, one_part};
 use crate::error::Error;
@@ -22,7 +22,7 @@ pub const HERNQUIST: Shape = Shape {
 const KEYS: &[Key] = &[
     COUNT,
     SEED,
-    Key::new("mass", Kind::Positive, Value::Number(1.0), "mass of all particles together [mass]"),
+    TOTAL_MASS,
     Key::new(
         "scale",
         Kind::Positive,

@@ -3,7 +3,7 @@
 
 use std::f64::consts::PI;
 
-use super::build::{CENTER, COUNT, G, PARTICLE_RADIUS, Reader, SEED, VELOCITY};
+use super::build::{CENTER, COUNT, G, PARTICLE_RADIUS, Reader, SEED, TOTAL_MASS, VELOCITY};
 use super::random::Random;
 use super::{Particles, Shape, one_part};
 use crate::error::Error;
@@ -21,7 +21,7 @@ pub const PLUMMER: Shape = Shape {
 const KEYS: &[Key] = &[
     COUNT,
     SEED,
-    Key::new("mass", Kind::Positive, Value::Number(1.0), "mass of all particles together [mass]"),
+    TOTAL_MASS,
     Key::new(
         "scale",
         Kind::Positive,

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::build::{CENTER, COUNT, G, PARTICLE_RADIUS, Reader, SEED, VELOCITY};
+use super::build::{CENTER, COUNT, G, PARTICLE_RADIUS, Reader, SEED, TOTAL_MASS, VELOCITY};
 use super::random::Random;
 use super::{Particles, Shape, one_part};
 use crate::error::Error;
@@ -20,7 +20,7 @@ pub const SPHERE: Shape = Shape {
 const KEYS: &[Key] = &[
     COUNT,
     SEED,
-    Key::new("mass", Kind::Positive, Value::Number(1.0), "mass of all particles together [mass]"),
+    TOTAL_MASS,
     Key::new("radius", Kind::Positive, Value::Number(1.0), "radius of the sphere [length]"),
     Key::new(
         "virial",

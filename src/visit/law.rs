@@ -57,6 +57,19 @@ const ON_CALL: [(&str, Source); 5] = [
 ];
 
 impl Law {
+    /// A law of which nothing more is known than what happens.
+    fn plain(name: &str, over: Over, wgsl: Source, params: Vec<(String, Scalar)>, twin: Twin) -> Self {
+        Self {
+            name: name.to_owned(),
+            over,
+            wgsl,
+            params,
+            twin: Some(twin),
+            reciprocal: false,
+            jacobian: None,
+            distant: Distant::default(),
+        }
+    }
     /// A law of each particle alone; `rule(me, world)` gives acceleration and potential per unit mass.
     pub fn each(
         name: &str,
@@ -64,16 +77,7 @@ impl Law {
         params: Vec<(String, Scalar)>,
         rule: impl Fn(&Body, &World) -> DVec4 + Send + Sync + 'static,
     ) -> Self {
-        Self {
-            name: name.to_owned(),
-            over: Over::Each,
-            wgsl,
-            params,
-            twin: Some(twin::each(rule)),
-            reciprocal: false,
-            jacobian: None,
-            distant: Distant::default(),
-        }
+        Self::plain(name, Over::Each, wgsl, params, twin::each(rule))
     }
     /// A law of all pairs that adds up: [`Law::between`] over [`Over::Pairs`].
     pub fn pairs(
@@ -116,15 +120,11 @@ impl Law {
             Over::Tree { opening, core, .. } => Some(walk::twin(opening, core, rule, far)),
             _ => None,
         };
+        let twin = twin::meetings(over, gather, |_, sum: &DVec4, _| *sum);
         Self {
-            name: name.to_owned(),
-            over,
-            wgsl,
-            params,
-            twin: Some(twin::meetings(over, gather, |_, sum: &DVec4, _| *sum)),
             reciprocal: true,
-            jacobian: None,
             distant: Distant { wgsl: distant, walk, sample, images: false },
+            ..Self::plain(name, over, wgsl, params, twin)
         }
     }
     /// A law that makes something else of its neighbours than a sum of accelerations; `gather(me, you, r, sum)` takes
@@ -138,17 +138,7 @@ impl Law {
         finish: impl Fn(&Body, &S, &World) -> DVec4 + Send + Sync + 'static,
     ) -> Self {
         let gather = move |me: &Body, you: &Body, r, _: &World, sum: &mut S| gather(me, you, r, sum);
-        let twin = Some(twin::meetings(over, gather, finish));
-        Self {
-            name: name.to_owned(),
-            over,
-            wgsl,
-            params,
-            twin,
-            reciprocal: false,
-            jacobian: None,
-            distant: Distant::default(),
-        }
+        Self::plain(name, over, wgsl, params, twin::meetings(over, gather, finish))
     }
     /// A law of springs; `gather(me, you, r, link, sum)` takes one in, with r from me to you, and `finish(me, sum)` gives
     /// acceleration and potential per unit mass, of which each end holds half.
@@ -159,17 +149,8 @@ impl Law {
         gather: impl Fn(&Body, &Body, DVec3, &Half, &mut S) + Send + Sync + 'static,
         finish: impl Fn(&Body, &S) -> DVec4 + Send + Sync + 'static,
     ) -> Self {
-        let twin = Some(twin::links(gather, finish));
-        Self {
-            name: name.to_owned(),
-            over: Over::Links,
-            wgsl,
-            params,
-            twin,
-            reciprocal: true,
-            jacobian: None,
-            distant: Distant::default(),
-        }
+        let twin = twin::links(gather, finish);
+        Self { reciprocal: true, ..Self::plain(name, Over::Links, wgsl, params, twin) }
     }
     /// A law of joints or triangles; `rule(corners, place, stiffness, world)` gives the force on the corner of that
     /// place, and the energy of the whole, of which each corner holds a third.
@@ -180,17 +161,7 @@ impl Law {
         params: Vec<(String, Scalar)>,
         rule: impl Fn([&Body; 3], &Corner, &World) -> DVec4 + Send + Sync + 'static,
     ) -> Self {
-        let twin = Some(twin::corners(over, rule));
-        Self {
-            name: name.to_owned(),
-            over,
-            wgsl,
-            params,
-            twin,
-            reciprocal: false,
-            jacobian: None,
-            distant: Distant::default(),
-        }
+        Self::plain(name, over, wgsl, params, twin::corners(over, rule))
     }
     /// Joins the law with its visit, for such a problem.
     ///

@@ -50,6 +50,15 @@ pub async fn limited(
     shared.found.adapter.request_device(&descriptor).await.expect("an adapter gives less than it has")
 }
 
+/// The radius that holds a part of the particles.
+pub fn lagrangian(particles: &Particles, share: f64) -> f64 {
+    let mut radii: Vec<f64> = particles.position.iter().map(|x| x.length()).collect();
+    radii.sort_by(f64::total_cmp);
+    #[expect(clippy::cast_sign_loss, reason = "a part of a small number")]
+    let place = (radii.len() as f64 * share) as usize;
+    radii[place.min(radii.len() - 1)]
+}
+
 /// Numbers that repeat, and are neither 0 nor 1.
 pub struct Random(u64);
 
