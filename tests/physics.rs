@@ -226,8 +226,11 @@ fn a_cold_sphere_collapses() {
     assert!((4e-4..2e-3).contains(&worst), "worst ΔE / E = {worst:e}");
     let end = snapshot(&mut simulation);
     let sums = Measure::of(&end);
-    let (virial, inner, half) =
-        (-sums.kinetic / sums.potential, support::lagrangian(&end.particles, 0.1), support::lagrangian(&end.particles, 0.5));
+    let (virial, inner, half) = (
+        -sums.kinetic / sums.potential,
+        support::lagrangian(&end.particles, 0.1),
+        support::lagrangian(&end.particles, 0.5),
+    );
     // Three runs ended with −K/W of 0.476 to 0.505, r10 of 0.136 to 0.157, r50 of 0.352 to 0.376; and as much again.
     assert!((0.46..0.52).contains(&virial), "−K / W = {virial}");
     assert!((0.126..0.168).contains(&inner) && (0.34..0.39).contains(&half), "radii {inner} and {half}");
