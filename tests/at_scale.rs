@@ -7,7 +7,7 @@ use motes::forces::Problem;
 use motes::integrators::Step;
 use motes::kernel::Machine;
 use motes::scene::{Options, Scene, Source};
-use motes::{Gpu, Measure, Particles, Setup, Simulation, Snapshot};
+use motes::{Gpu, Measure, Setup, Simulation, Snapshot};
 use support::Shared;
 use support::states::{force, word};
 
