@@ -3,6 +3,7 @@
 pub mod boundary;
 pub mod cpu;
 pub mod error;
+pub mod fluids;
 pub mod forces;
 pub mod gpu;
 pub mod integrators;

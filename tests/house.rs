@@ -135,7 +135,7 @@ fn no_binding_number_is_written_in_rust() {
 }
 
 /// A module may name only what stands before it.
-const ORDER: [&str; 25] = [
+const ORDER: [&str; 26] = [
     "error",
     "settings",
     "links",
@@ -147,6 +147,7 @@ const ORDER: [&str; 25] = [
     "neighbors",
     "tree",
     "visit",
+    "fluids",
     "forces",
     "particles",
     "integrators",

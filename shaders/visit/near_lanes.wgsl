@@ -9,7 +9,7 @@ fn near(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
         if acts_on(me) {
             var sum = Sum();
             walk(k, me, &sum);
-            deliver(me, sum);
+            deliver(k, me, sum);
         }
     }
 }

@@ -1,6 +1,5 @@
 // What the `near` visits share: the rows of cells around me. A row is contiguous in the grid, but for the seam of the
 // fold: there it is in parts, of which the middle one is on my side.
-@group(1) @binding(2) var<storage, read_write> acceleration: array<vec4f>;
 @group(1) @binding(4) var<storage, read_write> alarm: array<atomic<u32>>; // steps done, id, id of one with too many around
 @group(2) @binding(1) var<storage, read> starts: array<u32>;
 
@@ -70,8 +69,3 @@ fn way(me: vec3f, you: vec3f, shift: vec3f) -> vec3f {
 }
 
 fn in_range(r: vec3f) -> bool { return r.x * r.x + r.y * r.y + r.z * r.z < grid.range * grid.range; }
-
-// Each of a pair holds half of its potential energy.
-fn deliver(me: Particle, sum: Sum) {
-    acceleration[me.index] += vec4f(1.0, 1.0, 1.0, 0.5) * finish(me, sum);
-}

@@ -126,7 +126,7 @@ fn nearest(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups:
                     gather(me, you, shortest(you.position - me.position), &sum);
                 }
             }
-            deliver(me, sum);
+            deliver(k, me, sum);
         }
     }
 }

@@ -10,6 +10,7 @@ use kind::{Kind, SPECIES, species};
 use crate::error::Error;
 pub use crate::kernel::Problem;
 use crate::kernel::{Plan, Scalar};
+use crate::neighbors::Grid;
 use crate::settings::{Key, Settings, Value};
 use crate::solids::Standing;
 pub use crate::visit::{Body, Distant, Jacobian, Law, Over};
@@ -24,6 +25,21 @@ pub trait Force: Send + Sync {
     /// Its laws, in the order in which they are visited; a later one may read what an earlier one wrote.
     fn laws(&self) -> Vec<Law>;
 
+    /// The grids that it searches, and whether it asks there for velocities.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] when a range is none.
+    fn grids(&self, problem: &Problem) -> Result<Vec<(Grid, bool)>, Error> {
+        let grids = self.laws().into_iter().map(|law| law.grid(problem));
+        grids.filter_map(Result::transpose).collect()
+    }
+    /// Adds kernels that run once, before the first step, when held particles are where they belong.
+    ///
+    /// # Errors
+    /// When it makes no sense there.
+    fn begin(&self, _plan: &mut Plan, _problem: &Problem) -> Result<(), Error> {
+        Ok(())
+    }
     /// Adds its kernels to a plan; `earlier` counts the forces of its kind before it in the scene. A force that no visit
     /// can express (a mesh, a Fourier transform) writes its own.
     ///
@@ -132,6 +148,7 @@ register! {
     strain_limit: StrainLimit, "springs that are not stretched farther than so much (Provot 1995)";
     tear: Tear, "springs that are stretched too far break, for ever";
     joint: Joint, "joints that resist bending: elastic rods, hair (Euler 1744)";
+    fluid: Fluid, "a fluid by smoothed particle hydrodynamics, weakly compressible (Monaghan 1994); who is held is its wall";
     air: Air, "drag and lift on every triangle of a cloth, in gusts (Ling, Damodaran & Gay 1996)";
 }
 

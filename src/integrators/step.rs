@@ -1,5 +1,6 @@
 //! A step as it is being written: each verb adds kernels to a plan.
 
+mod search;
 mod solve;
 
 pub use solve::{Explicit, Form, Implicit, implicit};
@@ -13,8 +14,7 @@ use crate::boundary;
 use crate::error::Error;
 use crate::forces::{Force, Problem};
 use crate::kernel::{ACCELERATION, Kernel, Plan, Twin};
-use crate::neighbors::Grid;
-use crate::tree::{Opening, Tree};
+use crate::tree::Opening;
 
 /// Writes a plan in verbs. The first error is kept and given at the end, so that an integrator reads like its textbook.
 pub struct Step<'a> {
@@ -99,30 +99,9 @@ impl<'a> Step<'a> {
     pub fn lead(&mut self) {
         self.add_all(held::lead(&self.problem));
     }
-    /// The grids that laws search and the trees that they walk: each once, however many laws do.
-    fn neighbors(&mut self, chosen: impl Fn(usize) -> bool) {
-        let mut grids: Vec<(Grid, bool)> = Vec::new();
-        let mut trees: Vec<Tree> = Vec::new();
-        let forces = self.forces.iter().enumerate().filter(|(place, _)| chosen(*place));
-        for law in forces.flat_map(|(_, force)| force.laws()) {
-            trees.extend(law.tree(&self.problem).filter(|tree| !trees.contains(tree)));
-            match law.grid(&self.problem) {
-                Ok(Some((grid, moving))) => match grids.iter_mut().find(|(known, _)| *known == grid) {
-                    Some((_, also)) => *also |= moving,
-                    None => grids.push((grid, moving)),
-                },
-                Ok(None) => {}
-                Err(error) => {
-                    self.error.get_or_insert(error);
-                }
-            }
-        }
-        for (grid, moving) in grids {
-            self.add(grid.kernel(&self.problem, moving));
-        }
-        for tree in trees {
-            self.add_all(tree.kernels(&self.problem));
-        }
+    /// What forces do once, before the first step.
+    pub fn begin(&mut self) {
+        self.each_force(|force, plan, problem| force.begin(plan, problem));
     }
     /// v ← v + c a dt, within the limits of speed
     pub fn kick(&mut self, factor: f64) {

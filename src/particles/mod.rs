@@ -1,5 +1,6 @@
 //! Particles on the host: what files and generators give, and what a simulation starts from.
 
+pub mod block;
 mod build;
 pub mod chain;
 pub mod cloth;
@@ -75,6 +76,7 @@ pub const SHAPES: &[Shape] = &[
     disk::DISK,
     clusters::CLUSTERS,
     lattice::LATTICE,
+    block::BLOCK,
     random_box::RANDOM_BOX,
     spray::SPRAY,
     chain::CHAIN,

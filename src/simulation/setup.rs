@@ -52,6 +52,7 @@ impl Setup {
         let mut start = Step::new(&self.forces, problem.clone());
         start.enclose();
         start.lead();
+        start.begin();
         self.integrator.start(&mut start);
         let mut step = Step::new(&self.forces, problem.clone());
         step.lead();

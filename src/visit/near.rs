@@ -27,24 +27,36 @@ pub fn grid(law: &Law, problem: &Problem) -> Result<Option<(Grid, bool)>, Error>
     }
 }
 
-/// What a law searches its neighbours with.
-fn files(law: &Law, grid: &Grid, moving: bool, machine: &Machine) -> Vec<Source> {
-    let mut files = match law.over {
+/// What a law meets its neighbours as.
+fn particles(law: &Law, moving: bool) -> Vec<Source> {
+    match law.over {
         Over::Nearest { .. } => vec![crate::shader!("particle.wgsl"), crate::shader!("visit/nearest.wgsl")],
-        _ if moving => vec![crate::shader!("visit/near_moving.wgsl")],
-        _ => vec![crate::shader!("visit/near_still.wgsl")],
-    };
-    if let Over::Near { .. } = law.over {
-        files.push(match grid.of {
-            Some(_) => crate::shader!("visit/near_ids.wgsl"),
-            None => crate::shader!("visit/near_slots.wgsl"),
-        });
-        match (machine.software, machine.subgroup) {
-            (true, 8) => files.push(crate::shader!("visit/near_subgroup.wgsl")),
-            _ => files.extend([crate::shader!("visit/near_walk.wgsl"), crate::shader!("visit/near_lanes.wgsl")]),
-        }
+        _ if moving => vec![crate::shader!("visit/near_moving.wgsl"), crate::shader!("visit/near_told.wgsl")],
+        _ => vec![crate::shader!("visit/near_still.wgsl"), crate::shader!("visit/near_told.wgsl")],
+    }
+}
+
+/// What everybody in range is searched with.
+pub fn search(grid: &Grid, machine: &Machine) -> Vec<Source> {
+    let mut files = vec![match grid.of {
+        Some(_) => crate::shader!("visit/near_ids.wgsl"),
+        None => crate::shader!("visit/near_slots.wgsl"),
+    }];
+    match (machine.software, machine.subgroup) {
+        (true, 8) => files.push(crate::shader!("visit/near_subgroup.wgsl")),
+        _ => files.extend([crate::shader!("visit/near_walk.wgsl"), crate::shader!("visit/near_lanes.wgsl")]),
     }
     files
+}
+
+/// What every search is made of.
+pub fn ground() -> Vec<Source> {
+    vec![
+        crate::shader!("world.wgsl"),
+        crate::shader!("fields.wgsl"),
+        crate::shader!("neighbors/cell.wgsl"),
+        crate::shader!("visit/near_rows.wgsl"),
+    ]
 }
 
 pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
@@ -52,39 +64,47 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
     let Some((grid, moving)) = grid(&law, problem)? else {
         return Err(Error::Scene(format!("`{}` searches no grid", law.name)));
     };
-    let mut sources = vec![
-        crate::shader!("world.wgsl"),
-        crate::shader!("fields.wgsl"),
-        crate::shader!("neighbors/cell.wgsl"),
-        crate::shader!("visit/near_rows.wgsl"),
-    ];
-    sources.extend(files(&law, &grid, moving, &problem.machine));
+    let mut sources = ground();
+    sources.push(crate::shader!("visit/near_feel.wgsl"));
+    sources.extend(particles(&law, moving));
+    if let Over::Near { .. } = law.over {
+        sources.extend(search(&grid, &problem.machine));
+    }
     sources.extend(law.files());
     let shader = Shader::join(&sources)?;
     let (params, mut constants) = (law.uniforms(&shader)?, problem.constants(&shader));
-    match law.over {
-        Over::Nearest { count } => constants.push(("COUNT", f64::from(count))),
-        _ if grid.narrow(problem) => constants.push(("NARROW", 1.0)),
-        _ => {}
+    if let Over::Nearest { count } = law.over {
+        constants.push(("COUNT", f64::from(count)));
     }
+    let passes = passes(&grid, &Pass { constants, uniforms: params, ..Pass::new(shader, 0) }, problem)?;
+    let (twin, sizes) = (law.twin, sizes(&grid));
+    Ok(Kernel { name: law.name, passes, twin, sizes, scratch: Vec::new(), tables: Vec::new() })
+}
+
+/// The dispatches of a search, each of some of the targets.
+pub fn passes(grid: &Grid, all: &Pass, problem: &Problem) -> Result<Vec<Pass>, Error> {
     let fields = [STARTS, SORTED_ID, SORTED_POSITION, SORTED_VELOCITY].map(|name| grid.field(name));
+    let narrow = all.shader.reflection().overrides.contains_key("NARROW") && grid.narrow(problem);
     let mut passes = Vec::new();
     let mut first = 0;
     while first < problem.count {
         let end = problem.count.min(first.saturating_add(TARGETS));
-        let mut uniforms = params.clone();
-        if let Some(binding) = shader.reflection().binding("grid") {
-            uniforms.push(("grid", grid.uniform(binding, first, end)?));
+        let mut pass = all.clone().on(&fields);
+        if let Some(binding) = all.shader.reflection().binding("grid") {
+            pass.uniforms.push(("grid", grid.uniform(binding, first, end)?));
+        }
+        if narrow {
+            pass.constants.push(("NARROW", 1.0));
         }
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "an estimate")]
         let work = (f64::from(end - first) * grid.candidates(problem)) as u64;
-        let threads = Threads::new(end - first);
-        let pass = Pass { constants: constants.clone(), uniforms, threads, work, ..Pass::new(shader.clone(), 0) };
-        passes.push(pass.on(&fields));
+        passes.push(Pass { threads: Threads::new(end - first), work, ..pass });
         first = end;
     }
-    // The law does not make these, but it binds them: they are as long as the grid makes them.
-    let sizes: Vec<(Name, u64)> =
-        vec![(grid.field(STARTS).1, u64::from(grid.count()) + 1), (ALARM.name.into(), ALARM_WORDS as u64)];
-    Ok(Kernel { name: law.name, passes, twin: law.twin, sizes, scratch: Vec::new(), tables: Vec::new() })
+    Ok(passes)
+}
+
+/// A search does not make these, but it binds them: they are as long as the grid makes them.
+pub fn sizes(grid: &Grid) -> Vec<(Name, u64)> {
+    vec![(grid.field(STARTS).1, u64::from(grid.count()) + 1), (ALARM.name.into(), ALARM_WORDS as u64)]
 }

@@ -1,0 +1,10 @@
+// Density by summation:  ρ = Σ m W(r), over all in range and oneself. Walls are not asked.
+struct Sum { density: f32 }
+
+@group(3) @binding(2) var<storage, read_write> density: array<f32>;
+
+fn acts_on(me: Particle) -> bool { return !is_held(me.index); }
+
+fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) { (*sum).density += you.mass * kernel(r); }
+
+fn deliver(k: u32, me: Particle, sum: Sum) { density[me.index] = sum.density + me.mass * kernel(vec3f()); }

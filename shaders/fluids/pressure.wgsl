@@ -1,0 +1,29 @@
+// Momentum (Monaghan 1992, 2005), with r from me to you, v = v_you − v_me, and g r the gradient of W at you:
+//   a = Σ m (p/ρ² + p'/ρ'² + Π) g r,  Π = −α c μ / ρ̄,  μ = s v·r / (r² + 0.01 s²) where they come closer, s the smoothing length
+//   a −= Σ m ν (1/ρ + 1/ρ') g r² / (r² + 0.01 s²) v   (Morris, Fox & Zhu 1997, with ρ ν for each of them)
+// Walls have the density of rest and my own pressure (Akinci et al. 2012), and a share of the friction.
+struct Params { alpha: f32, viscosity: f32, wall: f32 }
+struct Sum { acceleration: vec3f }
+
+@group(3) @binding(0) var<uniform> params: Params;
+@group(1) @binding(2) var<storage, read_write> acceleration: array<vec4f>;
+
+fn acts_on(me: Particle) -> bool { return me.density > 0.0; }
+
+fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
+    let d2 = r.x * r.x + r.y * r.y + r.z * r.z;
+    let wall = you.density == 0.0;
+    let density = select(you.density, medium.density, wall);
+    let ratio = me.density / medium.density;
+    let pressure = select(you.pressure, me.pressure * ratio * ratio, wall);
+    let friction = select(1.0, params.wall, wall);
+    let v = you.velocity - me.velocity;
+    let near = d2 + 0.01 * medium.smoothing * medium.smoothing;
+    let closing = min(v.x * r.x + v.y * r.y + v.z * r.z, 0.0) * medium.smoothing / near;
+    let artificial = params.alpha * medium.sound * closing / (0.5 * (me.density + density));
+    let laminar = params.viscosity * (1.0 / me.density + 1.0 / density) * d2 / near;
+    let push = me.pressure + pressure - friction * artificial;
+    (*sum).acceleration += (you.mass * gradient(r)) * (push * r - (friction * laminar) * v);
+}
+
+fn deliver(k: u32, me: Particle, sum: Sum) { acceleration[me.index] += vec4f(sum.acceleration, flow[k].z); }

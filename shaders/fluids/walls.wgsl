@@ -1,0 +1,13 @@
+// Walls weigh as much as the fluid whose place their particles take:  m = ρ₀ / Σ W, over the walls (Akinci et al. 2012).
+struct Sum { number: f32 }
+
+// The positions, with masses in w.
+@group(3) @binding(2) var<storage, read_write> weighed: array<vec4f>;
+
+fn acts_on(me: Particle) -> bool { return is_held(me.index); }
+
+fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
+    if is_held(you.index) { (*sum).number += kernel(r); }
+}
+
+fn deliver(k: u32, me: Particle, sum: Sum) { weighed[me.index].w = medium.density / (sum.number + kernel(vec3f())); }

@@ -1,0 +1,54 @@
+//! Density by summation: ρ = Σ m W, over the fluid and its walls (Gingold & Monaghan 1977; Akinci et al. 2012).
+
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use super::{DENSITY, Medium};
+use crate::error::Error;
+use crate::kernel::{Host, Kernel, Problem};
+use crate::visit::{Sweep, gathered};
+
+/// The kernel that sums it, for everybody that is not held.
+///
+/// # Errors
+/// When the range is none, or a shader does not compile.
+pub fn density(medium: &Medium, problem: &Problem) -> Result<Kernel, Error> {
+    let (holding, tables) = problem.holding();
+    let files = vec![
+        holding,
+        crate::shader!("visit/near_still.wgsl"),
+        crate::shader!("visit/near_told.wgsl"),
+        medium.smoothing.source(),
+        crate::shader!("fluids/medium.wgsl"),
+        crate::shader!("fluids/density.wgsl"),
+    ];
+    let (me, who) = (*medium, problem.clone());
+    let twin = move |host: &Host| {
+        let range = me.range();
+        let weights = gathered(
+            host,
+            range,
+            |body| !who.is_held(body.index),
+            |_, you, r, sum: &mut f64| {
+                *sum += you.mass * me.kernel(r);
+            },
+        )?;
+        let bodies = crate::visit::bodies(host)?;
+        let mut density = host.write(DENSITY)?;
+        for (body, sum) in bodies.iter().zip(weights) {
+            if let Some(sum) = sum {
+                density[body.index] = sum + body.mass * me.kernel(DVec3::ZERO);
+            }
+        }
+        Ok(())
+    };
+    let sweep = Sweep {
+        name: "fluid density".to_owned(),
+        grid: medium.grid(problem)?,
+        files,
+        blocks: vec![medium.block()],
+        twin: Arc::new(twin),
+    };
+    Ok(Kernel { tables, ..sweep.kernel(problem)? })
+}

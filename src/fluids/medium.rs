@@ -1,0 +1,112 @@
+//! A fluid at rest, and how it is smoothed.
+
+use glam::DVec3;
+
+use super::Smoothing;
+use crate::error::Error;
+use crate::kernel::{Problem, Scalar};
+use crate::neighbors::Grid;
+
+/// A fluid: its density at rest, how compressible it is, and how its particles smooth it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Medium {
+    /// The density at rest \[mass / length^D\].
+    pub density: f64,
+    /// How far apart particles are at rest, on a cubic lattice \[length\].
+    pub spacing: f64,
+    /// How far the kernel reaches, in spacings.
+    pub support: f64,
+    /// The kernel.
+    pub smoothing: Smoothing,
+    /// The speed of sound at rest \[length / time\].
+    pub sound: f64,
+    /// γ of Tait's equation, a whole number.
+    pub exponent: u32,
+    /// Whether pressure may be below 0: where there is no free surface.
+    pub negative: bool,
+    /// 2 or 3.
+    pub dimensions: u32,
+}
+
+impl Medium {
+    /// How far the kernel reaches \[length\].
+    #[must_use]
+    pub fn range(&self) -> f64 {
+        self.support * self.spacing
+    }
+    /// The mass of a particle: that of the fluid in its share of the lattice \[mass\].
+    #[must_use]
+    pub fn mass(&self) -> f64 {
+        self.density * self.volume()
+    }
+    /// A particle's share of the lattice.
+    #[must_use]
+    pub fn volume(&self) -> f64 {
+        if self.dimensions == 2 { self.spacing * self.spacing } else { self.spacing.powi(3) }
+    }
+    /// The constant in front of the kernel: such that the sum over a lattice at rest is just the density at rest. (An integral of
+    /// 1 is not a sum of 1: with Wendland's kernel and a support of two spacings it is 1.034, a pressure of six times what weighs
+    /// on the bottom of a dam break.)
+    #[must_use]
+    pub fn weight(&self) -> f64 {
+        let sum = self.smoothing.lattice_sum(self.support, self.dimensions);
+        let volume = self.range().powi(if self.dimensions == 2 { 2 } else { 3 });
+        self.smoothing.constant(self.dimensions) / (volume * sum)
+    }
+    /// W(r).
+    #[must_use]
+    pub fn kernel(&self, r: DVec3) -> f64 {
+        self.weight() * self.smoothing.bell(r.length() / self.range())
+    }
+    /// What times r is the gradient of W at who stands r away: W′(r) / r.
+    #[must_use]
+    pub fn gradient(&self, r: DVec3) -> f64 {
+        self.weight() / self.range().powi(2) * self.smoothing.decline(r.length() / self.range())
+    }
+    /// B of Tait's equation p = B ((ρ/ρ₀)^γ − 1) \[pressure\].
+    #[must_use]
+    pub fn stiffness(&self) -> f64 {
+        self.density * self.sound * self.sound / f64::from(self.exponent)
+    }
+    /// Pressure over the square of the density, and the internal energy per unit mass (Monaghan 1994), of a density.
+    #[must_use]
+    pub fn state(&self, density: f64) -> (f64, f64) {
+        let excess = (density - self.density) / self.density;
+        let x = if self.negative || excess > 0.0 { excess } else { 0.0 };
+        let (ratio, stiffness) = (1.0 + x, self.stiffness());
+        // x^γ − 1 = e (1 + x + … + x^(γ−1)), with e = x − 1: no digits are lost where e is small.
+        let (mut sum, mut energy) = (0.0, 0.0);
+        for k in 1..=self.exponent {
+            sum = sum * ratio + 1.0;
+            // ∫ p / ρ² dρ = B e² (1 x^(γ−2) + 2 x^(γ−3) + … + γ − 1) / ((γ − 1) ρ₀ x)
+            if k < self.exponent {
+                energy = energy * ratio + f64::from(k);
+            }
+        }
+        let share = f64::from(self.exponent - 1) * self.density * ratio;
+        (stiffness * x * sum / (density * density), stiffness * x * x * energy / share)
+    }
+    /// The grid in which neighbours are found.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] when the range is none.
+    pub fn grid(&self, problem: &Problem) -> Result<Grid, Error> {
+        Grid::new(self.range(), None, problem)
+    }
+    /// The block `medium` of shaders.
+    #[must_use]
+    pub fn block(&self) -> (&'static str, Vec<(&'static str, Scalar)>) {
+        let values = vec![
+            ("per_support", Scalar::Float(1.0 / self.range())),
+            ("weight", Scalar::Float(self.weight())),
+            ("slope", Scalar::Float(self.weight() / self.range().powi(2))),
+            ("smoothing", Scalar::Float(0.5 * self.range())),
+            ("density", Scalar::Float(self.density)),
+            ("sound", Scalar::Float(self.sound)),
+            ("stiffness", Scalar::Float(self.stiffness())),
+            ("exponent", Scalar::Uint(self.exponent)),
+            ("negative", Scalar::Uint(u32::from(self.negative))),
+        ];
+        ("medium", values)
+    }
+}

@@ -1,0 +1,80 @@
+//! What pressure and friction do.
+
+use std::sync::Arc;
+
+use glam::{DVec3, Vec4};
+
+use super::{FLOW, Medium};
+use crate::error::Error;
+use crate::kernel::{ACCELERATION, Host, Kernel, Problem, Scalar};
+use crate::neighbors::SORTED_ID;
+use crate::visit::{Body, Sweep, gathered};
+
+/// How a fluid rubs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Friction {
+    /// α of the artificial viscosity (Monaghan 1992).
+    pub alpha: f64,
+    /// The kinematic viscosity ν (Morris, Fox & Zhu 1997) \[length² / time\].
+    pub viscosity: f64,
+    /// How much of both walls have: 0 lets slip.
+    pub wall: f64,
+}
+
+/// The kernel that adds accelerations, and the internal energy as the potential.
+///
+/// # Errors
+/// When the range is none, or a shader does not compile.
+pub fn pressure(medium: &Medium, friction: Friction, problem: &Problem) -> Result<Kernel, Error> {
+    let grid = medium.grid(problem)?;
+    let files = vec![
+        crate::shader!("fluids/flowing.wgsl"),
+        crate::shader!("fluids/flowing_told.wgsl"),
+        medium.smoothing.source(),
+        crate::shader!("fluids/medium.wgsl"),
+        crate::shader!("fluids/pressure.wgsl"),
+    ];
+    let params = vec![
+        ("alpha", Scalar::Float(friction.alpha)),
+        ("viscosity", Scalar::Float(friction.viscosity)),
+        ("wall", Scalar::Float(friction.wall)),
+    ];
+    let (me, slots) = (*medium, grid.clone());
+    let twin = move |host: &Host| {
+        let ids = host.reading::<u32>(&slots.field(SORTED_ID).1)?;
+        let flow = host.reading::<Vec4>(&slots.field(FLOW).1)?;
+        let mut states = vec![DVec3::ZERO; ids.len()];
+        ids.iter().zip(flow.iter()).for_each(|(id, flow)| states[*id as usize] = flow.truncate());
+        let flows = |body: &Body| states[body.index].x > 0.0;
+        let felt = gathered(host, me.range(), flows, |a, b, r, sum: &mut DVec3| {
+            *sum += push(&me, friction, [a, b], [states[a.index], states[b.index]], r);
+        })?;
+        let mut acceleration = host.write(ACCELERATION)?;
+        for (i, felt) in felt.into_iter().enumerate() {
+            if let Some(felt) = felt {
+                acceleration[i] += felt.extend(states[i].z);
+            }
+        }
+        Ok(())
+    };
+    let blocks = vec![medium.block(), ("params", params)];
+    let sweep = Sweep { name: "fluid pressure".to_owned(), files, blocks, twin: Arc::new(twin), grid };
+    let mut kernel = sweep.kernel(problem)?;
+    let flow = medium.grid(problem)?.field(FLOW);
+    kernel.passes.iter_mut().for_each(|pass| pass.fields.push(flow.clone()));
+    Ok(kernel)
+}
+
+/// What one does to another, with r from the latter to the former; states are density, p / ρ² and energy.
+fn push(medium: &Medium, friction: Friction, [me, you]: [&Body; 2], [mine, yours]: [DVec3; 2], r: DVec3) -> DVec3 {
+    let wall = yours.x == 0.0;
+    let density = if wall { medium.density } else { yours.x };
+    let pressure = if wall { mine.y * (mine.x / medium.density).powi(2) } else { yours.y };
+    let share = if wall { friction.wall } else { 1.0 };
+    let (v, length) = (you.velocity - me.velocity, 0.5 * medium.range());
+    let near = r.length_squared() + 0.01 * length * length;
+    let closing = v.dot(r).min(0.0) * length / near;
+    let artificial = friction.alpha * medium.sound * closing / (0.5 * (mine.x + density));
+    let laminar = friction.viscosity * (1.0 / mine.x + 1.0 / density) * r.length_squared() / near;
+    you.mass * medium.gradient(r) * ((mine.y + pressure - share * artificial) * r - share * laminar * v)
+}

@@ -1,0 +1,49 @@
+//! The equation of state: pressure of density.
+
+use std::sync::Arc;
+
+use glam::{DVec4, Vec4};
+
+use super::{DENSITY, FLOW, Medium};
+use crate::error::Error;
+use crate::kernel::{Host, Kernel, Pass, Problem, Shader};
+use crate::neighbors::SORTED_ID;
+use crate::visit::blocks;
+
+/// The kernel that writes density, pressure and energy down in the order of the grid.
+///
+/// # Errors
+/// When the range is none, or a shader does not compile.
+pub fn state(medium: &Medium, problem: &Problem) -> Result<Kernel, Error> {
+    let grid = medium.grid(problem)?;
+    let (holding, tables) = problem.holding();
+    let shader = Shader::join(&[
+        holding,
+        crate::shader!("world.wgsl"),
+        crate::shader!("fields.wgsl"),
+        medium.smoothing.source(),
+        crate::shader!("fluids/medium.wgsl"),
+        crate::shader!("fluids/state.wgsl"),
+    ])?;
+    let uniforms = blocks("the state of a fluid", &shader, &[medium.block()])?;
+    let fields = [SORTED_ID, FLOW].map(|name| grid.field(name));
+    let pass = Pass { uniforms, ..Pass::new(shader, problem.count) }.on(&fields);
+    let (me, who) = (*medium, problem.clone());
+    let twin = move |host: &Host| {
+        let (ids, density) = (host.reading::<u32>(&grid.field(SORTED_ID).1)?, host.read(DENSITY)?);
+        let mut flow = host.writing::<Vec4>(&grid.field(FLOW).1)?;
+        for (flow, id) in flow.iter_mut().zip(ids.iter().map(|id| *id as usize)) {
+            let (pressure, energy) = me.state(density[id]);
+            *flow = if who.is_held(id) { DVec4::ZERO } else { DVec4::new(density[id], pressure, energy, 0.0) };
+        }
+        Ok(())
+    };
+    Ok(Kernel {
+        name: "fluid state".to_owned(),
+        passes: vec![pass],
+        twin: Some(Arc::new(twin)),
+        sizes: Vec::new(),
+        scratch: Vec::new(),
+        tables,
+    })
+}

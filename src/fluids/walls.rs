@@ -1,0 +1,56 @@
+//! How heavy the particles of walls are.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use super::Medium;
+use crate::error::Error;
+use crate::kernel::{Host, Kernel, POSITION, Problem};
+use crate::visit::{Sweep, gathered};
+
+/// The kernel that gives whoever is held the mass of the fluid whose place it takes (Akinci et al. 2012).
+///
+/// # Errors
+/// When the range is none, or a shader does not compile.
+pub fn walls(medium: &Medium, problem: &Problem) -> Result<Kernel, Error> {
+    let (holding, tables) = problem.holding();
+    let files = vec![
+        holding,
+        crate::shader!("visit/near_still.wgsl"),
+        crate::shader!("visit/near_told.wgsl"),
+        medium.smoothing.source(),
+        crate::shader!("fluids/medium.wgsl"),
+        crate::shader!("fluids/walls.wgsl"),
+    ];
+    let (me, who) = (*medium, problem.clone());
+    let twin = move |host: &Host| {
+        let range = me.range();
+        let held = |i: usize| who.is_held(i);
+        let numbers = gathered(
+            host,
+            range,
+            |body| held(body.index),
+            |_, you, r, sum: &mut f64| {
+                *sum += if held(you.index) { me.kernel(r) } else { 0.0 };
+            },
+        )?;
+        let mut position = host.write(POSITION)?;
+        for (i, sum) in numbers.into_iter().enumerate() {
+            if let Some(sum) = sum {
+                position[i].w = me.density / (sum + me.kernel(DVec3::ZERO));
+            }
+        }
+        Ok(())
+    };
+    let sweep = Sweep {
+        name: "fluid walls".to_owned(),
+        grid: medium.grid(problem)?,
+        files,
+        blocks: vec![medium.block()],
+        twin: Arc::new(twin),
+    };
+    let mut kernel = sweep.kernel(problem)?;
+    kernel.passes.iter_mut().for_each(|pass| pass.fields.push(("weighed", POSITION.name.into())));
+    Ok(Kernel { tables, ..kernel })
+}

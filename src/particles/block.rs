@@ -1,0 +1,83 @@
+//! A block of fluid at rest.
+
+use glam::DVec3;
+
+use super::build::{CENTER, PARTICLE_RADIUS, Reader, SEED, VELOCITY};
+use super::random::Random;
+use super::{Particles, Shape, one_part};
+use crate::error::Error;
+use crate::settings::{Key, Kind, Settings, Value};
+
+/// The shape `block`.
+pub const BLOCK: Shape = Shape {
+    name: "block",
+    about: "a block of fluid: a cubic lattice that fills a box, or a rectangle",
+    keys: KEYS,
+    build,
+    parts: one_part,
+};
+
+const KEYS: &[Key] = &[
+    Key::required("size", Kind::Vector, "its sides; 0 along z for a rectangle [length]"),
+    Key::required(
+        "spacing",
+        Kind::Positive,
+        "how far apart particles are, as in the force; sides are filled by whole numbers of them [length]",
+    ),
+    Key::new(
+        "density",
+        Kind::Positive,
+        Value::Number(1000.0),
+        "the density at rest, as in the force [mass / length³, or mass / length²]",
+    ),
+    Key::new("jitter", Kind::NotNegative, Value::Number(0.0), "largest displacement along each axis, in spacings"),
+    SEED,
+    CENTER,
+    VELOCITY,
+    PARTICLE_RADIUS,
+];
+
+/// As many particles along each side as fit best, in the middle of their shares; each weighs what the fluid in its share does.
+fn build(settings: &Settings) -> Result<Particles, Error> {
+    let reader = Reader { shape: "block", settings };
+    let (size, spacing) = (reader.vector("size")?, reader.positive("spacing")?);
+    if size.x <= 0.0 || size.y <= 0.0 || size.z < 0.0 {
+        return Err(reader.error(&format!("size is {size}; sides must be above 0, that along z 0 at least")));
+    }
+    let flat = size.z == 0.0;
+    let numbers = (size / spacing).round().max(DVec3::ONE);
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "whole; beyond 2^64 it saturates, and is refused"
+    )]
+    let (_, mut particles) = reader.room_for(numbers.element_product() as u64)?;
+    let density = reader.positive("density")?;
+    let mass = density * if flat { spacing * spacing } else { spacing.powi(3) };
+    let jitter = reader.not_negative("jitter")?;
+    let (center, velocity) = (reader.vector("center")?, reader.vector("velocity")?);
+    let radius = reader.not_negative("particle_radius")?;
+    let mut random = Random::new(settings.whole("seed"));
+    let middle = (numbers - DVec3::ONE) * 0.5;
+    for k in steps(numbers.z) {
+        for j in steps(numbers.y) {
+            for i in steps(numbers.x) {
+                let mut place = DVec3::new(i, j, k) - middle;
+                if jitter > 0.0 {
+                    let x = random.between(-jitter, jitter);
+                    let y = random.between(-jitter, jitter);
+                    let z = if flat { 0.0 } else { random.between(-jitter, jitter) };
+                    place += DVec3::new(x, y, z);
+                }
+                particles.push(place * spacing + center, velocity, mass, radius);
+            }
+        }
+    }
+    reader.finished(particles)
+}
+
+/// 0, 1, … below a whole number that `room_for` has found to fit 32 bits.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a factor of a product that fits 32 bits")]
+fn steps(size: f64) -> impl Iterator<Item = f64> {
+    (0..size as u32).map(f64::from)
+}

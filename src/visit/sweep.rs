@@ -1,0 +1,92 @@
+//! A search for neighbours that is no law of its own: it reads and writes the fields of a method that takes several.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::body::{Body, bodies};
+use super::near;
+use crate::error::Error;
+use crate::kernel::{Host, Kernel, Pass, Problem, Scalar, Shader, Source, Twin};
+use crate::neighbors::Grid;
+
+/// A search of everybody for those in range. Its files say, between them: `struct Particle` with `fn candidate(slot: u32)`
+/// and, told of lane 0 to 7, `fn told0(q: Particle) -> Particle` to `told7` (see `shaders/visit/near_told.wgsl`);
+/// `struct Sum`, `fn acts_on(me: Particle) -> bool`, `fn gather(me, you, r, sum)` and `fn deliver(k: u32, me, sum)`, which is
+/// for who stands in slot k.
+pub struct Sweep {
+    /// What it is called in a plan.
+    pub name: String,
+    /// What it searches; it holds everybody.
+    pub grid: Grid,
+    /// Its own files.
+    pub files: Vec<Source>,
+    /// What its uniform blocks hold, by their names.
+    pub blocks: Vec<(&'static str, Vec<(&'static str, Scalar)>)>,
+    /// The same in f64.
+    pub twin: Twin,
+}
+
+impl Sweep {
+    /// The kernel for such a problem.
+    ///
+    /// # Errors
+    /// [`Error::Shader`] when a file does not compile, [`Error::Scene`] when a block has other members.
+    pub fn kernel(self, problem: &Problem) -> Result<Kernel, Error> {
+        let mut sources = near::ground();
+        sources.extend(near::search(&self.grid, &problem.machine));
+        sources.extend(self.files);
+        let shader = Shader::join(&sources)?;
+        let uniforms = blocks(&self.name, &shader, &self.blocks)?;
+        let pass = Pass { constants: problem.constants(&shader), uniforms, ..Pass::new(shader, 0) };
+        Ok(Kernel {
+            name: self.name,
+            passes: near::passes(&self.grid, &pass, problem)?,
+            twin: Some(self.twin),
+            sizes: near::sizes(&self.grid),
+            scratch: Vec::new(),
+            tables: Vec::new(),
+        })
+    }
+}
+
+/// The contents of uniform blocks, of which a shader may leave some out.
+///
+/// # Errors
+/// [`Error::Scene`] when a block has other members.
+pub fn blocks(
+    whose: &str,
+    shader: &Shader,
+    blocks: &[(&'static str, Vec<(&'static str, Scalar)>)],
+) -> Result<Vec<(&'static str, Vec<u8>)>, Error> {
+    let mut uniforms = Vec::new();
+    for (name, values) in blocks {
+        if let Some(binding) = shader.reflection().binding(name) {
+            uniforms.push((*name, binding.packed.pack(whose, values)?));
+        }
+    }
+    Ok(uniforms)
+}
+
+/// What everybody gathers who is chosen, of all others in range, in the order of their ids: the twin of a [`Sweep`].
+///
+/// # Errors
+/// When the host lacks positions or velocities.
+pub fn gathered<S: Default + Send>(
+    host: &Host,
+    range: f64,
+    chosen: impl Fn(&Body) -> bool + Sync,
+    gather: impl Fn(&Body, &Body, DVec3, &mut S) + Sync,
+) -> Result<Vec<Option<S>>, Error> {
+    let (bodies, bounds) = (bodies(host)?, host.world().bounds);
+    let gathered = |me: &Body| {
+        let mut sum = S::default();
+        for you in bodies.iter().filter(|you| you.index != me.index) {
+            let way = you.position - me.position;
+            if bounds.within(way, range) {
+                gather(me, you, bounds.shortest(way), &mut sum);
+            }
+        }
+        sum
+    };
+    Ok(bodies.par_iter().map(|me| chosen(me).then(|| gathered(me))).collect())
+}
