@@ -8,7 +8,7 @@ use motes::{Side, Simulation};
 use crate::setup;
 use crate::support::fluids::{bounds, cloud, fluid};
 use crate::support::machines::gpu;
-use crate::support::states::word;
+use crate::support::states::{vector, word};
 use crate::support::{self, Shared};
 use Value::Number;
 
@@ -33,6 +33,18 @@ fn agree(shared: &Shared, count: usize, flat: bool, side: Side, walls: bool, mor
     for kernel in ["fluid walls", "fluid density", "fluid state", "fluid pressure"].iter().filter(|k| weighs(k)) {
         assert!(count < 63 || seen.iter().any(|name| name == kernel), "{name}: {kernel} changes nothing");
     }
+}
+
+/// All that a density as a state brings with it, and walls of their own.
+fn state() -> Vec<(&'static str, Value)> {
+    vec![
+        ("density_by", word("continuity")),
+        ("diffusion", Number(0.2)),
+        ("xsph", Number(0.3)),
+        ("weight", vector(0.3, -0.9, 0.0)),
+        ("walls", word("extrapolate")),
+        ("wall_mass", word("lattice")),
+    ]
 }
 
 #[test]
