@@ -62,7 +62,9 @@ fn a_push_makes_a_parabola() {
         simulation.step(if t < 2.0 { 200 } else { 200 * t as u32 }).expect("steps");
         let off = worst(&state(&mut simulation), 0.125, |y| pushed(y, t));
         println!("Poiseuille at t = {t}: off by {off:.4} of the last speed");
-        assert!(off < 0.01, "t = {t}: {off}");
+        // The sum that is to be the second derivative is 1.2 % too large on the lattice and 0.5 % too small on one that is
+        // sheared: the last speed is that much off.
+        assert!(off < 0.007, "t = {t}: {off}");
     }
 }
 
@@ -81,6 +83,6 @@ fn a_wall_drags_a_fluid_along() {
         simulation.step(400).expect("steps");
         let off = worst(&state(&mut simulation), 0.25, |y| dragged(y, t));
         println!("Couette at t = {t}: off by {off:.4} of the wall's speed");
-        assert!(off < 0.02, "t = {t}: {off}");
+        assert!(off < 0.007, "t = {t}: {off}");
     }
 }

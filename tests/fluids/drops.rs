@@ -119,7 +119,7 @@ fn a_drop_swings_with_its_period() {
     let mut last: Vec<f64> = Vec::new();
     let batch = 20;
     let between = f64::from(batch) * dt;
-    for n in 0..90 {
+    for n in 0..160 {
         last.push(axes(&mut simulation)[0]);
         if let [.., x, y, z] = last[..]
             && y < x
@@ -131,14 +131,11 @@ fn a_drop_swings_with_its_period() {
         }
         simulation.step(batch).expect("steps");
     }
-    let [(first, least), (second, again)] = turns[..] else { panic!("it turns {} times: {turns:?}", turns.len()) };
-    let period = second - first;
-    println!(
-        "the drop's period is {:.4} of what it should be; its least half axes are {least:.4} and {again:.4}",
-        period / PERIOD
-    );
+    let [(first, least), _, (third, again)] = turns[..] else { panic!("it turns {} times: {turns:?}", turns.len()) };
+    let period = 0.5 * (third - first);
+    println!("the drop's period is {:.4} of what it should be; its least half axes are {turns:?}", period / PERIOD);
     // Sound of the start, of a period of 0.3, rides on it: seen 0.5 %.
     assert!((period / PERIOD - 1.0).abs() < 0.01, "{period}");
     // From 1/√2 on; friction takes what it takes.
-    assert!((least - 0.5f64.sqrt()).abs() < 0.02 && again < least + 0.02, "{turns:?}");
+    assert!((least - 0.5f64.sqrt()).abs() < 0.02 && again < least + 0.03, "{turns:?}");
 }

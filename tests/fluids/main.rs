@@ -9,6 +9,7 @@ mod channels;
 mod columns;
 mod continuity;
 mod drops;
+mod friction;
 mod invariants;
 mod lockstep;
 mod smoothing;
