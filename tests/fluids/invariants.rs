@@ -104,7 +104,9 @@ fn the_same_run_twice_gives_the_same_bits() {
         let setup =
             setup(&cloud(700, false, true), vec![fluid(&[])], "leapfrog", 0.002, bounds(700, false, Side::Periodic));
         let mut simulation = gpu(&shared, &setup);
-        batches.iter().for_each(|steps| simulation.step(*steps).expect("steps"));
+        for steps in batches {
+            simulation.step(*steps).expect("steps");
+        }
         let fields = [POSITION, VELOCITY, ACCELERATION];
         let all: Vec<Vec4> =
             fields.iter().flat_map(|f| pollster::block_on(simulation.read(*f)).expect("a field")).collect();

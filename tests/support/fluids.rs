@@ -56,7 +56,7 @@ pub fn cloud(count: usize, flat: bool, walls: bool) -> Particles {
 /// Particles along each side of a cloud.
 pub fn side(count: usize, flat: bool) -> usize {
     let power = if flat { 2 } else { 3 };
-    (1..).find(|side: &usize| side.pow(power) >= count).unwrap_or(1)
+    (1..=count).find(|side| side.pow(power) >= count).unwrap_or(1)
 }
 
 /// A box that such a cloud fills, with such sides.
