@@ -6,6 +6,7 @@ mod medium;
 mod pressure;
 mod smoothing;
 mod state;
+mod tension;
 mod walls;
 
 pub use density::density;
@@ -13,6 +14,7 @@ pub use medium::Medium;
 pub use pressure::{Friction, pressure};
 pub use smoothing::Smoothing;
 pub use state::state;
+pub use tension::{Tension, tension};
 pub use walls::walls;
 
 use crate::kernel::Field;
@@ -22,3 +24,5 @@ pub const DENSITY: Field<f32> = Field::new("density");
 /// What a neighbour is asked for, in the order of the grid: density, which is 0 for walls; pressure over its square; internal
 /// energy per unit mass.
 pub(crate) const FLOW: &str = "flow";
+/// Which way the surface is, in the order of the grid.
+pub(crate) const NORMAL: &str = "normal";

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use super::{Force, Law, Problem};
 use crate::error::Error;
-use crate::fluids::{self, Friction, Medium, Smoothing};
+use crate::fluids::{self, Friction, Medium, Smoothing, Tension};
 use crate::kernel::Plan;
 use crate::neighbors::Grid;
 use crate::settings::{Key, Kind, Settings, Value};
@@ -21,6 +21,8 @@ pub const KEYS: &[Key] = &[
     Key::new("alpha", Kind::NotNegative, Value::Number(0.0), "the artificial viscosity α (Monaghan 1992)"),
     Key::new("viscosity", Kind::NotNegative, Value::Number(0.0), "the kinematic viscosity ν (Morris, Fox & Zhu 1997) [length² / time]"),
     Key::new("wall_friction", Kind::NotNegative, Value::Number(1.0), "how much of both viscosities walls have; 0 lets slip"),
+    Key::new("tension", Kind::NotNegative, Value::Number(0.0), "surface tension γ (Akinci, Akinci & Teschner 2013); what it is in N/m depends on spacing and support"),
+    Key::new("adhesion", Kind::NotNegative, Value::Number(0.0), "how walls pull the fluid, β (as above)"),
 ];
 
 /// `fluid`: smoothed particle hydrodynamics with density by summation and Tait's equation of state (Monaghan 1994; Becker &
@@ -87,6 +89,10 @@ impl Force for Fluid {
         plan.add(fluids::density(&medium, problem)?);
         plan.add(fluids::state(&medium, problem)?);
         plan.add(fluids::pressure(&medium, self.friction(), problem)?);
+        let tension = Tension { tension: self.0.number("tension"), adhesion: self.0.number("adhesion") };
+        if tension.tension > 0.0 || tension.adhesion > 0.0 {
+            fluids::tension(&medium, tension, problem)?.into_iter().for_each(|kernel| plan.add(kernel));
+        }
         Ok(())
     }
 }
