@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use glam::DVec3;
-use motes::fluids::{self, Friction, Medium, Smoothing};
+use motes::fluids::{self, Friction, Medium, Smoothing, Walls};
 use motes::forces;
 use motes::kernel::{Backend, Plan};
 use motes::neighbors::Cells;
@@ -162,7 +162,7 @@ fn sweep(
     let gpu = simulation.backend();
     let problem = setup.problem(gpu.machine())?;
     let mut plan = Plan::default();
-    plan.add(fluids::pressure(medium, friction, &problem)?);
+    plan.add(fluids::pressure(medium, friction, Walls::Mirror, &problem)?);
     let program = gpu.compile(&plan)?;
     let mut run = |turns| time(turns, || gpu.run(&program, turns).and_then(|()| gpu.wait()));
     let turns = super::repeats(run(1)?.min(run(1)?));
