@@ -1,17 +1,22 @@
 //! Fluids: smoothed particle hydrodynamics. What is smoothed and how, and the searches that a step of it takes; which of them,
 //! and in which order, is for the forces to say.
 
+mod company;
 mod density;
+mod gap;
 mod medium;
 mod pressure;
 mod smoothing;
+mod start;
 mod state;
 mod walls;
 
 pub use density::density;
+pub use gap::gap;
 pub use medium::Medium;
 pub use pressure::{Friction, pressure};
 pub use smoothing::Smoothing;
+pub use start::{Start, Still};
 pub use state::state;
 pub use walls::walls;
 
