@@ -1,11 +1,14 @@
 //! Fluids: smoothed particle hydrodynamics. What is smoothed and how, and the searches that a step of it takes; which of them,
 //! and in which order, is for the forces to say.
 
+mod company;
 mod continuity;
 mod density;
+mod gap;
 mod medium;
 mod pressure;
 mod smoothing;
+mod start;
 mod state;
 mod tension;
 mod wall_pressure;
@@ -14,9 +17,11 @@ mod xsph;
 
 pub use continuity::{Continuity, advance, rate, rest};
 pub use density::density;
+pub use gap::gap;
 pub use medium::Medium;
 pub use pressure::{Friction, Walls, pressure};
 pub use smoothing::Smoothing;
+pub use start::{Start, Still};
 pub use state::state;
 pub use tension::{Tension, tension};
 pub use wall_pressure::wall_pressure;

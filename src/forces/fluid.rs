@@ -111,6 +111,9 @@ impl Force for Fluid {
     fn grids(&self, problem: &Problem) -> Result<Vec<(Grid, bool)>, Error> {
         Ok(vec![(self.medium(problem)?.grid(problem)?, true)])
     }
+    fn fluid(&self, problem: &Problem) -> Result<Option<Medium>, Error> {
+        self.medium(problem).map(Some)
+    }
     fn begin(&self, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
         let medium = self.medium(problem)?;
         if !problem.held.is_empty() {

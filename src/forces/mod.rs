@@ -8,6 +8,7 @@ pub use custom::Custom;
 use kind::{Kind, SPECIES, species};
 
 use crate::error::Error;
+use crate::fluids::Medium;
 pub use crate::kernel::Problem;
 use crate::kernel::{Plan, Scalar};
 use crate::neighbors::Grid;
@@ -94,6 +95,13 @@ pub trait Force: Send + Sync {
     /// Whether rods keep their lengths by it.
     fn keeps_rods(&self) -> bool {
         false
+    }
+    /// The fluid that it makes of everybody who is not held, if any.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] when there is no such fluid.
+    fn fluid(&self, _problem: &Problem) -> Result<Option<Medium>, Error> {
+        Ok(None)
     }
     /// The integrators under which it is what its paper says; none: under all.
     fn integrators(&self) -> &'static [&'static str] {

@@ -4,7 +4,8 @@ use glam::{DVec2, DVec4};
 
 use super::cover;
 use super::frame::{
-    COLOR, CREST, DYE, FRONT, Frame, LEVEL, NEVER, NOBODY, PROJECTED, RIM, SOURCE, THICKNESS, VOLUME, key, middle, whole,
+    COLOR, CREST, DYE, FRONT, Frame, LEVEL, NEVER, NOBODY, PROJECTED, RIM, SOURCE, THICKNESS, VOLUME, key, middle,
+    whole,
 };
 use crate::error::Error;
 use crate::kernel::{Host, Kernel, Threads};

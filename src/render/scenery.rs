@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DQuat, DVec3};
 
 use super::camera::FEW;
-use super::frame::{AROUND, AROUND_START, FACET, Frame, NOBODY, EDGE, SLOT, SOLID, VEIL};
+use super::frame::{AROUND, AROUND_START, EDGE, FACET, Frame, NOBODY, SLOT, SOLID, VEIL};
 use super::solid::{Shape, Solid};
 use super::tank;
 use crate::error::Error;

@@ -3,9 +3,7 @@
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-use super::frame::{
-    DYE, EDGE, FRONT, Frame, LEVEL, NEVER, RIM, SCENERY, THICKNESS, WET, middle, unpack, whole,
-};
+use super::frame::{DYE, EDGE, FRONT, Frame, LEVEL, NEVER, RIM, SCENERY, THICKNESS, WET, middle, unpack, whole};
 use super::light::LAMP;
 use super::paint::rounded;
 use super::scenery::Facets;
