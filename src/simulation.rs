@@ -1,9 +1,11 @@
 //! A simulation: particles, forces and an integrator on a backend.
 
+mod pace;
 mod setup;
 mod solves;
 mod ties;
 
+pub use pace::Clock;
 pub use setup::{Plans, Setup};
 pub use solves::{Outcome, Solves};
 
@@ -14,8 +16,8 @@ use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::integrators::SOLVE_REPORT;
 use crate::kernel::{
-    ACCELERATION, ALARM, ALARM_WORDS, Array, Backend, Element, Field, HOME, POSITION, QUIET, SPECIES, TARGET, VELOCITY,
-    World,
+    ACCELERATION, ALARM, ALARM_WORDS, Array, Backend, Element, Field, HOME, POSITION, Pace, QUIET, SPECIES, TARGET,
+    VELOCITY, World,
 };
 use crate::links::Links;
 use crate::motion;
@@ -27,7 +29,7 @@ use crate::render::{self, Film, Image, Picture};
 pub struct Snapshot {
     /// Steps done.
     pub step: u64,
-    /// The time, step × dt.
+    /// The time: step × dt, where all steps are alike.
     pub time: f64,
     /// Positions, velocities, masses, radii and species, by id.
     pub particles: Particles,
@@ -53,6 +55,8 @@ pub struct Simulation<B: Backend> {
     links: Links,
     breaks: bool,
     dt: f64,
+    /// How long steps are, where they are not all alike.
+    pace: Option<Pace>,
     steps: u64,
 }
 
@@ -100,8 +104,11 @@ impl<B: Backend> Simulation<B> {
             backend.write(TARGET.name, &places(&mut (0..particles.len())))?;
         }
         let (links, breaks) = (particles.links.clone(), setup.breaks());
-        let (begun, dt, steps) = (false, setup.dt, 0);
-        Ok(Self { backend, start, begun, step, measure, plan, solves, count, species, links, breaks, dt, steps })
+        let (begun, dt, steps, pace) = (false, setup.dt, 0, setup.integrator.pace());
+        let mut made =
+            Self { backend, start, begun, step, measure, plan, solves, count, species, links, breaks, dt, pace, steps };
+        pace.map_or(Ok(()), |pace| made.wind(&pace))?;
+        Ok(made)
     }
     /// Advances. May return before the device is done; reading waits.
     ///
@@ -149,7 +156,7 @@ impl<B: Backend> Simulation<B> {
     ///
     /// # Errors
     /// [`Error::NotFinite`] with the first particle and step, [`Error::Runaway`] with one that is too fast and the step,
-    /// [`Error::Crowded`], or what reading says.
+    /// [`Error::Crowded`], [`Error::TooShort`], or what reading says.
     pub async fn check(&mut self) -> Result<(), Error> {
         let alarm = self.alarm().await?;
         let [done, .., fast, particle] = [alarm[0], alarm[1], alarm[3], alarm[4]];
@@ -157,7 +164,8 @@ impl<B: Backend> Simulation<B> {
         if fast != u32::MAX && fast <= done {
             return Err(Error::Runaway { particle, step: u64::from(fast.saturating_sub(1)) });
         }
-        sound(&alarm)
+        sound(&alarm)?;
+        self.on_pace().await
     }
     async fn alarm(&mut self) -> Result<[u32; ALARM_WORDS], Error> {
         let alarm = self.backend.read(ALARM.name, &Array::Uint(Vec::new()), ALARM_WORDS).await?;
@@ -187,7 +195,7 @@ impl<B: Backend> Simulation<B> {
             }
         }
         particles.species.clone_from(&self.species);
-        let time = self.steps as f64 * self.dt;
+        let time = self.clock().await?.map_or(self.steps as f64 * self.dt, |clock| clock.time);
         Ok(Snapshot { step: self.steps, time, particles, potential })
     }
     /// Draws the current state. Only the picture is read back.

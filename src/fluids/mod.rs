@@ -2,6 +2,7 @@
 //! and in which order, is for the forces to say.
 
 mod density;
+mod limits;
 mod medium;
 mod pressure;
 mod smoothing;
@@ -9,6 +10,7 @@ mod state;
 mod walls;
 
 pub use density::density;
+pub use limits::{Limits, limits};
 pub use medium::Medium;
 pub use pressure::{Friction, pressure};
 pub use smoothing::Smoothing;

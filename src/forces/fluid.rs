@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use super::{Force, Law, Problem};
 use crate::error::Error;
-use crate::fluids::{self, Friction, Medium, Smoothing};
+use crate::fluids::{self, Friction, Limits, Medium, Smoothing};
 use crate::kernel::Plan;
 use crate::neighbors::Grid;
 use crate::settings::{Key, Kind, Settings, Value};
@@ -81,6 +81,14 @@ impl Force for Fluid {
             plan.add(fluids::walls(&medium, problem)?);
         }
         Ok(())
+    }
+    fn paces(&self, plan: &mut Plan, problem: &Problem) -> Result<Option<f64>, Error> {
+        let medium = self.medium(problem)?;
+        let limits = Limits { sound: Some(medium.sound), viscosity: self.0.number("viscosity") };
+        fluids::limits(&medium, limits, plan, problem)
+    }
+    fn flows(&self, problem: &Problem) -> Result<Option<Medium>, Error> {
+        self.medium(problem).map(Some)
     }
     fn evaluate(&self, plan: &mut Plan, _: usize, problem: &Problem) -> Result<(), Error> {
         let medium = self.medium(problem)?;
