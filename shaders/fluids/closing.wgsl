@@ -2,7 +2,6 @@
 // the speed of sound where steps are told from both.
 struct Sum { most: f32 }
 
-@group(1) @binding(1) var<storage, read> velocity: array<vec4f>;
 @group(3) @binding(2) var<storage, read_write> closing: array<f32>;
 
 fn acts_on(me: Particle) -> bool { return !is_held(me.index); }

@@ -19,7 +19,7 @@ const REASONS: u32 = 12u;
 
 @compute @workgroup_size(1)
 fn pace_step() {
-    let wants = array<f32, 4>(urgent[0].x, urgent[0].y, VISCOUS, urgent[0].z);
+    var wants = array<f32, 4>(urgent[0].x, urgent[0].y, VISCOUS, urgent[0].z);
     var rate = 1.0;
     var reason = 0u;
     for (var k = 0u; k < 4u; k += 1u) {

@@ -8,9 +8,7 @@ use glam::{DVec4, Vec4};
 
 use super::Medium;
 use crate::error::Error;
-use crate::kernel::{
-    ACCELERATION, Field, Host, Kernel, Pass, Plan, Problem, Scalar, Shader, URGES, VELOCITY,
-};
+use crate::kernel::{ACCELERATION, Field, Host, Kernel, Pass, Plan, Problem, Scalar, Shader, URGES, VELOCITY};
 use crate::visit::{Sweep, blocks, gathered};
 
 /// How fast neighbours come or go, at most \[length / time\].

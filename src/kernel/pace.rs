@@ -57,15 +57,8 @@ pub enum Reason {
 
 impl Reason {
     /// All of them, in the order of their numbers on a device.
-    pub const ALL: [Self; 7] = [
-        Self::Longest,
-        Self::Acceleration,
-        Self::Signal,
-        Self::Viscosity,
-        Self::Speed,
-        Self::Growth,
-        Self::Stop,
-    ];
+    pub const ALL: [Self; 7] =
+        [Self::Longest, Self::Acceleration, Self::Signal, Self::Viscosity, Self::Speed, Self::Growth, Self::Stop];
     /// The reason of a number.
     #[must_use]
     pub fn of(number: u32) -> Self {
@@ -119,7 +112,9 @@ impl Pace {
             )));
         }
         if !(courant > 0.0 && courant <= 1.0) {
-            return Err(Error::Scene(format!("the Courant number is {courant}: choose one above 0, at most 1; 0.25 is usual")));
+            return Err(Error::Scene(format!(
+                "the Courant number is {courant}: choose one above 0, at most 1; 0.25 is usual"
+            )));
         }
         if let Some(before) = before.filter(|before| !(least..=dt).contains(before)) {
             return Err(Error::Scene(format!(

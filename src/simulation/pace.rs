@@ -37,7 +37,7 @@ impl Clock {
         reasons.copy_from_slice(&words[12..]);
         Self {
             steps: reasons.iter().map(|n| u64::from(*n)).sum(),
-            time: (f64::from(words[0]) + f64::from(words[1]) / f64::from(TICKS)) * longest,
+            time: told(words, longest),
             dt: length(words[2]),
             reason: Reason::of(words[4]),
             particle: Some(words[5]).filter(|id| *id < u32::MAX),
@@ -66,6 +66,12 @@ impl Clock {
     }
 }
 
+/// The time of a clock.
+fn told(words: &[u32], longest: f64) -> f64 {
+    let part = |place: usize| words.get(place).copied().map_or(0.0, f64::from);
+    (part(0) + part(1) / f64::from(TICKS)) * longest
+}
+
 impl<B: Backend> Simulation<B> {
     /// What the clock has counted; nothing where steps are all alike.
     ///
@@ -78,19 +84,26 @@ impl<B: Backend> Simulation<B> {
         Ok(Some(clock))
     }
     /// Where the run stops: the last step before is shortened, and steps after it do nothing until it stops elsewhere. It is met
-    /// to 2⁻²⁵ of the longest step.
+    /// to 2⁻²⁵ of the longest step; this is the time that it gives.
     ///
     /// # Errors
     /// [`Error::Scene`] where steps are all alike, or the time lies too far away.
-    pub fn stop_at(&mut self, time: f64) -> Result<(), Error> {
+    pub fn stop_at(&mut self, time: f64) -> Result<f64, Error> {
         if self.pace.is_none() {
-            return Err(Error::Scene("steps that are all alike end where they end: give an integrator a pace".to_owned()));
+            return Err(Error::Scene(
+                "steps that are all alike end where they end: give an integrator a pace".to_owned(),
+            ));
         }
         let words = split(time, self.dt);
         if words[0] == u32::MAX || !time.is_finite() {
-            return Err(Error::Scene(format!("a stop at {time:e} is more than {} steps of {:e} away", u32::MAX, self.dt)));
+            return Err(Error::Scene(format!(
+                "a stop at {time:e} is more than {} steps of {:e} away",
+                u32::MAX,
+                self.dt
+            )));
         }
-        self.backend.write(STOP.name, &Array::Uint(words.to_vec()))
+        self.backend.write(STOP.name, &Array::Uint(words.to_vec()))?;
+        Ok(told(&words, self.dt))
     }
     async fn words(&mut self) -> Result<Option<[u32; PACE_WORDS]>, Error> {
         if self.pace.is_none() {

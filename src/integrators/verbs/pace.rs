@@ -10,7 +10,8 @@ use glam::DVec4;
 
 use crate::error::Error;
 use crate::kernel::{
-    Host, Kernel, PACE, PACE_WORDS, Pace, Pass, Problem, Reason, STOP, Shader, TICKS, Table, URGENT, URGES, World, ticks,
+    Host, Kernel, PACE, PACE_WORDS, Pace, Pass, Problem, Reason, STOP, Shader, TICKS, Table, URGENT, URGES, World,
+    ticks,
 };
 use crate::primitives::{Items, Operation, reduce};
 
