@@ -43,6 +43,8 @@ pub struct Simulation<B: Backend> {
     start: B::Program,
     /// Whether the start has run for the state that is there.
     begun: bool,
+    /// Whether forces make something of the state then, such as the masses of walls: what is measured has it.
+    begins: bool,
     step: B::Program,
     measure: (B::Program, B::Program),
     plan: String,
@@ -104,9 +106,25 @@ impl<B: Backend> Simulation<B> {
             backend.write(TARGET.name, &places(&mut (0..particles.len())))?;
         }
         let (links, breaks) = (particles.links.clone(), setup.breaks());
-        let (begun, dt, steps, pace) = (false, setup.dt, 0, setup.integrator.pace());
-        let mut made =
-            Self { backend, start, begun, step, measure, plan, solves, count, species, links, breaks, dt, pace, steps };
+        let (begun, begins) = (false, setup.begins(backend.machine())?);
+        let (dt, steps, pace) = (setup.dt, 0, setup.integrator.pace());
+        let mut made = Self {
+            backend,
+            start,
+            begun,
+            begins,
+            step,
+            measure,
+            plan,
+            solves,
+            count,
+            species,
+            links,
+            breaks,
+            dt,
+            pace,
+            steps,
+        };
         pace.map_or(Ok(()), |pace| made.wind(&pace))?;
         Ok(made)
     }
@@ -179,6 +197,10 @@ impl<B: Backend> Simulation<B> {
     /// [`Error::NotFinite`], [`Error::Crowded`], or what reading says. Speeds that run away are no error here.
     pub async fn snapshot(&mut self) -> Result<Snapshot, Error> {
         sound(&self.alarm().await?)?;
+        if self.begins && !self.begun {
+            self.backend.run(&self.start, 1)?;
+            self.begun = true;
+        }
         self.backend.run(&self.measure.0, 1)?;
         let count = self.count as usize;
         let like = Array::Vec4(Vec::new());

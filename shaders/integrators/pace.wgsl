@@ -45,7 +45,7 @@ fn pace_step() {
         ticks = most;
         reason = GROWTH;
     }
-    pace[3] = ticks;
+    let free = ticks;
     // Below three longest steps the distance fits.
     let whole = pace_stop[0] - pace[0];
     if pace_stop[0] < pace[0] {
@@ -65,7 +65,9 @@ fn pace_step() {
     pace[4] = reason;
     pace[5] = NOBODY;
     world.dt = (f32(ticks) / TICKS) * UNIT;
+    // Who rests leaves no trace of that.
     if ticks > 0u {
+        pace[3] = free;
         pace[10] = min(pace[10], ticks);
         pace[11] = max(pace[11], ticks);
         pace[REASONS + reason] += 1u;

@@ -98,7 +98,13 @@ pub(super) fn read(table: Option<&Table<'_>>, report: &mut Report) -> Simulation
     }
     simulation.pace = pace(table, &settings, &simulation, report);
     if simulation.pace.is_some() {
-        simulation.remark = None;
+        let lost = ["symplectic_euler", "leapfrog", "forest_ruth", "pefrl"].contains(&simulation.integrator.name);
+        simulation.remark = lost.then(|| {
+            format!(
+                "{} is not symplectic in adaptive steps: energy, which it keeps in bounds by a fixed dt, may drift (Skeel & Gear 1992)",
+                simulation.integrator.name
+            )
+        });
     }
     simulation
 }

@@ -103,6 +103,12 @@ impl Setup {
             .solved(self.solver)
             .paced(self.integrator.pace()))
     }
+    /// Whether forces do something once, before the first step.
+    pub(super) fn begins(&self, machine: Machine) -> Result<bool, Error> {
+        let (mut plan, problem) = (Plan::default(), self.problem(machine)?);
+        self.forces.iter().try_for_each(|force| force.begin(&mut plan, &problem))?;
+        Ok(!plan.order.is_empty())
+    }
     /// Whether links may change as it runs.
     #[must_use]
     pub fn breaks(&self) -> bool {

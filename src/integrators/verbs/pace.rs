@@ -62,7 +62,7 @@ pub fn pace(pace: &Pace, viscous: f64, problem: &Problem) -> Result<Kernel, Erro
         if step > most {
             (step, reason) = (most, Reason::Growth as u32);
         }
-        words[3] = step;
+        let free = step;
         let ticks = |whole: u32, rest: u32| i64::from(whole) * i64::from(TICKS) + i64::from(rest);
         let left = (ticks(*stop_whole, *stop_rest) - ticks(words[0], words[1])).max(0);
         let (left, long) = (u32::try_from(left).unwrap_or(u32::MAX), step);
@@ -73,6 +73,7 @@ pub fn pace(pace: &Pace, viscous: f64, problem: &Problem) -> Result<Kernel, Erro
         }
         (words[2], words[4], words[5]) = (step, reason, u32::MAX);
         if step > 0 {
+            words[3] = free;
             words[10] = words[10].min(step);
             words[11] = words[11].max(step);
             words[12 + reason as usize] += 1;
