@@ -1,9 +1,11 @@
 //! A simulation: particles, forces and an integrator on a backend.
 
+mod pace;
 mod setup;
 mod solves;
 mod ties;
 
+pub use pace::Clock;
 pub use setup::{Plans, Setup};
 pub use solves::{Outcome, Solves};
 
@@ -14,8 +16,8 @@ use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::integrators::SOLVE_REPORT;
 use crate::kernel::{
-    ACCELERATION, ALARM, ALARM_WORDS, Array, Backend, Element, Field, HOME, POSITION, QUIET, SPECIES, TARGET, VELOCITY,
-    World,
+    ACCELERATION, ALARM, ALARM_WORDS, Array, Backend, Element, Field, HOME, POSITION, Pace, QUIET, SPECIES, TARGET,
+    VELOCITY, World,
 };
 use crate::links::Links;
 use crate::motion;
@@ -27,7 +29,7 @@ use crate::render::{self, Film, Image, Picture};
 pub struct Snapshot {
     /// Steps done.
     pub step: u64,
-    /// The time, step × dt.
+    /// The time: step × dt, where all steps are alike.
     pub time: f64,
     /// Positions, velocities, masses, radii and species, by id.
     pub particles: Particles,
@@ -41,6 +43,8 @@ pub struct Simulation<B: Backend> {
     start: B::Program,
     /// Whether the start has run for the state that is there.
     begun: bool,
+    /// Whether forces make something of the state then, such as the masses of walls: what is measured has it.
+    begins: bool,
     step: B::Program,
     measure: (B::Program, B::Program),
     plan: String,
@@ -53,6 +57,8 @@ pub struct Simulation<B: Backend> {
     links: Links,
     breaks: bool,
     dt: f64,
+    /// How long steps are, where they are not all alike.
+    pace: Option<Pace>,
     steps: u64,
 }
 
@@ -100,8 +106,27 @@ impl<B: Backend> Simulation<B> {
             backend.write(TARGET.name, &places(&mut (0..particles.len())))?;
         }
         let (links, breaks) = (particles.links.clone(), setup.breaks());
-        let (begun, dt, steps) = (false, setup.dt, 0);
-        Ok(Self { backend, start, begun, step, measure, plan, solves, count, species, links, breaks, dt, steps })
+        let (begun, begins) = (false, setup.begins(backend.machine())?);
+        let (dt, steps, pace) = (setup.dt, 0, setup.integrator.pace());
+        let mut made = Self {
+            backend,
+            start,
+            begun,
+            begins,
+            step,
+            measure,
+            plan,
+            solves,
+            count,
+            species,
+            links,
+            breaks,
+            dt,
+            pace,
+            steps,
+        };
+        pace.map_or(Ok(()), |pace| made.wind(&pace))?;
+        Ok(made)
     }
     /// Advances. May return before the device is done; reading waits.
     ///
@@ -149,7 +174,7 @@ impl<B: Backend> Simulation<B> {
     ///
     /// # Errors
     /// [`Error::NotFinite`] with the first particle and step, [`Error::Runaway`] with one that is too fast and the step,
-    /// [`Error::Crowded`], or what reading says.
+    /// [`Error::Crowded`], [`Error::TooShort`], or what reading says.
     pub async fn check(&mut self) -> Result<(), Error> {
         let alarm = self.alarm().await?;
         let [done, .., fast, particle] = [alarm[0], alarm[1], alarm[3], alarm[4]];
@@ -157,7 +182,8 @@ impl<B: Backend> Simulation<B> {
         if fast != u32::MAX && fast <= done {
             return Err(Error::Runaway { particle, step: u64::from(fast.saturating_sub(1)) });
         }
-        sound(&alarm)
+        sound(&alarm)?;
+        self.on_pace().await
     }
     async fn alarm(&mut self) -> Result<[u32; ALARM_WORDS], Error> {
         let alarm = self.backend.read(ALARM.name, &Array::Uint(Vec::new()), ALARM_WORDS).await?;
@@ -171,6 +197,10 @@ impl<B: Backend> Simulation<B> {
     /// [`Error::NotFinite`], [`Error::Crowded`], or what reading says. Speeds that run away are no error here.
     pub async fn snapshot(&mut self) -> Result<Snapshot, Error> {
         sound(&self.alarm().await?)?;
+        if self.begins && !self.begun {
+            self.backend.run(&self.start, 1)?;
+            self.begun = true;
+        }
         self.backend.run(&self.measure.0, 1)?;
         let count = self.count as usize;
         let like = Array::Vec4(Vec::new());
@@ -187,7 +217,7 @@ impl<B: Backend> Simulation<B> {
             }
         }
         particles.species.clone_from(&self.species);
-        let time = self.steps as f64 * self.dt;
+        let time = self.clock().await?.map_or(self.steps as f64 * self.dt, |clock| clock.time);
         Ok(Snapshot { step: self.steps, time, particles, potential })
     }
     /// Draws the current state. Only the picture is read back.
