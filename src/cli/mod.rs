@@ -27,6 +27,7 @@ mod explain;
 mod failure;
 mod far;
 mod film;
+mod fluid;
 mod output;
 mod plot;
 mod progress;
