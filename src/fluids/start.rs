@@ -78,7 +78,8 @@ impl Start {
         }
         let company = Company::new(still.position, still.bounds, medium.range());
         let mass = masses(medium, still, &company);
-        let densities: Vec<(f64, Option<(usize, f64)>)> = ids.par_iter().map(|id| felt(medium, still, &company, &mass, *id)).collect();
+        let densities: Vec<(f64, Option<(usize, f64)>)> =
+            ids.par_iter().map(|id| felt(medium, still, &company, &mass, *id)).collect();
         let (mut densest, mut thinnest) = ((0, 0.0), (0, f64::INFINITY));
         let (mut same, mut dense) = (None, 0);
         for (id, (density, nearest)) in ids.iter().zip(&densities) {
@@ -172,7 +173,13 @@ fn masses(medium: &Medium, still: &Still<'_>, company: &Company<'_>) -> Vec<f64>
 }
 
 /// How dense the fluid is at a particle, and who of it is nearest.
-fn felt(medium: &Medium, still: &Still<'_>, company: &Company<'_>, mass: &[f64], id: usize) -> (f64, Option<(usize, f64)>) {
+fn felt(
+    medium: &Medium,
+    still: &Still<'_>,
+    company: &Company<'_>,
+    mass: &[f64],
+    id: usize,
+) -> (f64, Option<(usize, f64)>) {
     let mut density = mass[id] * medium.kernel(DVec3::ZERO);
     let mut nearest: Option<(usize, f64)> = None;
     company.of(id, |you, r| {

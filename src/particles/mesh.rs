@@ -42,7 +42,8 @@ impl Mesh {
         let have = self.places.len();
         let corner = |word: &&str| {
             let number = word.split('/').next().unwrap_or_default();
-            let index: i64 = number.parse().map_err(|_| format!("`{word}` is no corner: a whole number, as in 3 or 3/1/2"))?;
+            let index: i64 =
+                number.parse().map_err(|_| format!("`{word}` is no corner: a whole number, as in 3 or 3/1/2"))?;
             // Below zero one counts from the last vertex that is there.
             let from = if index < 0 { i64::try_from(have).unwrap_or(i64::MAX) } else { -1 };
             let place = usize::try_from(index.saturating_add(from)).ok().filter(|place| *place < have);
@@ -96,7 +97,11 @@ impl Mesh {
             for triangle in &self.triangles {
                 let [a, b, c] = self.corners(triangle);
                 let longest = (b - a).length().max((c - b).length()).max((a - c).length());
-                #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates; areas are checked before")]
+                #[expect(
+                    clippy::cast_possible_truncation,
+                    clippy::cast_sign_loss,
+                    reason = "saturates; areas are checked before"
+                )]
                 let parts = (TRIES * longest / spacing).ceil().max(1.0) as u32;
                 for i in 0..=parts {
                     for j in 0..=parts - i {
@@ -123,7 +128,9 @@ fn angle(a: DVec3, b: DVec3) -> f64 {
 fn place(numbers: &[&str]) -> Result<DVec3, String> {
     // A fourth is a weight, or three more a colour.
     let [x, y, z, ..] = numbers else { return Err(format!("a vertex has three numbers, not {}", numbers.len())) };
-    let number = |word: &str| word.parse::<f64>().ok().filter(|x| x.is_finite()).ok_or_else(|| format!("`{word}` is no finite number"));
+    let number = |word: &str| {
+        word.parse::<f64>().ok().filter(|x| x.is_finite()).ok_or_else(|| format!("`{word}` is no finite number"))
+    };
     Ok(DVec3::new(number(x)?, number(y)?, number(z)?))
 }
 

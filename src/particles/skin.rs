@@ -10,16 +10,23 @@ use crate::error::Error;
 use crate::fluids::{Smoothing, gap};
 use crate::settings::{Key, Kind, Value};
 
-pub(super) const SPACING: Key =
-    Key::required("spacing", Kind::Positive, "how far apart particles are, as in the force `fluid`, which says it for its shapes where they do not [length]");
+pub(super) const SPACING: Key = Key::required(
+    "spacing",
+    Kind::Positive,
+    "how far apart particles are, as in the force `fluid`, which says it for its shapes where they do not [length]",
+);
 pub(super) const DENSITY: Key = Key::new(
     "density",
     Kind::Positive,
     Value::Number(1000.0),
     "the density at rest of the fluid, as in the force [mass / length³, or mass / length²]",
 );
-pub(super) const SUPPORT: Key =
-    Key::new("support", Kind::Positive, Value::Number(2.0), "how far the fluid's kernel reaches, as in the force [spacings]");
+pub(super) const SUPPORT: Key = Key::new(
+    "support",
+    Kind::Positive,
+    Value::Number(2.0),
+    "how far the fluid's kernel reaches, as in the force [spacings]",
+);
 pub(super) const KERNEL: Key = Key::new(
     "kernel",
     Kind::Choice(Smoothing::NAMES),

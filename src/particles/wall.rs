@@ -33,7 +33,12 @@ const KEYS: &[Key] = &[
          up, where 0 up is a line [length]",
     ),
     Key::new("normal", Kind::Direction, Value::Vector(DVec3::Z), "plane: the direction to the fluid"),
-    Key::new("mesh", Kind::File, Value::Text(Cow::Borrowed("")), "mesh: a file in Wavefront's OBJ; its faces look to the fluid"),
+    Key::new(
+        "mesh",
+        Kind::File,
+        Value::Text(Cow::Borrowed("")),
+        "mesh: a file in Wavefront's OBJ; its faces look to the fluid",
+    ),
     Key::new("scale", Kind::Positive, Value::Number(1.0), "mesh: by how much it is made larger"),
     Key::new("inside", Kind::Flag, Value::Flag(false), "box, sphere and mesh: whether the fluid is within"),
     SPACING,
@@ -93,7 +98,9 @@ fn plane(reader: &Reader<'_>, skin: &Skin, size: DVec3) -> Result<Vec<DVec3>, Er
 fn hull(reader: &Reader<'_>, skin: &Skin, side: f64, size: DVec3) -> Result<Vec<DVec3>, Error> {
     let numbers = cells(reader, size, skin.spacing)?;
     let layers = f64::from(skin.layers);
-    reader.fits((numbers + 2.0 * layers).element_product() - (numbers - 2.0 * layers).max(DVec3::ZERO).element_product())?;
+    reader.fits(
+        (numbers + 2.0 * layers).element_product() - (numbers - 2.0 * layers).max(DVec3::ZERO).element_product(),
+    )?;
     let axis = |axis: usize| -> Vec<(f64, bool)> {
         let half = 0.5 * numbers[axis] * skin.spacing;
         let inner = |i: f64| (i + 0.5) * skin.spacing - half;
@@ -130,7 +137,9 @@ fn sphere(reader: &Reader<'_>, skin: &Skin, side: f64, size: DVec3) -> Result<Ve
     let flat = size.z == 0.0;
     let round = size.x > 0.0 && size.y == size.x && (flat || size.z == size.x);
     if !round {
-        return Err(reader.error(&format!("size is {size}; a sphere is as large along all axes, or 0 along z for a circle")));
+        return Err(
+            reader.error(&format!("size is {size}; a sphere is as large along all axes, or 0 along z for a circle"))
+        );
     }
     let radii = skin.depths().map(|depth| 0.5 * size.x + side * depth);
     // What is smaller than its walls are thick is one particle.

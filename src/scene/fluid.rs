@@ -16,7 +16,9 @@ pub(super) fn said<'a>(mut tables: impl Iterator<Item = &'a Table<'a>>) -> Vec<E
             Data::Text(kind) => forces::entry(kind),
             _ => None,
         });
-        kind.is_some_and(|force| ["spacing", "density"].iter().all(|name| force.keys.iter().any(|key| key.name == *name)))
+        kind.is_some_and(|force| {
+            ["spacing", "density"].iter().all(|name| force.keys.iter().any(|key| key.name == *name))
+        })
     };
     let Some(table) = tables.find(is_fluid) else { return Vec::new() };
     SHARED.iter().filter_map(|key| table.get(key).cloned()).collect()
