@@ -31,7 +31,11 @@ pub fn told(setup: &Setup, start: &Start) -> Result<(Vec<String>, Vec<String>), 
     let height = extent.dot(weight.normalize_or_zero().abs()) + medium.spacing;
     let fall = (2.0 * g * height).sqrt();
     let fastest = fall.max(start.speed);
-    let how = if fall >= start.speed { format!("√(2 g H) = {fall:.4} with g = {g:.4}, H = {height:.4}") } else { "as it starts".to_owned() };
+    let how = if fall >= start.speed {
+        format!("√(2 g H) = {fall:.4} with g = {g:.4}, H = {height:.4}")
+    } else {
+        "as it starts".to_owned()
+    };
     if fastest > 0.0 {
         let ratio = medium.sound / fastest;
         lines.push(format!("  sound        {}, {ratio:.1} times the fastest flow expected: {how}", medium.sound));
@@ -46,12 +50,18 @@ pub fn told(setup: &Setup, start: &Start) -> Result<(Vec<String>, Vec<String>), 
     } else {
         lines.push(format!("  sound        {}; nothing says how fast it will flow", medium.sound));
     }
+    if !start.summed {
+        lines.push("  at the start everybody at rest, for density comes by continuity".to_owned());
+        return Ok((lines, notes));
+    }
     let ((dense, densest), (thin, thinnest)) = (start.densest, start.thinnest);
     let pressure = match medium.density * g * height {
         column if column > 0.0 => format!("{:.3} ρ g H", start.pressure() / column),
         _ => format!("{:.3e}", start.pressure()),
     };
-    lines.push(format!("  at the start the densest at {densest:.4} of rest (particle {dense}), a pressure of {pressure}"));
+    lines.push(format!(
+        "  at the start the densest at {densest:.4} of rest (particle {dense}), a pressure of {pressure}"
+    ));
     lines.push(format!("               the thinnest at {thinnest:.4} of rest (particle {thin})"));
     let burst = start.burst();
     if burst > MACH * medium.sound {

@@ -35,7 +35,8 @@ fn its_front_is_where_it_was_measured() {
         let off: Vec<f64> = points.iter().map(|(_, t, x)| at(*t) / x - 1.0).collect();
         #[expect(clippy::cast_precision_loss, reason = "few points")]
         let number = off.len() as f64;
-        let (mean, square) = (off.iter().sum::<f64>() / number, (off.iter().map(|e| e * e).sum::<f64>() / number).sqrt());
+        let (mean, square) =
+            (off.iter().sum::<f64>() / number, (off.iter().map(|e| e * e).sum::<f64>() / number).sqrt());
         println!("{source}: mean {mean:+.3}, rms {square:.3}, {off:.3?}");
         assert!(points.len() >= 8 && square < 0.08 && off.iter().all(|e| e.abs() < 0.12), "{source}: {square} {off:?}");
         // Without much friction one is ahead.

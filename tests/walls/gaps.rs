@@ -46,6 +46,9 @@ fn a_full_tank_is_at_rest() {
         ([1.0, 1.0, 0.0], "", "", 1.0036, 0.9999),
         ([1.0, 1.0, 1.0], "support = 2.4\n", "", 1.0155, 0.9943),
         ([1.0, 1.0, 1.0], "support = 3\n", "layers = 3\n", 1.0016, 0.9604),
+        // As many layers of the fluid's own lattice are no wall at all.
+        ([1.0, 1.0, 1.0], "support = 3\nwall_mass = \"lattice\"\n", "", 1.0, 1.0),
+        ([1.0, 1.0, 0.0], "support = 2.4\nwall_mass = \"lattice\"\n", "", 1.0, 1.0),
         ([1.0, 1.0, 0.0], "support = 3\n", "layers = 3\n", 1.0009, 0.9822),
     ] {
         let start = full(size, more, walls).start().expect("a good start").expect("a fluid");

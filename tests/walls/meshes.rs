@@ -71,7 +71,12 @@ fn a_finer_mesh_of_the_same_gives_as_many() {
     }
     let [a, b] = [coarse, fine].map(|text| mesh(&text, &[("scale", number(1.0))]).expect("a square"));
     for places in [&a, &b] {
-        assert!(least(places) >= 0.0834 - 1e-12 && (95..150).contains(&places.len()), "{} {}", least(places), places.len());
+        assert!(
+            least(places) >= 0.0834 - 1e-12 && (95..150).contains(&places.len()),
+            "{} {}",
+            least(places),
+            places.len()
+        );
         let behind = (gap(Smoothing::Cubic, 2.0, 1, 3) - 0.5) * 0.1;
         assert!(places.iter().all(|x| (x.z + behind).abs() < 1e-12));
     }

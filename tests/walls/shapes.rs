@@ -25,7 +25,8 @@ fn a_tank_is_a_hull_without_doubles() {
     let off = (gap(Smoothing::Cubic, 2.0, 1, 3) - 0.5) * d;
     let size = [0.5, 0.7, 0.9];
     let tank = |more: &[(&'static str, Value)]| {
-        let values = [("size", vector(size[0], size[1], size[2])), ("spacing", number(d)), ("center", vector(0.25, 0.35, 0.45))];
+        let values =
+            [("size", vector(size[0], size[1], size[2])), ("spacing", number(d)), ("center", vector(0.25, 0.35, 0.45))];
         made("tank", &[&values, more].concat()).expect("a tank")
     };
     let closed = tank(&[]);
@@ -34,7 +35,8 @@ fn a_tank_is_a_hull_without_doubles() {
     assert_eq!(closed.held.len(), closed.len());
     assert!(nearest(&closed) > 0.99 * d, "{}", nearest(&closed));
     for axis in 0..3 {
-        let [low, high] = [f64::min, f64::max].map(|of| closed.position.iter().map(|x| x[axis]).reduce(of).expect("some"));
+        let [low, high] =
+            [f64::min, f64::max].map(|of| closed.position.iter().map(|x| x[axis]).reduce(of).expect("some"));
         assert!((low + off).abs() < 1e-12 && (high - size[axis] - off).abs() < 1e-12, "{axis}: {low} {high}");
     }
     // Its samples face cells of the lattice.
@@ -50,7 +52,8 @@ fn a_tank_is_a_hull_without_doubles() {
     let wrong = made("tank", &[("size", vector(1.0, 1.0, 1.0)), ("spacing", number(d)), ("open", word("top"))]);
     assert!(wrong.expect_err("no side").to_string().contains("the side top; there are -x, +x"));
     // In the plane.
-    let flat = made("tank", &[("size", vector(0.5, 0.7, 0.0)), ("spacing", number(d)), ("open", word("+y"))]).expect("a tank");
+    let flat =
+        made("tank", &[("size", vector(0.5, 0.7, 0.0)), ("spacing", number(d)), ("open", word("+y"))]).expect("a tank");
     assert_eq!(flat.len(), 2 * 7 + 5 + 2);
     assert!(flat.position.iter().all(|x| x.z == 0.0));
     // A slip of the pen is told before it fills the memory.
@@ -64,7 +67,8 @@ fn planes_stand_behind_their_face() {
     for (flat, dimensions) in [(false, 3), (true, 2)] {
         let up = if flat { 0.0 } else { 0.5 };
         let (normal, middle) = (DVec3::new(0.6, 0.8, 0.0), DVec3::new(3.0, 2.0, 1.0));
-        let values = [("normal", Value::Vector(normal)), ("size", vector(0.8, up, 0.0)), ("center", Value::Vector(middle))];
+        let values =
+            [("normal", Value::Vector(normal)), ("size", vector(0.8, up, 0.0)), ("center", Value::Vector(middle))];
         let plane = wall(&values);
         assert_eq!(plane.len(), if flat { 8 } else { 40 });
         let behind = (gap(Smoothing::Cubic, 2.0, 1, dimensions) - 0.5) * d;
@@ -112,7 +116,8 @@ fn boxes_and_spheres_are_hollow() {
         ("box", vector(1.0, 0.0, 1.0), "sides must be above 0"),
         ("mesh", vector(1.0, 1.0, 1.0), "say of which file"),
     ] {
-        let error = made("wall", &[("spacing", number(d)), ("surface", word(surface)), ("size", size)]).expect_err(words);
+        let error =
+            made("wall", &[("spacing", number(d)), ("surface", word(surface)), ("size", size)]).expect_err(words);
         assert!(error.to_string().contains(words), "{error}");
     }
 }
@@ -120,13 +125,23 @@ fn boxes_and_spheres_are_hollow() {
 #[test]
 fn drops_are_cut_out_of_blocks() {
     let d = 0.1;
-    let values = |z: f64| [("size", vector(1.0, 1.4, z)), ("spacing", number(d)), ("density", number(500.0)), ("velocity", vector(1.0, 2.0, 3.0))];
+    let values = |z: f64| {
+        [
+            ("size", vector(1.0, 1.4, z)),
+            ("spacing", number(d)),
+            ("density", number(500.0)),
+            ("velocity", vector(1.0, 2.0, 3.0)),
+        ]
+    };
     let drop = made("drop", &values(1.2)).expect("a drop");
     let block = made("block", &values(1.2)).expect("a block");
     let half = DVec3::new(0.5, 0.7, 0.6);
     let within: Vec<_> = block.position.iter().filter(|x| (**x / half).length() <= 1.0).copied().collect();
     assert_eq!(drop.position, within);
-    assert!(drop.mass.iter().all(|m| (m - 0.5).abs() < 1e-12) && drop.velocity.iter().all(|v| *v == DVec3::new(1.0, 2.0, 3.0)));
+    assert!(
+        drop.mass.iter().all(|m| (m - 0.5).abs() < 1e-12)
+            && drop.velocity.iter().all(|v| *v == DVec3::new(1.0, 2.0, 3.0))
+    );
     // Its volume, up to its surface layer: 4/3 π a b c.
     let mass: f64 = drop.mass.iter().sum();
     assert!((mass / (500.0 * 4.0 / 3.0 * PI * half.element_product()) - 1.0).abs() < 0.03, "{mass}");

@@ -29,16 +29,44 @@ fn what_would_explode_is_named() {
     let fixed: Vec<String> = (0..36).map(|id| id.to_string()).collect();
     let floor = floor.replace("FIXED", &fixed.join(", "));
     for (flat, force, particles, words) in [
-        (false, "support = 3\n", format!("{cube}{floor}"), "of a wall is 1.000e-1 away from it, and a wall of one layer leaves the fluid at rest at 1.395e-1"),
-        (false, "", block("size = [0.6, 0.6, 0.6]\ndensity = 2000"), "it weighs 2.000000e0, and density × spacing^3 = 1.000000e0 is right"),
+        (
+            false,
+            "support = 3\n",
+            format!("{cube}{floor}"),
+            "of a wall is 1.000e-1 away from it, and leaves the fluid at rest at 1.395e-1",
+        ),
+        (
+            false,
+            "",
+            block("size = [0.6, 0.6, 0.6]\ndensity = 2000"),
+            "it weighs 2.000000e0, and density × spacing^3 = 1.000000e0 is right",
+        ),
         (true, "", block("size = [0.6, 0.6, 0]\ndensity = 1300"), "density × spacing^2 = 1.000000e1 is right"),
-        (false, "", block("size = [0.6, 0.6, 0.6]\nspacing = 0.2"), "particles have the spacing 0.200000, and the force has 0.1"),
-        (true, "", block("size = [0.6, 0.6, 0]\nspacing = 0.15"), "particles have the spacing 0.150000, and the force has 0.1"),
-        (false, "", format!("{cube}{}", block("size = [0.6, 0.6, 0.6]\ncenter = [0.55, 0, 0]")), "of the fluid is 5.000e-2 away from it, and the spacing is 0.1: two blocks overlap"),
+        (
+            false,
+            "",
+            block("size = [0.6, 0.6, 0.6]\nspacing = 0.2"),
+            "particles have the spacing 0.200000, and the force has 0.1",
+        ),
+        (
+            true,
+            "",
+            block("size = [0.6, 0.6, 0]\nspacing = 0.15"),
+            "particles have the spacing 0.150000, and the force has 0.1",
+        ),
+        (
+            false,
+            "",
+            format!("{cube}{}", block("size = [0.6, 0.6, 0.6]\ncenter = [0.55, 0, 0]")),
+            "of the fluid is 5.000e-2 away from it, and the spacing is 0.1: two blocks overlap",
+        ),
         (true, "", format!("{square}{}", block("size = [0.2, 0.2, 0]\ncenter = [0.1, 0.1, 0]")), "two blocks overlap"),
     ] {
         let error = refused(&scene(flat, force, &particles));
-        assert!(error.contains("this start would explode") && error.contains(words), "`{error}` does not say `{words}`");
+        assert!(
+            error.contains("this start would explode") && error.contains(words),
+            "`{error}` does not say `{words}`"
+        );
     }
 }
 
@@ -56,14 +84,26 @@ fn two_at_one_place_are_refused_however_wide_the_kernel() {
 fn what_is_no_fluid_is_refused() {
     let empty = block("size = [0.6, 0.6, 0.6]") + "[[particles]]\nbodies = [{ position = [2, 0, 0], mass = 0 }]\n";
     let error = refused(&scene(false, "", &empty));
-    assert!(error.contains("particle 216 is of the fluid and weighs nothing") && error.contains("give it the mass 1"), "{error}");
+    assert!(
+        error.contains("particle 216 is of the fluid and weighs nothing") && error.contains("give it the mass 1"),
+        "{error}"
+    );
     let walls = refused(&scene(false, "", "[[particles]]\nshape = \"tank\"\nsize = [1, 1, 1]\n"));
     assert!(walls.contains("nothing of it") && walls.contains("shape = \"block\""), "{walls}");
-    let two = scene(false, "[[force]]\nkind = \"fluid\"\nspacing = 0.1\nsound_speed = 9\n", &block("size = [0.6, 0.6, 0.6]"));
+    let two =
+        scene(false, "[[force]]\nkind = \"fluid\"\nspacing = 0.1\nsound_speed = 9\n", &block("size = [0.6, 0.6, 0.6]"));
     let error = two.check().expect_err("two fluids").to_string();
     assert!(error.contains("2 forces that make a fluid of everybody"), "{error}");
     let none = setup("[simulation]\ndt = 1\nsteps = 1\n[[particles]]\nbodies = [{ position = [0, 0, 0], mass = 0 }]\n");
     assert_eq!(none.start().expect("no fluid"), None);
+}
+
+#[test]
+fn by_continuity_a_fluid_begins_at_rest() {
+    let heavy = block("size = [0.6, 0.6, 0.6]\ndensity = 2000");
+    let start = scene(false, "density_by = \"continuity\"\n", &heavy).start().expect("a start").expect("a fluid");
+    assert!(!start.summed && start.densest.1 > 1.9, "{start:?}");
+    assert!(refused(&scene(false, "density_by = \"summation\"\n", &heavy)).contains("explode"));
 }
 
 /// The bound is Mach 0.2 by the Riemann invariant of Tait's equation: (1.2 · 3 / 2 − …) for γ = 7, ((1 + x)³ − 1) / 3 = 0.2 at
