@@ -78,7 +78,7 @@ fn it_is_known_how_many_steps_are_safe() {
     let shared = support::device();
     let mut device = on_gpu(&shared, &falling());
     let stop = device.stop_at(0.2).expect("a stop");
-    let mut asked = 0;
+    let mut asked = 0u32;
     while clock(&mut device).time < stop {
         let some = clock(&mut device).steps_before(stop, DT);
         let before = clock(&mut device).steps;
