@@ -188,6 +188,8 @@ pub enum Topic {
     Neighbors,
     /// Sheets of springs
     Springs,
+    /// Fluids, beside plain Rust
+    Fluids,
 }
 
 #[derive(Debug, ClapArgs)]

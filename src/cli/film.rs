@@ -124,7 +124,9 @@ impl Film {
         }
         let Some(reel) = &mut self.reel else { return Ok(()) };
         reel.retrace(trail);
-        reel.place(output.scenery.at(step as f64 * self.dt).solids);
+        let scenery = output.scenery.at(step as f64 * self.dt);
+        reel.place(scenery.solids);
+        reel.contain(scenery.tanks);
         let image = simulation.shoot(reel).await?;
         let file = self.folder.join("frames").join(format!("frame_{:0w$}.png", self.done.len(), w = self.digits()));
         image.save(&file)?;

@@ -101,7 +101,7 @@ impl Run {
     fn new(args: &RunArgs, scene: Scene, setup: &Setup, engine: &Engine) -> Result<Self, Failure> {
         let progress = Progress::new(args, scene.steps);
         let standing = setup.forces.iter().filter_map(|force| force.standing()).collect();
-        let scenery = Scenery::of(&setup.particles).beside(standing, &setup.particles);
+        let scenery = Scenery::of(&setup.particles).within(&scene.bounds).beside(standing, &setup.particles);
         Picture::with(&scene.picture, &setup.particles, &[], Trail::new(0), &scenery)?;
         let device = engine.describe();
         let count = setup.particles.len();

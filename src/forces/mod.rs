@@ -101,13 +101,6 @@ pub trait Force: Send + Sync {
     fn keeps_to_even_steps(&self) -> Option<&'static str> {
         None
     }
-    /// What flows, where it is a fluid: runs are measured for it.
-    ///
-    /// # Errors
-    /// When there is no such fluid.
-    fn flows(&self, _problem: &Problem) -> Result<Option<Medium>, Error> {
-        Ok(None)
-    }
     /// Whether links change as it acts.
     fn breaks(&self) -> bool {
         false
@@ -115,6 +108,13 @@ pub trait Force: Send + Sync {
     /// Whether rods keep their lengths by it.
     fn keeps_rods(&self) -> bool {
         false
+    }
+    /// The fluid that it makes of everybody who is not held, if any.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] when there is no such fluid.
+    fn fluid(&self, _problem: &Problem) -> Result<Option<Medium>, Error> {
+        Ok(None)
     }
     /// The integrators under which it is what its paper says; none: under all.
     fn integrators(&self) -> &'static [&'static str] {

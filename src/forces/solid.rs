@@ -111,13 +111,12 @@ impl Force for Solid {
         let (radius, position) = (self.0.number("radius"), self.0.vector("position"));
         let solid = match self.0.text("shape") {
             "plane" => Shape::Plane(self.0.vector("normal").normalize_or(DVec3::Z)),
-            // Nobody would see what is in a container.
-            _ if self.0.flag("inside") => return None,
             "box" => Shape::Box(self.0.vector("size")),
             "capsule" => Shape::Capsule(self.0.vector("axis"), radius),
             _ => Shape::Sphere(radius),
         };
-        Some(Standing { solid, position, motion: self.0.text("motion").to_owned() })
+        let inside = self.0.flag("inside") && !matches!(solid, Shape::Plane(_));
+        Some(Standing { solid, position, motion: self.0.text("motion").to_owned(), inside })
     }
     fn confine(&self, plan: &mut Plan, problem: &Problem, factor: f64) -> Result<(), Error> {
         plan.add(kernel(self.wall(problem)?, problem, factor)?);

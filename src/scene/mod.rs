@@ -17,6 +17,7 @@ mod builtin;
 mod color;
 mod diagnostic;
 mod files;
+mod fluid;
 mod force;
 mod held;
 mod links;
@@ -175,10 +176,11 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
             fault.note("help: add\n\n         [[particles]]\n         shape = \"plummer\"\n         count = 1000"),
         );
     }
+    let said = fluid::said(all("force"));
     for table in all("particles") {
         let start = ids(&particles);
         let room = options.most_particles.saturating_sub(start);
-        if let Some(block) = particles::read(table, room, (files, &motions), report) {
+        if let Some(block) = particles::read(table, room, (files, &motions, &said), report) {
             particles.append(&block.particles);
             let mut end = start;
             for (count, color) in block.parts {

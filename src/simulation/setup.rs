@@ -2,6 +2,7 @@
 
 use crate::boundary;
 use crate::error::Error;
+use crate::fluids::{Start, Still};
 use crate::forces::{Force, Problem};
 use crate::integrators::{Integrator, Step};
 use crate::kernel::{Bounds, Machine, Plan, Solver};
@@ -109,6 +110,36 @@ impl Setup {
         self.forces.iter().try_for_each(|force| force.begin(&mut plan, &problem))?;
         Ok(!plan.order.is_empty())
     }
+    /// How its fluid starts, if there is one: how dense it is before the first step, by a look at everybody, which takes as
+    /// long as some steps on the host.
+    ///
+    /// # Errors
+    /// When the setup makes no sense, something of the fluid weighs nothing, or the start would blow it apart:
+    /// [`Error::Scene`] names the particles and the cause.
+    pub fn start(&self) -> Result<Option<Start>, Error> {
+        let problem = self.problem(Machine { software: true, subgroup: 0, invocations: 1 })?;
+        let media = self.forces.iter().map(|force| force.fluid(&problem));
+        let Some(medium) = media.filter_map(Result::transpose).next().transpose()? else { return Ok(None) };
+        let Particles { position, velocity, mass, .. } = &self.particles;
+        let walls: Vec<bool> = (0..position.len()).map(|id| problem.is_held(id)).collect();
+        let mut start = Start::of(&medium, &Still { position, mass, walls: &walls, bounds: &self.bounds })?;
+        let speeds = velocity.iter().zip(&walls).filter(|(_, wall)| !**wall).map(|(v, _)| v.length());
+        start.speed = speeds.fold(0.0, f64::max);
+        start.check()?;
+        Ok(Some(start))
+    }
+    /// Refuses two fluids: each would take everybody for its own.
+    fn fluids(&self) -> Result<(), Error> {
+        let problem = Problem::new(1, Machine { software: true, subgroup: 0, invocations: 1 }).at(&[], self.bounds);
+        let fluids = self.forces.iter().map(|force| force.fluid(&problem)).filter_map(Result::transpose);
+        let count = fluids.collect::<Result<Vec<_>, _>>()?.len();
+        if count > 1 {
+            return Err(Error::Scene(format!(
+                "there are {count} forces that make a fluid of everybody, and all pressures would be felt as often: leave one of them"
+            )));
+        }
+        Ok(())
+    }
     /// Whether links may change as it runs.
     #[must_use]
     pub fn breaks(&self) -> bool {
@@ -147,6 +178,7 @@ impl Setup {
                 "particle {bad} has a number that is NaN, infinite or beyond single precision, or a negative mass or radius"
             )));
         }
+        self.fluids()?;
         links.check(mass)?;
         self.solver.check()?;
         if let Some(pace) = self.integrator.pace() {

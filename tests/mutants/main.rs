@@ -7,6 +7,7 @@ mod equivalent_neighbors;
 mod equivalent_primitives;
 mod equivalents;
 mod ewald;
+mod fluids;
 mod held;
 mod implicit;
 mod laws;
@@ -123,6 +124,7 @@ fn every_mutant_is_noticed() {
         equivalent_neighbors::EQUIVALENT,
         trees::EQUIVALENT,
         walks::EQUIVALENT,
+        fluids::EQUIVALENT,
     ]
     .concat();
     let ledger = Mutex::new(Ledger::new(&equivalents));

@@ -193,6 +193,7 @@ pub fn all(shared: &Shared) -> Vec<Stage> {
     crate::rods::rods(&device, &mut stages);
     crate::strained::all(&device, &mut stages);
     crate::ewald::all(shared, &device, &mut stages);
+    crate::fluids::all(shared, &device, &mut stages);
     pairs(shared, &device, &mut stages);
     crate::neighbors::all(shared, &device, &mut stages);
     primitives::all(&device, &mut stages);
