@@ -1,5 +1,6 @@
 //! A simulation: particles, forces and an integrator on a backend.
 
+mod alarm;
 mod pace;
 mod setup;
 mod solves;
@@ -16,8 +17,7 @@ use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::integrators::SOLVE_REPORT;
 use crate::kernel::{
-    ACCELERATION, ALARM, ALARM_WORDS, Array, Backend, Element, Field, HOME, POSITION, Pace, QUIET, SPECIES, TARGET,
-    VELOCITY, World,
+    ACCELERATION, ALARM, Array, Backend, Element, Field, HOME, POSITION, Pace, QUIET, SPECIES, TARGET, VELOCITY, World,
 };
 use crate::links::Links;
 use crate::motion;
@@ -173,35 +173,13 @@ impl<B: Backend> Simulation<B> {
         self.begun &= field.name != POSITION.name && field.name != VELOCITY.name;
         self.backend.write(field.name, &T::array(values.iter().map(|v| v.widen()).collect()))
     }
-    /// Looks whether any number has stopped being one, or speeds run away: whether the largest has more than doubled from
-    /// 16 steps to the next 16, eight times in a row. That is what steps do that are too long for a spring; a fall, a
-    /// collapse or an encounter grows by less and less, or not for so long.
-    ///
-    /// # Errors
-    /// [`Error::NotFinite`] with the first particle and step, [`Error::Runaway`] with one that is too fast and the step,
-    /// [`Error::Crowded`], [`Error::TooShort`], or what reading says.
-    pub async fn check(&mut self) -> Result<(), Error> {
-        let alarm = self.alarm().await?;
-        let [done, .., fast, particle] = [alarm[0], alarm[1], alarm[3], alarm[4]];
-        // Who runs away is lost in the end: what came first is told.
-        if fast != u32::MAX && fast <= done {
-            return Err(Error::Runaway { particle, step: u64::from(fast.saturating_sub(1)) });
-        }
-        sound(&alarm)?;
-        self.on_pace().await
-    }
-    async fn alarm(&mut self) -> Result<[u32; ALARM_WORDS], Error> {
-        let alarm = self.backend.read(ALARM.name, &Array::Uint(Vec::new()), ALARM_WORDS).await?;
-        let words = u32::view(&alarm).and_then(|words| <[u32; ALARM_WORDS]>::try_from(words.as_slice()).ok());
-        Ok(words.unwrap_or(QUIET))
-    }
     /// The state and the potential energies at the end of the last step. It evaluates the forces once more, and leaves
     /// no trace of that in the run.
     ///
     /// # Errors
     /// [`Error::NotFinite`], [`Error::Crowded`], or what reading says. Speeds that run away are no error here.
     pub async fn snapshot(&mut self) -> Result<Snapshot, Error> {
-        sound(&self.alarm().await?)?;
+        alarm::sound(&self.alarm().await?)?;
         // What a fluid's walls weigh, and its density at rest, are said there.
         if self.begins {
             self.begin()?;
@@ -269,16 +247,6 @@ impl<B: Backend> Simulation<B> {
     pub fn backend(&mut self) -> &mut B {
         &mut self.backend
     }
-}
-
-/// Whether numbers are numbers, and searches have found everybody.
-fn sound(alarm: &[u32; ALARM_WORDS]) -> Result<(), Error> {
-    let [done, particle, crowded, ..] = *alarm;
-    if done != u32::MAX {
-        // The first look comes before the first step, every other one after a step that is done.
-        return Err(Error::NotFinite { particle, step: u64::from(done.saturating_sub(1)) });
-    }
-    if crowded == u32::MAX { Ok(()) } else { Err(Error::Crowded { particle: crowded }) }
 }
 
 /// The rendering app's door: its device, its queue, its encoder.

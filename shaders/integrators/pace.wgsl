@@ -30,7 +30,7 @@ fn pace_step() {
     }
     // Twelve digits tell lengths apart: what a division rounds, no device and no twin sees.
     var ticks = u32(TICKS / rate);
-    let spare = max(firstLeadingBit(ticks | 1u), DIGITS) - DIGITS;
+    let spare = max(firstLeadingBit(ticks), DIGITS) - DIGITS;
     ticks = (ticks >> spare) << spare;
     if ticks < LEAST {
         if pace[6] == NOBODY {

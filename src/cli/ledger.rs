@@ -10,7 +10,7 @@ use motes::{Bounds, Error, Setup, Simulation, Snapshot};
 
 use super::table::Table;
 
-const HEADER: &str = "step,time,dt,limit,limited_by,mass,momentum_x,momentum_y,momentum_z,kinetic,potential,internal,total,\
+const HEADER: &str = "step,time,dt,dt_free,limit,limited_by,mass,momentum_x,momentum_y,momentum_z,kinetic,potential,internal,total,\
                       largest_density_error,whose,mean_density_error,outside,broken";
 
 /// The book, of a run that has a fluid.
@@ -32,7 +32,7 @@ impl Book {
     pub fn of(setup: &Setup) -> Result<Option<Self>, Error> {
         let problem = setup.problem(Machine { software: true, subgroup: 0, invocations: 1 })?;
         for force in &setup.forces {
-            if let Some(medium) = force.flows(&problem)? {
+            if let Some(medium) = force.fluid(&problem)? {
                 let held = (0..setup.particles.len()).map(|id| problem.is_held(id)).collect();
                 let (table, first, last, worst) = (None, None, Ledger::default(), Ledger::default());
                 let (bounds, dt, mean) = (setup.bounds, setup.dt, 0.0);
@@ -56,11 +56,12 @@ impl Book {
         let density = simulation.read(DENSITY).await?;
         let held = |id: usize| self.held.get(id).copied().unwrap_or(false);
         let row = Ledger::of(snapshot, &density, &self.medium, &self.bounds, held);
-        let (dt, reason) = clock.map_or((self.dt, Reason::Longest), |clock| (clock.dt, clock.reason));
+        let (dt, free, reason) =
+            clock.map_or((self.dt, self.dt, Reason::Longest), |clock| (clock.dt, clock.free, clock.reason));
         let whose = clock.and_then(|clock| clock.particle).map_or_else(String::new, |id| id.to_string());
         let p = row.momentum;
         let words = [
-            format!("{:?},{dt:?},{},{whose}", row.time, reason.name()),
+            format!("{:?},{dt:?},{free:?},{},{whose}", row.time, reason.name()),
             format!("{:?},{:?},{:?},{:?}", row.mass, p.x, p.y, p.z),
             format!("{:?},{:?},{:?},{:?}", row.kinetic, row.potential, row.internal, row.total()),
             format!("{:?},{},{:?}", row.worst_density, row.worst_particle, row.mean_density),

@@ -131,9 +131,6 @@ impl Force for Fluid {
         let limits = Limits { sound: Some(medium.sound), viscosity: self.0.number("viscosity") };
         fluids::limits(&medium, limits, plan, problem)
     }
-    fn flows(&self, problem: &Problem) -> Result<Option<Medium>, Error> {
-        self.medium(problem).map(Some)
-    }
     fn evaluate(&self, plan: &mut Plan, _: usize, problem: &Problem) -> Result<(), Error> {
         let medium = self.medium(problem)?;
         if self.continuity()?.is_none() {

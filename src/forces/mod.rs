@@ -101,13 +101,6 @@ pub trait Force: Send + Sync {
     fn keeps_to_even_steps(&self) -> Option<&'static str> {
         None
     }
-    /// What flows, where it is a fluid: runs are measured for it.
-    ///
-    /// # Errors
-    /// When there is no such fluid.
-    fn flows(&self, _problem: &Problem) -> Result<Option<Medium>, Error> {
-        Ok(None)
-    }
     /// Whether links change as it acts.
     fn breaks(&self) -> bool {
         false

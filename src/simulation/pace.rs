@@ -83,7 +83,8 @@ impl<B: Backend> Simulation<B> {
         self.steps = clock.steps;
         Ok(Some(clock))
     }
-    /// Where the run stops: the last step before is shortened, and steps after it do nothing until it stops elsewhere. It is met
+    /// Where the run stops: the last step before is shortened, and steps after it move nobody until it stops elsewhere (forces
+    /// are felt anew in them, and what depends on velocities is another with those at rest: to leave no trace, run none). It is met
     /// to 2⁻²⁵ of the longest step; this is the time that it gives.
     ///
     /// # Errors
