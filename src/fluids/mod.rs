@@ -1,22 +1,31 @@
 //! Fluids: smoothed particle hydrodynamics. What is smoothed and how, and the searches that a step of it takes; which of them,
 //! and in which order, is for the forces to say.
 
+mod company;
 mod continuity;
 mod density;
+mod gap;
+mod limits;
 mod medium;
 mod pressure;
 mod smoothing;
+mod start;
 mod state;
+mod tension;
 mod wall_pressure;
 mod walls;
 mod xsph;
 
 pub use continuity::{Continuity, advance, rate, rest};
 pub use density::density;
+pub use gap::gap;
+pub use limits::{Limits, limits};
 pub use medium::Medium;
 pub use pressure::{Friction, Walls, pressure};
 pub use smoothing::Smoothing;
+pub use start::{Continuum, Start, Still};
 pub use state::state;
+pub use tension::{Tension, tension};
 pub use wall_pressure::wall_pressure;
 pub use walls::{WallMass, walls};
 pub use xsph::xsph;
@@ -30,3 +39,5 @@ pub(crate) const DENSITY_RATE: Field<f32> = Field::new("density_rate");
 /// What a neighbour is asked for, in the order of the grid: density, which is 0 for walls; pressure over its square; internal
 /// energy per unit mass.
 pub(crate) const FLOW: &str = "flow";
+/// Which way the surface is, in the order of the grid.
+pub(crate) const NORMAL: &str = "normal";

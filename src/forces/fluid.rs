@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::{Force, Law, Problem};
 use crate::error::Error;
-use crate::fluids::{self, Continuity, Friction, Medium, Smoothing, WallMass, Walls};
+use crate::fluids::{self, Continuity, Continuum, Friction, Limits, Medium, Smoothing, Tension, WallMass, Walls};
 use crate::kernel::Plan;
 use crate::neighbors::Grid;
 use crate::settings::{Key, Kind, Settings, Value};
@@ -29,6 +29,8 @@ pub const KEYS: &[Key] = &[
     Key::new("density_by", Kind::Choice(DENSITY_BY), Value::Text(Cow::Borrowed("summation")), "where density comes from: masses around, or the continuity equation (Monaghan 1994), which knows of no surface"),
     Key::new("diffusion", Kind::NotNegative, Value::Number(0.0), "δ of the diffusion of density by continuity, 0.1 say (Molteni & Colagrossi 2009)"),
     Key::new("weight", Kind::Vector, Value::Vector(DVec3::ZERO), "the acceleration of weight that a force gives, so that diffusion (Fourtakas et al. 2019) and walls leave a fluid at rest alone [length / time²]"),
+    Key::new("tension", Kind::NotNegative, Value::Number(0.0), "surface tension γ (Akinci, Akinci & Teschner 2013); what it is in N/m depends on spacing and support"),
+    Key::new("adhesion", Kind::NotNegative, Value::Number(0.0), "how walls pull the fluid, β (as above)"),
 ];
 
 const WALLS: &[&str] = &["mirror", "extrapolate"];
@@ -109,6 +111,10 @@ impl Force for Fluid {
     fn grids(&self, problem: &Problem) -> Result<Vec<(Grid, bool)>, Error> {
         Ok(vec![(self.medium(problem)?.grid(problem)?, true)])
     }
+    fn fluid(&self, problem: &Problem) -> Result<Option<Continuum>, Error> {
+        let (medium, summed) = (self.medium(problem)?, self.continuity()?.is_none());
+        Ok(Some(Continuum { medium, walls: self.wall_mass(), summed }))
+    }
     fn begin(&self, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
         let medium = self.medium(problem)?;
         if !problem.held.is_empty() {
@@ -119,6 +125,11 @@ impl Force for Fluid {
             plan.add(fluids::rest(&medium, problem)?);
         }
         Ok(())
+    }
+    fn paces(&self, plan: &mut Plan, problem: &Problem) -> Result<Option<f64>, Error> {
+        let medium = self.medium(problem)?;
+        let limits = Limits { sound: Some(medium.sound), viscosity: self.0.number("viscosity") };
+        fluids::limits(&medium, limits, plan, problem)
     }
     fn evaluate(&self, plan: &mut Plan, _: usize, problem: &Problem) -> Result<(), Error> {
         let medium = self.medium(problem)?;
@@ -135,6 +146,10 @@ impl Force for Fluid {
         let xsph = self.0.number("xsph");
         if xsph > 0.0 {
             plan.add(fluids::xsph(&medium, xsph, problem)?);
+        }
+        let tension = Tension { tension: self.0.number("tension"), adhesion: self.0.number("adhesion") };
+        if tension.tension > 0.0 || tension.adhesion > 0.0 {
+            fluids::tension(&medium, tension, problem)?.into_iter().for_each(|kernel| plan.add(kernel));
         }
         Ok(())
     }

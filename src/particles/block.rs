@@ -6,6 +6,7 @@ use glam::DVec3;
 
 use super::build::{CENTER, PARTICLE_RADIUS, Reader, SEED, VELOCITY};
 use super::random::Random;
+use super::skin::{DENSITY, SPACING, cells, steps};
 use super::{Particles, Shape, one_part};
 use crate::error::Error;
 use crate::settings::{Key, Kind, Settings, Value};
@@ -21,17 +22,8 @@ pub const BLOCK: Shape = Shape {
 
 const KEYS: &[Key] = &[
     Key::required("size", Kind::Vector, "its sides; 0 along z for a rectangle [length]"),
-    Key::required(
-        "spacing",
-        Kind::Positive,
-        "how far apart particles are, as in the force; sides are filled by whole numbers of them [length]",
-    ),
-    Key::new(
-        "density",
-        Kind::Positive,
-        Value::Number(1000.0),
-        "the density at rest, as in the force [mass / length³, or mass / length²]",
-    ),
+    SPACING,
+    DENSITY,
     Key::new("jitter", Kind::NotNegative, Value::Number(0.0), "largest displacement along each axis, in spacings"),
     Key::new(
         "vortices",
@@ -55,11 +47,8 @@ const KEYS: &[Key] = &[
 fn build(settings: &Settings) -> Result<Particles, Error> {
     let reader = Reader { shape: "block", settings };
     let (size, spacing) = (reader.vector("size")?, reader.positive("spacing")?);
-    if size.x <= 0.0 || size.y <= 0.0 || size.z < 0.0 {
-        return Err(reader.error(&format!("size is {size}; sides must be above 0, that along z 0 at least")));
-    }
-    let flat = size.z == 0.0;
-    let numbers = (size / spacing).round().max(DVec3::ONE);
+    let (flat, numbers) = (size.z == 0.0, cells(&reader, size, spacing)?);
+    reader.fits(numbers.element_product())?;
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
@@ -95,10 +84,4 @@ fn build(settings: &Settings) -> Result<Particles, Error> {
         }
     }
     reader.finished(particles)
-}
-
-/// 0, 1, … below a whole number that `room_for` has found to fit 32 bits.
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a factor of a product that fits 32 bits")]
-fn steps(size: f64) -> impl Iterator<Item = f64> {
-    (0..size as u32).map(f64::from)
 }

@@ -84,7 +84,7 @@ fn state(depth: f64) -> Vec<(&'static str, Value)> {
 }
 
 /// A simulation a step on its way, whose grid is that of where it is, and how it moves there.
-fn simulation(device: &Device, machine: Machine, setup: &Setup) -> Simulation<Gpu> {
+pub fn simulation(device: &Device, machine: Machine, setup: &Setup) -> Simulation<Gpu> {
     let mut gpu = Gpu::new(&device.0, &device.1, u32::try_from(FEW).expect("few")).expect("a GPU");
     gpu.pad(5);
     gpu.pretend(machine);
