@@ -216,7 +216,10 @@ fn every_force_is_one_shader_and_one_rust_file_of_its_name() {
     let (hosts, shaders) = (inside(&rust, "src/forces/"), inside(&wgsl, "shaders/forces/"));
     for entry in motes::forces::FORCES {
         for (list, what) in [(&hosts, "src/forces/{}.rs"), (&shaders, "shaders/forces/{}.wgsl")] {
-            if !list.iter().any(|stem| stem == entry.name) {
+            // What takes a method of several searches has its shaders where the method is.
+            let method = |host: &&File| host.stem() == entry.name && host.text.contains("crate::fluids");
+            let elsewhere = what.ends_with("wgsl") && rust.iter().any(|host| method(&host));
+            if !elsewhere && !list.iter().any(|stem| stem == entry.name) {
                 faults.push(format!("`{}` has no {}", entry.name, what.replace("{}", entry.name)));
             }
         }

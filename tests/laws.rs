@@ -17,7 +17,7 @@ const TIME: f64 = 0.83;
 
 /// Every force of the register in all its variants.
 fn every(mut look: impl FnMut(&str, &'static Entry, &Settings, Box<dyn Force>)) {
-    for entry in forces::FORCES {
+    for entry in choices::entries() {
         for settings in choices::variants(entry.keys) {
             look(&format!("{} {:?}", entry.name, settings.0), entry, &settings, (entry.build)(&settings));
         }
@@ -122,7 +122,7 @@ fn other_species(value: &Value) -> Value {
 /// A key that nobody reads, or a name mistyped, changes nothing.
 #[test]
 fn every_key_is_read() {
-    for entry in forces::FORCES {
+    for entry in choices::entries() {
         let variants = choices::variants(entry.keys);
         let world = World { time: TIME, dt: 0.01, ..World::default() };
         let cloud = support::cloud(100, 3);

@@ -20,7 +20,7 @@ fn every_law_in_a_periodic_box() {
     let mut busy = Vec::new();
     for sides in [[Side::Periodic; 3], [Side::Periodic, Side::Open, Side::Reflecting]] {
         let bounds = odd(sides);
-        for entry in FORCES {
+        for entry in choices::entries() {
             for variant in 0..choices::forces(entry).len() {
                 let pick = || choices::forces(entry).swap_remove(variant).1;
                 // Groups that are met as one have no nearest image.

@@ -11,6 +11,7 @@ mod continuity;
 mod drops;
 mod friction;
 mod invariants;
+mod keys;
 mod lockstep;
 mod smoothing;
 mod vortices;

@@ -2,7 +2,7 @@
 #![allow(clippy::cast_possible_truncation, reason = "numbers are rounded to what f32 holds")]
 
 use glam::{DVec3, Vec4};
-use motes::forces::{self, Over, Problem};
+use motes::forces::{Over, Problem};
 use motes::integrators::Step;
 use motes::kernel::{Backend, Machine, POSITION, VELOCITY, World};
 use motes::settings::{Kind, Value};
@@ -16,7 +16,7 @@ use crate::support::{self, choices};
 /// Every law alone, in all its variants; those over pairs by the visit that compiles fastest.
 pub fn all(device: &Device, stages: &mut Vec<Stage>) {
     let machine = Machine { software: true, subgroup: 0, invocations: 1 };
-    for entry in forces::FORCES {
+    for entry in choices::entries() {
         for settings in choices::variants(entry.keys) {
             // Vectors that are none, or short, may go another way.
             let mut all = vec![settings.clone()];
@@ -127,7 +127,7 @@ pub fn resting(device: &Device, machine: Machine, bounds: Bounds) -> Simulation<
 pub fn planes(device: &Device, stages: &mut Vec<Stage>) {
     let machine = Machine { software: true, subgroup: 0, invocations: 1 };
     let flat = Bounds { dimensions: 2, ..Bounds::default() };
-    for entry in forces::FORCES {
+    for entry in choices::entries() {
         for settings in choices::variants(entry.keys) {
             let force = (entry.build)(&settings);
             let asks = |text: &str| text.contains("world.dimensions") || text.contains("signed_distance(");

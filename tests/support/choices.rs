@@ -3,9 +3,18 @@
 use std::borrow::Cow;
 
 use glam::DVec3;
-use motes::forces::{Entry, Force};
+use motes::forces::{Entry, FORCES, Force};
 use motes::motion::{Keyframe, Motion};
 use motes::settings::{Key, Kind, Settings, Value};
+
+/// Forces of several searches in a row, which take up what those before them left: they have tests of their own, in
+/// `tests/fluids` and `tests/mutants/fluids.rs`.
+const OWN: [&str; 1] = ["fluid"];
+
+/// The entries of the register of forces, without those that have tests of their own.
+pub fn entries() -> impl Iterator<Item = &'static Entry> {
+    FORCES.iter().filter(|entry| !OWN.contains(&entry.name))
+}
 
 /// Every combination of the words and flags that some keys accept; all numbers nudged away from their defaults.
 pub fn variants(keys: &[Key]) -> Vec<Settings> {

@@ -62,7 +62,7 @@ fn fill(gpu: &mut Gpu, plan: &Plan, count: usize) {
 #[test]
 fn every_law_alone() {
     let shared = support::device();
-    for entry in forces::FORCES {
+    for entry in choices::entries() {
         for variant in 0..choices::forces(entry).len() {
             let pick = || choices::forces(entry).swap_remove(variant);
             let overs: Vec<_> = pick().1.laws().iter().map(|law| law.over).collect();
