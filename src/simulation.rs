@@ -1,9 +1,11 @@
 //! A simulation: particles, forces and an integrator on a backend.
 
+mod mortals;
 mod setup;
 mod solves;
 mod ties;
 
+pub use mortals::serves;
 pub use setup::{Plans, Setup};
 pub use solves::{Outcome, Solves};
 
@@ -14,9 +16,10 @@ use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::integrators::SOLVE_REPORT;
 use crate::kernel::{
-    ACCELERATION, ALARM, ALARM_WORDS, Array, Backend, Element, Field, HOME, POSITION, QUIET, SPECIES, TARGET, VELOCITY,
+    ACCELERATION, ALARM, ALARM_WORDS, Array, Backend, Element, Field, HOME, LIFE, POSITION, QUIET, SPECIES, TARGET, VELOCITY,
     World,
 };
+use crate::life::{Life, Population};
 use crate::links::Links;
 use crate::motion;
 use crate::particles::Particles;
@@ -52,6 +55,8 @@ pub struct Simulation<B: Backend> {
     /// As the setup gave them, and whether springs may have broken since.
     links: Links,
     breaks: bool,
+    /// Whether not everybody lives, all the time.
+    mortal: bool,
     dt: f64,
     steps: u64,
 }
@@ -71,9 +76,13 @@ impl<B: Backend> Simulation<B> {
         let measure = (backend.compile(&plans.measure.0)?, backend.compile(&plans.measure.1)?);
         backend.set_world(World { time: 0.0, dt: setup.dt, step: 0, count, bounds: setup.bounds })?;
         let particles = &setup.particles;
+        // Who does not live has no mass, and no velocity.
+        let living = |id: usize| f64::from(u8::from(particles.lives(id)));
         let inside = |x| boundary::wrapped(&setup.bounds, x);
-        let position = particles.position.iter().zip(&particles.mass).map(|(x, m)| inside(*x).extend(*m)).collect();
-        let velocity = particles.velocity.iter().zip(&particles.radius).map(|(v, r)| v.extend(*r));
+        let position = particles.position.iter().zip(&particles.mass);
+        let position = position.enumerate().map(|(id, (x, m))| inside(*x).extend(living(id) * m)).collect();
+        let velocity = particles.velocity.iter().zip(&particles.radius).enumerate();
+        let velocity = velocity.map(|(id, (v, r))| (living(id) * *v).extend(*r));
         let mut velocity: Vec<_> = velocity.collect();
         let held = motion::sorted(&particles.held);
         for one in &held {
@@ -88,6 +97,11 @@ impl<B: Backend> Simulation<B> {
         if plans.all().any(|plan| plan.fields(count).contains_key(SPECIES.name)) {
             backend.write(SPECIES.name, &Array::Uint(species.clone()))?;
         }
+        let mortal = particles.is_mortal();
+        if mortal {
+            let word = |id: usize| particles.life.get(id).copied().unwrap_or_default().word();
+            backend.write(LIFE.name, &Array::Uint((0..particles.len()).map(word).collect()))?;
+        }
         // A target for everybody, by id; those that are not held have no use for it.
         let places = |ids: &mut dyn Iterator<Item = usize>| {
             Array::Vec4(ids.map(|id| inside(particles.position[id]).extend(0.0)).collect())
@@ -101,7 +115,7 @@ impl<B: Backend> Simulation<B> {
         }
         let (links, breaks) = (particles.links.clone(), setup.breaks());
         let (begun, dt, steps) = (false, setup.dt, 0);
-        Ok(Self { backend, start, begun, step, measure, plan, solves, count, species, links, breaks, dt, steps })
+        Ok(Self { backend, start, begun, step, measure, plan, solves, count, species, links, breaks, mortal, dt, steps })
     }
     /// Advances. May return before the device is done; reading waits.
     ///
@@ -187,8 +201,22 @@ impl<B: Backend> Simulation<B> {
             }
         }
         particles.species.clone_from(&self.species);
+        particles.life = self.lives().await?;
         let time = self.steps as f64 * self.dt;
         Ok(Snapshot { step: self.steps, time, particles, potential })
+    }
+    /// Whether each takes part; nothing, where everybody does all the time.
+    async fn lives(&mut self) -> Result<Vec<Life>, Error> {
+        let words = if self.mortal { self.read(LIFE).await? } else { Vec::new() };
+        Ok(words.into_iter().filter_map(Life::of).collect())
+    }
+    /// How many wait to be born, live, and are dead.
+    ///
+    /// # Errors
+    /// What reading says.
+    pub async fn population(&mut self) -> Result<Population, Error> {
+        let count = self.count as usize;
+        Ok(Population::of(&self.lives().await?, count))
     }
     /// Draws the current state. Only the picture is read back.
     ///

@@ -287,10 +287,12 @@ impl Run {
         summary::momentum(output.rows(), self.conserved).into_iter().for_each(&say);
         output.company().map(|(first, last)| summary::company(first, last)).into_iter().for_each(&say);
         self.torn.iter().cloned().for_each(&say);
+        output.population().map(summary::population).into_iter().for_each(&say);
+        let flow = if output.population().is_some() { ", flow.csv" } else { "" };
         let tables = if output.company().is_some() { "energy.csv, flock.csv" } else { "energy.csv" };
         let picture = if output.pictures() { format!("{}.png, ", self.scene.name) } else { String::new() };
         say(format!(
-            "results in {}: {picture}{tables}, energy.svg, scene.toml, {} states",
+            "results in {}: {picture}{tables}{flow}, energy.svg, scene.toml, {} states",
             output.folder().display(),
             output.rows().len()
         ));

@@ -7,7 +7,6 @@ use glam::{DVec3, Vec4};
 use super::{FLOW, Medium};
 use crate::error::Error;
 use crate::kernel::{ACCELERATION, Host, Kernel, Problem, Scalar};
-use crate::neighbors::SORTED_ID;
 use crate::visit::{Body, Sweep, gathered};
 
 /// How a fluid rubs.
@@ -41,9 +40,9 @@ pub fn pressure(medium: &Medium, friction: Friction, problem: &Problem) -> Resul
     ];
     let (me, slots) = (*medium, grid.clone());
     let twin = move |host: &Host| {
-        let ids = host.reading::<u32>(&slots.field(SORTED_ID).1)?;
+        let ids = slots.occupants(host)?;
         let flow = host.reading::<Vec4>(&slots.field(FLOW).1)?;
-        let mut states = vec![DVec3::ZERO; ids.len()];
+        let mut states = vec![DVec3::ZERO; host.world().count as usize];
         ids.iter().zip(flow.iter()).for_each(|(id, flow)| states[*id as usize] = flow.truncate());
         let flows = |body: &Body| states[body.index].x > 0.0;
         let felt = gathered(host, me.range(), flows, |a, b, r, sum: &mut DVec3| {

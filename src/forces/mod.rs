@@ -87,6 +87,10 @@ pub trait Force: Send + Sync {
     fn conclude(&self, _plan: &mut Plan, _problem: &Problem) -> Result<(), Error> {
         Ok(())
     }
+    /// Whether who has no mass is met by nobody: then those who do not live may stand among those whom it meets.
+    fn goes_by_mass(&self) -> bool {
+        false
+    }
     /// Whether links change as it acts.
     fn breaks(&self) -> bool {
         false

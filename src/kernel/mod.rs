@@ -16,7 +16,7 @@ mod world;
 pub use backend::{Backend, Machine};
 pub use bounds::{Bounds, Side};
 pub use field::{
-    ACCELERATION, ALARM, ALARM_WORDS, Array, Element, Field, HOME, POSITION, QUIET, SPECIES, TARGET, VELOCITY,
+    ACCELERATION, ALARM, ALARM_WORDS, Array, Element, Field, HOME, LIFE, POSITION, QUIET, SPECIES, TARGET, VELOCITY,
 };
 pub use host::{Host, Reading, Writing};
 pub use pack::{Member, Packed, Scalar};

@@ -1,10 +1,12 @@
 //! What a simulation is made of, checked, and the plans that come of it.
 
+use super::mortals;
 use crate::boundary;
 use crate::error::Error;
 use crate::forces::{Force, Problem};
 use crate::integrators::{Integrator, Step};
 use crate::kernel::{Bounds, Machine, Plan, Solver};
+use crate::life;
 use crate::motion::{self, Hold};
 use crate::particles::Particles;
 
@@ -52,6 +54,7 @@ impl Setup {
         let mut start = Step::new(&self.forces, problem.clone());
         start.enclose();
         start.lead();
+        start.populate();
         start.begin();
         self.integrator.start(&mut start);
         let mut step = Step::new(&self.forces, problem.clone());
@@ -84,6 +87,7 @@ impl Setup {
             .of_species(&self.particles.species)
             .tied(&self.particles.links, &self.particles.held)
             .moved(&self.particles.motions, self.dt)
+            .mortal(&self.particles.births, &self.particles.drains, self.particles.is_mortal())
             .breaking(self.breaks())
             .solved(self.solver))
     }
@@ -98,7 +102,8 @@ impl Setup {
     /// [`Error::Scene`] when there are none or too many, when dt is not a positive number, when a particle has a number
     /// that is none, or a negative mass, when there can be no such box, or when it does not hold them.
     pub fn check(&self) -> Result<u32, Error> {
-        let Particles { position, velocity, mass, radius, species, links, held, motions } = &self.particles;
+        let Particles { position, velocity, mass, radius, species, links, held, motions, life, births, drains } =
+            &self.particles;
         let count = position.len();
         let lengths = [velocity.len(), mass.len(), radius.len(), species.len()];
         if lengths.iter().any(|l| *l != count) {
@@ -129,6 +134,8 @@ impl Setup {
         self.solver.check()?;
         boundary::check(&self.bounds)?;
         motion::check(held, motions, count, self.bounds.dimensions, self.dt)?;
+        life::check((life, births, drains), held, count, self.bounds.dimensions)?;
+        mortals::serves(&self.particles, &self.forces, self.integrator.as_ref())?;
         if !links.rods.is_empty() && !self.forces.iter().any(|force| force.keeps_rods()) {
             let text = format!(
                 "nothing keeps the lengths of the rods (of which there are {}): add a [[force]] of kind = \"rod\"",
