@@ -1,6 +1,7 @@
 //! A simulation: particles, forces and an integrator on a backend.
 
 mod mortals;
+mod population;
 mod setup;
 mod solves;
 mod ties;
@@ -19,7 +20,6 @@ use crate::kernel::{
     ACCELERATION, ALARM, ALARM_WORDS, Array, Backend, Element, Field, HOME, LIFE, POSITION, QUIET, SPECIES, TARGET, VELOCITY,
     World,
 };
-use crate::life::{Life, Population};
 use crate::links::Links;
 use crate::motion;
 use crate::particles::Particles;
@@ -204,19 +204,6 @@ impl<B: Backend> Simulation<B> {
         particles.life = self.lives().await?;
         let time = self.steps as f64 * self.dt;
         Ok(Snapshot { step: self.steps, time, particles, potential })
-    }
-    /// Whether each takes part; nothing, where everybody does all the time.
-    async fn lives(&mut self) -> Result<Vec<Life>, Error> {
-        let words = if self.mortal { self.read(LIFE).await? } else { Vec::new() };
-        Ok(words.into_iter().filter_map(Life::of).collect())
-    }
-    /// How many wait to be born, live, and are dead.
-    ///
-    /// # Errors
-    /// What reading says.
-    pub async fn population(&mut self) -> Result<Population, Error> {
-        let count = self.count as usize;
-        Ok(Population::of(&self.lives().await?, count))
     }
     /// Draws the current state. Only the picture is read back.
     ///

@@ -288,12 +288,11 @@ impl Run {
         output.company().map(|(first, last)| summary::company(first, last)).into_iter().for_each(&say);
         self.torn.iter().cloned().for_each(&say);
         output.population().map(summary::population).into_iter().for_each(&say);
-        let flow = if output.population().is_some() { ", flow.csv" } else { "" };
-        let tables = if output.company().is_some() { "energy.csv, flock.csv" } else { "energy.csv" };
         let picture = if output.pictures() { format!("{}.png, ", self.scene.name) } else { String::new() };
         say(format!(
-            "results in {}: {picture}{tables}{flow}, energy.svg, scene.toml, {} states",
+            "results in {}: {picture}{}, energy.svg, scene.toml, {} states",
             output.folder().display(),
+            output.tables(),
             output.rows().len()
         ));
         film.into_iter().for_each(&say);

@@ -13,6 +13,7 @@ mod film;
 mod frame;
 mod halo;
 mod heading;
+mod absent;
 mod hide;
 mod keys;
 mod light;

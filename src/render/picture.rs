@@ -11,6 +11,7 @@ use super::meter::Exposure;
 use super::raster::{self, Fields};
 use super::scenery::Facets;
 use super::{Camera, Color, Frame, Scenery, Solid, Trail};
+use super::absent::absent;
 use super::{blank, cover, halo, heading, hide, meter, paint, project};
 use super::{shade, splat, streak, stroke, tear, tone, vertex};
 use crate::error::Error;
@@ -30,6 +31,8 @@ pub struct Picture {
     /// Brightness of lights, as a multiple of the automatic one.
     pub exposure: f64,
     facets: Facets,
+    /// Whether some may not live, who are not drawn.
+    mortal: bool,
 }
 
 /// Pixels from side to side, at most: one invocation draws a whole line.
@@ -130,7 +133,7 @@ impl Picture {
             slab: if settings.number("slab") > 0.0 { 0.5 * settings.number("slab") } else { NEVER },
             lamp: LAMP_VIEW * camera.extent * (width / height).max(1.0),
         };
-        Ok(Self { frame, color, trail, exposure: settings.number("exposure"), facets })
+        Ok(Self { frame, color, trail, exposure: settings.number("exposure"), facets, mortal: !particles.life.is_empty() })
     }
     /// The same picture with other trails.
     pub fn retrace(&mut self, trail: Trail) {
@@ -150,6 +153,9 @@ impl Picture {
         let mut plan = Plan::default();
         plan.add(blank::kernel(&self.frame)?);
         plan.add(project::kernel(&self.frame)?);
+        if self.mortal {
+            plan.add(absent(self.frame.count)?);
+        }
         match self.color {
             Color::Speed { .. } => plan.add(paint::kernel(&self.frame)?),
             Color::Heading => plan.add(heading::kernel(&self.frame)?),
