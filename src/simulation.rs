@@ -17,8 +17,8 @@ use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::integrators::SOLVE_REPORT;
 use crate::kernel::{
-    ACCELERATION, ALARM, ALARM_WORDS, Array, Backend, Element, Field, HOME, LIFE, POSITION, QUIET, SPECIES, TARGET, VELOCITY,
-    World,
+    ACCELERATION, ALARM, ALARM_WORDS, Array, Backend, Element, Field, HOME, LIFE, POSITION, QUIET, SPECIES, TARGET,
+    VELOCITY, World,
 };
 use crate::links::Links;
 use crate::motion;
@@ -115,7 +115,22 @@ impl<B: Backend> Simulation<B> {
         }
         let (links, breaks) = (particles.links.clone(), setup.breaks());
         let (begun, dt, steps) = (false, setup.dt, 0);
-        Ok(Self { backend, start, begun, step, measure, plan, solves, count, species, links, breaks, mortal, dt, steps })
+        Ok(Self {
+            backend,
+            start,
+            begun,
+            step,
+            measure,
+            plan,
+            solves,
+            count,
+            species,
+            links,
+            breaks,
+            mortal,
+            dt,
+            steps,
+        })
     }
     /// Advances. May return before the device is done; reading waits.
     ///

@@ -20,7 +20,8 @@ pub fn kernel(problem: &Problem) -> Result<Kernel, Error> {
         let bounds = host.world().bounds;
         let (mut position, mut velocity) = (host.write(POSITION)?, host.write(VELOCITY)?);
         let lives = host.lives()?;
-        let free = position.iter_mut().zip(velocity.iter_mut()).enumerate().filter(|(id, _)| !who.is_held(*id) && lives(*id));
+        let free =
+            position.iter_mut().zip(velocity.iter_mut()).enumerate().filter(|(id, _)| !who.is_held(*id) && lives(*id));
         for (_, (x, v)) in free.filter(|(_, (x, _))| x.is_finite()) {
             for axis in (0..3).filter(|axis| bounds.sides[*axis] == Side::Reflecting) {
                 let (place, thrown_back) = folded(x[axis], bounds.low[axis], bounds.high[axis]);

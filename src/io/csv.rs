@@ -56,7 +56,8 @@ pub fn read(path: &Path) -> Result<Particles, Error> {
             let word = whole(&record, place, LIFE, &line, &mut problems);
             let life = word.and_then(Life::of);
             if let (Some(word), None) = (word, life) {
-                problems.note(|| format!("{line}, column {LIFE}: {word} is none of 0 (waits), 1 (lives) and 2 (is dead)"));
+                problems
+                    .note(|| format!("{line}, column {LIFE}: {word} is none of 0 (waits), 1 (lives) and 2 (is dead)"));
             }
             particles.life.push(life.unwrap_or_default());
         }

@@ -37,7 +37,8 @@ pub fn read(path: &Path) -> Result<Snapshot, Error> {
     let (ids, species, life) = (arrays.column("id"), arrays.column("species"), arrays.column("life"));
     let mut problems = arrays.problems;
     let rows = columns[0].as_ref().map(Vec::len);
-    for (values, name) in columns.iter().zip(NUMBERS.map(|(name, _)| name)).chain([(&ids, "id"), (&species, "species"), (&life, "life")])
+    for (values, name) in
+        columns.iter().zip(NUMBERS.map(|(name, _)| name)).chain([(&ids, "id"), (&species, "species"), (&life, "life")])
     {
         check(name, values.as_deref(), rows, &mut problems);
     }

@@ -36,7 +36,9 @@ pub fn check(
             ));
         }
         if dimensions == 2 && birth.velocity.z != 0.0 {
-            return refuse(format!("particle {id} is born with a velocity out of the plane: in 2 dimensions give it no z"));
+            return refuse(format!(
+                "particle {id} is born with a velocity out of the plane: in 2 dimensions give it no z"
+            ));
         }
     }
     let led = |one: &&Held| born.get(one.id as usize).is_some_and(|born| *born) || idle(life, one.id);

@@ -89,7 +89,8 @@ impl Grid {
         let starts = self.field(STARTS).1;
         // Where nobody binds the cells, everybody is in them.
         let all = ids.len();
-        let end = if host.contains(&starts) { host.reading::<u32>(&starts)?.last().map_or(0, |n| *n as usize) } else { all };
+        let end =
+            if host.contains(&starts) { host.reading::<u32>(&starts)?.last().map_or(0, |n| *n as usize) } else { all };
         Ok(ids[..end.min(all)].to_vec())
     }
     /// The twin.

@@ -22,17 +22,57 @@ pub const KEYS: &[Key] = &[
     CENTER,
     Key::new("direction", Kind::Direction, Value::Vector(DVec3::X), "where to it emits, straight out of its mouth"),
     Key::new("radius", Kind::Positive, Value::Number(0.5), "disk: the radius of the mouth [length]"),
-    Key::new("size", Kind::Vector, Value::Vector(DVec3::ONE), "rectangle: the sides of the mouth, along `across` and square to it; its third number is nothing [length]"),
-    Key::new("across", Kind::Vector, Value::Vector(DVec3::ZERO), "rectangle: where its first side points; zero: wherever"),
+    Key::new(
+        "size",
+        Kind::Vector,
+        Value::Vector(DVec3::ONE),
+        "rectangle: the sides of the mouth, along `across` and square to it; its third number is nothing [length]",
+    ),
+    Key::new(
+        "across",
+        Kind::Vector,
+        Value::Vector(DVec3::ZERO),
+        "rectangle: where its first side points; zero: wherever",
+    ),
     Key::required("speed", Kind::Positive, "how fast they leave the mouth [length / time]"),
-    Key::new("spacing", Kind::NotNegative, Value::Number(0.0), "for a fluid: rows of a cubic lattice so far apart follow each other at spacing / speed [length]"),
-    Key::new("rate", Kind::NotNegative, Value::Number(0.0), "for a spray: so many leave one by one, at random places of the mouth [1 / time]"),
-    Key::new("density", Kind::Positive, Value::Number(1000.0), "of a fluid at rest, as in the force [mass / length³, or mass / length²]"),
-    Key::new("mass", Kind::NotNegative, Value::Number(1.0), "of each particle of a spray; one of a fluid has that of its share of the lattice [mass]"),
+    Key::new(
+        "spacing",
+        Kind::NotNegative,
+        Value::Number(0.0),
+        "for a fluid: rows of a cubic lattice so far apart follow each other at spacing / speed [length]",
+    ),
+    Key::new(
+        "rate",
+        Kind::NotNegative,
+        Value::Number(0.0),
+        "for a spray: so many leave one by one, at random places of the mouth [1 / time]",
+    ),
+    Key::new(
+        "density",
+        Kind::Positive,
+        Value::Number(1000.0),
+        "of a fluid at rest, as in the force [mass / length³, or mass / length²]",
+    ),
+    Key::new(
+        "mass",
+        Kind::NotNegative,
+        Value::Number(1.0),
+        "of each particle of a spray; one of a fluid has that of its share of the lattice [mass]",
+    ),
     Key::new("start", Kind::Number, Value::Number(0.0), "when the first ones leave [time]"),
-    Key::new("stop", Kind::Number, Value::Number(FOREVER), "when nobody leaves any more [time]; left out: at the end of the run"),
+    Key::new(
+        "stop",
+        Kind::Number,
+        Value::Number(FOREVER),
+        "when nobody leaves any more [time]; left out: at the end of the run",
+    ),
     Key::new("count", Kind::Whole, Value::Number(0.0), "how many it has, at most; 0: as many as leave until it stops"),
-    Key::new("spread", Kind::NotNegative, Value::Number(0.0), "the largest angle between their ways and the direction, evenly in the cone [degrees], up to 90"),
+    Key::new(
+        "spread",
+        Kind::NotNegative,
+        Value::Number(0.0),
+        "the largest angle between their ways and the direction, evenly in the cone [degrees], up to 90",
+    ),
     SEED,
     PARTICLE_RADIUS,
 ];
@@ -118,7 +158,9 @@ impl Mouth {
             _ if flat => DVec3::new(-direction.y, direction.x, 0.0),
             Some(aside) => aside,
             None if across == DVec3::ZERO => direction.any_orthonormal_vector(),
-            None => return Err(Error::Scene(format!("an emitter has `across` along its direction, {direction}: turn one"))),
+            None => {
+                return Err(Error::Scene(format!("an emitter has `across` along its direction, {direction}: turn one")));
+            }
         };
         let shape = reader.settings.text("shape");
         let half = match shape {

@@ -4,6 +4,7 @@
 //! numbers, so that a picture has the same bytes on every run. Cloth is a surface, springs are lines, and solids stand
 //! among them, in the light of one lamp.
 
+mod absent;
 mod blank;
 mod camera;
 mod cover;
@@ -13,7 +14,6 @@ mod film;
 mod frame;
 mod halo;
 mod heading;
-mod absent;
 mod hide;
 mod keys;
 mod light;
@@ -38,6 +38,7 @@ mod tone;
 mod trail;
 mod vertex;
 
+pub use absent::absent;
 pub use camera::{Camera, framed};
 pub use draw::{Image, draw};
 pub use film::{Film, shoot};

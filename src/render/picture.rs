@@ -4,6 +4,7 @@ use std::borrow::Cow;
 
 use glam::DVec3;
 
+use super::absent::absent;
 use super::camera::FEW;
 use super::frame::{HOLDER, LIT, LIT_VERTEX, NEAREST, NEVER, VERTEX};
 use super::light::{LAMP_VIEW, from_lamp};
@@ -11,7 +12,6 @@ use super::meter::Exposure;
 use super::raster::{self, Fields};
 use super::scenery::Facets;
 use super::{Camera, Color, Frame, Scenery, Solid, Trail};
-use super::absent::absent;
 use super::{blank, cover, halo, heading, hide, meter, paint, project};
 use super::{shade, splat, streak, stroke, tear, tone, vertex};
 use crate::error::Error;
@@ -133,7 +133,14 @@ impl Picture {
             slab: if settings.number("slab") > 0.0 { 0.5 * settings.number("slab") } else { NEVER },
             lamp: LAMP_VIEW * camera.extent * (width / height).max(1.0),
         };
-        Ok(Self { frame, color, trail, exposure: settings.number("exposure"), facets, mortal: !particles.life.is_empty() })
+        Ok(Self {
+            frame,
+            color,
+            trail,
+            exposure: settings.number("exposure"),
+            facets,
+            mortal: !particles.life.is_empty(),
+        })
     }
     /// The same picture with other trails.
     pub fn retrace(&mut self, trail: Trail) {

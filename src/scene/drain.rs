@@ -14,14 +14,29 @@ use super::walk::Table;
 
 /// What the section may say.
 pub const DRAIN_KEYS: &[Key] = &[
-    Key::new("shape", Kind::Choice(solids::SHAPES), Value::Text(Cow::Borrowed("sphere")), "what it is; a plane is the half space behind it"),
+    Key::new(
+        "shape",
+        Kind::Choice(solids::SHAPES),
+        Value::Text(Cow::Borrowed("sphere")),
+        "what it is; a plane is the half space behind it",
+    ),
     Key::new("position", Kind::Vector, Value::Vector(DVec3::ZERO), "its middle, or a point on the plane [length]"),
     Key::new("radius", Kind::Positive, Value::Number(0.5), "sphere and capsule: the radius [length]"),
     Key::new("size", Kind::Vector, Value::Vector(DVec3::ONE), "box: its sides [length]"),
     Key::new("normal", Kind::Direction, Value::Vector(DVec3::Z), "plane: the direction away from where one dies"),
-    Key::new("axis", Kind::Vector, Value::Vector(DVec3::X), "capsule: from the centre of one end to the other's [length]"),
+    Key::new(
+        "axis",
+        Kind::Vector,
+        Value::Vector(DVec3::X),
+        "capsule: from the centre of one end to the other's [length]",
+    ),
     Key::new("outside", Kind::Flag, Value::Flag(false), "whether one dies outside of it, and not inside"),
-    Key::new("species", Kind::Species, Value::Text(Cow::Borrowed("all")), "who dies there: a species, or \"all\" but who is held"),
+    Key::new(
+        "species",
+        Kind::Species,
+        Value::Text(Cow::Borrowed("all")),
+        "who dies there: a species, or \"all\" but who is held",
+    ),
 ];
 
 /// Reads a drain, and writes it out.

@@ -72,7 +72,8 @@ pub(super) fn read(
     out.line("first", &first.to_string());
     let have = particles.len() as u64;
     if first + u64::from(count) > have {
-        let fault = Fault::at(&entry.node.place, format!("{count} births from particle {first} on need more than there are"));
+        let fault =
+            Fault::at(&entry.node.place, format!("{count} births from particle {first} on need more than there are"));
         report.push(fault.label(format!("there are {have}: those of the file's own emitters are to be in it")));
         return None;
     }

@@ -24,7 +24,12 @@ pub fn serves(particles: &Particles, forces: &[Box<dyn Force>], integrator: &dyn
         for law in force.laws() {
             let (name, over) = (&law.name, law.over.name());
             match law.over {
-                Over::Each | Over::Near { .. } | Over::Nearest { .. } | Over::Links | Over::Joints | Over::Triangles => {}
+                Over::Each
+                | Over::Near { .. }
+                | Over::Nearest { .. }
+                | Over::Links
+                | Over::Joints
+                | Over::Triangles => {}
                 _ if force.goes_by_mass() => {}
                 _ => {
                     return refuse(format!(
@@ -43,7 +48,10 @@ pub fn serves(particles: &Particles, forces: &[Box<dyn Force>], integrator: &dyn
     let idle = |id: &u32| waits.get(*id as usize).is_some_and(|waits| *waits) || !particles.lives(*id as usize);
     let mut tied = springs.chain(corners);
     if !particles.drains.is_empty() && tied.next().is_some() {
-        return refuse("a drain takes particles, and here some are tied: links cannot lose an end. Take away one of them".to_owned());
+        return refuse(
+            "a drain takes particles, and here some are tied: links cannot lose an end. Take away one of them"
+                .to_owned(),
+        );
     }
     match tied.find(idle) {
         Some(id) => refuse(format!("particle {id} is tied, and does not live from the start: tie others")),

@@ -39,14 +39,20 @@ fn the_dead_stay_dead_and_ids_are_never_reused() {
                 assert_eq!(now.position[id], last.position[id], "{id} stays");
             }
             if is != Life::Living {
-                assert_eq!((now.velocity[id], now.mass[id], snapshot.potential[id]), (DVec3::ZERO, 0.0, 0.0), "{id} rests");
+                assert_eq!(
+                    (now.velocity[id], now.mass[id], snapshot.potential[id]),
+                    (DVec3::ZERO, 0.0, 0.0),
+                    "{id} rests"
+                );
             }
         }
         let of = now.population();
         assert_eq!(of, pollster::block_on(simulation.population()).expect("a count"));
         assert_eq!((of.waiting + of.living + of.dead) as usize, count);
         // The ledger's sums are those over the living, of their own masses.
-        let own = |id: usize| setup.particles.births.iter().find(|b| b.id as usize == id).map_or(setup.particles.mass[id], |b| b.mass);
+        let own = |id: usize| {
+            setup.particles.births.iter().find(|b| b.id as usize == id).map_or(setup.particles.mass[id], |b| b.mass)
+        };
         let alive = || (0..count).filter(|id| now.life[*id] == Life::Living);
         let mass: f64 = alive().map(own).sum();
         let momentum: DVec3 = alive().map(|id| own(id) * now.velocity[id]).sum();
@@ -98,7 +104,8 @@ fn the_dead_attract_nobody() {
     particles.links = motes::links::Links::default();
     let gravity = |particles| {
         let forces = vec![force("gravity", &[("softening", Value::Number(0.1))])];
-        let mut simulation = Simulation::on(Cpu::new(40).expect("some"), &setup(particles, forces, Bounds::default())).expect("a run");
+        let mut simulation =
+            Simulation::on(Cpu::new(40).expect("some"), &setup(particles, forces, Bounds::default())).expect("a run");
         simulation.step(1).expect("a step");
         pollster::block_on(simulation.read(ACCELERATION)).expect("accelerations")
     };
@@ -132,7 +139,14 @@ fn batches_make_no_difference() {
 fn without_births_nothing_is_added() {
     let machine = motes::kernel::Machine { software: true, subgroup: 0, invocations: 1 };
     let mut setup = pool(Vec::new());
-    setup.particles = { let mut p = jet(0.1); p.life.clear(); p.births.clear(); p.mass.fill(1.0); p.position.iter_mut().for_each(|x| *x = x.abs().with_z(0.0)); p };
+    setup.particles = {
+        let mut p = jet(0.1);
+        p.life.clear();
+        p.births.clear();
+        p.mass.fill(1.0);
+        p.position.iter_mut().for_each(|x| *x = x.abs().with_z(0.0));
+        p
+    };
     let plans = setup.plans(machine).expect("plans");
     let plain = plans.step.to_string();
     assert!(plans.all().all(|plan| !plan.fields(6).contains_key("life")), "{plain}");

@@ -54,13 +54,17 @@ pub fn spray(end: f64) -> Particles {
     emitted(&settings, 3, end)
 }
 
+/// What is to run.
 pub fn setup(particles: Particles, forces: Vec<Box<dyn Force>>, bounds: Bounds) -> Setup {
     Setup { particles, forces, integrator: integrator("leapfrog"), dt: DT, bounds, solver: motes::Solver::default() }
 }
 
 /// A fluid of that spacing in the plane, slow enough for [`DT`].
 pub fn fluid() -> Box<dyn Force> {
-    force("fluid", &[("spacing", Value::Number(0.1)), ("sound_speed", Value::Number(2.0)), ("alpha", Value::Number(0.1))])
+    force(
+        "fluid",
+        &[("spacing", Value::Number(0.1)), ("sound_speed", Value::Number(2.0)), ("alpha", Value::Number(0.1))],
+    )
 }
 
 /// A pool in the plane, a jet into it, and a drain in which some of both die; mirrors around.

@@ -46,7 +46,7 @@ fn scenes_are_told_what_is_wrong_and_where() {
     }
     let implicit = BODY.replace("steps = 100", "steps = 100\nintegrator = \"backward_euler\"") + "[[drain]]\n";
     assert!(said(&implicit).contains("no implicit integrator"), "{}", said(&implicit));
-    let tied = format!("{BODY}[[particles]]\nshape = \"chain\"\npoints = 4\n[[drain]]\n[[force]]\nkind = \"spring\"\n");
+    let tied = format!("{BODY}[[particles]]\nshape = \"chain\"\ncount = 4\n[[drain]]\n[[force]]\nkind = \"spring\"\n");
     assert!(said(&tied).contains("links cannot lose an end"), "{}", said(&tied));
     for good in ["[[emitter]]\nspeed = 1\nrate = 5\n", "[[drain]]\n[[force]]\nkind = \"gravity\"\n"] {
         assert_eq!(said(&format!("{BODY}{good}")), "nothing");

@@ -1,6 +1,7 @@
 //! Mutation: every operator and literal of every shader is changed once, and the lockstep with the twins must notice.
 
 mod alarms;
+mod births;
 mod boundary;
 mod curious;
 mod equivalent_neighbors;

@@ -115,8 +115,7 @@ fn takes(drain: &Drain, x: glam::DVec3, world: &World) -> bool {
 
 /// After each evaluation: a ← 0 for who does not live.
 pub fn rest(problem: &Problem) -> Result<Kernel, Error> {
-    let shader =
-        Shader::join(&[problem.living(), crate::shader!("world.wgsl"), crate::shader!("life/rest.wgsl")])?;
+    let shader = Shader::join(&[problem.living(), crate::shader!("world.wgsl"), crate::shader!("life/rest.wgsl")])?;
     let twin = |host: &Host| {
         let lives = host.lives()?;
         let mut acceleration = host.write(ACCELERATION)?;
