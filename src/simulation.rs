@@ -1,6 +1,7 @@
 //! A simulation: particles, forces and an integrator on a backend.
 
 mod mortals;
+mod pictures;
 mod population;
 mod setup;
 mod solves;
@@ -23,7 +24,6 @@ use crate::kernel::{
 use crate::links::Links;
 use crate::motion;
 use crate::particles::Particles;
-use crate::render::{self, Film, Image, Picture};
 
 /// The state at the end of a step.
 #[derive(Debug, Clone, PartialEq)]
@@ -219,31 +219,6 @@ impl<B: Backend> Simulation<B> {
         particles.life = self.lives().await?;
         let time = self.steps as f64 * self.dt;
         Ok(Snapshot { step: self.steps, time, particles, potential })
-    }
-    /// Draws the current state. Only the picture is read back.
-    ///
-    /// # Errors
-    /// [`Error::Scene`] when the picture was made for another number of particles, or what drawing says.
-    pub async fn draw(&mut self, picture: &Picture) -> Result<Image, Error> {
-        self.fits(picture)?;
-        render::draw(&mut self.backend, picture).await
-    }
-    /// Draws the current state as the next picture of a film.
-    ///
-    /// # Errors
-    /// As for [`Simulation::draw`].
-    pub async fn shoot(&mut self, film: &mut Film) -> Result<Image, Error> {
-        self.fits(film.picture())?;
-        render::shoot(&mut self.backend, film).await
-    }
-    fn fits(&self, picture: &Picture) -> Result<(), Error> {
-        if picture.frame.count != self.count {
-            let (made, have) = (picture.frame.count, self.count);
-            return Err(Error::Scene(format!(
-                "a picture of {made} particles cannot be drawn of {have}: make a new one"
-            )));
-        }
-        Ok(())
     }
     /// One step, as `motes explain` prints it.
     #[must_use]

@@ -286,8 +286,7 @@ impl Run {
         }
         summary::momentum(output.rows(), self.conserved).into_iter().for_each(&say);
         output.company().map(|(first, last)| summary::company(first, last)).into_iter().for_each(&say);
-        self.torn.iter().cloned().for_each(&say);
-        output.population().map(summary::population).into_iter().for_each(&say);
+        self.torn.iter().cloned().chain(output.population().map(summary::population)).for_each(&say);
         let picture = if output.pictures() { format!("{}.png, ", self.scene.name) } else { String::new() };
         say(format!(
             "results in {}: {picture}{}, energy.svg, scene.toml, {} states",

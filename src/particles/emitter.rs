@@ -159,7 +159,9 @@ impl Mouth {
             Some(aside) => aside,
             None if across == DVec3::ZERO => direction.any_orthonormal_vector(),
             None => {
-                return Err(Error::Scene(format!("an emitter has `across` along its direction, {direction}: turn one")));
+                return Err(Error::Scene(format!(
+                    "an emitter has `across` along its direction, {direction}: turn one"
+                )));
             }
         };
         let shape = reader.settings.text("shape");
