@@ -1,11 +1,8 @@
 // Who waits and is due is born:  x ← x + (t − b) v,  from where it waited, as if it had left there at the time b of its birth.
-struct Birth { velocity: vec3f, time: f32, id: u32, mass: f32 }
-
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read_write> position: array<vec4f>; // xyz, mass
 @group(1) @binding(1) var<storage, read_write> velocity: array<vec4f>; // xyz, radius
 @group(1) @binding(8) var<storage, read_write> life: array<u32>;       // 0 waits, 1 lives, 2 is dead
-@group(2) @binding(0) var<storage, read> births: array<Birth>;
 
 override END: u32 = 1u;
 const WORKGROUP: u32 = 64u;

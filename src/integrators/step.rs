@@ -95,7 +95,7 @@ impl<'a> Step<'a> {
             self.add(held::hold(&self.problem));
         }
         if self.problem.mortal {
-            self.add(life::rest(&self.problem));
+            self.add_all(life::still(&self.problem));
         }
     }
     /// Who is held gets the velocity that brings it where it shall be at the end of the step.

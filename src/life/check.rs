@@ -29,8 +29,8 @@ pub fn check(
         if std::mem::replace(known, true) {
             return refuse(format!("particle {id} is to be born twice: give each birth an id of its own"));
         }
-        let numbers = birth.velocity.to_array().into_iter().chain([birth.time, birth.mass]);
-        if !numbers.into_iter().all(fits) || birth.mass < 0.0 {
+        let numbers = birth.velocity.to_array().into_iter().chain([birth.time, birth.mass, birth.guided]);
+        if !numbers.into_iter().all(fits) || birth.mass < 0.0 || birth.guided < 0.0 {
             return refuse(format!(
                 "the birth of particle {id} has a number that is NaN, infinite or beyond single precision, or a negative mass"
             ));

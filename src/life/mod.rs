@@ -48,6 +48,8 @@ pub struct Birth {
     pub velocity: DVec3,
     /// How heavy it is \[mass\].
     pub mass: f64,
+    /// How long it goes straight on, whatever forces say, so that those before it have something behind them \[time\].
+    pub guided: f64,
     /// The emitter that it is of, as a number that messages know it by.
     pub emitter: u32,
 }
@@ -75,7 +77,7 @@ pub fn table(births: &[Birth]) -> Vec<u32> {
     let bits = |x: f64| (x as f32).to_bits();
     let row = |birth: &Birth| -> [u32; WORDS] {
         let [x, y, z] = birth.velocity.to_array().map(bits);
-        [x, y, z, bits(birth.time), birth.id, bits(birth.mass), 0, 0]
+        [x, y, z, bits(birth.time), birth.id, bits(birth.mass), bits(birth.time + birth.guided), 0]
     };
     births.iter().flat_map(row).collect()
 }

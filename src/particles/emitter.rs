@@ -48,6 +48,12 @@ pub const KEYS: &[Key] = &[
         "for a spray: so many leave one by one, at random places of the mouth [1 / time]",
     ),
     Key::new(
+        "guide",
+        Kind::NotNegative,
+        Value::Number(3.0),
+        "of a fluid: for so many rows the newest go straight on, whatever forces say, so that the jet has something behind it",
+    ),
+    Key::new(
         "density",
         Kind::Positive,
         Value::Number(1000.0),
@@ -127,6 +133,7 @@ pub fn build(settings: &Settings, dimensions: u32, end: f64, room: u32) -> Resul
         reader.not_negative("mass")?
     };
     let (center, radius) = (reader.vector("center")?, reader.not_negative("particle_radius")?);
+    let guided = if spacing > 0.0 { reader.not_negative("guide")? * interval } else { 0.0 };
     let mut random = Random::new(settings.whole("seed"));
     for (id, k) in (0..count).zip(0_u32..) {
         let (row, site) = (id / sites.len(), sites[id % sites.len()]);
@@ -134,7 +141,7 @@ pub fn build(settings: &Settings, dimensions: u32, end: f64, room: u32) -> Resul
         let way = if spread > 0.0 { mouth.cone(spread.to_radians(), &mut random) } else { direction };
         particles.push(center + place, DVec3::ZERO, 0.0, radius);
         let time = row as f64 * interval + start;
-        particles.births.push(Birth { id: k, time, velocity: speed * way, mass, emitter: 0 });
+        particles.births.push(Birth { id: k, time, velocity: speed * way, mass, guided, emitter: 0 });
     }
     particles.life = vec![Life::Waiting; count];
     reader.finished(particles)

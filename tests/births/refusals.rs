@@ -55,7 +55,7 @@ fn scenes_are_told_what_is_wrong_and_where() {
 
 #[test]
 fn programs_are_told_too() {
-    let birth = Birth { id: 1, time: 0.0, velocity: DVec3::X, mass: 1.0, emitter: 0 };
+    let birth = Birth { id: 1, time: 0.0, velocity: DVec3::X, mass: 1.0, guided: 0.0, emitter: 0 };
     let drain = Drain { solid: Solid::Sphere(1.0), position: DVec3::ZERO, outside: false, species: None };
     let life = [Life::Living, Life::Waiting];
     let held = |id| Held { id, by: Hold::Fixed };

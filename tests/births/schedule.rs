@@ -126,3 +126,22 @@ fn a_jet_is_at_rest_density() {
         assert!((f64::from(density[id]) / 1000.0 - 1.0).abs() < 0.02, "{id}: {}", density[id]);
     }
 }
+
+/// Who has just been born goes straight on, whatever forces say; then it falls.
+#[test]
+fn the_newest_go_straight_on() {
+    let particles = jet(0.8);
+    let weight = || crate::support::states::force("uniform", &[("acceleration", Value::Vector(DVec3::NEG_Z))]);
+    let count = u32::try_from(particles.len()).expect("few");
+    let run = setup(particles.clone(), vec![weight()], Bounds::default());
+    let mut simulation = Simulation::on(Cpu::new(count).expect("some"), &run).expect("a run");
+    simulation.step(50).expect("steps");
+    let (now, time) = (state(&mut simulation).particles, 50.0 * DT);
+    for birth in particles.births.iter().filter(|birth| birth.time < time) {
+        // Three rows, at 1.3 and a tenth apart, and then the steps that begin and end in free fall.
+        let fall = (time - birth.time - 0.3 / 1.3).max(0.0);
+        let change = (now.velocity[birth.id as usize] - birth.velocity) * DVec3::NEG_Z;
+        assert!(change.z >= 0.0 && (change.z - fall).abs() <= DT, "{}: {} after {fall}", birth.id, change.z);
+        assert!(fall > 0.0 || change.z == 0.0);
+    }
+}

@@ -15,12 +15,18 @@ use motes::{Bounds, Gpu, POSITION, Side, Simulation};
 
 use crate::curious::{CHOOSY, MOVING, OTHERS, STILL, law};
 use crate::stages::{Device, FEW, Stage, fill, moving};
+use crate::support::equivalents::{Equivalent, same};
 use crate::support::machines::{alone, subgroups_of_eight};
 use crate::support::states::force;
 use crate::support::{Random, Shared};
 
 const MACHINE: Machine = Machine { software: true, subgroup: 0, invocations: 1 };
 const EIGHT: Machine = Machine { software: true, subgroup: 8, invocations: 256 };
+/// Mutants that do the same.
+pub const EQUIVALENT: &[Equivalent] = &[
+    same("life/drain.wgsl", "if i < world.count", "<", "<=", "behind the last word of life stands none that says 1"),
+    same("life/drain.wgsl", "if params.side *", "*", "/", "a quotient has the sign of the product"),
+];
 /// Now, and a step: a 64th of a step later is a number that f32 holds.
 const TIME: f64 = 1.125;
 const STEP: f64 = 0.5;
@@ -40,12 +46,17 @@ fn births() -> Vec<Birth> {
         time: single(0.7 + 0.006 * f64::from(k)),
         velocity: random.vector().as_vec3().as_dvec3(),
         mass: single(1.5 + random.next()),
+        guided: 0.0,
         emitter: 0,
     };
     let mut births: Vec<Birth> = (0..120).map(&mut birth).collect();
     let waiting: Vec<usize> = (0..120).filter(|k| births[*k].id % 7 == 1).collect();
     births[waiting[0]].time = SOON;
     births[waiting[1]].time = single(SOON + 0.003);
+    // Some are free now, some have been, some will be.
+    for (k, birth) in births.iter_mut().enumerate() {
+        birth.guided = (TIME - birth.time).max(0.0) * [1.0, 0.5, 1.5][k % 3];
+    }
     births
 }
 
@@ -103,7 +114,7 @@ pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
         step.evaluate();
         step.populate();
         for kernel in step.finished().expect("a plan").kernels {
-            let ours = ["bear", "rest", "drain"].iter().any(|name| kernel.name.starts_with(name));
+            let ours = ["bear", "rest", "guide", "drain"].iter().any(|name| kernel.name.starts_with(name));
             if ours {
                 stages.push(staged(&kernel.name.clone(), few(MACHINE), bounds, alone(tabled(kernel))));
             }
@@ -116,7 +127,7 @@ pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
 
 /// A birth more in the table than are born.
 fn tabled(kernel: Kernel) -> Kernel {
-    if kernel.name != "bear" {
+    if !["bear", "guide"].contains(&kernel.name.as_str()) {
         return kernel;
     }
     let mut all = births();

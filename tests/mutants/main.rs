@@ -122,6 +122,7 @@ fn every_mutant_is_noticed() {
         SOLVES,
         equivalent_primitives::EQUIVALENT,
         equivalent_neighbors::EQUIVALENT,
+        births::EQUIVALENT,
         trees::EQUIVALENT,
         walks::EQUIVALENT,
     ]

@@ -1,12 +1,12 @@
 //! Births and drains: `bear` and `drain` change who lives, at the end of a step; `rest` takes what forces do to those who do
-//! not.
+//! not, and `guide` what they do to those who have just been born.
 
 use std::sync::Arc;
 
 use glam::DVec4;
 
 use crate::error::Error;
-use crate::kernel::{ACCELERATION, Host, Kernel, LIFE, POSITION, Pass, Problem, Scalar, Shader, VELOCITY, World};
+use crate::kernel::{ACCELERATION, Host, Kernel, LIFE, POSITION, Pass, Problem, Scalar, Shader, Twin, VELOCITY, World};
 use crate::life::{self, Drain, Life};
 use crate::solids::Solid;
 
@@ -23,10 +23,12 @@ pub fn kernels(problem: &Problem) -> Result<Vec<Kernel>, Error> {
 }
 
 fn bear(problem: &Problem) -> Result<Kernel, Error> {
-    let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("life/bear.wgsl")])?;
+    let shader = Shader::join(&[
+        crate::shader!("world.wgsl"),
+        crate::shader!("life/birth.wgsl"),
+        crate::shader!("life/bear.wgsl"),
+    ])?;
     let births = problem.births.clone();
-    let count = births.len();
-    let table = Arc::new(life::table(&births));
     let twin = move |host: &Host| {
         let world = host.world();
         let mut life = host.write(LIFE)?;
@@ -42,16 +44,22 @@ fn bear(problem: &Problem) -> Result<Kernel, Error> {
         }
         Ok(())
     };
+    Ok(of_births(BEAR, shader, problem, Arc::new(twin)))
+}
+
+/// A kernel of one invocation for each birth.
+fn of_births(name: &str, shader: Arc<Shader>, problem: &Problem, twin: Twin) -> Kernel {
+    let count = problem.births.len();
     let number = u32::try_from(count).unwrap_or(u32::MAX);
     let pass = Pass { constants: vec![("END", count as f64)], ..Pass::new(shader, number) };
-    Ok(Kernel {
-        name: BEAR.to_owned(),
+    Kernel {
+        name: name.to_owned(),
         passes: vec![pass],
-        twin: Some(Arc::new(twin)),
+        twin: Some(twin),
         sizes: vec![("births".into(), count as u64)],
         scratch: Vec::new(),
-        tables: vec![("births".into(), table)],
-    })
+        tables: vec![("births".into(), Arc::new(life::table(&problem.births)))],
+    }
 }
 
 fn drain(problem: &Problem, drain: Drain, number: u32) -> Result<Kernel, Error> {
@@ -113,8 +121,33 @@ fn takes(drain: &Drain, x: glam::DVec3, world: &World) -> bool {
     if drain.outside { distance > 0.0 } else { distance < 0.0 }
 }
 
-/// After each evaluation: a ← 0 for who does not live.
-pub fn rest(problem: &Problem) -> Result<Kernel, Error> {
+/// After each evaluation: a ← 0 for who does not live, and for who has just been born.
+pub fn still(problem: &Problem) -> Result<Vec<Kernel>, Error> {
+    let guided = problem.births.iter().any(|birth| birth.guided > 0.0).then(|| guide(problem));
+    std::iter::once(rest(problem)).chain(guided).collect()
+}
+
+fn guide(problem: &Problem) -> Result<Kernel, Error> {
+    let shader = Shader::join(&[
+        problem.living(),
+        crate::shader!("world.wgsl"),
+        crate::shader!("life/birth.wgsl"),
+        crate::shader!("life/guide.wgsl"),
+    ])?;
+    let births = problem.births.clone();
+    let twin = move |host: &Host| {
+        let (lives, time) = (host.lives()?, host.world().time);
+        let mut acceleration = host.write(ACCELERATION)?;
+        for birth in births.iter().filter(|birth| lives(birth.id as usize) && time < birth.time + birth.guided) {
+            let a = &mut acceleration[birth.id as usize];
+            *a = DVec4::ZERO.with_w(a.w);
+        }
+        Ok(())
+    };
+    Ok(of_births("guide", shader, problem, Arc::new(twin)))
+}
+
+fn rest(problem: &Problem) -> Result<Kernel, Error> {
     let shader = Shader::join(&[problem.living(), crate::shader!("world.wgsl"), crate::shader!("life/rest.wgsl")])?;
     let twin = |host: &Host| {
         let lives = host.lives()?;
