@@ -30,7 +30,7 @@ pub fn state(medium: &Medium, problem: &Problem) -> Result<Kernel, Error> {
     let uniforms = blocks("the state of a fluid", &shader, &[medium.block()])?;
     let constants = grid.cells_of(&shader).into_iter().collect();
     let fields = [SORTED_ID, FLOW, STARTS].map(|name| grid.field(name));
-    let pass = Pass { uniforms, constants, ..Pass::new(shader, problem.count) }.on(&fields);
+    let pass = Pass { constants, uniforms, ..Pass::new(shader, problem.count) }.on(&fields);
     let (starts, cells) = (grid.field(STARTS).1, u64::from(grid.count()) + 1);
     let (me, who) = (*medium, problem.clone());
     let twin = move |host: &Host| {

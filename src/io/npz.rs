@@ -60,7 +60,7 @@ pub fn read(path: &Path) -> Result<Snapshot, Error> {
             Some(species) => species.iter().map(|of| *of as u32).collect(),
             None => vec![0; rows.unwrap_or(0)],
         },
-        life: life.unwrap_or_default().iter().filter_map(word).collect(),
+        life: life.unwrap_or_default().into_iter().filter_map(word).collect(),
         ..Particles::default()
     };
     if let Some(ids) = ids {
@@ -83,7 +83,7 @@ fn check(name: &str, values: Option<&[f64]>, rows: Option<usize>, problems: &mut
             problems.note(|| format!("{name}[{place}] is {value}, which is not finite"));
         } else if *value < 0.0 && matches!(name, "mass" | "radius") {
             problems.note(|| format!("{name}[{place}] is {value}, which is below 0"));
-        } else if name == "life" && word(value).is_none() {
+        } else if name == "life" && word(*value).is_none() {
             problems.note(|| format!("{name}[{place}] is {value}, none of 0 (waits), 1 (lives) and 2 (is dead)"));
         } else if matches!(name, "id" | "species")
             && !(value.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(value))
@@ -93,8 +93,8 @@ fn check(name: &str, values: Option<&[f64]>, rows: Option<usize>, problems: &mut
     }
 }
 
-fn word(value: &f64) -> Option<Life> {
-    [Life::Waiting, Life::Living, Life::Dead].into_iter().find(|life| (f64::from(life.word()) - *value).abs() == 0.0)
+fn word(value: f64) -> Option<Life> {
+    [Life::Waiting, Life::Living, Life::Dead].into_iter().find(|life| (f64::from(life.word()) - value).abs() == 0.0)
 }
 
 fn vectors(x: &[f64], y: &[f64], z: &[f64]) -> Vec<DVec3> {
