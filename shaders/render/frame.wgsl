@@ -32,6 +32,17 @@ struct Frame {
     lamp: f32,     // half the height of what the lamp sees [length]
     map: u32,      // pixels of what the lamp sees, each way
     slab: f32,     // what is farther from the centre, towards the eye or away from it, is not drawn [length]
+    drop: f32,     // radius at which a particle is drawn at least; of a fluid that of its drops [length]
+    grain: f32,    // parts in which the thickness of a drop is counted
+    layer: f32,    // thickness that one of those stands for [length]
+    murk: f32,     // how much a fluid absorbs [1 / length]
+    foam: f32,     // the speed from which on it is white
+    range: f32,    // how much farther and nearer the same surface may be, and how wide it is made smooth [drop]
+    calm: f32,
+    farthest: u32, // of the latter at most [pixels]
+    gloss: f32,    // how bright a sky it mirrors
+    wire: f32,     // half the width of a tank's edge [pixels]
+    edges: u32,
 }
 @group(3) @binding(0) var<uniform> frame: Frame;
 

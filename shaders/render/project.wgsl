@@ -1,4 +1,4 @@
-// Where each particle is seen, how far, and how large:  r = max(R s, marker (m / heaviest)^⅛), as a ball if that is enough pixels.
+// Where each particle is seen, how far, and how large:  r = max(R s, drop s, marker (m / heaviest)^⅛), as a ball if that is enough pixels.
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read> position: array<vec4f>;             // xyz, mass
 @group(1) @binding(1) var<storage, read> velocity: array<vec4f>;             // xyz, radius
@@ -27,7 +27,7 @@ fn project(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups:
             atomicAdd(&missed[1], 1u);
         } else {
             let seen = see(x.xyz);
-            let size = max(v.w * seen.scale, marker(x.w));
+            let size = max(max(v.w, frame.drop) * seen.scale, marker(x.w));
             let ball = size >= frame.solid;
             let radius = select(0.0, min(size, frame.largest), ball);
             let reach = select(frame.glow, radius + 0.5, ball);

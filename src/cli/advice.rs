@@ -15,7 +15,7 @@ use motes::{Bounds, Error, Setup, Side};
 use super::{births, solves};
 
 /// What a law's twin says to a particle at rest somewhere.
-fn felt(twin: &Twin, (time, step): (f64, u32), position: DVec3, bounds: Bounds) -> Result<DVec4, Error> {
+pub fn felt(twin: &Twin, (time, step): (f64, u32), position: DVec3, bounds: Bounds) -> Result<DVec4, Error> {
     let mut host = Host::default();
     host.insert(POSITION.name, Array::Vec4(vec![position.extend(1.3)]));
     host.insert(VELOCITY.name, Array::Vec4(vec![DVec4::ZERO]));
@@ -160,7 +160,7 @@ const MACHINE: Machine = Machine { software: true, subgroup: 0, invocations: 1 }
 fn inside(setup: &Setup) -> Option<String> {
     let particles = &setup.particles;
     let held: BTreeSet<usize> = particles.held.iter().map(|one| one.id as usize).collect();
-    let solids: Vec<_> = setup.forces.iter().filter_map(|force| force.standing()).collect();
+    let solids: Vec<_> = setup.forces.iter().filter_map(|force| force.standing()).filter(|one| !one.inside).collect();
     let within = |x: DVec3| solids.iter().any(|s| s.solid.distance(x - s.position, setup.bounds.dimensions).1 < 0.0);
     let mut inner = (0..particles.len()).filter(|id| !held.contains(id) && within(particles.position[*id]));
     let first = inner.next()?;

@@ -70,16 +70,16 @@ impl Film {
     pub async fn shoot<B: Backend>(
         &mut self,
         simulation: &mut Simulation<B>,
+        step: u64,
         output: &Output,
         progress: &Progress,
     ) -> Result<(), Failure> {
         if self.auto_frame && output.trail.wanted() {
             let (position, velocity) = (simulation.read(POSITION).await?, simulation.read(VELOCITY).await?);
-            let (step, pushes) = (simulation.steps(), output.trail.pushes());
+            let pushes = output.trail.pushes();
             self.kept.push(Kept { step, pushes, position, velocity });
             return Ok(());
         }
-        let step = simulation.steps();
         self.draw(simulation, output, output.trail.clone(), step, progress).await
     }
     /// Draws the states that are kept. The simulation is at its end: it is left with one of them.
@@ -124,7 +124,9 @@ impl Film {
         }
         let Some(reel) = &mut self.reel else { return Ok(()) };
         reel.retrace(trail);
-        reel.place(output.scenery.at(step as f64 * self.dt).solids);
+        let scenery = output.scenery.at(step as f64 * self.dt);
+        reel.place(scenery.solids);
+        reel.contain(scenery.tanks);
         let image = simulation.shoot(reel).await?;
         let file = self.folder.join("frames").join(format!("frame_{:0w$}.png", self.done.len(), w = self.digits()));
         image.save(&file)?;

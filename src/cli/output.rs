@@ -109,11 +109,6 @@ impl Output {
         }
         Ok(())
     }
-    /// The names of the tables, beside that of energies.
-    pub fn tables(&self) -> String {
-        let more = [(self.flock.is_some(), ", flock.csv"), (self.flow.is_some(), ", flow.csv")];
-        more.iter().filter(|(there, _)| *there).fold("energy.csv".to_owned(), |all, (_, name)| all + name)
-    }
     /// How many wait, live and are dead, where that changes.
     pub fn population(&self) -> Option<Population> {
         self.population

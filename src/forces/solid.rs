@@ -7,7 +7,7 @@ use glam::DVec3;
 
 use super::{EACH, Force, Kind as Who, Law, Problem, SPECIES, species};
 use crate::error::Error;
-use crate::kernel::{Host, Kernel, POSITION, Plan, Scalar, Shader, Source, VELOCITY, World};
+use crate::kernel::{Host, Kernel, POSITION, Plan, Scalar, Shader, Source, VELOCITY, World, time};
 use crate::motion::{Motion, Pose};
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::solids::{self, Solid as Shape, Standing};
@@ -111,13 +111,12 @@ impl Force for Solid {
         let (radius, position) = (self.0.number("radius"), self.0.vector("position"));
         let solid = match self.0.text("shape") {
             "plane" => Shape::Plane(self.0.vector("normal").normalize_or(DVec3::Z)),
-            // Nobody would see what is in a container.
-            _ if self.0.flag("inside") => return None,
             "box" => Shape::Box(self.0.vector("size")),
             "capsule" => Shape::Capsule(self.0.vector("axis"), radius),
             _ => Shape::Sphere(radius),
         };
-        Some(Standing { solid, position, motion: self.0.text("motion").to_owned() })
+        let inside = self.0.flag("inside") && !matches!(solid, Shape::Plane(_));
+        Some(Standing { solid, position, motion: self.0.text("motion").to_owned(), inside })
     }
     fn confine(&self, plan: &mut Plan, problem: &Problem, factor: f64) -> Result<(), Error> {
         plan.add(kernel(self.wall(problem)?, problem, factor)?);
@@ -125,7 +124,7 @@ impl Force for Solid {
     }
 }
 
-fn files(wall: &Wall, who: [Source; 2]) -> Vec<Source> {
+fn files(wall: &Wall, who: [Source; 2], clock: Source) -> Vec<Source> {
     let mut files = vec![
         crate::shader!("world.wgsl"),
         crate::shader!("nearest_image.wgsl"),
@@ -136,7 +135,7 @@ fn files(wall: &Wall, who: [Source; 2]) -> Vec<Source> {
     ];
     files.extend(who);
     match wall.motion {
-        Some(_) => files.extend([crate::shader!("motion/pose.wgsl"), crate::shader!("solids/moving.wgsl")]),
+        Some(_) => files.extend([clock, crate::shader!("motion/pose.wgsl"), crate::shader!("solids/moving.wgsl")]),
         None => files.push(crate::shader!("solids/still.wgsl")),
     }
     files
@@ -144,7 +143,7 @@ fn files(wall: &Wall, who: [Source; 2]) -> Vec<Source> {
 
 fn kernel(wall: Wall, problem: &Problem, factor: f64) -> Result<Kernel, Error> {
     let (holding, mut tables) = problem.holding();
-    let shader = Shader::join(&files(&wall, [holding, problem.living()]))?;
+    let shader = Shader::join(&files(&wall, [holding, problem.living()], problem.clock()))?;
     let (radius, size, axis) = wall.shape.parts();
     let values = [
         ("position", Scalar::Vector(wall.position)),
@@ -165,6 +164,8 @@ fn kernel(wall: Wall, problem: &Problem, factor: f64) -> Result<Kernel, Error> {
     let mut sizes = Vec::new();
     if wall.motion.is_some() {
         constants.push(("REACHED", problem.reached));
+        constants.extend(problem.clock_constants());
+        sizes.extend(problem.clock_sizes());
         let table = crate::motion::tables(&problem.motions, problem.dt);
         sizes.extend([("motions".into(), table.sizes[0]), ("keyframes".into(), table.sizes[1])]);
         tables.extend([("motions".into(), table.motions), ("keyframes".into(), table.keys)]);
@@ -174,7 +175,7 @@ fn kernel(wall: Wall, problem: &Problem, factor: f64) -> Result<Kernel, Error> {
         let world = host.world();
         let bodies = crate::visit::bodies(host)?;
         let (mut position, mut velocity) = (host.write(POSITION)?, host.write(VELOCITY)?);
-        let frame = wall.frame((f64::from(world.step) + who.reached) * world.dt);
+        let frame = wall.frame(if wall.motion.is_some() { time(host, &who, who.reached)? } else { 0.0 });
         for body in bodies.iter().filter(|body| wall.who.has(body) && body.lives && !who.is_held(body.index)) {
             let (way, change) = wall.meet(&frame, body.position, body.velocity, factor * world.dt, &world);
             position[body.index] += way.extend(0.0);

@@ -6,6 +6,7 @@ pub mod chain;
 pub mod cloth;
 pub mod clusters;
 pub mod disk;
+pub mod drop;
 pub mod emitter;
 mod exponential_disk;
 pub mod hair;
@@ -13,12 +14,16 @@ mod halo;
 pub mod hernquist;
 pub mod jelly;
 pub mod lattice;
+mod mesh;
 pub mod plummer;
 pub mod random;
 pub mod random_box;
 mod rotation;
+mod skin;
 pub mod sphere;
 pub mod spray;
+pub mod tank;
+pub mod wall;
 mod zeldovich;
 
 use glam::DVec3;
@@ -85,6 +90,9 @@ pub const SHAPES: &[Shape] = &[
     clusters::CLUSTERS,
     lattice::LATTICE,
     block::BLOCK,
+    drop::DROP,
+    tank::TANK,
+    wall::WALL,
     random_box::RANDOM_BOX,
     spray::SPRAY,
     chain::CHAIN,

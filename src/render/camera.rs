@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::Trail;
+use super::{KEYS, Trail};
 use crate::kernel::{Bounds, Side};
 use crate::particles::Particles;
 use crate::settings::{Settings, Value};
@@ -111,6 +111,8 @@ impl Camera {
 /// The same settings with all of a box in view, where it is closed all round and the frame is not given.
 #[must_use]
 pub fn framed(settings: &Settings, bounds: &Bounds) -> Settings {
+    let straight = bounds.dimensions == 2 && settings.text("style") == "fluid";
+    let settings = &if straight { facing(settings) } else { settings.clone() };
     let axes = usize::try_from(bounds.dimensions).unwrap_or(3).min(3);
     if !settings.flag("auto_frame") || bounds.sides[..axes].contains(&Side::Open) {
         return settings.clone();
@@ -126,6 +128,16 @@ pub fn framed(settings: &Settings, bounds: &Bounds) -> Settings {
     let camera = Camera::fit(&corners, &Trail::new(0), settings);
     let (center, extent) = (Value::Vector(camera.center), Value::Number(camera.extent));
     settings.clone().with("auto_frame", Value::Flag(false)).with("center", center).with("extent", extent)
+}
+
+/// A fluid in a plane is seen straight from above, where the scene does not say from where.
+fn facing(settings: &Settings) -> Settings {
+    let usual = KEYS.iter().find(|key| key.name == "eye").and_then(|key| key.default.clone());
+    if usual != Some(Value::Vector(settings.vector("eye"))) {
+        return settings.clone();
+    }
+    let flat = Value::Text("orthographic".into());
+    settings.clone().with("eye", Value::Vector(DVec3::Z)).with("projection", flat)
 }
 
 /// So much longer than the rest the whole must be before its ends are taken for stragglers.

@@ -9,10 +9,7 @@ const TURNS: u32 = 1 << 15;
 
 /// The kernel: two dispatches.
 pub fn kernel(frame: &Frame) -> Result<Kernel, Error> {
-    let across = super::frame::whole(2.0 * frame.largest) + 3;
-    // A turn for each row, besides one for each pixel in it.
-    let rows = (TURNS / (across + 1)).max(1);
-    let threads = Threads { count: frame.count, layers: across.div_ceil(rows) };
+    let (threads, rows) = layers(frame);
     let mut passes = Vec::new();
     for file in [crate::shader!("render/cover.wgsl"), crate::shader!("render/claim.wgsl")] {
         let mut pass = frame.pass(&[crate::shader!("render/disc.wgsl"), file], threads, 64)?;
@@ -38,4 +35,12 @@ pub fn kernel(frame: &Frame) -> Result<Kernel, Error> {
         Ok(())
     };
     Ok(frame.kernel("cover", passes, twin))
+}
+
+/// A dispatch over all discs, in layers of so many rows.
+pub fn layers(frame: &Frame) -> (Threads, u32) {
+    let across = super::frame::whole(2.0 * frame.largest) + 3;
+    // A turn for each row, besides one for each pixel in it.
+    let rows = (TURNS / (across + 1)).max(1);
+    (Threads { count: frame.count, layers: across.div_ceil(rows) }, rows)
 }

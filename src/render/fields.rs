@@ -30,9 +30,24 @@ pub const LIT_VERTEX: Field<Vec4> = Field::new("lit_vertex");
 pub const LIT: Field<u32> = Field::new("lit");
 pub const SOLID: Field<u32> = Field::new("solid");
 pub const SCENERY: Field<u32> = Field::new("scenery");
+/// Of a fluid: the nearest front, how much there is along the line of sight, how much of a pixel it covers, and whose it is.
+pub const CREST: Field<u32> = Field::new("crest");
+pub const VOLUME: Field<u32> = Field::new("volume");
+pub const RIM: Field<u32> = Field::new("rim");
+pub const SOURCE: Field<u32> = Field::new("source");
+/// Its surface, and the same after the next pass.
+pub const LEVEL: Field<f32> = Field::new("level");
+pub const THICKNESS: Field<f32> = Field::new("thickness");
+pub const DYE: Field<u32> = Field::new("dye");
+pub const NEXT_LEVEL: Field<f32> = Field::new("next_level");
+pub const NEXT_THICKNESS: Field<f32> = Field::new("next_thickness");
+pub const NEXT_DYE: Field<u32> = Field::new("next_dye");
+/// Background, scenery and fluid.
+pub const WET: Field<u32> = Field::new("wet");
+pub const EDGE: Field<u32> = Field::new("edge");
 
 /// Fields that live as long as one picture is drawn.
-pub const OWN: [&str; 25] = [
+pub const OWN: [&str; 37] = [
     PROJECTED.name,
     COLOR.name,
     TRAIL.name,
@@ -58,4 +73,16 @@ pub const OWN: [&str; 25] = [
     LIT.name,
     SOLID.name,
     SCENERY.name,
+    CREST.name,
+    VOLUME.name,
+    RIM.name,
+    SOURCE.name,
+    LEVEL.name,
+    THICKNESS.name,
+    DYE.name,
+    NEXT_LEVEL.name,
+    NEXT_THICKNESS.name,
+    NEXT_DYE.name,
+    WET.name,
+    EDGE.name,
 ];

@@ -43,6 +43,10 @@ impl Film {
     pub fn place(&mut self, solids: Vec<Solid>) {
         self.picture.place(solids);
     }
+    /// Where tanks are in the next picture.
+    pub fn contain(&mut self, tanks: Vec<Solid>) {
+        self.picture.contain(tanks);
+    }
     /// The exposure of the next picture, whose own would be this one.
     fn follow(&mut self, metered: Exposure) -> Exposure {
         let next = self.exposure.map_or(metered, |last| last.toward(metered, self.follow));

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
-use super::Camera;
+use super::{Camera, Water};
 use crate::error::Error;
 use crate::kernel::{Host, Kernel, Pass, Scalar, Shader, Source, Threads};
 
@@ -77,6 +77,8 @@ pub struct Frame {
     pub map: u32,
     /// What is farther from the centre, towards the eye or away from it, is not drawn \[length\].
     pub slab: f64,
+    /// What a fluid looks like.
+    pub water: Water,
 }
 
 /// Where a place is seen.
@@ -107,6 +109,11 @@ impl Frame {
     pub(super) fn shrunk(&self) -> (u32, u32) {
         (self.width.div_ceil(SHRINK), self.height.div_ceil(SHRINK))
     }
+    /// Pixels per length at a depth.
+    pub(super) fn scale_at(&self, depth: f64) -> f64 {
+        let distance = self.camera.distance;
+        if distance > 0.0 { self.scale() * distance / depth } else { self.scale() }
+    }
     pub(super) fn see(&self, x: DVec3) -> Seen {
         let camera = &self.camera;
         let r = x - camera.center;
@@ -132,10 +139,10 @@ impl Frame {
     pub(super) fn pixel(&self, x: u32, y: u32) -> usize {
         y as usize * self.width as usize + x as usize
     }
-    fn values(&self) -> [(&'static str, Scalar); 32] {
+    fn values(&self) -> Vec<(&'static str, Scalar)> {
         let camera = &self.camera;
         let float = Scalar::Float;
-        [
+        let mut values = vec![
             ("center", Scalar::Vector(camera.center)),
             ("distance", float(camera.distance)),
             ("right", Scalar::Vector(camera.right)),
@@ -168,7 +175,9 @@ impl Frame {
             ("lamp", float(self.lamp)),
             ("map", Scalar::Uint(self.map)),
             ("slab", float(self.slab)),
-        ]
+        ];
+        values.extend(self.water.values());
+        values
     }
     /// Elements of the fields that do not have one for each particle.
     fn sizes(&self) -> Vec<(&'static str, u64)> {
@@ -195,6 +204,18 @@ impl Frame {
             (LIT.name, u64::from(self.map * self.map)),
             (SOLID.name, u64::from(self.solids.max(1))),
             (SCENERY.name, area),
+            (EDGE.name, u64::from(self.water.edges.max(1))),
+            (CREST.name, area),
+            (VOLUME.name, area),
+            (RIM.name, area),
+            (SOURCE.name, area),
+            (LEVEL.name, area),
+            (THICKNESS.name, area),
+            (DYE.name, area),
+            (NEXT_LEVEL.name, area),
+            (NEXT_THICKNESS.name, area),
+            (NEXT_DYE.name, area),
+            (WET.name, area),
         ]
     }
     /// A dispatch of files joined with `world.wgsl` and `frame.wgsl`; `each` is about what one invocation does.

@@ -43,9 +43,27 @@ pub const KEYS: &[Key] = &[
     ),
     Key::new(
         "style",
-        Kind::Choice(&["auto", "glow", "balls"]),
+        Kind::Choice(&["auto", "glow", "balls", "fluid"]),
         word("auto"),
-        "particles as lights, as shaded balls, or balls where they are few or large",
+        "particles as lights, as shaded balls, as the surface of a fluid, or as balls where they are few or large",
+    ),
+    Key::new(
+        "drop",
+        Kind::NotNegative,
+        Value::Number(0.0),
+        "of a fluid: the radius of a drop, three quarters of the spacing; 0: by how far apart particles are [length]",
+    ),
+    Key::new(
+        "clarity",
+        Kind::NotNegative,
+        Value::Number(0.0),
+        "of a fluid: how deep one sees into it; 0: as water, or hardly where colours say something [length]",
+    ),
+    Key::new(
+        "foam",
+        Kind::NotNegative,
+        Value::Number(0.0),
+        "of a fluid: the speed from which on it is white with foam; 0: never [length / time]",
     ),
     Key::new(
         "color",
@@ -73,8 +91,8 @@ pub const KEYS: &[Key] = &[
     ),
     Key::new(
         "background",
-        Kind::Choice(&["night", "black", "dusk"]),
+        Kind::Choice(&["night", "black", "dusk", "day"]),
         word("night"),
-        "a dark blue sky; nothing; or a bright sky at dusk, with lights and trails as ink",
+        "a dark blue sky; nothing; or a bright sky, at dusk or by day, with lights and trails as ink",
     ),
 ];

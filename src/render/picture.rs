@@ -9,11 +9,12 @@ use super::camera::FEW;
 use super::frame::{HOLDER, LIT, LIT_VERTEX, NEAREST, NEVER, VERTEX};
 use super::light::{LAMP_VIEW, from_lamp};
 use super::meter::Exposure;
+use super::palette::pack;
 use super::raster::{self, Fields};
 use super::scenery::Facets;
-use super::{Camera, Color, Frame, Scenery, Solid, Trail};
-use super::{blank, cover, halo, heading, hide, meter, paint, project};
-use super::{shade, splat, streak, stroke, tear, tone, vertex};
+use super::{Camera, Color, Frame, Scenery, Solid, Trail, Water};
+use super::{blank, cover, drops, fluid, foam, halo, heading, hide, meter, paint, project, water};
+use super::{settle, shade, splat, streak, stroke, tear, tone, vertex};
 use crate::error::Error;
 use crate::kernel::Plan;
 use crate::particles::Particles;
@@ -76,12 +77,16 @@ impl Picture {
         let count = count.ok_or_else(|| Error::Scene("a picture needs one or more particles".to_owned()))?;
         let (few, style) = (particles.len() <= FEW, settings.text("style"));
         let background = settings.text("background");
-        let dusk = background == "dusk";
-        let facets = Facets::new(scenery, count, settings.text("draw"))?;
+        let bright = ["dusk", "day"].contains(&background);
+        let wet = style == "fluid";
+        let walls: &[u32] = if wet { &scenery.held } else { &[] };
+        let facets = Facets::new(scenery, count, settings.text("draw"), walls)?;
         // What is tied together is one thing, of one colour.
         let plain = facets.count > 0 && settings.text("color") == "auto";
         let color = if plain {
             Color::choose(&settings.clone().with("color", Value::Text("group".into())), particles, groups)
+        } else if wet && settings.text("color") == "auto" && !groups.iter().any(|g| Some(g) != groups.first()) {
+            Color::Given(vec![pack(fluid::DYE); particles.len()])
         } else {
             Color::choose(settings, particles, groups)
         };
@@ -89,6 +94,9 @@ impl Picture {
         let pixels = super::frame::whole(width) * super::frame::whole(height);
         let fine = (1..=FINE).rev().find(|n| pixels * n * n <= SAMPLES).unwrap_or(1);
         let short = width.min(height);
+        let water_only = color == Color::Given(vec![pack(fluid::DYE); particles.len()]);
+        let water = Water::of(settings, particles, scenery, &camera, !water_only);
+        let water = Water { edges: if wet { facets.edges() } else { 0 }, ..water };
         let frame = Frame {
             camera,
             count,
@@ -100,10 +108,11 @@ impl Picture {
                 "balls" => 1.0,
                 _ => 0.0,
             },
+            water,
             largest: if few { short / 4.0 } else { LARGEST_OF_MANY.min(short / 4.0) }.max(2.0),
             solid: match style {
                 "glow" => NEVER,
-                "balls" => 0.0,
+                "balls" | "fluid" => 0.0,
                 _ => solid(particles, 0.5 * height / camera.extent, few),
             },
             glow: {
@@ -113,16 +122,20 @@ impl Picture {
             },
             unit: unit(count),
             speeds: if let Color::Speed { slow, fast } = color { (slow, fast) } else { (0.0, 1.0) },
-            points: points(&trail),
-            sky: if background == "black" { 0.0 } else { 1.0 },
+            points: if wet { 0 } else { points(&trail) },
+            sky: match background {
+                "black" => 0.0,
+                "day" => 2.0,
+                _ => 1.0,
+            },
             line: (short / 800.0).max(0.5),
             // A bright sky outshines every halo.
-            bloom: if dusk { 0.0 } else { 1.8 },
+            bloom: if bright || wet { 0.0 } else { 1.8 },
             reach: super::frame::whole(short / 48.0).max(1),
             tail: settings.number("tail"),
             // White has no hue to say where it is heading.
             bleach: if color == Color::Heading { 0.2 } else { 0.6 },
-            ink: if dusk { 0.94 } else { 0.0 },
+            ink: if bright { 0.94 } else { 0.0 },
             fine,
             // Many are hair.
             thread: (short / if few { 300.0 } else { 1600.0 }).max(0.5 / f64::from(fine)),
@@ -144,13 +157,18 @@ impl Picture {
     }
     /// The same picture with other trails.
     pub fn retrace(&mut self, trail: Trail) {
-        self.frame.points = points(&trail);
+        self.frame.points = if self.frame.water.is_there() { 0 } else { points(&trail) };
         self.trail = trail;
     }
     /// The same picture with solids elsewhere.
     pub fn place(&mut self, solids: Vec<Solid>) {
         self.facets.set(solids);
         self.frame.solids = self.facets.solids();
+    }
+    /// The same picture with tanks elsewhere.
+    pub fn contain(&mut self, tanks: Vec<Solid>) {
+        self.facets.contain(tanks);
+        self.frame.water.edges = if self.frame.water.is_there() { self.facets.edges() } else { 0 };
     }
     /// From particles to light: what runs before the exposure is known.
     ///
@@ -168,8 +186,19 @@ impl Picture {
             Color::Heading => plan.add(heading::kernel(&self.frame)?),
             Color::Given(_) => {}
         }
+        if self.facets.veils() {
+            plan.add(hide::kernel(&self.frame, &self.facets)?);
+        }
         if !self.facets.is_empty() {
             self.stand(&mut plan)?;
+        }
+        if self.frame.water.is_there() {
+            plan.add(foam::kernel(&self.frame)?);
+            plan.add(drops::kernel(&self.frame)?);
+            plan.add(drops::level(&self.frame)?);
+            plan.add(settle::kernel(&self.frame)?);
+            plan.add(water::kernel(&self.frame, &self.facets)?);
+            return Ok(plan);
         }
         if self.frame.solid < NEVER {
             plan.add(cover::kernel(&self.frame)?);
@@ -186,7 +215,6 @@ impl Picture {
     fn stand(&self, plan: &mut Plan) -> Result<(), Error> {
         let (frame, facets, lamp) = (&self.frame, &self.facets, from_lamp(&self.frame));
         if frame.facets > 0 {
-            plan.add(hide::kernel(frame, facets)?);
             plan.add(tear::kernel(frame, facets)?);
             plan.add(vertex::kernel("vertex", frame, facets, VERTEX)?);
             plan.add(vertex::kernel("vertex of the lamp", &lamp, facets, LIT_VERTEX)?);

@@ -36,7 +36,7 @@ pub fn kernel(frame: &Frame) -> Result<Kernel, Error> {
 fn project(frame: &Frame, x: DVec4, v: DVec4) -> DVec4 {
     let seen = frame.see(x.truncate());
     let part = if frame.heaviest > 0.0 { (x.w / frame.heaviest).clamp(0.0, 1.0).sqrt().sqrt().sqrt() } else { 1.0 };
-    let size = (v.w * seen.scale).max(frame.marker * part.max(LIGHTEST));
+    let size = (v.w.max(frame.water.drop) * seen.scale).max(frame.marker * part.max(LIGHTEST));
     let ball = size >= frame.solid;
     let radius = if ball { size.min(frame.largest) } else { 0.0 };
     let reach = if ball { radius + 0.5 } else { frame.glow };

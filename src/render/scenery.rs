@@ -2,13 +2,16 @@
 
 use std::sync::Arc;
 
+use glam::{DQuat, DVec3};
+
 use super::camera::FEW;
-use super::frame::{AROUND, AROUND_START, FACET, Frame, NOBODY, SLOT, SOLID, VEIL};
-use super::solid::Solid;
+use super::frame::{AROUND, AROUND_START, EDGE, FACET, Frame, NOBODY, SLOT, SOLID, VEIL};
+use super::solid::{Shape, Solid};
+use super::tank;
 use crate::error::Error;
-use crate::kernel::{Kernel, Name};
+use crate::kernel::{Bounds, Kernel, Name, Side};
 use crate::links::{Links, MOST_LINKS, Network};
-use crate::motion::Motion;
+use crate::motion::{Hold, Motion};
 use crate::particles::Particles;
 use crate::solids::Standing;
 
@@ -19,6 +22,12 @@ pub struct Scenery {
     pub links: Arc<Links>,
     /// Solids.
     pub solids: Vec<Solid>,
+    /// Boxes, or rectangles, of which a picture of a fluid shows the edges.
+    pub tanks: Vec<Solid>,
+    /// The first of those, where it is no container of the scene.
+    pub bounded: Option<Solid>,
+    /// Who is held, by id: in a fluid those are walls.
+    pub held: Arc<Vec<u32>>,
     /// The same in a scene, and the motions that they go along with: see [`Scenery::at`].
     pub standing: (Vec<Standing>, Vec<Motion>),
 }
@@ -27,7 +36,22 @@ impl Scenery {
     /// What ties particles together, and no solids.
     #[must_use]
     pub fn of(particles: &Particles) -> Self {
-        Self { links: Arc::new(particles.links.clone()), ..Self::default() }
+        let held = particles.held.iter().map(|one| one.id).collect();
+        let bounded = around_walls(particles);
+        let tanks = bounded.into_iter().collect();
+        Self { links: Arc::new(particles.links.clone()), tanks, bounded, held: Arc::new(held), ..Self::default() }
+    }
+    /// The same in a box, where that is closed all round.
+    #[must_use]
+    pub fn within(mut self, bounds: &Bounds) -> Self {
+        let axes = usize::try_from(bounds.dimensions).unwrap_or(3).min(3);
+        if !bounds.sides[..axes].contains(&Side::Open) {
+            let flat = |x: DVec3| if axes < 3 { x.with_z(0.0) } else { x };
+            let (low, high) = (flat(bounds.low), flat(bounds.high));
+            self.bounded = Some(upright(low, high));
+            self.tanks = self.bounded.into_iter().collect();
+        }
+        self
     }
     /// The same with what stands in a scene, on the motions of these particles, as at the time 0.
     #[must_use]
@@ -41,7 +65,12 @@ impl Scenery {
         if standing.is_empty() {
             return self.clone();
         }
-        Self { solids: standing.iter().map(|one| Solid::at(one, motions, time)).collect(), ..self.clone() }
+        let of = |inside| {
+            let those = standing.iter().filter(move |one| one.inside == inside);
+            those.map(|one| Solid::at(one, motions, time)).collect()
+        };
+        let tanks = self.bounded.into_iter().chain(of(true)).collect();
+        Self { solids: of(false), tanks, ..self.clone() }
     }
 }
 
@@ -56,6 +85,7 @@ pub struct Facets {
     pub triangles: u32,
     pub count: u32,
     solids: Vec<Solid>,
+    tanks: Vec<Solid>,
     facet: Arc<Vec<u32>>,
     slot: Arc<Vec<u32>>,
     around_start: Arc<Vec<u32>>,
@@ -65,16 +95,21 @@ pub struct Facets {
 }
 
 impl Facets {
-    /// Those that are drawn of `count` particles, as the key `draw` says.
-    pub fn new(scenery: &Scenery, count: u32, draw: &str) -> Result<Self, Error> {
+    /// Those that are drawn of `count` particles, as the key `draw` says; `hidden` are not, whatever it says.
+    pub fn new(scenery: &Scenery, count: u32, draw: &str, hidden: &[u32]) -> Result<Self, Error> {
         let links = &*scenery.links;
         if scenery.solids.len() > MOST_SOLIDS {
             let (n, most) = (scenery.solids.len(), MOST_SOLIDS);
             return Err(Error::Scene(format!("a picture of {n} solids: {most} are the most that it draws")));
         }
-        let solids = scenery.solids.clone();
+        let (solids, tanks) = (scenery.solids.clone(), scenery.tanks.clone());
+        let mut walls = vec![false; count as usize];
+        for id in hidden {
+            *walls.get_mut(*id as usize).ok_or_else(|| beyond(*id, count))? = true;
+        }
         if links.is_empty() || draw == "points" {
-            return Ok(Self { solids, ..Self::default() });
+            let veil = if hidden.is_empty() { Vec::new() } else { walls.into_iter().map(u32::from).collect() };
+            return Ok(Self { solids, tanks, veil: Arc::new(veil), ..Self::default() });
         }
         let mut cloth = vec![false; count as usize];
         let mut tied = cloth.clone();
@@ -105,12 +140,14 @@ impl Facets {
         };
         let slots = facets.iter().flat_map(|facet| sides(*facet)).collect();
         let few = count as usize <= FEW;
-        let veil = cloth.iter().zip(&tied).map(|(cloth, tied)| u32::from(*cloth || *tied && !few)).collect();
+        let alone = cloth.iter().zip(&tied).zip(&walls);
+        let veil = alone.map(|((cloth, tied), wall)| u32::from(*cloth || *tied && !few || *wall)).collect();
         let (around_start, around) = around(&facets, &cloth, count)?;
         Ok(Self {
             triangles: number(triangles)?,
             count: number(facets.len())?,
             solids,
+            tanks,
             facet: Arc::new(facets.into_iter().flatten().collect()),
             slot: Arc::new(slots),
             around_start: Arc::new(around_start),
@@ -118,6 +155,10 @@ impl Facets {
             veil: Arc::new(veil),
             link: network.link,
         })
+    }
+    /// How many edges tanks have.
+    pub fn edges(&self) -> u32 {
+        self.tanks.iter().map(tank::number).sum()
     }
     /// Whether there is nothing beside particles.
     pub fn is_empty(&self) -> bool {
@@ -127,12 +168,21 @@ impl Facets {
     pub fn solids(&self) -> u32 {
         u32::try_from(self.solids.len()).unwrap_or(0)
     }
+    /// Other tanks, or the same at other places.
+    pub fn contain(&mut self, tanks: Vec<Solid>) {
+        self.tanks = tanks;
+    }
+    /// Whether some particles are not drawn by themselves.
+    pub fn veils(&self) -> bool {
+        self.veil.contains(&1)
+    }
     /// Other solids, or the same at other places.
     pub fn set(&mut self, solids: Vec<Solid>) {
         self.solids = solids;
     }
     /// The kernel, with what the fields that it names hold.
     pub fn bind(&self, mut kernel: Kernel, frame: &Frame) -> Kernel {
+        let edge = self.tanks.iter().flat_map(|tank| tank::words(tank, frame)).collect();
         let solid = self.solids.iter().flat_map(|solid| solid.words(frame)).collect();
         let tables = [
             (FACET.name, &self.facet),
@@ -142,6 +192,7 @@ impl Facets {
             (VEIL.name, &self.veil),
             (LINK, &self.link),
             (SOLID.name, &Arc::new(solid)),
+            (EDGE.name, &Arc::new(edge)),
         ];
         for (field, words) in tables {
             let stride = kernel.bindings().filter(|(name, _)| *name == field).map(|(_, b)| b.stride).max();
@@ -188,4 +239,20 @@ fn beyond(id: u32, count: u32) -> Error {
 fn number(n: usize) -> Result<u32, Error> {
     let fits = u32::try_from(n).ok().filter(|n| *n < NOBODY / 3);
     fits.ok_or_else(|| Error::Scene(format!("{n} triangles and lines are more than a picture draws")))
+}
+
+/// A box along the axes.
+fn upright(low: DVec3, high: DVec3) -> Solid {
+    Solid { shape: Shape::Box { half: 0.5 * (high - low) }, place: 0.5 * (low + high), turn: DQuat::IDENTITY }
+}
+
+/// The box around all particles that stay where they are.
+fn around_walls(particles: &Particles) -> Option<Solid> {
+    let fixed = particles.held.iter().filter(|one| one.by == Hold::Fixed);
+    let places = fixed.filter_map(|one| particles.position.get(one.id as usize)).filter(|x| x.is_finite());
+    let ends = places.fold(None, |ends, x| {
+        let (low, high) = ends.unwrap_or((*x, *x));
+        Some((low.min(*x), high.max(*x)))
+    });
+    ends.map(|(low, high)| upright(low, high))
 }

@@ -2,17 +2,30 @@
 
 use glam::{DVec2, DVec3};
 
-use super::frame::{Frame, middle};
+use super::frame::Frame;
 
 const SLATE: DVec3 = DVec3::new(0.26, 0.31, 0.47);
 const ROSE: DVec3 = DVec3::new(0.76, 0.55, 0.58);
 const AMBER: DVec3 = DVec3::new(0.94, 0.68, 0.46);
 const SUN: DVec3 = DVec3::new(0.10, 0.09, 0.01);
 
-/// The sky of a pixel.
-pub fn background(frame: &Frame, x: u32, y: u32) -> DVec3 {
-    let (place, size) = (middle(x, y), frame.size());
-    if frame.ink > 0.0 { dusk(place, size) } else { frame.sky * night(place, size) }
+const ZENITH: DVec3 = DVec3::new(0.60, 0.72, 0.86);
+const HAZE: DVec3 = DVec3::new(0.93, 0.94, 0.95);
+
+/// The sky at a place in the picture.
+pub fn background(frame: &Frame, place: DVec2) -> DVec3 {
+    let size = frame.size();
+    if frame.ink == 0.0 {
+        frame.sky * night(place, size)
+    } else if frame.sky > 1.0 {
+        day(place, size)
+    } else {
+        dusk(place, size)
+    }
+}
+
+fn day(place: DVec2, size: DVec2) -> DVec3 {
+    ZENITH.lerp(HAZE, smooth(0.0, 0.8, place.y / size.y))
 }
 
 fn night(place: DVec2, size: DVec2) -> DVec3 {

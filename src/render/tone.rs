@@ -3,7 +3,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::frame::{Frame, HALO, PIXELS, SCENERY, unpack, whole};
+use super::frame::{Frame, HALO, PIXELS, SCENERY, WET, middle, unpack, whole};
 use super::halo::between;
 use super::look::{Look, expose, screen};
 use super::meter::Exposure;
@@ -18,16 +18,20 @@ pub fn kernel(frame: &Frame, exposure: Exposure) -> Result<Kernel, Error> {
         [crate::shader!("render/look.wgsl"), crate::shader!("render/sky.wgsl"), crate::shader!("render/tone.wgsl")];
     let mut pass = frame.pass(&files, Threads::new(frame.area()), 8)?;
     expose(&mut pass, frame, exposure)?;
+    if frame.water.is_there() {
+        pass = pass.on(&[("scenery", WET.name.into())]);
+    }
     let frame = *frame;
     let twin = move |host: &Host| {
-        let (halo, scenery, mut pixels) = (host.read(HALO)?, host.read(SCENERY)?, host.write(PIXELS)?);
+        let (halo, scenery, mut pixels) =
+            (host.read(HALO)?, host.read(if frame.water.is_there() { WET } else { SCENERY })?, host.write(PIXELS)?);
         let (halo, scenery, pixels): (&[_], &[u32], &mut [_]) = (&halo, &scenery, &mut pixels);
         Look::at(host, &frame, exposure, |look| {
             pixels.par_iter_mut().zip(0..frame.area()).for_each(|(pixel, i)| {
                 let (x, y) = (i % frame.width, i / frame.width);
                 let light = frame.bloom * between(&frame, halo, x, y);
                 let behind = scenery[i as usize];
-                let under = background(&frame, x, y).lerp(unpack(behind), f64::from(behind >> 24) / 255.0);
+                let under = background(&frame, middle(x, y)).lerp(unpack(behind), f64::from(behind >> 24) / 255.0);
                 let c = screen(look.pixel(x, y, under), light / (1.0 + light)).clamp(DVec3::ZERO, DVec3::ONE);
                 let bytes = c * 255.0 + noise(i);
                 *pixel = pack(bytes.to_array().map(|x| u8::try_from(whole(x)).unwrap_or(u8::MAX)));

@@ -19,6 +19,7 @@ mod diagnostic;
 mod drain;
 mod emitter;
 mod files;
+mod fluid;
 mod force;
 mod held;
 mod links;
@@ -40,7 +41,7 @@ use std::ops::Range;
 
 use crate::forces::Force;
 use crate::integrators;
-use crate::kernel::{Bounds, Solver};
+use crate::kernel::{Bounds, Pace, Solver};
 use crate::particles::Particles;
 use crate::render;
 use crate::settings::Settings;
@@ -70,8 +71,12 @@ pub struct Scene {
     pub about: String,
     /// The length of a step \[time\]; positive.
     pub dt: f64,
-    /// How many steps; at least one.
+    /// How many steps; at least one. Where they are adaptive, of the longest: others come in between.
     pub steps: u64,
+    /// When it ends \[time\].
+    pub until: f64,
+    /// How long steps are, where they are adaptive.
+    pub pace: Option<Pace>,
     /// What makes a step.
     pub integrator: &'static integrators::Entry,
     /// How well implicit integrators solve their equations.
@@ -175,10 +180,11 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
             fault.note("help: add\n\n         [[particles]]\n         shape = \"plummer\"\n         count = 1000"),
         );
     }
+    let said = fluid::said(all("force"));
     for table in all("particles") {
         let start = ids(&particles);
         let room = options.most_particles.saturating_sub(start);
-        if let Some(block) = particles::read(table, room, (files, &motions), report) {
+        if let Some(block) = particles::read(table, room, (files, &motions, &said), report) {
             particles.append(&block.particles);
             let mut end = start;
             for (count, color) in block.parts {
@@ -224,6 +230,9 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
     {
         report.push(Fault::at(first.place, why.to_string()));
     }
+    if let Some((pace, place)) = &simulation.pace {
+        force::paced(&forces, (*pace, place), report);
+    }
     particles.motions = motions;
     let output = output::read(one("output"), simulation.steps, report);
     output.write(&mut out);
@@ -239,6 +248,8 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
         about: String::new(),
         dt: simulation.dt,
         steps: simulation.steps,
+        until: simulation.until,
+        pace: simulation.pace.map(|(pace, _)| pace),
         integrator: simulation.integrator,
         solver,
         bounds,

@@ -8,11 +8,14 @@ mod equivalent_neighbors;
 mod equivalent_primitives;
 mod equivalents;
 mod ewald;
+mod fluids;
 mod held;
 mod implicit;
 mod laws;
 mod memory;
 mod neighbors;
+mod paced;
+mod paces;
 mod primitives;
 mod rods;
 mod stages;
@@ -125,6 +128,8 @@ fn every_mutant_is_noticed() {
         births::EQUIVALENT,
         trees::EQUIVALENT,
         walks::EQUIVALENT,
+        paces::EQUIVALENT,
+        fluids::EQUIVALENT,
     ]
     .concat();
     let ledger = Mutex::new(Ledger::new(&equivalents));

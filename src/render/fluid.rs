@@ -1,0 +1,85 @@
+//! The numbers of a fluid, from what a scene says and where its particles are.
+
+use glam::DVec3;
+
+use super::{Camera, Scenery, Water};
+use crate::particles::Particles;
+use crate::settings::Settings;
+
+/// Radii of drops, as a part of how far apart they are: with less there are holes, with more a fluid is fat.
+const FULL: f64 = 0.75;
+/// How far the surface is made smooth \[drops\], and how much nearer and farther the same surface may be.
+const CALM: f64 = 2.0;
+const RANGE: f64 = 3.0;
+/// The same, at most \[pixels\].
+const FARTHEST: u32 = 48;
+/// By so many particles it is judged how far apart they are.
+const SAMPLE: usize = 64;
+/// How deep one sees into water, as a part of half the height of the picture; and into what is coloured \[drops\].
+const WATER: f64 = 0.3;
+const PAINT: f64 = 0.5;
+/// Of water: green is absorbed less than red, blue least.
+pub const DYE: [u8; 3] = [18, 112, 176];
+
+impl Water {
+    /// That of a scene's `[picture]`; `painted` where colours say something.
+    pub(super) fn of(
+        settings: &Settings,
+        particles: &Particles,
+        scenery: &Scenery,
+        camera: &Camera,
+        painted: bool,
+    ) -> Self {
+        if settings.text("style") != "fluid" {
+            return Self::default();
+        }
+        let given = settings.number("drop");
+        let drop = if given > 0.0 { given } else { FULL * spacing(particles, &scenery.held, camera.extent) };
+        let count = u32::try_from(particles.len()).unwrap_or(u32::MAX).max(1);
+        // All drops on one pixel do not overflow, and a half of one is added to each.
+        let grain = f64::from(1_u32 << (u32::MAX / count).ilog2().saturating_sub(1).min(16));
+        let clarity = settings.number("clarity");
+        let depth = match (clarity > 0.0, painted) {
+            (true, _) => clarity,
+            (false, false) => WATER * camera.extent,
+            (false, true) => PAINT * drop,
+        };
+        let foam = settings.number("foam");
+        let bright = ["dusk", "day"].contains(&settings.text("background"));
+        Self {
+            drop,
+            grain,
+            // A drop overlaps with others: of its ball it has but its own share, a cube.
+            layer: 2.0 * drop / grain / (4.0 / 3.0 * std::f64::consts::PI * FULL.powi(3)),
+            murk: depth.recip(),
+            foam: if foam > 0.0 { foam } else { super::frame::NEVER },
+            range: RANGE,
+            calm: CALM,
+            farthest: FARTHEST,
+            gloss: if bright { 1.0 } else { 0.55 },
+            wire: (settings.number("width").min(settings.number("height")) / 1400.0).max(0.25),
+            edges: 0,
+        }
+    }
+}
+
+/// How far apart particles are that are not held: the middle of the distances from some to their nearest.
+fn spacing(particles: &Particles, held: &[u32], extent: f64) -> f64 {
+    let mut free = vec![true; particles.len()];
+    for id in held {
+        if let Some(one) = free.get_mut(*id as usize) {
+            *one = false;
+        }
+    }
+    let of = |id: usize| free[id] && particles.position[id].is_finite();
+    let places: Vec<DVec3> = (0..free.len()).filter(|id| of(*id)).map(|id| particles.position[id]).collect();
+    let nearest = |x: &DVec3| {
+        let squares = places.iter().map(|y| x.distance_squared(*y)).filter(|square| *square > 0.0);
+        squares.fold(f64::INFINITY, f64::min).sqrt()
+    };
+    let stride = places.len().div_ceil(SAMPLE).max(1);
+    let mut all: Vec<f64> = places.iter().step_by(stride).map(nearest).filter(|r| r.is_finite()).collect();
+    let middle = all.len() / 2;
+    // One drop alone: as large as a drop in a picture may be.
+    if all.is_empty() { 0.2 * extent } else { *all.select_nth_unstable_by(middle, f64::total_cmp).1 }
+}
