@@ -1,5 +1,7 @@
 //! What a simulation is made of, checked, and the plans that come of it.
 
+use glam::DVec3;
+
 use super::mortals;
 use crate::boundary;
 use crate::error::Error;
@@ -124,9 +126,17 @@ impl Setup {
         let problem = self.problem(Machine { software: true, subgroup: 0, invocations: 1 })?;
         let media = self.forces.iter().map(|force| force.fluid(&problem));
         let Some(fluid) = media.filter_map(Result::transpose).next().transpose()? else { return Ok(None) };
-        let Particles { position, velocity, mass, .. } = &self.particles;
-        let walls: Vec<bool> = (0..position.len()).map(|id| problem.is_held(id)).collect();
-        let mut start = Start::of(&fluid, &Still { position, mass, walls: &walls, bounds: &self.bounds })?;
+        // Who waits or is dead is in nobody's way; a scene has the ids of those last.
+        let living: Vec<usize> = (0..self.particles.len()).filter(|id| self.particles.lives(*id)).collect();
+        let of = |list: &[DVec3]| -> Vec<DVec3> { living.iter().map(|id| list[*id]).collect() };
+        let (position, velocity) = (of(&self.particles.position), of(&self.particles.velocity));
+        let mass: Vec<f64> = living.iter().map(|id| self.particles.mass[*id]).collect();
+        let walls: Vec<bool> = living.iter().map(|id| problem.is_held(*id)).collect();
+        if problem.mortal && walls.iter().all(|wall| *wall) {
+            return Ok(None);
+        }
+        let still = Still { position: &position, mass: &mass, walls: &walls, bounds: &self.bounds };
+        let mut start = Start::of(&fluid, &still)?;
         let speeds = velocity.iter().zip(&walls).filter(|(_, wall)| !**wall).map(|(v, _)| v.length());
         start.speed = speeds.fold(0.0, f64::max);
         start.check()?;

@@ -156,3 +156,10 @@ fn without_births_nothing_is_added() {
     assert!(more != plain && rest == plain, "{more}\n{plain}");
     assert!(more.ends_with("tick | drain 1 | drain 2 | watch"), "{more}");
 }
+
+/// Rows that wait at one place are no fluid that would explode.
+#[test]
+fn who_waits_is_not_looked_at_as_a_start() {
+    let start = pool(drains()).start().expect("no explosion").expect("a fluid");
+    assert_eq!(start.fluid as usize, 60);
+}
