@@ -88,6 +88,10 @@ pub trait Force: Send + Sync {
     fn conclude(&self, _plan: &mut Plan, _problem: &Problem) -> Result<(), Error> {
         Ok(())
     }
+    /// Whether who has no mass is met by nobody: then those who do not live may stand among those whom it meets.
+    fn goes_by_mass(&self) -> bool {
+        false
+    }
     /// Adds kernels that say how many steps each particle would have in a longest one, were it alone: they fill
     /// [`URGES`](crate::kernel::URGES), from accelerations, positions and velocities at the end of a step. It gives the
     /// same of what is alike for everybody, as viscosity is; nothing where it does not know.

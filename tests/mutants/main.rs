@@ -1,6 +1,7 @@
 //! Mutation: every operator and literal of every shader is changed once, and the lockstep with the twins must notice.
 
 mod alarms;
+mod births;
 mod boundary;
 mod curious;
 mod equivalent_neighbors;
@@ -124,6 +125,7 @@ fn every_mutant_is_noticed() {
         SOLVES,
         equivalent_primitives::EQUIVALENT,
         equivalent_neighbors::EQUIVALENT,
+        births::EQUIVALENT,
         trees::EQUIVALENT,
         walks::EQUIVALENT,
         paces::EQUIVALENT,

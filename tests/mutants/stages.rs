@@ -192,6 +192,7 @@ pub fn all(shared: &Shared) -> Vec<Stage> {
     crate::held::all(&device, &mut stages);
     crate::paces::all(&device, &mut stages);
     crate::paced::all(shared, &device, &mut stages);
+    crate::births::all(shared, &device, &mut stages);
     crate::rods::rods(&device, &mut stages);
     crate::strained::all(&device, &mut stages);
     crate::ewald::all(shared, &device, &mut stages);
