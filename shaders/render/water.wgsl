@@ -1,4 +1,4 @@
-// Light on a fluid: what is behind it is bent and absorbed,  T = exp(−t (k − dye) / clarity)  (Beer 1852), the rest is dye;
+// Light on a fluid: what is behind it is bent and absorbed,  T = exp(−t (k − stain dye) / clarity)  (Beer 1852), the rest is dye;
 // the sky is reflected by Schlick's fraction (1994), the lamp as a highlight (Blinn 1977). Foam is matte.
 @group(3) @binding(3) var<storage, read> front: array<u32>;
 @group(3) @binding(15) var<storage, read> scenery: array<u32>;
@@ -16,9 +16,9 @@ const BEND: f32 = 0.35;      // pixels aside, for each of the thickness and of t
 const FURTHEST: f32 = 40.0;  // of those
 const LOW: vec3f = vec3f(0.32, 0.36, 0.44);
 const HIGH: vec3f = vec3f(0.80, 0.90, 1.0);
-const GLASS: vec3f = vec3f(0.62, 0.70, 0.80);
-const BEHIND: f32 = 0.35;
-const BEFORE: f32 = 0.5;
+const GLASS: vec3f = vec3f(0.42, 0.48, 0.56);
+const BEHIND: f32 = 0.5;
+const BEFORE: f32 = 0.8;
 
 // A place of the surface, in the picture's axes.
 fn place_of(x: i32, y: i32, z: f32) -> vec3f {
@@ -61,14 +61,15 @@ fn look(x: i32, y: i32, z: f32) -> vec3f {
     if frame.distance > 0.0 { scale *= frame.distance / z; }
     let paint = unpack4x8unorm(dye[i]);
     let bend = min(BEND * scale * thickness[i], FURTHEST) * vec2f(normal.x, -normal.y);
-    let clear = exp(-thickness[i] * frame.murk * (ABSORB - paint.rgb));
+    let clear = exp(-thickness[i] * frame.murk * (ABSORB - frame.stain * paint.rgb));
     let day = max(0.6 * dot(normal, LAMP) + 0.4, 0.0);
     let facing = clamp(dot(normal, view), 0.0, 1.0);
     let mirror = (0.03 + 0.97 * pow(1.0 - facing, 5.0)) * (1.0 - paint.a);
     let sky = frame.gloss * mix(LOW, HIGH, 0.5 + 0.5 * reflect(-view, normal).y);
     let shine = pow(max(dot(normal, normalize(LAMP + view)), 0.0), 120.0) * (1.0 - paint.a);
     var c = mix(paint.rgb * (0.4 + 0.75 * day), under(middle(x, y) + bend, z), clear);
-    c = mix(c, vec3f(0.45 + 0.55 * day), paint.a);
+    // Mist where it is thin.
+    c = mix(c, vec3f(0.7 + 0.3 * day), paint.a * (1.0 - pow(clear.r, 4.0)));
     return mix(c, sky, mirror) + 0.8 * shine;
 }
 

@@ -19,12 +19,16 @@ use crate::kernel::{Host, Kernel, Scalar, Threads};
 pub struct Water {
     /// The radius of a drop \[length\]; zero where there is no fluid.
     pub drop: f64,
+    /// How far its rim is behind its front, as a part of that.
+    pub oblate: f64,
     /// Parts in which the thickness of a drop is counted.
     pub grain: f64,
     /// The thickness that one of those stands for \[length\].
     pub layer: f64,
     /// How much of it absorbs light \[1 / length\].
     pub murk: f64,
+    /// How much less it absorbs of the light of its own colour: 1 for water, 0 for paint.
+    pub stain: f64,
     /// The speed from which on it is white \[length / time\].
     pub foam: f64,
     /// How much nearer and farther the same surface may be \[drops\].
@@ -43,13 +47,15 @@ pub struct Water {
 
 impl Water {
     /// By their names in shaders.
-    pub(super) fn values(&self) -> [(&'static str, Scalar); 11] {
+    pub(super) fn values(&self) -> [(&'static str, Scalar); 13] {
         let float = Scalar::Float;
         [
             ("drop", float(self.drop)),
+            ("oblate", float(self.oblate)),
             ("grain", float(self.grain)),
             ("layer", float(self.layer)),
             ("murk", float(self.murk)),
+            ("stain", float(self.stain)),
             ("foam", float(self.foam)),
             ("range", float(self.range)),
             ("calm", float(self.calm)),
@@ -71,9 +77,9 @@ const BEND: f64 = 0.35;
 const FURTHEST: f64 = 40.0;
 const LOW: DVec3 = DVec3::new(0.32, 0.36, 0.44);
 const HIGH: DVec3 = DVec3::new(0.80, 0.90, 1.0);
-const GLASS: DVec3 = DVec3::new(0.62, 0.70, 0.80);
-const BEHIND: f64 = 0.35;
-const BEFORE: f64 = 0.5;
+const GLASS: DVec3 = DVec3::new(0.42, 0.48, 0.56);
+const BEHIND: f64 = 0.5;
+const BEFORE: f64 = 0.8;
 
 /// The kernel.
 pub fn kernel(frame: &Frame, facets: &Facets) -> Result<Kernel, Error> {
@@ -167,7 +173,7 @@ impl Pool<'_> {
         let (paint, foam) = (unpack(self.dye[at]), f64::from(self.dye[at] >> 24) / 255.0);
         let thickness = self.thickness[at];
         let aside = (BEND * frame.scale_at(z) * thickness).min(FURTHEST) * DVec2::new(normal.x, -normal.y);
-        let exponent = -thickness * frame.water.murk * (ABSORB - paint);
+        let exponent = -thickness * frame.water.murk * (ABSORB - frame.water.stain * paint);
         let clear = DVec3::from_array(exponent.to_array().map(f64::exp));
         let day = (0.6 * normal.dot(LAMP) + 0.4).max(0.0);
         let facing = normal.dot(view).clamp(0.0, 1.0);
@@ -178,7 +184,7 @@ impl Pool<'_> {
         let body = paint * (0.4 + 0.75 * day);
         let behind = self.under(DVec2::new(x as f64, y as f64) + 0.5 + aside, z);
         let c = body + (behind - body) * clear;
-        let c = c.lerp(DVec3::splat(0.45 + 0.55 * day), foam);
+        let c = c.lerp(DVec3::splat(0.7 + 0.3 * day), foam * (1.0 - clear.x.powi(4)));
         c.lerp(sky, mirror) + 0.8 * shine
     }
 }
