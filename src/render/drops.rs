@@ -4,7 +4,8 @@ use glam::{DVec2, DVec4};
 
 use super::cover;
 use super::frame::{
-    COLOR, CREST, DYE, FRONT, Frame, LEVEL, NEVER, NOBODY, PROJECTED, RIM, SOURCE, THICKNESS, VOLUME, key, middle, whole,
+    COLOR, CREST, DYE, FRONT, Frame, LEVEL, NEVER, NOBODY, PROJECTED, RIM, SOURCE, THICKNESS, VOLUME, key, middle,
+    whole,
 };
 use crate::error::Error;
 use crate::kernel::{Host, Kernel, Threads};
@@ -20,7 +21,7 @@ pub fn kernel(frame: &Frame) -> Result<Kernel, Error> {
         passes.extend(fill::passes(&field.name.into(), frame.area(), value)?);
     }
     let (threads, rows) = cover::layers(frame);
-    for file in [crate::shader!("render/drops.wgsl"), crate::shader!("render/drops_claim.wgsl")] {
+    for file in [crate::shader!("render/drops.wgsl"), crate::shader!("render/source.wgsl")] {
         let files = [crate::shader!("render/disc.wgsl"), crate::shader!("render/drop.wgsl"), file];
         let mut pass = frame.pass(&files, threads, 64)?;
         pass.constants = vec![("ROWS", f64::from(rows))];

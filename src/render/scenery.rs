@@ -6,7 +6,7 @@ use glam::{DQuat, DVec3};
 
 use super::camera::FEW;
 use super::fluid::drop_of;
-use super::frame::{AROUND, AROUND_START, FACET, Frame, NOBODY, EDGE, SLOT, SOLID, VEIL};
+use super::frame::{AROUND, AROUND_START, EDGE, FACET, Frame, NOBODY, SLOT, SOLID, VEIL};
 use super::solid::{Shape, Solid};
 use super::tank;
 use crate::error::Error;
@@ -42,7 +42,14 @@ impl Scenery {
         let held = particles.held.iter().map(|one| one.id).collect();
         let bounded = around_walls(particles);
         let tanks = bounded.into_iter().collect();
-        Self { links: Arc::new(particles.links.clone()), tanks, bounded, drop: drop_of(particles), held: Arc::new(held), ..Self::default() }
+        Self {
+            links: Arc::new(particles.links.clone()),
+            tanks,
+            bounded,
+            drop: drop_of(particles),
+            held: Arc::new(held),
+            ..Self::default()
+        }
     }
     /// The same in a box, where that is closed all round.
     #[must_use]

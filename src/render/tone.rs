@@ -23,7 +23,8 @@ pub fn kernel(frame: &Frame, exposure: Exposure) -> Result<Kernel, Error> {
     }
     let frame = *frame;
     let twin = move |host: &Host| {
-        let (halo, scenery, mut pixels) = (host.read(HALO)?, host.read(if frame.water.is_there() { WET } else { SCENERY })?, host.write(PIXELS)?);
+        let (halo, scenery, mut pixels) =
+            (host.read(HALO)?, host.read(if frame.water.is_there() { WET } else { SCENERY })?, host.write(PIXELS)?);
         let (halo, scenery, pixels): (&[_], &[u32], &mut [_]) = (&halo, &scenery, &mut pixels);
         Look::at(host, &frame, exposure, |look| {
             pixels.par_iter_mut().zip(0..frame.area()).for_each(|(pixel, i)| {

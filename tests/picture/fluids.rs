@@ -138,7 +138,13 @@ fn walls_are_not_drawn_and_nothing_wet_is_sky() {
     let mut particles = lattice(DVec3::splat(0.3), 0.06, |_| true);
     let free = on_gpu(&particles, &[&picture(&particles, &above(120, 90))]).remove(0);
     particles.held = (0..).zip(&particles.position).map(|(id, _)| Held { id, by: Hold::Fixed }).collect();
-    let held = Picture::with(&above(120, 90), &particles, &[], Trail::default(), &Scenery { tanks: Vec::new(), bounded: None, ..Scenery::of(&particles) });
+    let held = Picture::with(
+        &above(120, 90),
+        &particles,
+        &[],
+        Trail::default(),
+        &Scenery { tanks: Vec::new(), bounded: None, ..Scenery::of(&particles) },
+    );
     let held = on_gpu(&particles, &[&held.unwrap()]).remove(0);
     let red = |image: &Image, x: usize, y: usize| image.rgba[4 * (y * 120 + x)];
     assert!(red(&free, 60, 45) < 120 && red(&held, 60, 45) > 130);
@@ -146,8 +152,10 @@ fn walls_are_not_drawn_and_nothing_wet_is_sky() {
     let row: Vec<u8> = (0..120).map(|x| red(&held, x, 45)).collect();
     assert!(row.iter().max().unwrap() - row.iter().min().unwrap() <= 1);
     // Everybody behind the eye.
-    let behind = settings(120, 90).with("auto_frame", Value::Flag(false)).with("center", Value::Vector(DVec3::Y * 99.0));
-    let behind = behind.with("style", word("fluid")).with("eye", Value::Vector(DVec3::NEG_Y)).with("background", word("day"));
+    let behind =
+        settings(120, 90).with("auto_frame", Value::Flag(false)).with("center", Value::Vector(DVec3::Y * 99.0));
+    let behind =
+        behind.with("style", word("fluid")).with("eye", Value::Vector(DVec3::NEG_Y)).with("background", word("day"));
     particles.held.clear();
     let away = on_gpu(&particles, &[&picture(&particles, &behind)]).remove(0);
     assert_eq!(away.outside as usize, particles.len());
@@ -180,7 +188,8 @@ fn foam_is_where_it_is_fast() {
         *v = DVec3::Z * if x.x > 0.0 { 3.1 } else { 1.7 };
     }
     let color = |foam: f64| {
-        let image = on_gpu(&particles, &[&picture(&particles, &above(160, 90).with("foam", Value::Number(foam)))]).remove(0);
+        let image =
+            on_gpu(&particles, &[&picture(&particles, &above(160, 90).with("foam", Value::Number(foam)))]).remove(0);
         [40, 120].map(|x| image.rgba[4 * (45 * 160 + x)])
     };
     let ([slow, fast], [_, never]) = (color(3.0), color(0.0));

@@ -16,7 +16,8 @@ pub fn alike(kernel: &str, name: &str, want: &Array, got: &Array) -> bool {
         // Depths and thicknesses of a fluid: where the reach is a whole number, or a depth at the end of the range, a last place
         // may decide.
         (Array::Float(want), Array::Float(got)) => {
-            let off = want.iter().zip(got).filter(|(w, g)| (*w - *g).abs() > PART * (1.0 + w.abs())).count();
+            let near = |(w, g): &(&f64, &f64)| (*w - *g).abs() <= PART * (1.0 + w.abs());
+            let off = want.iter().zip(got).filter(|pair| !near(pair)).count();
             want.len() == got.len() && off <= FEW + want.len() / 500
         }
         (Array::Uint(want), Array::Uint(got)) => want.len() == got.len() && counts(kernel, name, want, got),

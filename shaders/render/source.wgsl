@@ -6,7 +6,7 @@
 const SAME: u32 = 64u;
 
 @compute @workgroup_size(WORKGROUP)
-fn claim(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
+fn sources(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let i = folded(group, groups) * WORKGROUP + lane;
     if i < world.count {
         let p = projected[i];
