@@ -23,7 +23,7 @@ const FARTHEST: u32 = 48;
 /// By so many particles it is judged how far apart they are.
 const SAMPLE: usize = 64;
 /// How deep one sees into water, as a part of half the height of the picture; and into what is coloured \[drops\].
-const WATER: f64 = 0.15;
+const WATER: f64 = 0.11;
 const PAINT: f64 = 0.1;
 /// Of water: green is absorbed less than red, blue least.
 pub const DYE: [u8; 3] = [18, 112, 176];
