@@ -45,9 +45,16 @@ pub enum Kind {
     Flag,
     /// The name of a motion of the scene, or an empty text: none.
     Motion,
+    /// The name of a file of the scene, or an empty text: none. A shape gets what is in it.
+    File,
+    /// Some of [`SIDES`], with blanks between them, or an empty text: none.
+    Sides,
     /// A colour by name or as "#ffcc88", or an empty text: none.
     Color,
 }
+
+/// The sides of a box, as scenes call them.
+pub const SIDES: &[&str] = &["-x", "+x", "-y", "+y", "-z", "+z"];
 
 /// A key: its name in the scene, what it accepts, what it is when left out (`None`: it must be given), and what it means.
 #[derive(Debug, Clone, PartialEq)]

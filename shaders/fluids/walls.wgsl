@@ -1,6 +1,9 @@
-// Walls weigh as much as the fluid whose place their particles take:  m = ρ₀ / Σ W, over the walls (Akinci et al. 2012).
+// Walls weigh as much as the fluid whose place their particles take:  m = ρ₀ / Σ W, over the walls (Akinci et al. 2012),
+// or what they are told to weigh.
+struct Params { mass: f32 }
 struct Sum { number: f32 }
 
+@group(3) @binding(0) var<uniform> params: Params;
 // The positions, with masses in w.
 @group(3) @binding(2) var<storage, read_write> weighed: array<vec4f>;
 
@@ -10,4 +13,6 @@ fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
     if is_held(you.index) { (*sum).number += kernel(r); }
 }
 
-fn deliver(k: u32, me: Particle, sum: Sum) { weighed[me.index].w = medium.density / (sum.number + kernel(vec3f())); }
+fn deliver(k: u32, me: Particle, sum: Sum) {
+    weighed[me.index].w = select(medium.density / (sum.number + kernel(vec3f())), params.mass, params.mass > 0.0);
+}

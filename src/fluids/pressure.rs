@@ -7,7 +7,7 @@ use glam::{DVec3, Vec4};
 use super::{FLOW, Medium};
 use crate::error::Error;
 use crate::kernel::{ACCELERATION, Host, Kernel, Problem, Scalar};
-use crate::neighbors::SORTED_ID;
+use crate::neighbors::{Grid, SORTED_ID};
 use crate::visit::{Body, Sweep, gathered};
 
 /// How a fluid rubs.
@@ -21,11 +21,23 @@ pub struct Friction {
     pub wall: f64,
 }
 
+/// What pressure walls have.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Walls {
+    /// That of whoever asks (Akinci et al. 2012).
+    Mirror,
+    /// That of the fluid around them, and what weighs between (Adami, Hu & Adams 2012).
+    Extrapolate {
+        /// The weight of the fluid \[length / time²\].
+        weight: DVec3,
+    },
+}
+
 /// The kernel that adds accelerations, and the internal energy as the potential.
 ///
 /// # Errors
 /// When the range is none, or a shader does not compile.
-pub fn pressure(medium: &Medium, friction: Friction, problem: &Problem) -> Result<Kernel, Error> {
+pub fn pressure(medium: &Medium, friction: Friction, walls: Walls, problem: &Problem) -> Result<Kernel, Error> {
     let grid = medium.grid(problem)?;
     let files = vec![
         crate::shader!("fluids/flowing.wgsl"),
@@ -38,16 +50,14 @@ pub fn pressure(medium: &Medium, friction: Friction, problem: &Problem) -> Resul
         ("alpha", Scalar::Float(friction.alpha)),
         ("viscosity", Scalar::Float(friction.viscosity)),
         ("wall", Scalar::Float(friction.wall)),
+        ("mirror", Scalar::Uint(u32::from(walls == Walls::Mirror))),
     ];
     let (me, slots) = (*medium, grid.clone());
     let twin = move |host: &Host| {
-        let ids = host.reading::<u32>(&slots.field(SORTED_ID).1)?;
-        let flow = host.reading::<Vec4>(&slots.field(FLOW).1)?;
-        let mut states = vec![DVec3::ZERO; ids.len()];
-        ids.iter().zip(flow.iter()).for_each(|(id, flow)| states[*id as usize] = flow.truncate());
+        let states = states(host, &slots)?;
         let flows = |body: &Body| states[body.index].x > 0.0;
         let felt = gathered(host, me.range(), flows, |a, b, r, sum: &mut DVec3| {
-            *sum += push(&me, friction, [a, b], [states[a.index], states[b.index]], r);
+            *sum += push(&me, friction, walls, [a, b], [states[a.index], states[b.index]], r);
         })?;
         let mut acceleration = host.write(ACCELERATION)?;
         for (i, felt) in felt.into_iter().enumerate() {
@@ -59,22 +69,43 @@ pub fn pressure(medium: &Medium, friction: Friction, problem: &Problem) -> Resul
     };
     let blocks = vec![medium.block(), ("params", params)];
     let sweep = Sweep { name: "fluid pressure".to_owned(), files, blocks, twin: Arc::new(twin), grid };
+    flowing(sweep, problem)
+}
+
+/// The kernel of a search that asks for what flows.
+pub(super) fn flowing(sweep: Sweep, problem: &Problem) -> Result<Kernel, Error> {
+    let flow = sweep.grid.field(FLOW);
     let mut kernel = sweep.kernel(problem)?;
-    let flow = medium.grid(problem)?.field(FLOW);
     kernel.passes.iter_mut().for_each(|pass| pass.fields.push(flow.clone()));
     Ok(kernel)
 }
 
+/// What flows, by id: density, p / ρ² and energy.
+pub(super) fn states(host: &Host, grid: &Grid) -> Result<Vec<DVec3>, Error> {
+    let (ids, flow) = (host.reading::<u32>(&grid.field(SORTED_ID).1)?, host.reading::<Vec4>(&grid.field(FLOW).1)?);
+    let mut states = vec![DVec3::ZERO; ids.len()];
+    ids.iter().zip(flow.iter()).for_each(|(id, flow)| states[*id as usize] = flow.truncate());
+    Ok(states)
+}
+
 /// What one does to another, with r from the latter to the former; states are density, p / ρ² and energy.
-fn push(medium: &Medium, friction: Friction, [me, you]: [&Body; 2], [mine, yours]: [DVec3; 2], r: DVec3) -> DVec3 {
+fn push(
+    medium: &Medium,
+    friction: Friction,
+    walls: Walls,
+    [me, you]: [&Body; 2],
+    [mine, yours]: [DVec3; 2],
+    r: DVec3,
+) -> DVec3 {
     let wall = yours.x == 0.0;
     let density = if wall { medium.density } else { yours.x };
-    let pressure = if wall { mine.y * (mine.x / medium.density).powi(2) } else { yours.y };
+    let mirrored = wall && walls == Walls::Mirror;
+    let pressure = if mirrored { mine.y * (mine.x / medium.density).powi(2) } else { yours.y };
     let share = if wall { friction.wall } else { 1.0 };
     let (v, length) = (you.velocity - me.velocity, 0.5 * medium.range());
     let near = r.length_squared() + 0.01 * length * length;
     let closing = v.dot(r).min(0.0) * length / near;
     let artificial = friction.alpha * medium.sound * closing / (0.5 * (mine.x + density));
-    let laminar = friction.viscosity * (1.0 / mine.x + 1.0 / density) * r.length_squared() / near;
+    let laminar = friction.viscosity * (1.0 / mine.x + 1.0 / density);
     you.mass * medium.gradient(r) * ((mine.y + pressure - share * artificial) * r - share * laminar * v)
 }

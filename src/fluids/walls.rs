@@ -6,14 +6,23 @@ use glam::DVec3;
 
 use super::Medium;
 use crate::error::Error;
-use crate::kernel::{Host, Kernel, POSITION, Problem};
+use crate::kernel::{Host, Kernel, POSITION, Problem, Scalar};
 use crate::visit::{Sweep, gathered};
 
-/// The kernel that gives whoever is held the mass of the fluid whose place it takes (Akinci et al. 2012).
+/// What the particles of walls weigh.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum WallMass {
+    /// The fluid whose place they take, where they are a layer (Akinci et al. 2012): ρ₀ / Σ W, over the walls.
+    Sampled,
+    /// A share of the lattice each, ρ₀ d^D, where they are several layers of it (Adami, Hu & Adams 2012).
+    Lattice,
+}
+
+/// The kernel that gives whoever is held its mass.
 ///
 /// # Errors
 /// When the range is none, or a shader does not compile.
-pub fn walls(medium: &Medium, problem: &Problem) -> Result<Kernel, Error> {
+pub fn walls(medium: &Medium, weighs: WallMass, problem: &Problem) -> Result<Kernel, Error> {
     let (holding, tables) = problem.holding();
     let files = vec![
         holding,
@@ -38,16 +47,19 @@ pub fn walls(medium: &Medium, problem: &Problem) -> Result<Kernel, Error> {
         let mut position = host.write(POSITION)?;
         for (i, sum) in numbers.into_iter().enumerate() {
             if let Some(sum) = sum {
-                position[i].w = me.density / (sum + me.kernel(DVec3::ZERO));
+                let sampled = me.density / (sum + me.kernel(DVec3::ZERO));
+                position[i].w = if weighs == WallMass::Sampled { sampled } else { me.mass() };
             }
         }
         Ok(())
     };
+    // 0 where the sum says it.
+    let mass = if weighs == WallMass::Sampled { 0.0 } else { medium.mass() };
     let sweep = Sweep {
         name: "fluid walls".to_owned(),
         grid: medium.grid(problem)?,
         files,
-        blocks: vec![medium.block()],
+        blocks: vec![medium.block(), ("params", vec![("mass", Scalar::Float(mass))])],
         twin: Arc::new(twin),
     };
     let mut kernel = sweep.kernel(problem)?;

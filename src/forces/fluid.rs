@@ -2,9 +2,11 @@
 
 use std::borrow::Cow;
 
+use glam::DVec3;
+
 use super::{Force, Law, Problem};
 use crate::error::Error;
-use crate::fluids::{self, Friction, Medium, Smoothing};
+use crate::fluids::{self, Continuity, Continuum, Friction, Limits, Medium, Smoothing, Tension, WallMass, Walls};
 use crate::kernel::Plan;
 use crate::neighbors::Grid;
 use crate::settings::{Key, Kind, Settings, Value};
@@ -20,10 +22,22 @@ pub const KEYS: &[Key] = &[
     Key::new("negative_pressure", Kind::Flag, Value::Flag(false), "whether pressure may be below 0: where there is no free surface"),
     Key::new("alpha", Kind::NotNegative, Value::Number(0.0), "the artificial viscosity α (Monaghan 1992)"),
     Key::new("viscosity", Kind::NotNegative, Value::Number(0.0), "the kinematic viscosity ν (Morris, Fox & Zhu 1997) [length² / time]"),
+    Key::new("xsph", Kind::NotNegative, Value::Number(0.0), "ε of XSPH: how much of the mean velocity around is taken on in each step (Schechter & Bridson 2012)"),
     Key::new("wall_friction", Kind::NotNegative, Value::Number(1.0), "how much of both viscosities walls have; 0 lets slip"),
+    Key::new("walls", Kind::Choice(WALLS), Value::Text(Cow::Borrowed("mirror")), "the pressure of walls: that of whoever asks (Akinci et al. 2012), or that of the fluid around them (Adami, Hu & Adams 2012)"),
+    Key::new("wall_mass", Kind::Choice(WALL_MASS), Value::Text(Cow::Borrowed("sampled")), "what walls weigh: by how close they are, for one layer (Akinci et al. 2012), or each a share of the lattice, for several"),
+    Key::new("density_by", Kind::Choice(DENSITY_BY), Value::Text(Cow::Borrowed("summation")), "where density comes from: masses around, or the continuity equation (Monaghan 1994), which knows of no surface"),
+    Key::new("diffusion", Kind::NotNegative, Value::Number(0.0), "δ of the diffusion of density by continuity, 0.1 say (Molteni & Colagrossi 2009)"),
+    Key::new("weight", Kind::Vector, Value::Vector(DVec3::ZERO), "the acceleration of weight that a force gives, so that diffusion (Fourtakas et al. 2019) and walls leave a fluid at rest alone [length / time²]"),
+    Key::new("tension", Kind::NotNegative, Value::Number(0.0), "surface tension γ (Akinci, Akinci & Teschner 2013); what it is in N/m depends on spacing and support"),
+    Key::new("adhesion", Kind::NotNegative, Value::Number(0.0), "how walls pull the fluid, β (as above)"),
 ];
 
-/// `fluid`: smoothed particle hydrodynamics with density by summation and Tait's equation of state (Monaghan 1994; Becker &
+const WALLS: &[&str] = &["mirror", "extrapolate"];
+const WALL_MASS: &[&str] = &["sampled", "lattice"];
+const DENSITY_BY: &[&str] = &["summation", "continuity"];
+
+/// `fluid`: smoothed particle hydrodynamics with density by summation or continuity and Tait's equation of state (Monaghan 1994; Becker &
 /// Teschner 2007). Everybody is of the fluid but who is held: those are walls (Akinci et al. 2012).
 pub struct Fluid(Settings);
 
@@ -65,6 +79,29 @@ impl Fluid {
         let number = |name| self.0.number(name);
         Friction { alpha: number("alpha"), viscosity: number("viscosity"), wall: number("wall_friction") }
     }
+    fn walls(&self) -> Walls {
+        if self.0.text("walls") == "extrapolate" {
+            return Walls::Extrapolate { weight: self.0.vector("weight") };
+        }
+        Walls::Mirror
+    }
+    fn wall_mass(&self) -> WallMass {
+        if self.0.text("wall_mass") == "lattice" { WallMass::Lattice } else { WallMass::Sampled }
+    }
+    /// How density follows the fluid, where it is a state.
+    fn continuity(&self) -> Result<Option<Continuity>, Error> {
+        let diffusion = self.0.number("diffusion");
+        if self.0.text("density_by") == "continuity" {
+            return Ok(Some(Continuity { diffusion, weight: self.0.vector("weight") }));
+        }
+        if diffusion > 0.0 {
+            return Err(Error::Scene(format!(
+                "a fluid has diffusion = {diffusion} of a density by summation, which has no state to diffuse: say \
+                 density_by = \"continuity\", or diffusion = 0"
+            )));
+        }
+        Ok(None)
+    }
 }
 
 impl Force for Fluid {
@@ -74,19 +111,67 @@ impl Force for Fluid {
     fn grids(&self, problem: &Problem) -> Result<Vec<(Grid, bool)>, Error> {
         Ok(vec![(self.medium(problem)?.grid(problem)?, true)])
     }
+    fn fluid(&self, problem: &Problem) -> Result<Option<Continuum>, Error> {
+        let (medium, summed) = (self.medium(problem)?, self.continuity()?.is_none());
+        Ok(Some(Continuum { medium, walls: self.wall_mass(), summed }))
+    }
     fn begin(&self, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
         let medium = self.medium(problem)?;
         if !problem.held.is_empty() {
             plan.add(medium.grid(problem)?.kernel(problem, true)?);
-            plan.add(fluids::walls(&medium, problem)?);
+            plan.add(fluids::walls(&medium, self.wall_mass(), problem)?);
+        }
+        if self.continuity()?.is_some() {
+            plan.add(fluids::rest(&medium, problem)?);
         }
         Ok(())
     }
+    fn paces(&self, plan: &mut Plan, problem: &Problem) -> Result<Option<f64>, Error> {
+        let medium = self.medium(problem)?;
+        let limits = Limits { sound: Some(medium.sound), viscosity: self.0.number("viscosity") };
+        fluids::limits(&medium, limits, plan, problem)
+    }
     fn evaluate(&self, plan: &mut Plan, _: usize, problem: &Problem) -> Result<(), Error> {
         let medium = self.medium(problem)?;
-        plan.add(fluids::density(&medium, problem)?);
+        if self.continuity()?.is_none() {
+            plan.add(fluids::density(&medium, problem)?);
+        }
         plan.add(fluids::state(&medium, problem)?);
-        plan.add(fluids::pressure(&medium, self.friction(), problem)?);
+        if let Walls::Extrapolate { weight } = self.walls()
+            && !problem.held.is_empty()
+        {
+            fluids::wall_pressure(&medium, weight, problem)?.into_iter().for_each(|kernel| plan.add(kernel));
+        }
+        plan.add(fluids::pressure(&medium, self.friction(), self.walls(), problem)?);
+        let xsph = self.0.number("xsph");
+        if xsph > 0.0 {
+            plan.add(fluids::xsph(&medium, xsph, problem)?);
+        }
+        let tension = Tension { tension: self.0.number("tension"), adhesion: self.0.number("adhesion") };
+        if tension.tension > 0.0 || tension.adhesion > 0.0 {
+            fluids::tension(&medium, tension, problem)?.into_iter().for_each(|kernel| plan.add(kernel));
+        }
         Ok(())
+    }
+    /// Density goes along with positions, where it is a state: the neighbours are those where the drift has led.
+    fn confine(&self, plan: &mut Plan, problem: &Problem, factor: f64) -> Result<(), Error> {
+        if let Some(continuity) = self.continuity()? {
+            let medium = self.medium(problem)?;
+            plan.add(medium.grid(problem)?.kernel(problem, true)?);
+            plan.add(fluids::rate(&medium, continuity, factor, problem)?);
+            plan.add(fluids::advance(factor, problem)?);
+        }
+        Ok(())
+    }
+    fn settle(&self, _: &mut Plan, _: &Problem, _: f64) -> Result<(), Error> {
+        if self.continuity()?.is_none() {
+            return Ok(());
+        }
+        Err(Error::Scene(
+            "density_by = \"continuity\" makes density a state that is advanced with each drift, and this integrator \
+             advances by stages that it throws away: choose leapfrog, symplectic_euler, forest_ruth or pefrl, or \
+             density_by = \"summation\""
+                .to_owned(),
+        ))
     }
 }

@@ -8,6 +8,7 @@ pub use custom::Custom;
 use kind::{Kind, SPECIES, species};
 
 use crate::error::Error;
+use crate::fluids::Continuum;
 pub use crate::kernel::Problem;
 use crate::kernel::{Plan, Scalar};
 use crate::neighbors::Grid;
@@ -87,6 +88,19 @@ pub trait Force: Send + Sync {
     fn conclude(&self, _plan: &mut Plan, _problem: &Problem) -> Result<(), Error> {
         Ok(())
     }
+    /// Adds kernels that say how many steps each particle would have in a longest one, were it alone: they fill
+    /// [`URGES`](crate::kernel::URGES), from accelerations, positions and velocities at the end of a step. It gives the
+    /// same of what is alike for everybody, as viscosity is; nothing where it does not know.
+    ///
+    /// # Errors
+    /// When a limit makes no sense.
+    fn paces(&self, _plan: &mut Plan, _problem: &Problem) -> Result<Option<f64>, Error> {
+        Ok(None)
+    }
+    /// Why it must have steps that are all alike, if it must.
+    fn keeps_to_even_steps(&self) -> Option<&'static str> {
+        None
+    }
     /// Whether links change as it acts.
     fn breaks(&self) -> bool {
         false
@@ -94,6 +108,13 @@ pub trait Force: Send + Sync {
     /// Whether rods keep their lengths by it.
     fn keeps_rods(&self) -> bool {
         false
+    }
+    /// The fluid that it makes of everybody who is not held, if any.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] when there is no such fluid.
+    fn fluid(&self, _problem: &Problem) -> Result<Option<Continuum>, Error> {
+        Ok(None)
     }
     /// The integrators under which it is what its paper says; none: under all.
     fn integrators(&self) -> &'static [&'static str] {

@@ -1,9 +1,12 @@
 //! A block of fluid at rest.
 
+use std::f64::consts::TAU;
+
 use glam::DVec3;
 
 use super::build::{CENTER, PARTICLE_RADIUS, Reader, SEED, VELOCITY};
 use super::random::Random;
+use super::skin::{DENSITY, SPACING, cells, steps};
 use super::{Particles, Shape, one_part};
 use crate::error::Error;
 use crate::settings::{Key, Kind, Settings, Value};
@@ -19,18 +22,21 @@ pub const BLOCK: Shape = Shape {
 
 const KEYS: &[Key] = &[
     Key::required("size", Kind::Vector, "its sides; 0 along z for a rectangle [length]"),
-    Key::required(
-        "spacing",
-        Kind::Positive,
-        "how far apart particles are, as in the force; sides are filled by whole numbers of them [length]",
+    SPACING,
+    DENSITY,
+    Key::new("jitter", Kind::NotNegative, Value::Number(0.0), "largest displacement along each axis, in spacings"),
+    Key::new(
+        "vortices",
+        Kind::Number,
+        Value::Number(0.0),
+        "the speed of vortices in it, one period along each of x and y (Taylor & Green 1937) [length / time]",
     ),
     Key::new(
-        "density",
-        Kind::Positive,
-        Value::Number(1000.0),
-        "the density at rest, as in the force [mass / length³, or mass / length²]",
+        "strain",
+        Kind::Number,
+        Value::Number(0.0),
+        "the rate at which it is drawn out along y and pressed together along x [1 / time]",
     ),
-    Key::new("jitter", Kind::NotNegative, Value::Number(0.0), "largest displacement along each axis, in spacings"),
     SEED,
     CENTER,
     VELOCITY,
@@ -41,11 +47,8 @@ const KEYS: &[Key] = &[
 fn build(settings: &Settings) -> Result<Particles, Error> {
     let reader = Reader { shape: "block", settings };
     let (size, spacing) = (reader.vector("size")?, reader.positive("spacing")?);
-    if size.x <= 0.0 || size.y <= 0.0 || size.z < 0.0 {
-        return Err(reader.error(&format!("size is {size}; sides must be above 0, that along z 0 at least")));
-    }
-    let flat = size.z == 0.0;
-    let numbers = (size / spacing).round().max(DVec3::ONE);
+    let (flat, numbers) = (size.z == 0.0, cells(&reader, size, spacing)?);
+    reader.fits(numbers.element_product())?;
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
@@ -57,6 +60,13 @@ fn build(settings: &Settings) -> Result<Particles, Error> {
     let jitter = reader.not_negative("jitter")?;
     let (center, velocity) = (reader.vector("center")?, reader.vector("velocity")?);
     let radius = reader.not_negative("particle_radius")?;
+    let [vortices, strain] = ["vortices", "strain"].map(|key| reader.number(key, "finite", |_| true));
+    let (vortices, strain) = (vortices?, strain?);
+    let flow = |x: DVec3| {
+        let (x, angle) = (x * spacing, TAU * x / numbers);
+        let whirl = DVec3::new(-libm::cos(angle.x) * libm::sin(angle.y), libm::sin(angle.x) * libm::cos(angle.y), 0.0);
+        velocity + vortices * whirl + strain * DVec3::new(-x.x, x.y, 0.0)
+    };
     let mut random = Random::new(settings.whole("seed"));
     let middle = (numbers - DVec3::ONE) * 0.5;
     for k in steps(numbers.z) {
@@ -69,15 +79,9 @@ fn build(settings: &Settings) -> Result<Particles, Error> {
                     let z = if flat { 0.0 } else { random.between(-jitter, jitter) };
                     place += DVec3::new(x, y, z);
                 }
-                particles.push(place * spacing + center, velocity, mass, radius);
+                particles.push(place * spacing + center, flow(place), mass, radius);
             }
         }
     }
     reader.finished(particles)
-}
-
-/// 0, 1, … below a whole number that `room_for` has found to fit 32 bits.
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a factor of a product that fits 32 bits")]
-fn steps(size: f64) -> impl Iterator<Item = f64> {
-    (0..size as u32).map(f64::from)
 }

@@ -25,6 +25,9 @@ pub(super) const PARTICLE_RADIUS: Key = Key::new(
     "how large each particle is drawn [length]; 0 lets the picture choose",
 );
 
+/// The most particles of what is sampled by a spacing, where a slip makes many.
+const MOST: u32 = 100_000_000;
+
 /// Holds particles of a shape where they are; the scene may lead them along a motion instead.
 pub(super) fn hold(particles: &mut Particles, ids: impl IntoIterator<Item = u32>) {
     particles.held.extend(ids.into_iter().map(|id| Held { id, by: Hold::Fixed }));
@@ -101,6 +104,17 @@ impl Reader<'_> {
             Ok(()) => Ok((count, particles)),
             Err(_) => Err(limit(format!("need {} GiB of memory, which is not there", (count >> 30) * 64))),
         }
+    }
+
+    /// Whether so many particles may be asked for at all: what takes memory before it is known how many there will be, asks first.
+    pub fn fits(&self, count: f64) -> Result<(), Error> {
+        if count <= f64::from(MOST) {
+            return Ok(());
+        }
+        Err(Error::Limit(format!(
+            "shape `{}`: that is {count:.0} particles, and {MOST} are the most: ask for a wider spacing, or for less",
+            self.shape
+        )))
     }
 
     /// The same particles, if every number stayed finite.

@@ -6,18 +6,23 @@ pub mod chain;
 pub mod cloth;
 pub mod clusters;
 pub mod disk;
+pub mod drop;
 mod exponential_disk;
 pub mod hair;
 mod halo;
 pub mod hernquist;
 pub mod jelly;
 pub mod lattice;
+mod mesh;
 pub mod plummer;
 pub mod random;
 pub mod random_box;
 mod rotation;
+mod skin;
 pub mod sphere;
 pub mod spray;
+pub mod tank;
+pub mod wall;
 mod zeldovich;
 
 use glam::DVec3;
@@ -77,6 +82,9 @@ pub const SHAPES: &[Shape] = &[
     clusters::CLUSTERS,
     lattice::LATTICE,
     block::BLOCK,
+    drop::DROP,
+    tank::TANK,
+    wall::WALL,
     random_box::RANDOM_BOX,
     spray::SPRAY,
     chain::CHAIN,

@@ -94,7 +94,7 @@ pub fn drop_of(particles: &Particles) -> f64 {
     let stride = places.len().div_ceil(SAMPLE).max(1);
     let mut all: Vec<f64> = places.iter().step_by(stride).map(nearest).filter(|r| r.is_finite()).collect();
     let middle = all.len() / 2;
-    let flat = places.iter().all(|x| x.z == places[0].z);
+    let flat = places.windows(2).all(|pair| (pair[1].z - pair[0].z).abs() <= 0.0);
     let part = if flat { FULL_FLAT } else { FULL };
     if all.is_empty() { 0.0 } else { part * *all.select_nth_unstable_by(middle, f64::total_cmp).1 }
 }

@@ -8,6 +8,8 @@ use super::source::{Opened, shorten_path};
 
 /// The longest shader \[bytes\].
 const LONGEST_SHADER: u64 = 1 << 20;
+/// The longest mesh \[bytes\].
+const LONGEST_MESH: u64 = 1 << 30;
 
 /// Where files are sought.
 pub(super) struct Files {
@@ -72,16 +74,21 @@ impl Located {
     }
     /// Its text, for a shader.
     pub(super) fn shader(&self, place: &Place) -> Result<String, Fault> {
+        self.text(place, "a shader", LONGEST_SHADER)
+    }
+    /// Its text, for a mesh.
+    pub(super) fn mesh(&self, place: &Place) -> Result<String, Fault> {
+        self.text(place, "a mesh", LONGEST_MESH)
+    }
+    fn text(&self, place: &Place, what: &str, longest: u64) -> Result<String, Fault> {
         match self {
             Self::Embedded { text, .. } => Ok((*text).to_owned()),
             Self::Disk { path, .. } => {
                 let bad =
                     |why: String| Fault::at(place, format!("cannot read {}: {why}", shorten_path(path))).in_input();
                 let length = fs::metadata(path).map_err(|e| bad(e.to_string()))?.len();
-                if length > LONGEST_SHADER {
-                    return Err(bad(format!(
-                        "{length} bytes are more than the {LONGEST_SHADER} that a shader may have"
-                    )));
+                if length > longest {
+                    return Err(bad(format!("{length} bytes are more than the {longest} that {what} may have")));
                 }
                 fs::read_to_string(path).map_err(|e| bad(e.to_string()))
             }

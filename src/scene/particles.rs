@@ -7,11 +7,12 @@ use glam::DVec3;
 use crate::error::Error;
 use crate::io;
 use crate::motion::{Held, Hold, Motion};
-use crate::particles::{Particles, SHAPES};
+use crate::particles::{Particles, SHAPES, Shape};
 use crate::settings::{Key, Kind, Settings, Value};
 
 use super::color;
 use super::files::{Files, Located};
+use super::fluid;
 use super::held;
 use super::report::{Fault, Place, Report};
 use super::resolved::{self, Writer};
@@ -55,7 +56,7 @@ pub(super) struct Block {
 pub(super) fn read(
     table: &Table<'_>,
     room: u32,
-    (files, motions): (&Files, &[Motion]),
+    (files, motions, said): (&Files, &[Motion], &[Entry]),
     report: &mut Report,
 ) -> Option<Block> {
     let color = table.get("color").and_then(|e| color::read(&e.node, "color", report));
@@ -67,7 +68,7 @@ pub(super) fn read(
     let mut others = Vec::new();
     let particles = match entry.key.as_str() {
         "file" => from_file(table, entry, files, &mut out, report),
-        "shape" => from_shape(table, entry, room, &mut others, &mut out, report),
+        "shape" => from_shape(table, entry, (room, files, said), &mut others, &mut out, report),
         _ => from_bodies(table, entry, &mut out, report),
     };
     let particles = particles.filter(|_| report.len() == faults)?;
@@ -148,7 +149,7 @@ fn from_file(
 fn from_shape(
     table: &Table<'_>,
     entry: &Entry,
-    room: u32,
+    (room, files, said): (u32, &Files, &[Entry]),
     parts: &mut Vec<(u32, Option<[u8; 3]>)>,
     out: &mut Writer,
     report: &mut Report,
@@ -157,11 +158,14 @@ fn from_shape(
     let name = walk::choice(entry, "shape", &names, report)?;
     let shape = SHAPES.iter().find(|s| s.name == name)?;
     let faults = report.len();
-    let settings = table.named(format!("{} {name}", table.name)).settings(shape.keys, &beside("shape"), report);
+    let entries = fluid::completed(table, shape, said);
+    let table = &Table { entries: &entries, ..table.named(format!("{} {name}", table.name)) };
+    let mut settings = table.settings(shape.keys, &beside("shape"), report);
+    let shown = located(table, shape, files, &mut settings, report);
     if report.len() > faults {
         return None;
     }
-    let (key, wanted) = wanted_count(&settings);
+    let (key, wanted) = wanted_count(shape, &settings);
     if wanted > f64::from(room) {
         let place = table.get(key).map_or(&entry.node.place, |e| &e.node.place);
         report.push(
@@ -170,7 +174,7 @@ fn from_shape(
         return None;
     }
     out.text("shape", name);
-    out.settings(shape.keys, &settings);
+    out.settings(shape.keys, &shown);
     match (shape.build)(&settings) {
         Ok(particles) => {
             let own = |key| color::known(settings.text(key));
@@ -188,14 +192,34 @@ fn from_shape(
     }
 }
 
+/// Puts what is in files into the settings that name them; gives those that name them, as the resolved scene does.
+fn located(table: &Table<'_>, shape: &Shape, files: &Files, settings: &mut Settings, report: &mut Report) -> Settings {
+    let mut shown = settings.clone();
+    for key in shape.keys.iter().filter(|key| key.kind == Kind::File) {
+        let (Some(entry), false) = (table.get(key.name), settings.text(key.name).is_empty()) else { continue };
+        let place = &entry.node.place;
+        let found = files.locate(key.name, settings.text(key.name), place);
+        match found.and_then(|located| Ok((located.name().to_owned(), located.mesh(place)?))) {
+            Ok((name, text)) => {
+                shown.0.insert(key.name, Value::Text(name.into()));
+                settings.0.insert(key.name, Value::Text(text.into()));
+            }
+            Err(fault) => report.push(fault),
+        }
+    }
+    shown
+}
+
 /// How many particles a shape will make, known before the memory is taken: its `count`, or else the product
 /// of what it counts.
-fn wanted_count(settings: &Settings) -> (&'static str, f64) {
+fn wanted_count(shape: &Shape, settings: &Settings) -> (&'static str, f64) {
     let product = |a, b| settings.number(a) * settings.number(b);
     match ["count", "columns", "strands"].into_iter().find(|key| settings.0.contains_key(key)) {
         Some("columns") => ("columns", product("columns", "rows")),
         Some("strands") => ("strands", product("strands", "points")),
         Some(count) => (count, settings.number(count)),
+        // What fills a room by a spacing counts for itself.
+        None if shape.name != "lattice" => ("size", 0.0),
         None => ("size", settings.vector("size").element_product()),
     }
 }

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use glam::DVec3;
 
-use crate::settings::{Kind, Value};
+use crate::settings::{Kind, SIDES, Value};
 
 use super::color;
 use super::report::{Fault, Report, listed, nearest};
@@ -29,6 +29,8 @@ pub(super) fn wanted(kind: Kind) -> String {
         Kind::Choice(known) => format!("one of {}", listed(known.iter().copied())),
         Kind::Flag => "true or false".to_owned(),
         Kind::Motion => "the name of a motion".to_owned(),
+        Kind::File => "the name of a file".to_owned(),
+        Kind::Sides => format!("some of {}, with blanks between them", listed(SIDES.iter().copied())),
         Kind::Color => color::WANTED.to_owned(),
     }
 }
@@ -49,8 +51,14 @@ pub(super) fn read(node: &Node, key: &str, kind: Kind, report: &mut Report) -> O
             Data::Flag(flag) => Some(Value::Flag(flag)),
             _ => refuse(node, key, &wanted(kind), report),
         },
-        // Whether there is a motion of that name, the section says that knows them.
-        Kind::Motion => match &node.data {
+        Kind::Sides => match &node.data {
+            Data::Text(text) if text.split_whitespace().all(|word| SIDES.contains(&word)) => {
+                Some(Value::Text(Cow::Owned(text.clone())))
+            }
+            _ => refuse(node, key, &wanted(kind), report),
+        },
+        // Whether there is a motion or a file of that name, the section says that knows them.
+        Kind::Motion | Kind::File => match &node.data {
             Data::Text(name) => Some(Value::Text(Cow::Owned(name.clone()))),
             _ => refuse(node, key, &wanted(kind), report),
         },

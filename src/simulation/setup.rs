@@ -2,6 +2,7 @@
 
 use crate::boundary;
 use crate::error::Error;
+use crate::fluids::{Start, Still};
 use crate::forces::{Force, Problem};
 use crate::integrators::{Integrator, Step};
 use crate::kernel::{Bounds, Machine, Plan, Solver};
@@ -55,10 +56,25 @@ impl Setup {
         start.begin();
         self.integrator.start(&mut start);
         let mut step = Step::new(&self.forces, problem.clone());
+        step.pace();
         step.lead();
         self.integrator.step(&mut step);
         let measure = Step::measurement(&self.forces, problem)?;
         Ok(Plans { start: start.begun()?, step: step.done()?, measure })
+    }
+    /// Refuses what does not go with steps of different lengths.
+    fn bear(&self) -> Result<(), Error> {
+        if self.integrator.is_implicit() {
+            return Err(Error::Scene(
+                "steps are adaptive by the limits of explicit methods, and the integrator is implicit: it has no use for them; \
+                 choose leapfrog, or a fixed dt"
+                    .to_owned(),
+            ));
+        }
+        match self.forces.iter().find_map(|force| force.keeps_to_even_steps()) {
+            Some(why) => Err(Error::Scene(format!("steps cannot be adaptive: {why}; choose a fixed dt"))),
+            None => Ok(()),
+        }
     }
     /// Refuses a tree whose nodes single precision cannot hold.
     fn weigh(&self, problem: &Problem) -> Result<(), Error> {
@@ -85,7 +101,44 @@ impl Setup {
             .tied(&self.particles.links, &self.particles.held)
             .moved(&self.particles.motions, self.dt)
             .breaking(self.breaks())
-            .solved(self.solver))
+            .solved(self.solver)
+            .paced(self.integrator.pace()))
+    }
+    /// Whether forces do something once, before the first step.
+    pub(super) fn begins(&self, machine: Machine) -> Result<bool, Error> {
+        let (mut plan, problem) = (Plan::default(), self.problem(machine)?);
+        self.forces.iter().try_for_each(|force| force.begin(&mut plan, &problem))?;
+        Ok(!plan.order.is_empty())
+    }
+    /// How its fluid starts, if there is one: how dense it is before the first step, by a look at everybody, which takes as
+    /// long as some steps on the host.
+    ///
+    /// # Errors
+    /// When the setup makes no sense, something of the fluid weighs nothing, or the start would blow it apart:
+    /// [`Error::Scene`] names the particles and the cause.
+    pub fn start(&self) -> Result<Option<Start>, Error> {
+        let problem = self.problem(Machine { software: true, subgroup: 0, invocations: 1 })?;
+        let media = self.forces.iter().map(|force| force.fluid(&problem));
+        let Some(fluid) = media.filter_map(Result::transpose).next().transpose()? else { return Ok(None) };
+        let Particles { position, velocity, mass, .. } = &self.particles;
+        let walls: Vec<bool> = (0..position.len()).map(|id| problem.is_held(id)).collect();
+        let mut start = Start::of(&fluid, &Still { position, mass, walls: &walls, bounds: &self.bounds })?;
+        let speeds = velocity.iter().zip(&walls).filter(|(_, wall)| !**wall).map(|(v, _)| v.length());
+        start.speed = speeds.fold(0.0, f64::max);
+        start.check()?;
+        Ok(Some(start))
+    }
+    /// Refuses two fluids: each would take everybody for its own.
+    fn fluids(&self) -> Result<(), Error> {
+        let problem = Problem::new(1, Machine { software: true, subgroup: 0, invocations: 1 }).at(&[], self.bounds);
+        let fluids = self.forces.iter().map(|force| force.fluid(&problem)).filter_map(Result::transpose);
+        let count = fluids.collect::<Result<Vec<_>, _>>()?.len();
+        if count > 1 {
+            return Err(Error::Scene(format!(
+                "there are {count} forces that make a fluid of everybody, and all pressures would be felt as often: leave one of them"
+            )));
+        }
+        Ok(())
     }
     /// Whether links may change as it runs.
     #[must_use]
@@ -125,8 +178,13 @@ impl Setup {
                 "particle {bad} has a number that is NaN, infinite or beyond single precision, or a negative mass or radius"
             )));
         }
+        self.fluids()?;
         links.check(mass)?;
         self.solver.check()?;
+        if let Some(pace) = self.integrator.pace() {
+            pace.check(self.dt)?;
+            self.bear()?;
+        }
         boundary::check(&self.bounds)?;
         motion::check(held, motions, count, self.bounds.dimensions, self.dt)?;
         if !links.rods.is_empty() && !self.forces.iter().any(|force| force.keeps_rods()) {

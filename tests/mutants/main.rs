@@ -7,11 +7,14 @@ mod equivalent_neighbors;
 mod equivalent_primitives;
 mod equivalents;
 mod ewald;
+mod fluids;
 mod held;
 mod implicit;
 mod laws;
 mod memory;
 mod neighbors;
+mod paced;
+mod paces;
 mod primitives;
 mod rods;
 mod stages;
@@ -123,6 +126,8 @@ fn every_mutant_is_noticed() {
         equivalent_neighbors::EQUIVALENT,
         trees::EQUIVALENT,
         walks::EQUIVALENT,
+        paces::EQUIVALENT,
+        fluids::EQUIVALENT,
     ]
     .concat();
     let ledger = Mutex::new(Ledger::new(&equivalents));

@@ -159,7 +159,7 @@ fn walls_are_not_drawn_and_nothing_wet_is_sky() {
     particles.held.clear();
     let away = on_gpu(&particles, &[&picture(&particles, &behind)]).remove(0);
     assert_eq!(away.outside as usize, particles.len());
-    assert_eq!(red(&away, 60, 45).abs_diff(red(&held, 60, 45)) <= 1, true);
+    assert!(red(&away, 60, 45).abs_diff(red(&held, 60, 45)) <= 1);
 }
 
 #[test]

@@ -4,6 +4,7 @@
 
 pub mod choices;
 pub mod equivalents;
+pub mod fluids;
 pub mod machines;
 pub mod mutants;
 pub mod states;

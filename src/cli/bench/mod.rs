@@ -3,6 +3,7 @@
 mod agents;
 mod bodies;
 mod direct;
+mod fluids;
 mod gravity;
 mod neighbors;
 mod plot;
@@ -10,6 +11,7 @@ mod scaling;
 mod sheet;
 mod springs;
 mod tree;
+mod water;
 
 use std::time::Instant;
 
@@ -33,13 +35,14 @@ pub async fn bench(args: &BenchArgs) -> Result<(), Failure> {
     }
     let mut value = json!({ "device": found.describe(), "commit": commit(), "version": env!("CARGO_PKG_VERSION"),
         "cores": cores, "repeat": args.repeat });
-    for topic in [Topic::Gravity, Topic::Tree, Topic::Neighbors, Topic::Springs] {
+    for topic in [Topic::Gravity, Topic::Tree, Topic::Neighbors, Topic::Springs, Topic::Fluids] {
         if args.topic.is_none_or(|wanted| wanted == topic) {
             let part = match topic {
                 Topic::Gravity => gravity::bench(args, &found).await?,
                 Topic::Tree => tree::bench(args, &found)?,
                 Topic::Neighbors => neighbors::bench(args, &found).await?,
                 Topic::Springs => springs::bench(args, &found)?,
+                Topic::Fluids => fluids::bench(args, &found)?,
             };
             if let (Some(all), serde_json::Value::Object(part)) = (value.as_object_mut(), part) {
                 all.extend(part);

@@ -1,0 +1,28 @@
+// Continuity (Monaghan 1994), with r from me to you where a drift by `factor` of the step has led, v = v_you − v_me, g r the
+// gradient of W at you, and all of it taken in the middle of that drift, at r − v dt / 2:
+//   dρ/dt = Σ m g r·v
+// Diffusion (Molteni & Colagrossi 2009) of what is not the density of a fluid at rest (Fourtakas et al. 2019), s the smoothing length:
+//   dρ/dt −= 2 δ s c Σ m/ρ' (ρ' − ρ − ρ₀ w·r / c²) g r² / (r² + 0.01 s²)
+struct Params { factor: f32, diffusion: f32, weight: vec3f }
+struct Sum { rate: f32 }
+
+@group(3) @binding(0) var<uniform> params: Params;
+@group(3) @binding(3) var<storage, read_write> density_rate: array<f32>;
+
+fn acts_on(me: Particle) -> bool { return me.density > 0.0; }
+
+fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
+    let v = you.velocity - me.velocity;
+    let middle = r - (0.5 * params.factor * world.dt) * v;
+    // Who was out of range then was not there.
+    if in_range(middle) { (*sum).rate += you.mass * gradient(middle) * (middle.x * v.x + middle.y * v.y + middle.z * v.z); }
+    if you.density > 0.0 {
+        let d2 = r.x * r.x + r.y * r.y + r.z * r.z;
+        let weighs = params.weight.x * r.x + params.weight.y * r.y + params.weight.z * r.z;
+        let excess = you.density - me.density - medium.density * weighs / (medium.sound * medium.sound);
+        let near = d2 / (d2 + 0.01 * medium.smoothing * medium.smoothing);
+        (*sum).rate -= params.diffusion * (you.mass / you.density) * excess * gradient(r) * near;
+    }
+}
+
+fn deliver(k: u32, me: Particle, sum: Sum) { density_rate[me.index] = sum.rate; }

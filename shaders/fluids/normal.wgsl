@@ -1,0 +1,12 @@
+// Which way the surface is, and how close: n = h Σ m/ρ ∇W, over the fluid, which points inwards (Akinci, Akinci & Teschner 2013).
+struct Sum { normal: vec3f }
+
+@group(3) @binding(4) var<storage, read_write> normal: array<vec4f>;
+
+fn acts_on(me: Particle) -> bool { return me.density > 0.0; }
+
+fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
+    if you.density > 0.0 { (*sum).normal -= (you.mass / you.density * gradient(r)) * r; }
+}
+
+fn deliver(k: u32, me: Particle, sum: Sum) { normal[k] = vec4f(sum.normal / medium.per_support, 0.0); }

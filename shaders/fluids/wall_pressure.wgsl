@@ -1,0 +1,23 @@
+// Walls have the pressure of the fluid around them, and what weighs between (Adami, Hu & Adams 2012), with r from me to you:
+//   p = (Σ p' W − w·Σ ρ' r W) / Σ W
+struct Params { weight: vec3f }
+struct Sum { pressure: f32, number: f32 }
+
+@group(3) @binding(0) var<uniform> params: Params;
+@group(3) @binding(2) var<storage, read_write> wall_pressure: array<f32>;
+
+fn acts_on(me: Particle) -> bool { return me.density == 0.0; }
+
+fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
+    if you.density > 0.0 {
+        let w = kernel(r);
+        let weighs = params.weight.x * r.x + params.weight.y * r.y + params.weight.z * r.z;
+        (*sum).pressure += (you.pressure * you.density - weighs) * you.density * w;
+        (*sum).number += w;
+    }
+}
+
+fn deliver(k: u32, me: Particle, sum: Sum) {
+    let p = select(0.0, sum.pressure / sum.number, sum.number > 0.0);
+    wall_pressure[k] = select(max(p, 0.0), p, medium.negative != 0u) / (medium.density * medium.density);
+}

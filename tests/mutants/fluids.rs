@@ -1,0 +1,210 @@
+//! Stages of fluids: clouds with walls in them, in space and in the plane, on devices with and without subgroups.
+
+use std::cell::RefCell;
+use std::rc::Rc;
+use std::sync::Arc;
+
+use glam::{DVec4, Vec4};
+use motes::integrators::Step;
+use motes::kernel::{ACCELERATION, Backend, Host, Kernel, Machine, Problem, Source};
+use motes::neighbors::Grid;
+use motes::settings::Value;
+use motes::visit::{Sweep, gathered};
+use motes::{Gpu, Setup, Side, Simulation};
+
+use crate::stages::{Device, FEW, Stage};
+use crate::support::equivalents::{Equivalent, same};
+use crate::support::fluids::{SPACING, bounds, cloud, fluid};
+use crate::support::machines::{alone, subgroups_of_eight};
+use crate::support::states::{integrator, vector, word};
+use crate::support::{Random, Shared};
+
+use Value::{Flag, Number};
+
+pub const EQUIVALENT: &[Equivalent] = &[
+    same("fluids/cubic", "return select(2.0", "<=", "<", "both halves have one value where they meet"),
+    same("fluids/cubic", "return select(-6.0", "<=", "<", "both halves have one value where they meet"),
+    same(
+        "fluids/density_advance",
+        "const WORKGROUP",
+        "64u",
+        "65u",
+        "the host reads the size of a workgroup by reflection",
+    ),
+    same(
+        "fluids/density_rest",
+        "const WORKGROUP",
+        "64u",
+        "65u",
+        "the host reads the size of a workgroup by reflection",
+    ),
+    same("fluids/wall_state", "const WORKGROUP", "64u", "65u", "the host reads the size of a workgroup by reflection"),
+    same("fluids/state", "const WORKGROUP", "64u", "65u", "the host reads the size of a workgroup by reflection"),
+];
+
+const LANES: Machine = Machine { software: false, subgroup: 0, invocations: 1 << 18 };
+const EIGHT: Machine = Machine { software: true, subgroup: 8, invocations: 256 };
+
+struct Case {
+    name: &'static str,
+    flat: bool,
+    side: Side,
+    walls: bool,
+    settings: Vec<(&'static str, Value)>,
+}
+
+fn cases() -> Vec<Case> {
+    let case = |name, flat, side, walls, settings| Case { name, flat, side, walls, settings };
+    vec![
+        case("in space", false, Side::Periodic, true, vec![]),
+        case("in the plane", true, Side::Open, true, vec![("kernel", word("wendland")), ("support", Number(2.6))]),
+        case("a state", false, Side::Open, true, state(0.7)),
+        case("a state without walls", true, Side::Periodic, false, state(0.0)),
+        case(
+            "without walls",
+            true,
+            Side::Open,
+            false,
+            vec![("negative_pressure", Flag(false)), ("gamma", Number(2.0))],
+        ),
+    ]
+}
+
+/// Density as a state, walls with a pressure of their own, and XSPH.
+fn state(depth: f64) -> Vec<(&'static str, Value)> {
+    vec![
+        ("density_by", word("continuity")),
+        ("diffusion", Number(0.2)),
+        ("xsph", Number(0.3)),
+        ("weight", vector(0.3, -0.9, depth)),
+        ("walls", word("extrapolate")),
+        ("wall_mass", word("lattice")),
+        ("negative_pressure", Flag(depth > 0.0)),
+    ]
+}
+
+/// A simulation a step on its way, whose grid is that of where it is, and how it moves there.
+pub fn simulation(device: &Device, machine: Machine, setup: &Setup) -> Simulation<Gpu> {
+    let mut gpu = Gpu::new(&device.0, &device.1, u32::try_from(FEW).expect("few")).expect("a GPU");
+    gpu.pad(5);
+    gpu.pretend(machine);
+    let mut simulation = Simulation::on(gpu, setup).expect("a simulation");
+    simulation.step(1).expect("a step");
+    let mut step = Step::new(&setup.forces, setup.problem(machine).expect("a problem"));
+    step.evaluate();
+    let program = simulation.backend().compile(&step.finished().expect("a plan")).expect("a program");
+    simulation.backend().run(&program, 1).expect("an evaluation");
+    simulation
+}
+
+/// Other numbers than before in what a kernel makes anew, and in what walls are told.
+fn forget(simulation: &mut Simulation<Gpu>, kernel: &Kernel) {
+    let mut random = Random::new(41);
+    let anew = |name: &str| match kernel.name.as_str() {
+        "fluid state" => name.starts_with("flow"),
+        "fluid density" | "fluid rest" | "fluid density rate" => kernel.writes().iter().any(|other| other == name),
+        other => other.contains("wall") && name.starts_with("wall_"),
+    };
+    let plan = alone(kernel.clone());
+    for name in plan.fields(1).into_keys().filter(|name| anew(name)) {
+        let gpu = simulation.backend();
+        let words: Vec<f32> = (0..gpu.size(&name) / 4).map(|_| random.narrow()).collect();
+        gpu.write_bytes(&name, 0, bytemuck::cast_slice(&words)).expect("a field");
+    }
+}
+
+pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
+    let mut machines = vec![LANES];
+    if subgroups_of_eight(shared) {
+        machines.push(EIGHT);
+    }
+    for (place, machine) in machines.iter().enumerate() {
+        for case in cases() {
+            let bounds = bounds(FEW, case.flat, case.side);
+            let setup = Setup {
+                particles: cloud(FEW, case.flat, case.walls),
+                forces: vec![fluid(&case.settings)],
+                integrator: integrator("leapfrog"),
+                dt: 0.003,
+                bounds,
+                solver: motes::Solver::default(),
+            };
+            let plans = setup.plans(*machine).expect("plans");
+            let kernels: Vec<_> = [plans.start, plans.step].into_iter().flat_map(|plan| plan.kernels).collect();
+            let mut seen: Vec<String> = Vec::new();
+            for kernel in kernels.into_iter().filter(|kernel| kernel.name.starts_with("fluid")) {
+                if seen.contains(&kernel.name) {
+                    continue;
+                }
+                seen.push(kernel.name.clone());
+                let name = format!("{}, {}, {place}", kernel.name, case.name);
+                let mut simulation = simulation(device, *machine, &setup);
+                forget(&mut simulation, &kernel);
+                stages.push(Stage::of(&name, simulation, alone(kernel)));
+            }
+        }
+        told(device, *machine, stages);
+    }
+}
+
+/// A search that looks at all that a particle of a fluid says.
+fn told(device: &Device, machine: Machine, stages: &mut Vec<Stage>) {
+    let all = bounds(FEW, false, Side::Periodic);
+    let setup = Setup {
+        particles: cloud(FEW, false, true),
+        forces: vec![fluid(&[])],
+        integrator: integrator("leapfrog"),
+        dt: 0.003,
+        bounds: all,
+        solver: motes::Solver::default(),
+    };
+    let simulation = Rc::new(RefCell::new(simulation(device, machine, &setup)));
+    let problem = setup.problem(machine).expect("a problem");
+    let plan = alone(curious(&problem));
+    stages.push(Stage::amid("told", &simulation, plan));
+}
+
+const CURIOUS: &str = "struct Sum { acceleration: vec3f, told: f32 }
+@group(1) @binding(2) var<storage, read_write> acceleration: array<vec4f>;
+fn acts_on(me: Particle) -> bool { return me.index % 5u != 1u; }
+fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
+    let near = 1.0 / (1.0 + 40.0 * dot(r, r));
+    (*sum).acceleration += (you.mass * near) * (you.velocity - me.velocity + f32(you.index % 7u) * r);
+    (*sum).told += near * (you.density + you.pressure);
+}
+fn deliver(k: u32, me: Particle, sum: Sum) { acceleration[me.index] += vec4f(sum.acceleration, sum.told); }";
+
+fn curious(problem: &Problem) -> Kernel {
+    let grid = Grid::new(2.0 * SPACING, None, problem).expect("a grid");
+    let slots = grid.clone();
+    let twin = move |host: &Host| {
+        let (ids, flow) =
+            (host.reading::<u32>(&slots.field("sorted_id").1)?, host.reading::<Vec4>(&slots.field("flow").1)?);
+        let mut states = vec![DVec4::ZERO; ids.len()];
+        ids.iter().zip(flow.iter()).for_each(|(id, flow)| states[*id as usize] = *flow);
+        let felt = gathered(
+            host,
+            2.0 * SPACING,
+            |me| me.index % 5 != 1,
+            |me, you, r, sum: &mut DVec4| {
+                let near = 1.0 / (1.0 + 40.0 * r.length_squared());
+                let way = you.velocity - me.velocity + (you.index % 7) as f64 * r;
+                let state = states[you.index];
+                *sum += near * (you.mass * way).extend(state.x + state.y);
+            },
+        )?;
+        let mut acceleration = host.write(ACCELERATION)?;
+        acceleration.iter_mut().zip(felt).for_each(|(a, felt)| *a += felt.unwrap_or_default());
+        Ok(())
+    };
+    let files = vec![
+        Source::ours("shaders/fluids/flowing.wgsl", include_str!("../../shaders/fluids/flowing.wgsl")),
+        Source::ours("shaders/fluids/flowing_told.wgsl", include_str!("../../shaders/fluids/flowing_told.wgsl")),
+        Source::ours("curious", CURIOUS),
+    ];
+    let flow = grid.field("flow");
+    let sweep = Sweep { name: "told".to_owned(), grid, files, blocks: Vec::new(), twin: Arc::new(twin) };
+    let mut kernel = sweep.kernel(problem).expect("a search");
+    kernel.passes.iter_mut().for_each(|pass| pass.fields.push(flow.clone()));
+    kernel
+}
