@@ -85,7 +85,7 @@ impl Picture {
         let plain = facets.count > 0 && settings.text("color") == "auto";
         let color = if plain {
             Color::choose(&settings.clone().with("color", Value::Text("group".into())), particles, groups)
-        } else if wet && settings.text("color") == "auto" && !groups.iter().any(|g| Some(g) != groups.first()) {
+        } else if wet && settings.text("color") == "auto" {
             Color::Given(vec![pack(fluid::DYE); particles.len()])
         } else {
             Color::choose(settings, particles, groups)
