@@ -96,8 +96,8 @@ impl Setup {
     /// [`Error::Scene`] names the particles and the cause.
     pub fn start(&self) -> Result<Option<Start>, Error> {
         let problem = self.problem(Machine { software: true, subgroup: 0, invocations: 1 })?;
-        let media = self.forces.iter().map(|force| force.fluid(&problem));
-        let Some(fluid) = media.filter_map(Result::transpose).next().transpose()? else { return Ok(None) };
+        let mut media = self.forces.iter().map(|force| force.fluid(&problem));
+        let Some(fluid) = media.find_map(Result::transpose).transpose()? else { return Ok(None) };
         let Particles { position, velocity, mass, .. } = &self.particles;
         let walls: Vec<bool> = (0..position.len()).map(|id| problem.is_held(id)).collect();
         let mut start = Start::of(&fluid, &Still { position, mass, walls: &walls, bounds: &self.bounds })?;
