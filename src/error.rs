@@ -51,6 +51,23 @@ pub enum Error {
         /// The step, counted from 0, in which that was seen.
         step: u64,
     },
+    /// Forces ask for a step that is shorter than the shortest. Mended by a softer start, or by a shorter one.
+    #[error(
+        "step {step} would have to be {wanted:.3e} long, shorter than dt_min = {least:.3e}, because of the {reason} of {particle}: look \
+         for particles that start too close to each other or to a wall, or set a smaller dt_min"
+    )]
+    TooShort {
+        /// The step, counted from 0.
+        step: u64,
+        /// How long it would have to be \[time\].
+        wanted: f64,
+        /// The shortest that was allowed \[time\].
+        least: f64,
+        /// What limits it.
+        reason: &'static str,
+        /// Whose it is.
+        particle: String,
+    },
     /// More particles are within reach of one than a search for neighbours or a walk of a tree can visit. Mended by a shorter
     /// range, or by a greater opening angle.
     #[error(
@@ -99,7 +116,7 @@ impl Error {
             Self::Scene(_) | Self::Shader { .. } => 3,
             Self::Input { .. } => 4,
             Self::NoAdapter(_) | Self::Limit(_) => 5,
-            Self::NotFinite { .. } | Self::Runaway { .. } | Self::Crowded { .. } => 6,
+            Self::NotFinite { .. } | Self::Runaway { .. } | Self::Crowded { .. } | Self::TooShort { .. } => 6,
             Self::Lost(_) | Self::OutOfMemory(_) | Self::Timeout { .. } | Self::Device(_) => 7,
             Self::Output { .. } => 8,
         }

@@ -1,9 +1,12 @@
 //! A simulation: particles, forces and an integrator on a backend.
 
+mod alarm;
+mod pace;
 mod setup;
 mod solves;
 mod ties;
 
+pub use pace::Clock;
 pub use setup::{Plans, Setup};
 pub use solves::{Outcome, Solves};
 
@@ -14,8 +17,7 @@ use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::integrators::SOLVE_REPORT;
 use crate::kernel::{
-    ACCELERATION, ALARM, ALARM_WORDS, Array, Backend, Element, Field, HOME, POSITION, QUIET, SPECIES, TARGET, VELOCITY,
-    World,
+    ACCELERATION, ALARM, Array, Backend, Element, Field, HOME, POSITION, Pace, QUIET, SPECIES, TARGET, VELOCITY, World,
 };
 use crate::links::Links;
 use crate::motion;
@@ -27,7 +29,7 @@ use crate::render::{self, Film, Image, Picture};
 pub struct Snapshot {
     /// Steps done.
     pub step: u64,
-    /// The time, step × dt.
+    /// The time: step × dt, where all steps are alike.
     pub time: f64,
     /// Positions, velocities, masses, radii and species, by id.
     pub particles: Particles,
@@ -41,6 +43,8 @@ pub struct Simulation<B: Backend> {
     start: B::Program,
     /// Whether the start has run for the state that is there.
     begun: bool,
+    /// Whether forces make something of the state then, such as the masses of walls: what is measured has it.
+    begins: bool,
     step: B::Program,
     measure: (B::Program, B::Program),
     plan: String,
@@ -53,6 +57,8 @@ pub struct Simulation<B: Backend> {
     links: Links,
     breaks: bool,
     dt: f64,
+    /// How long steps are, where they are not all alike.
+    pace: Option<Pace>,
     steps: u64,
 }
 
@@ -100,8 +106,27 @@ impl<B: Backend> Simulation<B> {
             backend.write(TARGET.name, &places(&mut (0..particles.len())))?;
         }
         let (links, breaks) = (particles.links.clone(), setup.breaks());
-        let (begun, dt, steps) = (false, setup.dt, 0);
-        Ok(Self { backend, start, begun, step, measure, plan, solves, count, species, links, breaks, dt, steps })
+        let (begun, begins) = (false, setup.begins(backend.machine())?);
+        let (dt, steps, pace) = (setup.dt, 0, setup.integrator.pace());
+        let mut made = Self {
+            backend,
+            start,
+            begun,
+            begins,
+            step,
+            measure,
+            plan,
+            solves,
+            count,
+            species,
+            links,
+            breaks,
+            dt,
+            pace,
+            steps,
+        };
+        pace.map_or(Ok(()), |pace| made.wind(&pace))?;
+        Ok(made)
     }
     /// Advances. May return before the device is done; reading waits.
     ///
@@ -109,12 +134,17 @@ impl<B: Backend> Simulation<B> {
     /// When the device is lost, out of memory, or does not answer in time.
     pub fn step(&mut self, steps: u32) -> Result<(), Error> {
         self.room(steps)?;
+        self.begin()?;
+        self.backend.run(&self.step, steps)?;
+        self.steps += u64::from(steps);
+        Ok(())
+    }
+    /// Runs what is done once before the first step, where that has not been.
+    fn begin(&mut self) -> Result<(), Error> {
         if !self.begun {
             self.backend.run(&self.start, 1)?;
             self.begun = true;
         }
-        self.backend.run(&self.step, steps)?;
-        self.steps += u64::from(steps);
         Ok(())
     }
     /// The device counts steps in 32 bits.
@@ -143,34 +173,17 @@ impl<B: Backend> Simulation<B> {
         self.begun &= field.name != POSITION.name && field.name != VELOCITY.name;
         self.backend.write(field.name, &T::array(values.iter().map(|v| v.widen()).collect()))
     }
-    /// Looks whether any number has stopped being one, or speeds run away: whether the largest has more than doubled from
-    /// 16 steps to the next 16, eight times in a row. That is what steps do that are too long for a spring; a fall, a
-    /// collapse or an encounter grows by less and less, or not for so long.
-    ///
-    /// # Errors
-    /// [`Error::NotFinite`] with the first particle and step, [`Error::Runaway`] with one that is too fast and the step,
-    /// [`Error::Crowded`], or what reading says.
-    pub async fn check(&mut self) -> Result<(), Error> {
-        let alarm = self.alarm().await?;
-        let [done, .., fast, particle] = [alarm[0], alarm[1], alarm[3], alarm[4]];
-        // Who runs away is lost in the end: what came first is told.
-        if fast != u32::MAX && fast <= done {
-            return Err(Error::Runaway { particle, step: u64::from(fast.saturating_sub(1)) });
-        }
-        sound(&alarm)
-    }
-    async fn alarm(&mut self) -> Result<[u32; ALARM_WORDS], Error> {
-        let alarm = self.backend.read(ALARM.name, &Array::Uint(Vec::new()), ALARM_WORDS).await?;
-        let words = u32::view(&alarm).and_then(|words| <[u32; ALARM_WORDS]>::try_from(words.as_slice()).ok());
-        Ok(words.unwrap_or(QUIET))
-    }
     /// The state and the potential energies at the end of the last step. It evaluates the forces once more, and leaves
     /// no trace of that in the run.
     ///
     /// # Errors
     /// [`Error::NotFinite`], [`Error::Crowded`], or what reading says. Speeds that run away are no error here.
     pub async fn snapshot(&mut self) -> Result<Snapshot, Error> {
-        sound(&self.alarm().await?)?;
+        alarm::sound(&self.alarm().await?)?;
+        // What a fluid's walls weigh, and its density at rest, are said there.
+        if self.begins {
+            self.begin()?;
+        }
         self.backend.run(&self.measure.0, 1)?;
         let count = self.count as usize;
         let like = Array::Vec4(Vec::new());
@@ -187,7 +200,7 @@ impl<B: Backend> Simulation<B> {
             }
         }
         particles.species.clone_from(&self.species);
-        let time = self.steps as f64 * self.dt;
+        let time = self.clock().await?.map_or(self.steps as f64 * self.dt, |clock| clock.time);
         Ok(Snapshot { step: self.steps, time, particles, potential })
     }
     /// Draws the current state. Only the picture is read back.
@@ -234,16 +247,6 @@ impl<B: Backend> Simulation<B> {
     pub fn backend(&mut self) -> &mut B {
         &mut self.backend
     }
-}
-
-/// Whether numbers are numbers, and searches have found everybody.
-fn sound(alarm: &[u32; ALARM_WORDS]) -> Result<(), Error> {
-    let [done, particle, crowded, ..] = *alarm;
-    if done != u32::MAX {
-        // The first look comes before the first step, every other one after a step that is done.
-        return Err(Error::NotFinite { particle, step: u64::from(done.saturating_sub(1)) });
-    }
-    if crowded == u32::MAX { Ok(()) } else { Err(Error::Crowded { particle: crowded }) }
 }
 
 /// The rendering app's door: its device, its queue, its encoder.

@@ -14,7 +14,8 @@ const WORKGROUP: u32 = 64u;
 @compute @workgroup_size(WORKGROUP)
 fn lead(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let i = FIRST + folded(group, groups) * WORKGROUP + lane;
-    if i < END {
+    // A step of no length leads nowhere.
+    if i < END && world.dt > 0.0 {
         let id = holds[i].x;
         let next = way(id, holds[i].y, home[i].xyz, position[id].xyz);
         velocity[id] = vec4f(nearest_image(next.way) / next.time, velocity[id].w);

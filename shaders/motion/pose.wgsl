@@ -33,8 +33,9 @@ fn since(key: u32, whole: u32, rest: f32) -> f32 {
 // The pose after a part of the step.
 fn pose(motion: u32, part: f32) -> Pose {
     let m = motions[motion];
-    var whole = world.step - m.start;
-    var rest = part - m.rest;
+    let now = now(part);
+    var whole = now.whole - m.start;
+    var rest = now.rest - m.rest;
     if m.period > 0u {
         let times = max(floor((f32(i32(whole)) + rest) / (f32(m.period) + m.period_rest)), 0.0);
         whole -= u32(times) * m.period;
@@ -57,7 +58,7 @@ fn pose(motion: u32, part: f32) -> Pose {
         rate = 6.0 * s * (1.0 - s);
         s *= s * (3.0 - 2.0 * s);
     }
-    rate /= key.length * world.dt;
+    rate /= key.length * now.unit;
     let turns = s * key.turns;
     let turn = product(half_turn(PI * (turns - round(turns)), key.axis), key.facing);
     return Pose(key.shift + s * key.way, turn, rate * key.way, (2.0 * PI * rate * key.turns) * key.axis);

@@ -3,5 +3,5 @@
 
 fn way(id: u32, motion: u32, home: vec3f, x: vec3f) -> Way {
     let to = kinematic_target[id];
-    return Way(to.xyz - x, max(to.w - f32(world.step) * world.dt, world.dt));
+    return Way(to.xyz - x, max(to.w - begun(), world.dt));
 }

@@ -108,6 +108,9 @@ pub struct RunArgs {
     /// How many of them are shown in a second
     #[arg(long, value_name = "N", default_value_t = 30, value_parser = clap::value_parser!(u16).range(1..=1000))]
     pub fps: u16,
+    /// Write the ledger of a fluid, fluid.csv, after every step
+    #[arg(long)]
+    pub ledger: bool,
     /// Print events as lines of JSON on standard output
     #[arg(long, conflicts_with = "quiet")]
     pub json: bool,

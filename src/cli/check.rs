@@ -9,6 +9,7 @@ use motes::{Bounds, Cpu, Gpu, Simulation};
 
 use super::advice::advice;
 use super::args::SceneArgs;
+use super::course;
 use super::engine::Engine;
 use super::failure::Failure;
 use super::fluid;
@@ -21,7 +22,7 @@ pub async fn check(args: &SceneArgs) -> Result<(), Failure> {
     let count = setup.check()?;
     Picture::with(&scene.picture, &setup.particles, &[], Trail::new(0), &Scenery::of(&setup.particles))?;
     let engine = Engine::choose(&args.device).await?;
-    out!("{}: {count} particles, {} steps of {} by {}", scene.name, scene.steps, scene.dt, scene.integrator.name);
+    out!("{}: {count} particles, {} by {}", scene.name, course::words(&scene), scene.integrator.name);
     out!("on {}", engine.describe());
     if scene.bounds != Bounds::default() {
         out!("box: {}", scene.bounds);

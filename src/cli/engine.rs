@@ -1,6 +1,7 @@
 //! Where a scene runs: an adapter of this machine, or the twins when there is none.
 
 use motes::gpu::{self, Choice, Found};
+use motes::integrators::Paced;
 use motes::kernel::{Backend, Machine};
 use motes::scene::{Options, Scene, Source};
 use motes::{Cpu, Error, Gpu, Setup};
@@ -91,7 +92,10 @@ pub fn setup(scene: &mut Scene) -> Setup {
     Setup {
         particles: std::mem::take(&mut scene.particles),
         forces: std::mem::take(&mut scene.forces),
-        integrator: (scene.integrator.build)(),
+        integrator: match scene.pace {
+            Some(pace) => Box::new(Paced { integrator: (scene.integrator.build)(), pace }),
+            None => (scene.integrator.build)(),
+        },
         dt: scene.dt,
         bounds: scene.bounds,
         solver: scene.solver,

@@ -6,6 +6,7 @@ use motes::Bounds;
 use motes::kernel::{Access, Kernel};
 
 use super::args::SceneArgs;
+use super::course;
 use super::engine::Engine;
 use super::failure::Failure;
 use super::substeps::{self, Loaded};
@@ -16,7 +17,7 @@ pub async fn explain(args: &SceneArgs) -> Result<(), Failure> {
     let count = setup.check()?;
     let engine = Engine::choose(&args.device).await?;
     let plans = setup.plans(engine.machine(count)?)?;
-    out!("{}: {count} particles, {} steps of {} by {}", scene.name, scene.steps, scene.dt, scene.integrator.name);
+    out!("{}: {count} particles, {} by {}", scene.name, course::words(&scene), scene.integrator.name);
     out!("on {}", engine.describe());
     if scene.bounds != Bounds::default() {
         out!("box: {}", scene.bounds);

@@ -70,16 +70,16 @@ impl Film {
     pub async fn shoot<B: Backend>(
         &mut self,
         simulation: &mut Simulation<B>,
+        step: u64,
         output: &Output,
         progress: &Progress,
     ) -> Result<(), Failure> {
         if self.auto_frame && output.trail.wanted() {
             let (position, velocity) = (simulation.read(POSITION).await?, simulation.read(VELOCITY).await?);
-            let (step, pushes) = (simulation.steps(), output.trail.pushes());
+            let pushes = output.trail.pushes();
             self.kept.push(Kept { step, pushes, position, velocity });
             return Ok(());
         }
-        let step = simulation.steps();
         self.draw(simulation, output, output.trail.clone(), step, progress).await
     }
     /// Draws the states that are kept. The simulation is at its end: it is left with one of them.

@@ -1,5 +1,7 @@
 //! `motes run`
 
+mod conclude;
+
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
@@ -14,9 +16,11 @@ use serde_json::json;
 use super::advice::{Conserved, advice, conserved};
 use super::aftermath;
 use super::args::RunArgs;
+use super::course::{self, Course};
 use super::engine::Engine;
 use super::failure::Failure;
 use super::film::Film;
+use super::ledger::Book;
 use super::output::Output;
 use super::progress::Progress;
 use super::solves;
@@ -81,6 +85,9 @@ struct Run {
     scenery: Scenery,
     /// What should stay as it is.
     conserved: Conserved,
+    /// The ledger of a fluid, and whether it is kept at every step.
+    book: Option<Book>,
+    ledger: bool,
     progress: Progress,
     stop: Stop,
     /// The last state that was read, and so the last that is known to be good.
@@ -106,8 +113,10 @@ impl Run {
                 "dt": scene.dt, "integrator": scene.integrator.name, "device": device, "output": folder }),
         );
         progress.say(&format!(
-            "{}: {count} particles, {} steps of {} by {}",
-            scene.name, scene.steps, scene.dt, scene.integrator.name
+            "{}: {count} particles, {} by {}",
+            scene.name,
+            course::words(&scene),
+            scene.integrator.name
         ));
         progress.say(&format!("on {device}"));
         for remark in engine.remarks(setup)?.into_iter().chain(advice(&scene, setup)?) {
@@ -129,6 +138,8 @@ impl Run {
             progress,
             stop,
             last,
+            book: Book::of(setup)?,
+            ledger: args.ledger,
             springs,
             torn,
         })
@@ -142,21 +153,23 @@ impl Run {
         }
         let mut output = Output::new(&self.folder, &self.scene, self.count, self.company, precision, &self.device)?;
         output.scenery = self.scenery.clone();
+        if let Some(book) = &mut self.book {
+            book.open(&self.folder)?;
+        }
         let (steps, every) = (self.scene.steps, self.scene.output.every);
-        let mut image = self.write(&mut simulation, &mut output).await?;
-        self.shoot(&mut simulation, &output).await?;
+        let mut course = Course::of(&self.scene, &mut simulation).await?;
+        let mut image = self.write(&mut simulation, &course, &mut output).await?;
+        self.shoot(&mut simulation, &course, &output).await?;
         let (mut batch, mut stepping) = (1, Duration::ZERO);
         let (mut looked, mut look) = (Instant::now(), Duration::ZERO);
-        while simulation.steps() < steps && !self.stop.asked() {
-            let done = simulation.steps();
+        while course.done() < steps && !self.stop.asked() {
+            let done = course.done();
             let next = ((done / every + 1) * every).min(steps);
             let frame = self.film.as_ref().and_then(Film::next).unwrap_or(steps);
             let most = if output.trail.wanted() { (steps / TRAIL).max(1) } else { u64::MAX };
-            let some = u32::try_from((next.min(frame) - done).min(batch).min(most)).unwrap_or(u32::MAX);
+            let most = if self.ledger { 1 } else { most };
             let start = Instant::now();
-            simulation.step(some)?;
-            // Looking waits for the batch, and finds what broke in it.
-            simulation.check().await?;
+            let some = course.advance(&mut simulation, next.min(frame), batch.min(most)).await?;
             stepping += start.elapsed();
             let factor = (BATCH.as_secs_f64() / start.elapsed().as_secs_f64().max(1e-6)).clamp(0.5, 4.0);
             #[expect(
@@ -164,7 +177,7 @@ impl Run {
                 clippy::cast_sign_loss,
                 reason = "a size of batches, at least one"
             )]
-            if u64::from(some) == batch || factor < 1.0 {
+            if some == batch || factor < 1.0 {
                 batch = ((batch as f64 * factor) as u64).clamp(1, 1 << 20);
             }
             if output.trail.wanted() {
@@ -172,9 +185,12 @@ impl Run {
                     simulation.read(POSITION).await?.iter().map(|x| x.as_dvec4().truncate()).collect();
                 output.trail.push(&positions);
             }
-            self.progress.at(simulation.steps());
-            if simulation.steps() == next {
-                image = self.write(&mut simulation, &mut output).await?;
+            self.progress.at(course.done());
+            if course.done() == next {
+                image = self.write(&mut simulation, &course, &mut output).await?;
+            } else if self.ledger && self.book.is_some() {
+                let snapshot = simulation.snapshot().await?;
+                self.enter(&mut simulation, &course, &snapshot).await?;
             } else if self.progress.watched() && looked.elapsed() > LOOK.max(look * 20) {
                 // The energy between two outputs, for whoever looks, and for a twentieth of the time at most.
                 let start = Instant::now();
@@ -183,26 +199,31 @@ impl Run {
                 self.last = Some(snapshot);
                 (looked, look) = (Instant::now(), start.elapsed());
             }
-            self.shoot(&mut simulation, &output).await?;
+            self.shoot(&mut simulation, &course, &output).await?;
         }
         // Ctrl-C may come at any time: what is written last is what was done last.
         if output.rows().last().is_none_or(|row| row.step != simulation.steps()) {
-            image = self.write(&mut simulation, &mut output).await?;
+            image = self.write(&mut simulation, &course, &mut output).await?;
         }
         let steps = simulation.steps();
         if let Some(film) = &mut self.film {
             film.develop(&mut simulation, &output, &self.progress).await?;
         }
-        let concluded = self.conclude(steps, &output, stepping, image.as_ref());
+        let concluded = self.conclude((steps, &course), &output, stepping, image.as_ref());
         solves::tell(&self.progress, simulation.solves().await?);
         concluded
     }
 
     /// Takes the present state for the film, if it is one of its frames.
-    async fn shoot<B: Backend>(&mut self, simulation: &mut Simulation<B>, output: &Output) -> Result<(), Failure> {
+    async fn shoot<B: Backend>(
+        &mut self,
+        simulation: &mut Simulation<B>,
+        course: &Course,
+        output: &Output,
+    ) -> Result<(), Failure> {
         match &mut self.film {
-            Some(film) if film.next() == Some(simulation.steps()) => {
-                film.shoot(simulation, output, &self.progress).await
+            Some(film) if film.next() == Some(course.done()) => {
+                film.shoot(simulation, course.done(), output, &self.progress).await
             }
             _ => Ok(()),
         }
@@ -212,9 +233,11 @@ impl Run {
     async fn write<B: Backend>(
         &mut self,
         simulation: &mut Simulation<B>,
+        course: &Course,
         output: &mut Output,
     ) -> Result<Option<Image>, Failure> {
         let snapshot = simulation.snapshot().await?;
+        self.enter(simulation, course, &snapshot).await?;
         output.measure(&snapshot)?;
         output.snapshot(&snapshot)?;
         if let Some(links) = simulation.torn().await? {
@@ -237,6 +260,21 @@ impl Run {
         Ok(image)
     }
 
+    /// Enters a state into the ledger of a fluid, if there is one.
+    async fn enter<B: Backend>(
+        &mut self,
+        simulation: &mut Simulation<B>,
+        course: &Course,
+        snapshot: &Snapshot,
+    ) -> Result<(), Failure> {
+        let Some(book) = &mut self.book else { return Ok(()) };
+        if let Some(loud) = book.enter(simulation, snapshot, course.clock()).await? {
+            self.progress.say(&format!("warning: {loud}"));
+            self.progress.event("remark", json!({ "text": loud }));
+        }
+        Ok(())
+    }
+
     /// What is to be said, and kept, when numbers are lost.
     fn explain(&self, error: Error, setup: &Setup, verdict: Option<&Verdict>, engine: &Engine) -> Failure {
         let precision = match engine {
@@ -246,55 +284,5 @@ impl Run {
         let way = verdict.and_then(|verdict| substeps::way_out(verdict, &self.scene, setup));
         let to = (&*self.folder, &*self.scene.output.formats, precision);
         aftermath::explain(error, setup, way.as_deref(), self.last.as_ref(), to)
-    }
-
-    fn conclude(
-        &mut self,
-        steps: u64,
-        output: &Output,
-        stepping: Duration,
-        image: Option<&Image>,
-    ) -> Result<(), Failure> {
-        let took = self.progress.finish();
-        output.plot()?;
-        if let Some(image) = image {
-            image.save(&output.portrait())?;
-            if image.outside > 0 {
-                let (few, all) = (image.outside, self.count);
-                self.progress.say(&format!("note: {few} of {all} particles are outside of the last picture"));
-            }
-        }
-        let film = self.film.as_ref().map_or_else(|| Ok(Vec::new()), |film| film.join(&self.progress))?;
-        let stopped = steps < self.scene.steps;
-        let rate = steps as f64 / stepping.as_secs_f64().max(1e-9);
-        let (first, last) = (output.first(), output.rows().last().copied().unwrap_or_default());
-        let worst = output.rows().iter().map(|row| row.drift_from(&first).abs()).fold(0.0, f64::max);
-        self.progress.event(
-            "finish",
-            json!({ "steps": steps, "stopped": stopped, "seconds": took.as_secs_f64(), "stepping_seconds": stepping.as_secs_f64(), "steps_per_second": rate,
-                "energy": last.total(), "energy_error": last.drift_from(&first), "worst_energy_error": worst,
-                "order": output.company().map(|(_, last)| last.order), "output": output.folder() }),
-        );
-        let say = |text: String| self.progress.conclude(&text);
-        if stopped {
-            say(format!("stopped at step {steps} of {}; everything up to there is written", self.scene.steps));
-        }
-        say(summary::speed(steps, self.count, stepping, took));
-        // Birds are driven: what their energy does tells nobody anything.
-        if self.conserved.energy || output.company().is_none() {
-            say(summary::energy(output.rows(), self.conserved.energy));
-        }
-        summary::momentum(output.rows(), self.conserved).into_iter().for_each(&say);
-        output.company().map(|(first, last)| summary::company(first, last)).into_iter().for_each(&say);
-        self.torn.iter().cloned().for_each(&say);
-        let tables = if output.company().is_some() { "energy.csv, flock.csv" } else { "energy.csv" };
-        let picture = if output.pictures() { format!("{}.png, ", self.scene.name) } else { String::new() };
-        say(format!(
-            "results in {}: {picture}{tables}, energy.svg, scene.toml, {} states",
-            output.folder().display(),
-            output.rows().len()
-        ));
-        film.into_iter().for_each(&say);
-        if stopped { Err(Failure::Stopped) } else { Ok(()) }
     }
 }

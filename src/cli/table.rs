@@ -23,7 +23,11 @@ impl Table {
     /// Adds a row: the step, and what belongs to it.
     pub fn row(&mut self, step: u64, numbers: &[f64]) -> Result<(), Error> {
         let text: Vec<String> = numbers.iter().map(|x| format!("{x:?}")).collect();
-        let written = writeln!(self.file, "{step},{}", text.join(",")).and_then(|()| self.file.flush());
+        self.words(step, &text.join(","))
+    }
+    /// The same with what belongs to it in words.
+    pub fn words(&mut self, step: u64, text: &str) -> Result<(), Error> {
+        let written = writeln!(self.file, "{step},{text}").and_then(|()| self.file.flush());
         written.map_err(|e| Error::Output { file: self.path.clone(), message: e.to_string() })
     }
 }

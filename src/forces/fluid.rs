@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::{Force, Law, Problem};
 use crate::error::Error;
-use crate::fluids::{self, Continuity, Continuum, Friction, Medium, Smoothing, Tension, WallMass, Walls};
+use crate::fluids::{self, Continuity, Continuum, Friction, Limits, Medium, Smoothing, Tension, WallMass, Walls};
 use crate::kernel::Plan;
 use crate::neighbors::Grid;
 use crate::settings::{Key, Kind, Settings, Value};
@@ -125,6 +125,11 @@ impl Force for Fluid {
             plan.add(fluids::rest(&medium, problem)?);
         }
         Ok(())
+    }
+    fn paces(&self, plan: &mut Plan, problem: &Problem) -> Result<Option<f64>, Error> {
+        let medium = self.medium(problem)?;
+        let limits = Limits { sound: Some(medium.sound), viscosity: self.0.number("viscosity") };
+        fluids::limits(&medium, limits, plan, problem)
     }
     fn evaluate(&self, plan: &mut Plan, _: usize, problem: &Problem) -> Result<(), Error> {
         let medium = self.medium(problem)?;

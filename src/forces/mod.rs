@@ -88,6 +88,19 @@ pub trait Force: Send + Sync {
     fn conclude(&self, _plan: &mut Plan, _problem: &Problem) -> Result<(), Error> {
         Ok(())
     }
+    /// Adds kernels that say how many steps each particle would have in a longest one, were it alone: they fill
+    /// [`URGES`](crate::kernel::URGES), from accelerations, positions and velocities at the end of a step. It gives the
+    /// same of what is alike for everybody, as viscosity is; nothing where it does not know.
+    ///
+    /// # Errors
+    /// When a limit makes no sense.
+    fn paces(&self, _plan: &mut Plan, _problem: &Problem) -> Result<Option<f64>, Error> {
+        Ok(None)
+    }
+    /// Why it must have steps that are all alike, if it must.
+    fn keeps_to_even_steps(&self) -> Option<&'static str> {
+        None
+    }
     /// Whether links change as it acts.
     fn breaks(&self) -> bool {
         false

@@ -42,6 +42,9 @@ impl Rod {
 }
 
 impl Force for Rod {
+    fn keeps_to_even_steps(&self) -> Option<&'static str> {
+        Some("rods are kept by velocities that were made for the step before")
+    }
     fn laws(&self) -> Vec<Law> {
         Vec::new()
     }

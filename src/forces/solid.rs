@@ -7,7 +7,7 @@ use glam::DVec3;
 
 use super::{EACH, Force, Kind as Who, Law, Problem, SPECIES, species};
 use crate::error::Error;
-use crate::kernel::{Host, Kernel, POSITION, Plan, Scalar, Shader, Source, VELOCITY, World};
+use crate::kernel::{Host, Kernel, POSITION, Plan, Scalar, Shader, Source, VELOCITY, World, time};
 use crate::motion::{Motion, Pose};
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::solids::{self, Solid as Shape, Standing};
@@ -124,7 +124,7 @@ impl Force for Solid {
     }
 }
 
-fn files(wall: &Wall, holding: Source) -> Vec<Source> {
+fn files(wall: &Wall, holding: Source, clock: Source) -> Vec<Source> {
     let mut files = vec![
         crate::shader!("world.wgsl"),
         crate::shader!("nearest_image.wgsl"),
@@ -135,7 +135,7 @@ fn files(wall: &Wall, holding: Source) -> Vec<Source> {
         crate::shader!("forces/solid.wgsl"),
     ];
     match wall.motion {
-        Some(_) => files.extend([crate::shader!("motion/pose.wgsl"), crate::shader!("solids/moving.wgsl")]),
+        Some(_) => files.extend([clock, crate::shader!("motion/pose.wgsl"), crate::shader!("solids/moving.wgsl")]),
         None => files.push(crate::shader!("solids/still.wgsl")),
     }
     files
@@ -143,7 +143,7 @@ fn files(wall: &Wall, holding: Source) -> Vec<Source> {
 
 fn kernel(wall: Wall, problem: &Problem, factor: f64) -> Result<Kernel, Error> {
     let (holding, mut tables) = problem.holding();
-    let shader = Shader::join(&files(&wall, holding))?;
+    let shader = Shader::join(&files(&wall, holding, problem.clock()))?;
     let (radius, size, axis) = match wall.shape {
         Shape::Sphere(radius) => (radius, DVec3::ZERO, DVec3::ZERO),
         Shape::Box(size) => (0.0, size, DVec3::ZERO),
@@ -169,6 +169,8 @@ fn kernel(wall: Wall, problem: &Problem, factor: f64) -> Result<Kernel, Error> {
     let mut sizes = Vec::new();
     if wall.motion.is_some() {
         constants.push(("REACHED", problem.reached));
+        constants.extend(problem.clock_constants());
+        sizes.extend(problem.clock_sizes());
         let table = crate::motion::tables(&problem.motions, problem.dt);
         sizes.extend([("motions".into(), table.sizes[0]), ("keyframes".into(), table.sizes[1])]);
         tables.extend([("motions".into(), table.motions), ("keyframes".into(), table.keys)]);
@@ -178,7 +180,7 @@ fn kernel(wall: Wall, problem: &Problem, factor: f64) -> Result<Kernel, Error> {
         let world = host.world();
         let bodies = crate::visit::bodies(host)?;
         let (mut position, mut velocity) = (host.write(POSITION)?, host.write(VELOCITY)?);
-        let frame = wall.frame((f64::from(world.step) + who.reached) * world.dt);
+        let frame = wall.frame(if wall.motion.is_some() { time(host, &who, who.reached)? } else { 0.0 });
         for body in bodies.iter().filter(|body| wall.who.has(body) && !who.is_held(body.index)) {
             let (way, change) = wall.meet(&frame, body.position, body.velocity, factor * world.dt, &world);
             position[body.index] += way.extend(0.0);

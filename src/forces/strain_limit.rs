@@ -91,6 +91,9 @@ fn apply(problem: &Problem, factor: f64) -> Result<Kernel, Error> {
 }
 
 impl Force for StrainLimit {
+    fn keeps_to_even_steps(&self) -> Option<&'static str> {
+        Some("strain_limit corrects velocities by what a step of a known length makes of them")
+    }
     fn laws(&self) -> Vec<Law> {
         Vec::new()
     }

@@ -49,6 +49,9 @@ fn heading(v: DVec3) -> DVec2 {
 }
 
 impl Force for Vicsek {
+    fn keeps_to_even_steps(&self) -> Option<&'static str> {
+        Some("vicsek sets headings once in a step, and its noise is told by steps")
+    }
     fn company(&self) -> Option<(f64, Option<u32>)> {
         Some((self.0.number("range"), None))
     }

@@ -29,6 +29,9 @@ impl Wander {
 }
 
 impl Force for Wander {
+    fn keeps_to_even_steps(&self) -> Option<&'static str> {
+        Some("a random walk has as many kicks as steps, of a strength that goes with their length")
+    }
     fn laws(&self) -> Vec<Law> {
         let strength = self.0.number("strength");
         let [low, high] = words(self.0.whole("seed"));

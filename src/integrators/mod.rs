@@ -1,11 +1,15 @@
 //! Integrators: how forces become motion. Each is written in verbs and reads like its line in the textbook.
 
+mod paced;
 mod step;
 mod verbs;
 
+pub use paced::Paced;
 pub use step::{Explicit, Form, Implicit, Step, implicit};
 pub use verbs::solve::STATE as SOLVE_STATE;
 pub use verbs::solve::report::{NAME as SOLVE_REPORT, WORDS as SOLVE_REPORT_WORDS};
+
+use crate::kernel::Pace;
 
 /// How particles are advanced by one step.
 pub trait Integrator: Send + Sync {
@@ -18,6 +22,10 @@ pub trait Integrator: Send + Sync {
     /// Whether laws that offer their Jacobian are solved for.
     fn is_implicit(&self) -> bool {
         false
+    }
+    /// How long its steps are, where they are not all alike.
+    fn pace(&self) -> Option<Pace> {
+        None
     }
     /// What must be done once, before the first step.
     fn start(&self, _step: &mut Step) {}

@@ -1,5 +1,6 @@
 //! A step as it is being written: each verb adds kernels to a plan.
 
+mod paces;
 mod search;
 mod solve;
 
@@ -9,7 +10,7 @@ use std::sync::Arc;
 
 use glam::DVec4;
 
-use super::verbs::{at, clear, drift, held, keep, kick, kick_drift, runge_kutta, tick, watch};
+use super::verbs::{at, clear, drift, held, keep, kick, kick_drift, pace, runge_kutta, tick, watch};
 use crate::boundary;
 use crate::error::Error;
 use crate::forces::{Force, Problem};
@@ -22,6 +23,8 @@ pub struct Step<'a> {
     problem: Problem,
     plan: Plan,
     evaluated: bool,
+    /// Whether positions have changed since neighbours were found.
+    moved: bool,
     /// How much of the step positions have been advanced by.
     drifted: f64,
     /// A kick that a drift may follow: the two are one dispatch then.
@@ -40,6 +43,7 @@ impl<'a> Step<'a> {
             problem,
             plan: Plan::default(),
             evaluated: false,
+            moved: false,
             drifted: 0.0,
             kicked: None,
             apart: false,
@@ -73,6 +77,7 @@ impl<'a> Step<'a> {
     fn laws(&mut self, chosen: impl Fn(usize) -> bool) -> Vec<Kernel> {
         self.flush();
         self.evaluated = true;
+        self.moved = false;
         self.neighbors(&chosen);
         let mut laws = Plan::default();
         let name = |force: &dyn Force| force.laws().first().map(|law| law.name.clone());
@@ -122,11 +127,16 @@ impl<'a> Step<'a> {
     }
     /// Whoever has left the box by a closed side comes in again.
     pub fn enclose(&mut self) {
+        self.moved = true;
         self.add_all(boundary::kernels(&self.problem));
     }
     /// Forces are evaluated at t + c dt from here on, until the end of the step.
     pub fn at(&mut self, factor: f64) {
-        self.add(at::kernel(factor));
+        let kernel = match self.problem.pace {
+            Some(_) => pace::at(factor, &self.problem),
+            None => at::kernel(factor),
+        };
+        self.add(kernel);
     }
     /// Keeps where the step starts, x₀ and v₀.
     pub fn save(&mut self) {
@@ -134,6 +144,7 @@ impl<'a> Step<'a> {
     }
     /// Adds `weight` times the slopes (v, a) to their sum, and goes on to x₀ + c v dt, v₀ + c a dt.
     pub fn stage(&mut self, weight: f64, factor: f64) {
+        self.moved = true;
         self.add(runge_kutta::stage(self.problem.count, weight, factor));
     }
     /// Adds the last slopes with `weight`, and goes from x₀, v₀ the whole step with the weighted sum, and back into the
@@ -160,6 +171,7 @@ impl<'a> Step<'a> {
         if self.looks_back() {
             self.evaluate();
         }
+        self.urge();
         self.add(watch::kernel(self.problem.count));
         self.finished()
     }
@@ -174,7 +186,8 @@ impl<'a> Step<'a> {
     /// The first thing that went wrong while the step was written.
     pub fn done(mut self) -> Result<Plan, Error> {
         self.each_force(|force, plan, problem| force.conclude(plan, problem));
-        self.add(tick::kernel());
+        self.urge();
+        self.add(if self.problem.pace.is_some() { pace::tick(&self.problem) } else { tick::kernel() });
         self.add(watch::kernel(self.problem.count));
         self.finished()
     }

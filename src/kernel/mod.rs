@@ -5,6 +5,7 @@ mod bounds;
 mod field;
 mod host;
 mod message;
+mod pace;
 mod pack;
 mod plan;
 mod problem;
@@ -19,6 +20,7 @@ pub use field::{
     ACCELERATION, ALARM, ALARM_WORDS, Array, Element, Field, HOME, POSITION, QUIET, SPECIES, TARGET, VELOCITY,
 };
 pub use host::{Host, Reading, Writing};
+pub use pace::{PACE, PACE_WORDS, Pace, Reason, STOP, TICKS, URGENT, URGES, split, ticks, time};
 pub use pack::{Member, Packed, Scalar};
 pub use plan::{Kernel, Name, Pass, Plan, Table, Threads, Twin};
 pub use problem::Problem;

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{Bounds, Machine, Shader, Side, Solver, Source, Table};
+use super::{Bounds, Machine, Pace, Shader, Side, Solver, Source, Table};
 use crate::links::{Links, Network};
 use crate::motion::{self, Held, Motion};
 
@@ -38,6 +38,8 @@ pub struct Problem {
     pub reached: f64,
     /// How well implicit integrators solve.
     pub solver: Solver,
+    /// How long steps are, where they are not all alike.
+    pub pace: Option<Pace>,
 }
 
 impl Problem {
@@ -59,6 +61,7 @@ impl Problem {
             dt: 1.0,
             reached: 1.0,
             solver: Solver::default(),
+            pace: None,
         }
     }
     /// The same with particles at these places, in this box.

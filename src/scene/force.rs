@@ -2,14 +2,15 @@
 
 use std::path::Path;
 
-use crate::forces::{self, Custom, FORCES, Force, Over};
+use crate::forces::{self, Custom, FORCES, Force, Over, Problem};
+use crate::kernel::{Machine, Pace, Plan};
 use crate::motion::Motion;
 use crate::settings::{Kind, Settings, Value};
 use crate::tree::Opening;
 
 use super::files::Files;
 use super::held;
-use super::report::{Fault, Report};
+use super::report::{Fault, Place, Report};
 use super::resolved::{self, Writer};
 use super::tree::{Data, Entry};
 use super::value;
@@ -164,5 +165,21 @@ impl Chosen {
                 out.line("params", &format!("{{ {} }}", params.join(", ")));
             }
         }
+    }
+}
+
+/// Refuses adaptive steps that no force limits, or that one does not bear.
+pub(super) fn paced(forces: &[Box<dyn Force>], (pace, place): (Pace, &Place), report: &mut Report) {
+    if let Some(why) = forces.iter().find_map(|force| force.keeps_to_even_steps()) {
+        report.push(Fault::at(place, "steps cannot be adaptive").label(format!("{why}: leave this out")));
+    }
+    let machine = Machine { software: true, subgroup: 0, invocations: 1 };
+    let problem = Problem::new(1, machine).paced(Some(pace));
+    // What is wrong with a force by itself is told where it is built.
+    let offers =
+        |force: &&Box<dyn Force>| force.paces(&mut Plan::default(), &problem).map_or(true, |limit| limit.is_some());
+    if !forces.iter().any(|force| offers(&force)) {
+        let fault = Fault::at(place, "no force says how long a step may be, so that its length cannot be adaptive");
+        report.push(fault.label("leave this out, or add a fluid"));
     }
 }

@@ -39,7 +39,7 @@ use std::ops::Range;
 
 use crate::forces::Force;
 use crate::integrators;
-use crate::kernel::{Bounds, Solver};
+use crate::kernel::{Bounds, Pace, Solver};
 use crate::particles::Particles;
 use crate::render;
 use crate::settings::Settings;
@@ -67,8 +67,12 @@ pub struct Scene {
     pub about: String,
     /// The length of a step \[time\]; positive.
     pub dt: f64,
-    /// How many steps; at least one.
+    /// How many steps; at least one. Where they are adaptive, of the longest: others come in between.
     pub steps: u64,
+    /// When it ends \[time\].
+    pub until: f64,
+    /// How long steps are, where they are adaptive.
+    pub pace: Option<Pace>,
     /// What makes a step.
     pub integrator: &'static integrators::Entry,
     /// How well implicit integrators solve their equations.
@@ -201,6 +205,9 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
         }
     }
 
+    if let Some((pace, place)) = &simulation.pace {
+        force::paced(&forces, (*pace, place), report);
+    }
     particles.motions = motions;
     let output = output::read(one("output"), simulation.steps, report);
     output.write(&mut out);
@@ -216,6 +223,8 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
         about: String::new(),
         dt: simulation.dt,
         steps: simulation.steps,
+        until: simulation.until,
+        pace: simulation.pace.map(|(pace, _)| pace),
         integrator: simulation.integrator,
         solver,
         bounds,

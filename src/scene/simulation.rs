@@ -1,7 +1,8 @@
 //! `[simulation]`: the step, how many of them, and by which integrator.
 
 use crate::integrators::{self, INTEGRATORS};
-use crate::settings::{Key, Kind, Settings};
+use crate::kernel::Pace;
+use crate::settings::{Key, Kind, Settings, Value};
 
 use super::report::{Fault, Place, Report};
 use super::resolved::Writer;
@@ -11,20 +12,47 @@ use super::walk::{self, Table};
 /// The device counts steps in 32 bits.
 const MOST_STEPS: f64 = 4_294_967_295.0;
 
-pub(super) const KEYS: &[Key] = &[Key::required("dt", Kind::Positive, "the length of a step [time]")];
+pub(super) const KEYS: &[Key] = &[
+    Key::required("dt", Kind::Positive, "the length of a step, of the longest where they are adaptive [time]"),
+    Key::new(
+        "adaptive",
+        Kind::Flag,
+        Value::Flag(false),
+        "whether steps are as short as forces ask for; steps and every then count longest ones",
+    ),
+    Key::new(
+        "dt_min",
+        Kind::NotNegative,
+        Value::Number(0.0),
+        "the shortest adaptive step, below which a run ends; 0 for a thousandth of dt [time]",
+    ),
+    Key::new(
+        "dt_before",
+        Kind::NotNegative,
+        Value::Number(0.0),
+        "the adaptive step before the first, after which steps grow by a fifth; 0 for none [time]",
+    ),
+    Key::new("cfl", Kind::Fraction, Value::Number(0.25), "the Courant number of adaptive steps, a part of every limit"),
+];
+/// What only adaptive steps have.
+const ADAPTIVE: [&str; 3] = ["dt_min", "dt_before", "cfl"];
 pub(super) const OWN: &[&str] = &["steps", "until", "integrator"];
 
 pub(super) struct Simulation {
     pub(super) dt: f64,
     pub(super) steps: u64,
     pub(super) integrator: &'static integrators::Entry,
+    /// How long steps are, where they are adaptive, and where the scene says so.
+    pub(super) pace: Option<(Pace, Place)>,
+    /// When it ends.
+    pub(super) until: f64,
     /// What the user may want to know.
     pub(super) remark: Option<String>,
 }
 
 pub(super) fn read(table: Option<&Table<'_>>, report: &mut Report) -> Simulation {
     let integrator = INTEGRATORS.iter().find(|i| i.name == "leapfrog").unwrap_or(&INTEGRATORS[0]);
-    let mut simulation = Simulation { dt: 1.0, steps: 1, integrator, remark: None };
+    let mut simulation = Simulation { dt: 1.0, steps: 1, integrator, pace: None, until: 1.0, remark: None };
     let Some(table) = table else {
         let fault = Fault::missing(&Place::end(), "the section [simulation] is missing");
         report.push(fault.note("help: add\n\n         [simulation]\n         dt = 0.001\n         steps = 1000"));
@@ -44,12 +72,14 @@ pub(super) fn read(table: Option<&Table<'_>>, report: &mut Report) -> Simulation
             report.push(Fault::at(&entry.node.place, "`steps` is too large").label(format!("at most {MOST_STEPS}")));
         }
     }
+    simulation.until = simulation.steps as f64 * simulation.dt;
     if let Some(entry) = length.filter(|e| e.key == "until") {
         let until = value::number(&entry.node, "until", Kind::Positive, &value::wanted(Kind::Positive), report);
         if let (Some(until), true) = (until, has_dt) {
             match steps(until, simulation.dt) {
                 Some(steps) => {
                     simulation.steps = steps;
+                    simulation.until = until;
                     simulation.remark = remark(until, simulation.dt, steps);
                 }
                 None => report.push(Fault::at(&entry.node.place, "`until` is too far").label(format!(
@@ -66,7 +96,45 @@ pub(super) fn read(table: Option<&Table<'_>>, report: &mut Report) -> Simulation
             simulation.integrator = INTEGRATORS.iter().find(|i| i.name == name).unwrap_or(integrator);
         }
     }
+    simulation.pace = pace(table, &settings, &simulation, report);
+    if simulation.pace.is_some() {
+        let lost = ["symplectic_euler", "leapfrog", "forest_ruth", "pefrl"].contains(&simulation.integrator.name);
+        simulation.remark = lost.then(|| {
+            format!(
+                "{} is not symplectic in adaptive steps: energy, which it keeps in bounds by a fixed dt, may drift (Skeel & Gear 1992)",
+                simulation.integrator.name
+            )
+        });
+    }
     simulation
+}
+
+/// How long steps are, if they are adaptive.
+fn pace(table: &Table<'_>, settings: &Settings, of: &Simulation, report: &mut Report) -> Option<(Pace, Place)> {
+    let entry = table.get("adaptive").filter(|_| settings.flag("adaptive"));
+    let Some(entry) = entry else {
+        for entry in ADAPTIVE.iter().filter_map(|key| table.get(key)) {
+            let fault =
+                Fault::at(&entry.place, format!("`{}` is for adaptive steps, and these are all alike", entry.key));
+            report.push(fault.label("remove it, or say adaptive = true"));
+        }
+        return None;
+    };
+    let some = |key| Some(settings.number(key)).filter(|x| *x > 0.0);
+    let pace = Pace {
+        least: some("dt_min").unwrap_or(of.dt / 1000.0),
+        courant: settings.number("cfl"),
+        before: some("dt_before"),
+    };
+    if let Err(error) = pace.check(of.dt) {
+        report.push(Fault::at(&entry.place, "steps cannot be adaptive like that").label(error.to_string()));
+    }
+    if (of.integrator.build)().is_implicit() {
+        let fault =
+            format!("steps are adaptive by the limits of explicit methods, and {} is implicit", of.integrator.name);
+        report.push(Fault::at(&entry.place, fault).label("choose integrator = \"leapfrog\", or leave this out"));
+    }
+    Some((pace, entry.place.clone()))
 }
 
 /// The steps that reach `until`: the quotient, with its rounding forgiven, and the next whole number when it is none.
@@ -90,7 +158,16 @@ impl Simulation {
     pub(super) fn write(&self, out: &mut Writer) {
         out.header("[simulation]");
         out.number("dt", self.dt);
-        out.line("steps", &self.steps.to_string());
+        match &self.pace {
+            Some((pace, _)) => {
+                out.number("until", self.until);
+                out.line("adaptive", "true");
+                out.number("dt_min", pace.least);
+                pace.before.into_iter().for_each(|before| out.number("dt_before", before));
+                out.number("cfl", pace.courant);
+            }
+            None => out.line("steps", &self.steps.to_string()),
+        }
         out.text("integrator", self.integrator.name);
     }
 }

@@ -56,10 +56,25 @@ impl Setup {
         start.begin();
         self.integrator.start(&mut start);
         let mut step = Step::new(&self.forces, problem.clone());
+        step.pace();
         step.lead();
         self.integrator.step(&mut step);
         let measure = Step::measurement(&self.forces, problem)?;
         Ok(Plans { start: start.begun()?, step: step.done()?, measure })
+    }
+    /// Refuses what does not go with steps of different lengths.
+    fn bear(&self) -> Result<(), Error> {
+        if self.integrator.is_implicit() {
+            return Err(Error::Scene(
+                "steps are adaptive by the limits of explicit methods, and the integrator is implicit: it has no use for them; \
+                 choose leapfrog, or a fixed dt"
+                    .to_owned(),
+            ));
+        }
+        match self.forces.iter().find_map(|force| force.keeps_to_even_steps()) {
+            Some(why) => Err(Error::Scene(format!("steps cannot be adaptive: {why}; choose a fixed dt"))),
+            None => Ok(()),
+        }
     }
     /// Refuses a tree whose nodes single precision cannot hold.
     fn weigh(&self, problem: &Problem) -> Result<(), Error> {
@@ -86,7 +101,14 @@ impl Setup {
             .tied(&self.particles.links, &self.particles.held)
             .moved(&self.particles.motions, self.dt)
             .breaking(self.breaks())
-            .solved(self.solver))
+            .solved(self.solver)
+            .paced(self.integrator.pace()))
+    }
+    /// Whether forces do something once, before the first step.
+    pub(super) fn begins(&self, machine: Machine) -> Result<bool, Error> {
+        let (mut plan, problem) = (Plan::default(), self.problem(machine)?);
+        self.forces.iter().try_for_each(|force| force.begin(&mut plan, &problem))?;
+        Ok(!plan.order.is_empty())
     }
     /// How its fluid starts, if there is one: how dense it is before the first step, by a look at everybody, which takes as
     /// long as some steps on the host.
@@ -159,6 +181,10 @@ impl Setup {
         self.fluids()?;
         links.check(mass)?;
         self.solver.check()?;
+        if let Some(pace) = self.integrator.pace() {
+            pace.check(self.dt)?;
+            self.bear()?;
+        }
         boundary::check(&self.bounds)?;
         motion::check(held, motions, count, self.bounds.dimensions, self.dt)?;
         if !links.rods.is_empty() && !self.forces.iter().any(|force| force.keeps_rods()) {

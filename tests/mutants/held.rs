@@ -25,7 +25,7 @@ fn keys(times: &[f64]) -> Vec<Keyframe> {
 
 /// Over, not begun, in the middle of many keys, over and over; gently and not; each behind another, so that its own keys
 /// are not the first.
-fn motions() -> Vec<Motion> {
+pub fn motions() -> Vec<Motion> {
     let motion = |name: &str, times: &[f64], smooth| Motion {
         name: name.to_owned(),
         about: DVec3::new(0.3, -0.2, 0.6),
@@ -60,7 +60,7 @@ fn motions() -> Vec<Motion> {
     ]
 }
 
-fn problem(held: &[Held], bounds: Bounds) -> Problem {
+pub fn problem(held: &[Held], bounds: Bounds) -> Problem {
     let count = u32::try_from(FEW).expect("few");
     Problem::new(count, MACHINE).at(&[], bounds).tied(&motes::links::Links::default(), held).moved(&motions(), DT)
 }

@@ -13,6 +13,8 @@ mod implicit;
 mod laws;
 mod memory;
 mod neighbors;
+mod paced;
+mod paces;
 mod primitives;
 mod rods;
 mod stages;
@@ -124,6 +126,7 @@ fn every_mutant_is_noticed() {
         equivalent_neighbors::EQUIVALENT,
         trees::EQUIVALENT,
         walks::EQUIVALENT,
+        paces::EQUIVALENT,
         fluids::EQUIVALENT,
     ]
     .concat();

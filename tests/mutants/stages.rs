@@ -190,6 +190,8 @@ pub fn all(shared: &Shared) -> Vec<Stage> {
     laws::corners(&device, &mut stages);
     laws::planes(&device, &mut stages);
     crate::held::all(&device, &mut stages);
+    crate::paces::all(&device, &mut stages);
+    crate::paced::all(shared, &device, &mut stages);
     crate::rods::rods(&device, &mut stages);
     crate::strained::all(&device, &mut stages);
     crate::ewald::all(shared, &device, &mut stages);

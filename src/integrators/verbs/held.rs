@@ -5,7 +5,9 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use crate::error::Error;
-use crate::kernel::{ACCELERATION, HOME, Host, Kernel, POSITION, Pass, Problem, Shader, Source, TARGET, VELOCITY};
+use crate::kernel::{
+    ACCELERATION, HOME, Host, Kernel, POSITION, Pass, Problem, Shader, Source, TARGET, VELOCITY, time,
+};
 use crate::motion::{self, Held, Hold};
 
 /// Before a step: v ← (where it shall be at the end − x) / dt, one kernel for each kind of hold that there is.
@@ -13,11 +15,16 @@ pub fn lead(problem: &Problem) -> Result<Vec<Kernel>, Error> {
     let held = &problem.held;
     let fixed = held.partition_point(|one| one.by < Hold::Target);
     let aimed = held.partition_point(|one| one.by < Hold::Motion(0));
-    let path =
-        [crate::shader!("motion/turned.wgsl"), crate::shader!("motion/pose.wgsl"), crate::shader!("motion/path.wgsl")];
+    let clock = problem.clock();
+    let path = [
+        clock.clone(),
+        crate::shader!("motion/turned.wgsl"),
+        crate::shader!("motion/pose.wgsl"),
+        crate::shader!("motion/path.wgsl"),
+    ];
     let kinds = [
         (0, fixed, "fixed", vec![crate::shader!("motion/fixed.wgsl")]),
-        (fixed, aimed, "target", vec![crate::shader!("motion/target.wgsl")]),
+        (fixed, aimed, "target", vec![clock, crate::shader!("motion/target.wgsl")]),
         (aimed, held.len(), "motion", path.to_vec()),
     ];
     let some = kinds.into_iter().filter(|(first, end, ..)| first < end);
@@ -29,29 +36,36 @@ fn kernel(problem: &Problem, first: usize, end: usize, kind: &str, files: Vec<So
         vec![crate::shader!("world.wgsl"), crate::shader!("nearest_image.wgsl"), crate::shader!("motion/lead.wgsl")];
     all.extend(files);
     let shader = Shader::join(&all)?;
-    let constants = vec![("FIRST", first as f64), ("END", end as f64)];
-    let (held, motions) = (problem.held.clone(), problem.motions.clone());
+    let mut constants = vec![("FIRST", first as f64), ("END", end as f64)];
+    if shader.reflection().overrides.contains_key("UNIT") {
+        constants.extend(problem.clock_constants());
+    }
+    let (held, motions, who) = (problem.held.clone(), problem.motions.clone(), problem.clone());
     let twin = move |host: &Host| {
         let (world, home) = (host.world(), host.read(HOME)?);
         let target = if host.contains(TARGET.name) { host.read(TARGET)?.to_vec() } else { Vec::new() };
         let (position, mut velocity) = (host.read(POSITION)?, host.write(VELOCITY)?);
-        let step = f64::from(world.step);
+        if world.dt <= 0.0 {
+            return Ok(());
+        }
+        let needed = held.get(first).is_some_and(|one| one.by != Hold::Fixed);
+        let [begun, ends] = if needed { [time(host, &who, 0.0)?, time(host, &who, 1.0)?] } else { [0.0; 2] };
         for (Held { id, by }, home) in held.iter().zip(home.iter()).take(end).skip(first) {
             let id = *id as usize;
             let (home, x) = (home.truncate(), position[id].truncate());
-            let (way, time) = match by {
+            let (way, length) = match by {
                 Hold::Fixed => (home - x, world.dt),
                 Hold::Target => {
                     let to = target.get(id).copied().unwrap_or_default();
-                    (to.truncate() - x, (to.w - step * world.dt).max(world.dt))
+                    (to.truncate() - x, (to.w - begun).max(world.dt))
                 }
                 Hold::Motion(number) => {
                     let motion = motions.get(*number as usize);
-                    let there = motion.map_or(home, |motion| motion.place(home, (step + 1.0) * world.dt));
+                    let there = motion.map_or(home, |motion| motion.place(home, ends));
                     (there - x, world.dt)
                 }
             };
-            let v: DVec3 = world.bounds.shortest(way) / time;
+            let v: DVec3 = world.bounds.shortest(way) / length;
             velocity[id] = v.extend(velocity[id].w);
         }
         Ok(())
@@ -68,7 +82,10 @@ fn kernel(problem: &Problem, first: usize, end: usize, kind: &str, files: Vec<So
             (HOME.name.into(), count),
             ("motions".into(), tables.sizes[0]),
             ("keyframes".into(), tables.sizes[1]),
-        ],
+        ]
+        .into_iter()
+        .chain(problem.clock_sizes())
+        .collect(),
         scratch: Vec::new(),
         tables: vec![
             ("holds".into(), Arc::new(motion::list(&problem.held))),

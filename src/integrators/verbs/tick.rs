@@ -11,6 +11,15 @@ const WINDOW: u32 = 16;
 /// What it is called in a plan, and in its shader.
 pub const NAME: &str = "tick";
 
+/// Writes down how speeds have grown, if it is time to.
+pub fn grown(alarm: &mut [u32], step: u32) {
+    if let ([.., now, before, doubled], true) = (alarm, step.is_multiple_of(WINDOW)) {
+        let faster = f32::from_bits(*now) > 2.0 * f32::from_bits(*before);
+        *doubled = if faster { *doubled + 1 } else { 0 };
+        (*before, *now) = (*now, 0);
+    }
+}
+
 /// The kernel.
 pub fn kernel() -> Result<Kernel, Error> {
     let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("integrators/tick.wgsl")])?;
@@ -18,12 +27,7 @@ pub fn kernel() -> Result<Kernel, Error> {
         let clock = host.world();
         let step = clock.step + 1;
         host.set_world(World { step, time: f64::from(step) * clock.dt, ..clock });
-        let mut alarm = host.write(ALARM)?;
-        if let ([.., now, before, doubled], true) = (&mut alarm[..], step.is_multiple_of(WINDOW)) {
-            let faster = f32::from_bits(*now) > 2.0 * f32::from_bits(*before);
-            *doubled = if faster { *doubled + 1 } else { 0 };
-            (*before, *now) = (*now, 0);
-        }
+        grown(&mut host.write(ALARM)?, step);
         Ok(())
     };
     let kernel = Kernel::new(NAME, shader, Vec::new(), 1, Arc::new(twin));

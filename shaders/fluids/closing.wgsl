@@ -1,0 +1,15 @@
+// How fast neighbours come or go, at most:  |μ| = s |v·r| / (r² + 0.01 s²), with s the smoothing length (Monaghan 1992). It adds to
+// the speed of sound where steps are told from both.
+struct Sum { most: f32 }
+
+@group(3) @binding(2) var<storage, read_write> closing: array<f32>;
+
+fn acts_on(me: Particle) -> bool { return !is_held(me.index); }
+
+fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
+    let v = velocity[you.index].xyz - velocity[me.index].xyz;
+    let near = r.x * r.x + r.y * r.y + r.z * r.z + 0.01 * medium.smoothing * medium.smoothing;
+    (*sum).most = max((*sum).most, abs(v.x * r.x + v.y * r.y + v.z * r.z) * medium.smoothing / near);
+}
+
+fn deliver(k: u32, me: Particle, sum: Sum) { closing[me.index] = sum.most; }

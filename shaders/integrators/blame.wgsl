@@ -1,0 +1,21 @@
+// Who asked for a step as short as this: the lowest id of those who want as many as the one who wants most.
+@group(0) @binding(0) var<uniform> world: World;
+@group(1) @binding(0) var<storage, read_write> pace: array<atomic<u32>>; // 4 why, 5 of whom; 6 to 8 the alarm: step, why, of whom
+@group(1) @binding(1) var<storage, read> urges: array<vec4f>;
+@group(1) @binding(2) var<storage, read> urgent: array<vec4f>;
+
+const WORKGROUP: u32 = 64u;
+
+fn asks(i: u32, reason: u32) -> bool {
+    return reason == 1u && urges[i].x == urgent[0].x || reason == 2u && urges[i].y == urgent[0].y
+        || reason == 4u && urges[i].z == urgent[0].z;
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn blame(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let i = folded(group, groups) * WORKGROUP + lane;
+    if i < world.count {
+        if asks(i, atomicLoad(&pace[4])) { atomicMin(&pace[5], i); }
+        if atomicLoad(&pace[6]) == world.step && asks(i, atomicLoad(&pace[7])) { atomicMin(&pace[8], i); }
+    }
+}

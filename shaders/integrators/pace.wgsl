@@ -1,0 +1,75 @@
+// How long the step is:  dt = min over the limits, of which each says how many of it would make a longest step; no more than a
+// fifth above the last; and where it would pass the stop, shorter: two of one length reach it rather than a long and a tiny one.
+@group(0) @binding(0) var<storage, read_write> world: World;
+// 0 and 1 the time in longest steps and ticks; 2 the ticks of this step, 3 those that only limits shorten, 4 why, 5 of whom;
+// 6 to 9 the alarm: the step, why, of whom, how many; 10 and 11 the shortest and the longest; from 12 on steps by their reasons
+@group(1) @binding(0) var<storage, read_write> pace: array<u32>;
+@group(1) @binding(1) var<storage, read> urgent: array<vec4f>; // how many steps acceleration, signal and speed want
+@group(1) @binding(2) var<storage, read> pace_stop: array<u32>;
+
+override UNIT: f32 = 1.0;        // the longest step
+override LEAST: u32 = 1u;        // the ticks of the shortest
+override VISCOUS: f32 = 0.0;     // how many steps viscosity wants
+const TICKS: f32 = 16777216.0;
+const DIGITS: u32 = 11u;
+const NOBODY: u32 = 4294967295u;
+const GROWTH: u32 = 5u;
+const STOP: u32 = 6u;
+const REASONS: u32 = 12u;
+
+@compute @workgroup_size(1)
+fn pace_step() {
+    var wants = array<f32, 4>(urgent[0].x, urgent[0].y, VISCOUS, urgent[0].z);
+    var rate = 1.0;
+    var reason = 0u;
+    for (var k = 0u; k < 4u; k += 1u) {
+        if wants[k] > rate {
+            rate = wants[k];
+            reason = k + 1u;
+        }
+    }
+    // Twelve digits tell lengths apart: what a division rounds, no device and no twin sees.
+    var ticks = u32(TICKS / rate);
+    let spare = max(firstLeadingBit(ticks), DIGITS) - DIGITS;
+    ticks = (ticks >> spare) << spare;
+    if ticks < LEAST {
+        if pace[6] == NOBODY {
+            pace[6] = world.step;
+            pace[7] = reason;
+            pace[9] = bitcast<u32>(rate);
+        }
+        ticks = LEAST;
+    }
+    let most = pace[3] + pace[3] / 5u;
+    if ticks > most {
+        ticks = most;
+        reason = GROWTH;
+    }
+    let free = ticks;
+    // Below three longest steps the distance fits.
+    let whole = pace_stop[0] - pace[0];
+    if pace_stop[0] < pace[0] {
+        ticks = 0u;
+    } else if whole < 3u {
+        let there = (whole << 24u) + pace_stop[1];
+        let left = max(there, pace[1]) - pace[1];
+        if left < ticks { reason = STOP; }
+        if left <= ticks {
+            ticks = left;
+        } else if left < 2u * ticks {
+            ticks = (left + 1u) / 2u;
+            reason = STOP;
+        }
+    }
+    pace[2] = ticks;
+    pace[4] = reason;
+    pace[5] = NOBODY;
+    world.dt = (f32(ticks) / TICKS) * UNIT;
+    // Who rests leaves no trace of that.
+    if ticks > 0u {
+        pace[3] = free;
+        pace[10] = min(pace[10], ticks);
+        pace[11] = max(pace[11], ticks);
+        pace[REASONS + reason] += 1u;
+    }
+}

@@ -1,0 +1,111 @@
+//! `fluid.csv`: the ledger of a fluid.
+
+use std::path::Path;
+
+use motes::fluids::{DENSITY, Medium};
+use motes::kernel::{Backend, Machine, Reason};
+use motes::measure::Ledger;
+use motes::simulation::Clock;
+use motes::{Bounds, Error, Setup, Simulation, Snapshot};
+
+use super::table::Table;
+
+const HEADER: &str = "step,time,dt,dt_free,limit,limited_by,mass,momentum_x,momentum_y,momentum_z,kinetic,potential,internal,total,\
+                      largest_density_error,whose,mean_density_error,outside,broken";
+
+/// The book, of a run that has a fluid.
+pub struct Book {
+    medium: Medium,
+    bounds: Bounds,
+    held: Vec<bool>,
+    dt: f64,
+    table: Option<Table>,
+    first: Option<Ledger>,
+    last: Ledger,
+    worst: Ledger,
+    /// The largest of the mean density errors.
+    mean: f64,
+}
+
+impl Book {
+    /// The book of a setup; none where nothing flows.
+    pub fn of(setup: &Setup) -> Result<Option<Self>, Error> {
+        let problem = setup.problem(Machine { software: true, subgroup: 0, invocations: 1 })?;
+        for force in &setup.forces {
+            if let Some(medium) = force.fluid(&problem)? {
+                let held = (0..setup.particles.len()).map(|id| problem.is_held(id)).collect();
+                let (table, first, last, worst) = (None, None, Ledger::default(), Ledger::default());
+                let (bounds, dt, mean) = (setup.bounds, setup.dt, 0.0);
+                return Ok(Some(Self { medium, bounds, held, dt, table, first, last, worst, mean }));
+            }
+        }
+        Ok(None)
+    }
+    /// Begins the table.
+    pub fn open(&mut self, folder: &Path) -> Result<(), Error> {
+        self.table = Some(Table::new(folder.join("fluid.csv"), HEADER)?);
+        Ok(())
+    }
+    /// Enters a state that has just been read. Gives words where a count is no longer 0 that must stay so.
+    pub async fn enter<B: Backend>(
+        &mut self,
+        simulation: &mut Simulation<B>,
+        snapshot: &Snapshot,
+        clock: Option<&Clock>,
+    ) -> Result<Option<String>, Error> {
+        let density = simulation.read(DENSITY).await?;
+        let held = |id: usize| self.held.get(id).copied().unwrap_or(false);
+        let row = Ledger::of(snapshot, &density, &self.medium, &self.bounds, held);
+        let (dt, free, reason) =
+            clock.map_or((self.dt, self.dt, Reason::Longest), |clock| (clock.dt, clock.free, clock.reason));
+        let whose = clock.and_then(|clock| clock.particle).map_or_else(String::new, |id| id.to_string());
+        let p = row.momentum;
+        let words = [
+            format!("{:?},{dt:?},{free:?},{},{whose}", row.time, reason.name()),
+            format!("{:?},{:?},{:?},{:?}", row.mass, p.x, p.y, p.z),
+            format!("{:?},{:?},{:?},{:?}", row.kinetic, row.potential, row.internal, row.total()),
+            format!("{:?},{},{:?}", row.worst_density, row.worst_particle, row.mean_density),
+            format!("{},{}", row.outside, row.broken),
+        ];
+        if let Some(table) = &mut self.table {
+            table.words(row.step, &words.join(","))?;
+        }
+        let loud = (row.outside > self.worst.outside || row.broken > self.worst.broken).then(|| {
+            format!(
+                "{} particles of the fluid are out of the box and {} are broken at {:?}: both must stay 0",
+                row.outside, row.broken, row.time
+            )
+        });
+        if row.worst_density > self.worst.worst_density {
+            (self.worst.worst_density, self.worst.worst_particle) = (row.worst_density, row.worst_particle);
+            self.worst.time = row.time;
+        }
+        self.mean = self.mean.max(row.mean_density);
+        self.worst.outside = self.worst.outside.max(row.outside);
+        self.worst.broken = self.worst.broken.max(row.broken);
+        self.first.get_or_insert(row);
+        self.last = row;
+        Ok(loud)
+    }
+    /// A line for the end of a run.
+    pub fn summary(&self) -> Option<String> {
+        let (first, last, worst) = (self.first?, self.last, self.worst);
+        let lost = last.mass - first.mass;
+        let counts = if worst.outside + worst.broken == 0 {
+            "nobody out of the box or broken".to_owned()
+        } else {
+            format!("UP TO {} OUT OF THE BOX AND {} BROKEN", worst.outside, worst.broken)
+        };
+        Some(format!(
+            "fluid: mass {:.6e} ({lost:+.1e}), energy {:.4e} → {:.4e}, too dense by {:.2} % at most (particle {} at {:.4}), {:.3} % in \
+             the mean; {counts}",
+            last.mass,
+            first.total(),
+            last.total(),
+            100.0 * worst.worst_density,
+            worst.worst_particle,
+            worst.time,
+            100.0 * self.mean
+        ))
+    }
+}

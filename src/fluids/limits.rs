@@ -1,0 +1,125 @@
+//! How long a step of a fluid may be (Monaghan 1992; Morris, Fox & Zhu 1997; Ihmsen et al. 2014):
+//! dt = C min( √(s / |a|), s / (c + |μ|), s² / (8 ν), 0.4 d / |v| ), with s the smoothing length, which is half of the support, and
+//! d the spacing. Where the speed of sound is told, speeds themselves are no limit.
+
+use std::sync::Arc;
+
+use glam::{DVec4, Vec4};
+
+use super::Medium;
+use crate::error::Error;
+use crate::kernel::{ACCELERATION, Field, Host, Kernel, Pass, Plan, Problem, Scalar, Shader, URGES, VELOCITY};
+use crate::visit::{Sweep, blocks, gathered};
+
+/// How fast neighbours come or go, at most \[length / time\].
+const CLOSING: Field<f32> = Field::new("closing");
+
+/// What limits the steps of a fluid, beside accelerations.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Limits {
+    /// The speed of sound \[length / time\]; none where the fluid has none: then speeds are a limit.
+    pub sound: Option<f64>,
+    /// The kinematic viscosity, where it is explicit \[length² / time\].
+    pub viscosity: f64,
+}
+
+/// What the urges of everybody are multiplied by.
+struct Shares {
+    acceleration: f64,
+    signal: f64,
+    sound: f64,
+    speed: f64,
+}
+
+/// Adds kernels that fill [`URGES`], and gives what viscosity wants; nothing where steps are all alike.
+///
+/// # Errors
+/// When the range is none, or a shader does not compile.
+pub fn limits(medium: &Medium, limits: Limits, plan: &mut Plan, problem: &Problem) -> Result<Option<f64>, Error> {
+    let Some(pace) = problem.pace else { return Ok(None) };
+    let (length, longest) = (0.5 * medium.range(), problem.dt / pace.courant);
+    if limits.sound.is_some() {
+        plan.add(closing(medium, problem)?);
+    }
+    let shares = Shares {
+        acceleration: longest / length.sqrt(),
+        signal: limits.sound.map_or(0.0, |_| longest / length),
+        sound: limits.sound.unwrap_or(0.0),
+        speed: if limits.sound.is_some() { 0.0 } else { longest / (0.4 * medium.spacing) },
+    };
+    plan.add(urge(shares, problem)?);
+    Ok(Some(longest * 8.0 * limits.viscosity / (length * length)))
+}
+
+fn closing(medium: &Medium, problem: &Problem) -> Result<Kernel, Error> {
+    let (holding, tables) = problem.holding();
+    let files = vec![
+        holding,
+        crate::shader!("visit/near_still.wgsl"),
+        crate::shader!("visit/near_told.wgsl"),
+        medium.smoothing.source(),
+        crate::shader!("fluids/medium.wgsl"),
+        crate::shader!("fluids/closing.wgsl"),
+    ];
+    let (me, who) = (*medium, problem.clone());
+    let twin = move |host: &Host| {
+        let length = 0.5 * me.range();
+        let found = gathered(
+            host,
+            me.range(),
+            |body| !who.is_held(body.index),
+            |a, b, r, most: &mut f64| {
+                let near = r.length_squared() + 0.01 * length * length;
+                *most = most.max((b.velocity - a.velocity).dot(r).abs() * length / near);
+            },
+        )?;
+        let mut closing = host.write(CLOSING)?;
+        for (closing, found) in closing.iter_mut().zip(found) {
+            *closing = found.unwrap_or(*closing);
+        }
+        Ok(())
+    };
+    let sweep = Sweep {
+        name: "fluid closing".to_owned(),
+        grid: medium.grid(problem)?,
+        files,
+        blocks: vec![medium.block()],
+        twin: Arc::new(twin),
+    };
+    Ok(Kernel { tables, ..sweep.kernel(problem)? })
+}
+
+fn urge(shares: Shares, problem: &Problem) -> Result<Kernel, Error> {
+    let (holding, tables) = problem.holding();
+    let shader = Shader::join(&[holding, crate::shader!("world.wgsl"), crate::shader!("fluids/urge.wgsl")])?;
+    let params = vec![
+        ("acceleration", Scalar::Float(shares.acceleration)),
+        ("signal", Scalar::Float(shares.signal)),
+        ("sound", Scalar::Float(shares.sound)),
+        ("speed", Scalar::Float(shares.speed)),
+    ];
+    let uniforms = blocks("the limits of a fluid", &shader, &[("params", params)])?;
+    let pass = Pass { uniforms, ..Pass::new(shader, problem.count) };
+    let who = problem.clone();
+    let twin = move |host: &Host| {
+        let (velocity, acceleration) = (host.read(VELOCITY)?, host.read(ACCELERATION)?);
+        let (closing, mut urges) = (host.read(CLOSING)?, host.write::<Vec4>(URGES)?);
+        for (i, urge) in urges.iter_mut().enumerate().filter(|(i, _)| !who.is_held(*i)) {
+            *urge = DVec4::new(
+                shares.acceleration * acceleration[i].truncate().length().sqrt(),
+                shares.signal * (shares.sound + closing[i]),
+                shares.speed * velocity[i].truncate().length(),
+                0.0,
+            );
+        }
+        Ok(())
+    };
+    Ok(Kernel {
+        name: "fluid urge".to_owned(),
+        passes: vec![pass],
+        twin: Some(Arc::new(twin)),
+        sizes: Vec::new(),
+        scratch: Vec::new(),
+        tables,
+    })
+}

@@ -1,0 +1,34 @@
+//! Steps as long as forces allow. What is symplectic with steps all alike is not so any more: energy that such a method keeps
+//! in bounds may drift (Skeel & Gear 1992).
+
+use super::{Integrator, Step};
+use crate::kernel::Pace;
+
+/// Another integrator, in steps as long as forces allow.
+pub struct Paced {
+    /// What makes a step; an explicit method.
+    pub integrator: Box<dyn Integrator>,
+    /// How long.
+    pub pace: Pace,
+}
+
+impl Integrator for Paced {
+    fn order(&self) -> u32 {
+        self.integrator.order()
+    }
+    fn order_with_velocity(&self) -> u32 {
+        self.integrator.order_with_velocity()
+    }
+    fn is_implicit(&self) -> bool {
+        self.integrator.is_implicit()
+    }
+    fn pace(&self) -> Option<Pace> {
+        Some(self.pace)
+    }
+    fn start(&self, s: &mut Step) {
+        self.integrator.start(s);
+    }
+    fn step(&self, s: &mut Step) {
+        self.integrator.step(s);
+    }
+}

@@ -1,0 +1,51 @@
+//! Steps that are not all alike.
+
+use super::Step;
+use crate::error::Error;
+use crate::integrators::verbs::pace;
+use crate::kernel::Plan;
+
+impl Step<'_> {
+    /// How long the step is, by what forces said at the end of the one before; nothing where all are alike.
+    pub fn pace(&mut self) {
+        let Some(how) = self.problem.pace else { return };
+        let viscous = self.limits().map(|(_, viscous)| viscous);
+        self.add(viscous.and_then(|viscous| pace::pace(&how, viscous, &self.problem)));
+        self.add(pace::blame(&how, &self.problem));
+    }
+    /// What forces say of the length of the step to come.
+    pub(super) fn urge(&mut self) {
+        if self.problem.pace.is_none() {
+            return;
+        }
+        if self.moved {
+            self.neighbors(|_| true);
+        }
+        match self.limits() {
+            Ok((plan, _)) => plan.steps().for_each(|kernel| self.add(Ok(kernel.clone()))),
+            Err(error) => {
+                self.error.get_or_insert(error);
+            }
+        }
+        self.add(pace::measure(&self.problem));
+    }
+    /// The kernels that find limits, and how many steps viscosity wants in a longest one.
+    fn limits(&self) -> Result<(Plan, f64), Error> {
+        let mut plan = Plan::default();
+        let mut offered = Vec::new();
+        for force in self.forces {
+            offered.extend(force.paces(&mut plan, &self.problem)?);
+        }
+        match offered[..] {
+            [viscous] => Ok((plan, viscous)),
+            [] => Err(Error::Scene(
+                "no force says how long a step may be, so that its length cannot be adaptive: give a fixed dt, or add a fluid"
+                    .to_owned(),
+            )),
+            _ => Err(Error::Scene(format!(
+                "{} forces say how long a step may be, and one may: give a fixed dt, or leave one fluid",
+                offered.len()
+            ))),
+        }
+    }
+}

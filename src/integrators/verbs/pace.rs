@@ -1,0 +1,121 @@
+//! The clock of steps that are not all alike: how long the next one is, of whom, and what time it is.
+
+mod clock;
+
+pub use clock::{at, tick};
+
+use std::sync::Arc;
+
+use glam::DVec4;
+
+use crate::error::Error;
+use crate::kernel::{
+    Host, Kernel, PACE, PACE_WORDS, Pace, Pass, Problem, Reason, STOP, Shader, TICKS, Table, URGENT, URGES, World,
+    ticks,
+};
+use crate::primitives::{Items, Operation, reduce};
+
+/// Binary digits of the ticks of a step, less one.
+const DIGITS: u32 = 11;
+
+/// The greatest of what everybody wants.
+pub fn measure(problem: &Problem) -> Result<Kernel, Error> {
+    let (all, most) = (URGES.name.into(), URGENT.name.into());
+    let kernel = reduce(Operation::Max, Items::Vec4, &all, &most, problem.count, &problem.machine)?;
+    Ok(Kernel { name: "most urgent".to_owned(), ..kernel })
+}
+
+fn tables(pace: &Pace, dt: f64) -> Vec<Table> {
+    vec![(PACE.name.into(), Arc::new(pace.start(dt))), (STOP.name.into(), Arc::new(vec![u32::MAX, 0]))]
+}
+
+fn sizes() -> Vec<(crate::kernel::Name, u64)> {
+    vec![(PACE.name.into(), PACE_WORDS as u64), (STOP.name.into(), 2), (URGENT.name.into(), 1)]
+}
+
+/// How long the step is; `viscous` is how many of it viscosity wants in a longest one.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "as the device does it")]
+pub fn pace(pace: &Pace, viscous: f64, problem: &Problem) -> Result<Kernel, Error> {
+    let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("integrators/pace.wgsl")])?;
+    let (unit, least, viscous) = (problem.dt, ticks(pace.least, problem.dt).max(1), viscous as f32);
+    let twin = move |host: &Host| {
+        let (world, urgent, stop) = (host.world(), host.read(URGENT)?, host.read(STOP)?);
+        let mut words = host.write(PACE)?;
+        let (Some(urgent), [stop_whole, stop_rest]) = (urgent.first(), &stop[..]) else { return Ok(()) };
+        let wants = [urgent.x as f32, urgent.y as f32, viscous, urgent.z as f32];
+        let (mut rate, mut reason) = (1.0f32, Reason::Longest as u32);
+        for (want, number) in wants.into_iter().zip(1..) {
+            if want > rate {
+                (rate, reason) = (want, number);
+            }
+        }
+        let mut step = (TICKS as f32 / rate) as u32;
+        let spare = (31 - (step | 1).leading_zeros()).max(DIGITS) - DIGITS;
+        step = step >> spare << spare;
+        if step < least {
+            if words[6] == u32::MAX {
+                (words[6], words[7], words[9]) = (world.step, reason, rate.to_bits());
+            }
+            step = least;
+        }
+        let most = words[3] + words[3] / 5;
+        if step > most {
+            (step, reason) = (most, Reason::Growth as u32);
+        }
+        let free = step;
+        let ticks = |whole: u32, rest: u32| i64::from(whole) * i64::from(TICKS) + i64::from(rest);
+        let left = (ticks(*stop_whole, *stop_rest) - ticks(words[0], words[1])).max(0);
+        let (left, long) = (u32::try_from(left).unwrap_or(u32::MAX), step);
+        if left < long {
+            (step, reason) = (left, Reason::Stop as u32);
+        } else if left > long && left < 2 * long {
+            (step, reason) = (left.div_ceil(2), Reason::Stop as u32);
+        }
+        (words[2], words[4], words[5]) = (step, reason, u32::MAX);
+        if step > 0 {
+            words[3] = free;
+            words[10] = words[10].min(step);
+            words[11] = words[11].max(step);
+            words[12 + reason as usize] += 1;
+        }
+        host.set_world(World { dt: f64::from(step) / f64::from(TICKS) * unit, ..world });
+        Ok(())
+    };
+    let constants = vec![("UNIT", unit), ("LEAST", f64::from(least)), ("VISCOUS", f64::from(viscous))];
+    let pass = Pass { constants, ..Pass::new(shader, 1) };
+    Ok(Kernel {
+        name: "pace".to_owned(),
+        passes: vec![pass],
+        twin: Some(Arc::new(twin)),
+        sizes: sizes(),
+        scratch: Vec::new(),
+        tables: tables(pace, unit),
+    })
+}
+
+/// Who asked for a step as short as this.
+pub fn blame(pace: &Pace, problem: &Problem) -> Result<Kernel, Error> {
+    let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("integrators/blame.wgsl")])?;
+    let twin = |host: &Host| {
+        let (world, urges, urgent) = (host.world(), host.read(URGES)?, host.read(URGENT)?);
+        let most = urgent.first().copied().unwrap_or_default();
+        let first = |reason: u32| {
+            let part: fn(&DVec4) -> f64 = match Reason::of(reason) {
+                Reason::Acceleration => |v| v.x,
+                Reason::Signal => |v| v.y,
+                Reason::Speed => |v| v.z,
+                _ => return u32::MAX,
+            };
+            let found = urges.iter().position(|urge| part(urge) == part(&most));
+            found.and_then(|id| u32::try_from(id).ok()).unwrap_or(u32::MAX)
+        };
+        let mut words = host.write(PACE)?;
+        words[5] = words[5].min(first(words[4]));
+        if words[6] == world.step {
+            words[8] = words[8].min(first(words[7]));
+        }
+        Ok(())
+    };
+    let kernel = Kernel::new("blame", shader, Vec::new(), problem.count, Arc::new(twin));
+    Ok(Kernel { sizes: sizes(), tables: tables(pace, problem.dt), ..kernel })
+}

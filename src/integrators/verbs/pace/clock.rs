@@ -1,0 +1,41 @@
+//! What time it is by a clock that counts ticks.
+
+use std::sync::Arc;
+
+use crate::error::Error;
+use crate::integrators::verbs::tick::grown;
+use crate::kernel::{ALARM, ALARM_WORDS, Host, Kernel, PACE, PACE_WORDS, Problem, Shader, TICKS, World, time};
+
+/// The time after a part of the step.
+pub fn at(factor: f64, problem: &Problem) -> Result<Kernel, Error> {
+    let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("integrators/at_paced.wgsl")])?;
+    let who = problem.clone();
+    let twin = move |host: &Host| {
+        let time = time(host, &who, factor)?;
+        host.set_world(World { time, ..host.world() });
+        Ok(())
+    };
+    let kernel = Kernel::new("at", shader, vec![("FACTOR", factor), ("UNIT", problem.dt)], 1, Arc::new(twin));
+    Ok(Kernel { sizes: vec![(PACE.name.into(), PACE_WORDS as u64)], ..kernel })
+}
+
+/// A step is done.
+pub fn tick(problem: &Problem) -> Result<Kernel, Error> {
+    let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("integrators/tick_paced.wgsl")])?;
+    let unit = problem.dt;
+    let twin = move |host: &Host| {
+        let (clock, mut words) = (host.world(), host.write(PACE)?);
+        let [whole, rest, ticks, ..] = &mut words[..] else { return Ok(()) };
+        if *ticks > 0 {
+            let all = *rest + *ticks;
+            (*whole, *rest) = (*whole + all / TICKS, all % TICKS);
+            let (step, time) = (clock.step + 1, (f64::from(*whole) + f64::from(*rest) / f64::from(TICKS)) * unit);
+            host.set_world(World { step, time, ..clock });
+            grown(&mut host.write(ALARM)?, step);
+        }
+        Ok(())
+    };
+    let kernel = Kernel::new("tick", shader, vec![("UNIT", unit)], 1, Arc::new(twin));
+    let sizes = vec![(ALARM.name.into(), ALARM_WORDS as u64), (PACE.name.into(), PACE_WORDS as u64)];
+    Ok(Kernel { sizes, ..kernel })
+}

@@ -1,0 +1,128 @@
+//! Stages of what moves by a clock of steps that are not all alike, and of what fluids want of their length.
+
+use glam::Vec4;
+use motes::error::Error;
+use motes::fluids::{self, Limits, Medium, Smoothing};
+use motes::forces::{Force, Law, Problem};
+use motes::integrators::{Paced, Step};
+use motes::kernel::{Backend, HOME, Machine, Pace, Plan, TARGET, World};
+use motes::motion::{Held, Hold};
+use motes::settings::Value;
+use motes::{Bounds, Gpu, Setup, Side, Simulation, Solver};
+
+use crate::laws::resting;
+use crate::paces::{DT, MACHINE, NOBODY, staged, words};
+use crate::stages::{Device, FEW, Stage};
+use crate::support::fluids::{SPACING, bounds, cloud, fluid};
+use crate::support::machines::{alone, subgroups_of_eight};
+use crate::support::states::{force, integrator, vector, word};
+use crate::support::{Random, Shared};
+use crate::{fluids as stages_of_fluids, held};
+
+/// The limits of a fluid without sound.
+struct Silent;
+
+impl Force for Silent {
+    fn laws(&self) -> Vec<Law> {
+        Vec::new()
+    }
+    fn paces(&self, plan: &mut Plan, problem: &Problem) -> Result<Option<f64>, Error> {
+        let (density, spacing, support, smoothing) = (1.3, SPACING, 2.0, Smoothing::Cubic);
+        let medium =
+            Medium { density, spacing, support, smoothing, sound: 0.0, exponent: 7, negative: false, dimensions: 3 };
+        fluids::limits(&medium, Limits { sound: None, viscosity: 0.0 }, plan, problem)
+    }
+}
+
+/// Held ones and solids on their motions.
+fn motions(device: &Device, stages: &mut Vec<Stage>) {
+    let count = u32::try_from(FEW).expect("few");
+    let number = u32::try_from(held::motions().len()).expect("few");
+    let by = |id: u32| if id % 3 == 1 { Hold::Target } else { Hold::Motion(id / 3 % number) };
+    let led: Vec<Held> = (0..count).map(|id| Held { id, by: by(id) }).collect();
+    let pace = Some(Pace { least: DT / 64.0, courant: 0.3, before: None });
+    // At 1.13, in a step of 0.22.
+    let clock = words([3, 900_001, 10_000_003, 9], NOBODY, [1, 2]);
+    let places = |it: &mut Simulation<Gpu>| {
+        let mut random = Random::new(31);
+        for field in [HOME, TARGET] {
+            let last = |id: usize| [0.7, 1.2, 1.9, 5.3][id % 4];
+            let values: Vec<Vec4> = (0..FEW).map(|id| random.vector().as_vec3().extend(last(id))).collect();
+            it.write(field, &values).unwrap_or(());
+        }
+    };
+    let periodic = Bounds::new(glam::DVec3::new(-0.9, -1.1, -1.0), glam::DVec3::new(0.7, 0.8, 0.9), Side::Periodic);
+    let problem = held::problem(&led, periodic).paced(pace);
+    let mut step = Step::new(&[], problem);
+    step.lead();
+    for kernel in step.finished().expect("a plan").kernels {
+        staged(stages, "lead, paced", resting(device, MACHINE, periodic), kernel, &clock, places);
+    }
+    for (case, motion) in held::motions().into_iter().enumerate() {
+        let problem = Problem { reached: [0.3, 1.0][case % 2], ..held::problem(&[], Bounds::default()).paced(pace) };
+        let settings = [
+            ("shape", word("sphere")),
+            ("motion", Value::Text(motion.name.clone().into())),
+            ("radius", Value::Number(0.9)),
+            ("position", vector(0.17, -0.33, 0.11)),
+            ("restitution", Value::Number(0.3)),
+        ];
+        let mut plan = Plan::default();
+        force("solid", &settings).confine(&mut plan, &problem, 0.7).expect("a kernel");
+        for kernel in plan.kernels {
+            staged(stages, "solid, paced", resting(device, MACHINE, Bounds::default()), kernel, &clock, |_| ());
+        }
+    }
+    // Nobody is led anywhere in no time.
+    let mut still = resting(device, MACHINE, periodic);
+    let world = pollster::block_on(still.backend().world()).expect("a clock");
+    still.backend().set_world(World { dt: 0.0, ..world }).expect("a clock");
+    let fixed: Vec<Held> = (0..count).step_by(2).map(|id| Held { id, by: Hold::Fixed }).collect();
+    let mut step = Step::new(&[], held::problem(&fixed, periodic));
+    step.lead();
+    let kernel = step.finished().expect("a plan").kernels.remove(0);
+    let velocity = pollster::block_on(still.read(motes::VELOCITY)).expect("velocities");
+    let told = velocity.iter().flat_map(Vec4::to_array).collect();
+    stages.push(Stage::new("lead in no time", still, kernel).told(motes::VELOCITY.name, told));
+}
+
+/// What fluids want, with sound and without.
+fn wants(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
+    let lanes = Machine { software: false, subgroup: 0, invocations: 1 << 18 };
+    let eight = Machine { software: true, subgroup: 8, invocations: 256 };
+    let machines = if subgroups_of_eight(shared) { vec![lanes, eight] } else { vec![lanes] };
+    for machine in machines {
+        for silent in [false, true] {
+            let pace = Pace { least: 1e-4, courant: 0.3, before: None };
+            let forces = if silent { vec![Box::new(Silent) as Box<dyn Force>] } else { vec![fluid(&[])] };
+            let setup = Setup {
+                particles: cloud(FEW, false, true),
+                forces,
+                integrator: Box::new(Paced { integrator: integrator("leapfrog"), pace }),
+                dt: 0.003,
+                bounds: bounds(FEW, false, Side::Periodic),
+                solver: Solver::default(),
+            };
+            for kernel in setup.plans(machine).expect("plans").step.kernels {
+                if !["fluid closing", "fluid urge"].contains(&kernel.name.as_str()) {
+                    continue;
+                }
+                let name = format!("{}, silent {silent}", kernel.name);
+                let mut simulation = stages_of_fluids::simulation(device, machine, &setup);
+                let mut random = Random::new(41);
+                let gpu = simulation.backend();
+                // What they make anew held other numbers; held ones keep them.
+                for field in ["closing", "urges"] {
+                    let some: Vec<f32> = (0..gpu.size(field) / 4).map(|_| random.narrow().abs()).collect();
+                    gpu.write_bytes(field, 0, bytemuck::cast_slice(&some)).expect("a field");
+                }
+                stages.push(Stage::of(&name, simulation, alone(kernel)));
+            }
+        }
+    }
+}
+
+pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
+    motions(device, stages);
+    wants(shared, device, stages);
+}

@@ -1,0 +1,156 @@
+//! Each limit by hand, why it holds, and whose it is.
+
+use glam::DVec3;
+use motes::kernel::Reason;
+use motes::settings::Value;
+use motes::{Error, Particles};
+
+use crate::support::states::{force, vector};
+use crate::{DT, Free, LENGTH, PACE, SPACING, Silent, clock, drop, fluid, on_cpu, on_gpu, paced, support};
+
+/// Lengths are rounded down to twelve binary digits; beside that the device rounds what it multiplies a few times.
+const DIGITS: f64 = 1.0 / 2048.0;
+const ROUNDING: f64 = 1e-6;
+
+/// Far apart, but for 1 and 2, which come together at 2 × 1.5 along x: so nobody feels anybody's pressure.
+fn few() -> Particles {
+    let mut particles = Particles::default();
+    let speeds = [DVec3::new(0.0, 0.4, 0.0), DVec3::X * 1.5, DVec3::X * -1.5, DVec3::new(0.0, 0.0, 0.7)];
+    let places = [DVec3::new(0.0, 9.0, 0.0), DVec3::ZERO, DVec3::X * 0.15, DVec3::new(0.0, 0.0, 8.0)];
+    for (x, v) in places.into_iter().zip(speeds) {
+        particles.push(x, v, 0.25, 0.02);
+    }
+    particles.species = vec![0; 4];
+    particles
+}
+
+#[test]
+fn a_step_is_as_long_as_its_formula_says() {
+    let (c, r) = (PACE.courant, f64::from(0.15f32));
+    let mu = LENGTH * 3.0 * r / (r * r + 0.01 * LENGTH * LENGTH);
+    let weight = |g: f64| force("uniform", &[("acceleration", vector(0.0, 0.0, -g))]);
+    // (forces, what limits, of whom, how long)
+    let cases = [
+        ("signal", vec![fluid(9.0, &[])], Some(1), c * LENGTH / (9.0 + mu)),
+        ("acceleration", vec![weight(700.0), fluid(0.3, &[])], Some(0), c * (LENGTH / 700.0f64).sqrt()),
+        ("viscosity", vec![fluid(0.3, &[("viscosity", Value::Number(0.2))])], None, c * 0.125 * LENGTH * LENGTH / 0.2),
+        ("speed", vec![weight(0.1), Box::new(Silent) as _], Some(1), c * 0.4 * SPACING / 1.5),
+        ("longest", vec![Box::new(Free) as _], None, DT),
+    ];
+    let shared = support::device();
+    for (name, forces, whose, dt) in cases {
+        let setup = paced(&few(), forces, "leapfrog", PACE);
+        let (mut device, mut twin) = (on_gpu(&shared, &setup), on_cpu(&setup));
+        device.step(1).expect("a step");
+        twin.step(1).expect("a step");
+        for now in [clock(&mut device), clock(&mut twin)] {
+            assert_eq!((now.reason.name(), now.particle, now.steps), (name, whose, 1), "{now:?}");
+            let part = now.dt / dt;
+            assert!(part <= 1.0 + ROUNDING && part >= 1.0 - DIGITS - ROUNDING, "{name}: {} is not {dt}", now.dt);
+            // One digit fewer would be seen: no step here is a whole power of two.
+            assert!(name == "longest" || dt < 0.9 * DT, "{name} must be shorter than the longest");
+            assert_eq!(now.reasons.iter().sum::<u32>(), 1);
+            assert_eq!(now.between, [now.dt; 2]);
+        }
+    }
+}
+
+#[test]
+fn steps_grow_by_a_fifth_at_most() {
+    let pace = motes::kernel::Pace { before: Some(DT / 64.0), ..PACE };
+    let shared = support::device();
+    let mut simulation = on_gpu(&shared, &paced(&few(), vec![Box::new(Free)], "leapfrog", pace));
+    let mut last = DT / 64.0;
+    let mut grown = 0;
+    for _ in 0..30 {
+        simulation.step(1).expect("a step");
+        let now = clock(&mut simulation);
+        // A fifth of a whole number of ticks, of which there are 260000 or more.
+        assert!(now.dt <= 1.2 * last && (now.dt > 1.2 * last * (1.0 - 1e-5) || now.dt >= DT), "{last} then {}", now.dt);
+        grown += u32::from(now.reason == Reason::Growth);
+        last = now.dt;
+    }
+    // 1.2²² = 55 and 1.2²³ = 66: 22 steps are held back.
+    assert_eq!((grown, last), (22, DT));
+}
+
+#[test]
+fn device_and_twins_take_the_same_steps() {
+    let shared = support::device();
+    for name in ["leapfrog", "symplectic_euler", "midpoint", "heun", "rk4", "forest_ruth", "pefrl", "forward_euler"] {
+        let weight = force("uniform", &[("acceleration", vector(0.0, 0.0, -3.0))]);
+        let setup = paced(&drop(), vec![weight, fluid(4.0, &[("alpha", Value::Number(0.2))])], name, PACE);
+        let (mut device, mut twin) = (on_gpu(&shared, &setup), on_cpu(&setup));
+        let mut alike = 0;
+        for _ in 0..12 {
+            device.step(1).expect("a step");
+            twin.step(1).expect("a step");
+            let (here, there) = (clock(&mut device), clock(&mut twin));
+            assert_eq!(here.reason, there.reason, "{name}");
+            // Where a length is at the edge of a digit, rounding takes it to either side.
+            assert!((here.dt - there.dt).abs() <= 2.0 * DIGITS * there.dt, "{name}: {} and {}", here.dt, there.dt);
+            alike += u32::from(here.dt == there.dt);
+        }
+        // Rates differ by about 1e-6, so that one step in 500 is at an edge.
+        assert!(alike >= 11, "{name}: {alike} of 12 steps are alike");
+        assert!(clock(&mut device).reasons[Reason::Signal as usize] > 0, "{name} must be limited");
+        assert!((device.steps(), twin.steps()) == (12, 12));
+    }
+}
+
+#[test]
+fn too_short_a_step_ends_a_run() {
+    let weight = force("uniform", &[("acceleration", vector(0.0, 0.0, -7e8))]);
+    let setup = paced(&few(), vec![weight, fluid(9.0, &[])], "leapfrog", PACE);
+    let shared = support::device();
+    let mut device = on_gpu(&shared, &setup);
+    pollster::block_on(device.check()).expect("nothing has happened yet");
+    device.step(3).expect("steps");
+    let Err(Error::TooShort { step, wanted, least, reason, particle }) = pollster::block_on(device.check()) else {
+        panic!("a step of a millionth must be told");
+    };
+    assert_eq!((step, reason, particle.as_str(), least), (0, "acceleration", "particle 0", PACE.least));
+    let want = PACE.courant * (LENGTH / 7e8f64).sqrt();
+    assert!((wanted / want - 1.0).abs() < ROUNDING, "{wanted} is not {want}");
+    // None is shorter than the shortest, whatever is asked for: 16777 ticks.
+    assert!((clock(&mut device).dt / PACE.least - 1.0).abs() < 1e-4);
+    let mut twin = on_cpu(&setup);
+    twin.step(3).expect("steps");
+    let told = pollster::block_on(twin.check()).expect_err("the twin says the same").to_string();
+    assert!(
+        told.contains("step 0") && told.contains("acceleration of particle 0") && told.contains("dt_min"),
+        "{told}"
+    );
+}
+
+#[test]
+fn what_makes_no_sense_is_refused() {
+    let refused = |forces: Vec<Box<dyn motes::forces::Force>>, name: &str, pace| {
+        let setup = paced(&few(), forces, name, pace);
+        let shared = support::device();
+        match motes::Simulation::new(&shared.found.device, &shared.found.queue, &setup) {
+            Ok(_) => panic!("it must be refused"),
+            Err(error) => error.to_string(),
+        }
+    };
+    let free = || -> Vec<Box<dyn motes::forces::Force>> { vec![Box::new(Free)] };
+    let no_limit = refused(vec![force("gravity", &[])], "leapfrog", PACE);
+    assert!(no_limit.contains("no force says how long"), "{no_limit}");
+    let two = refused(vec![Box::new(Free), Box::new(Free)], "leapfrog", PACE);
+    assert!(two.contains("2 forces say"), "{two}");
+    assert!(refused(free(), "backward_euler", PACE).contains("implicit"));
+    let even = refused(vec![Box::new(Free), force("wander", &[])], "leapfrog", PACE);
+    assert!(even.contains("random walk"), "{even}");
+    let with = |least: f64, courant: f64, before: Option<f64>| motes::kernel::Pace { least, courant, before };
+    for (pace, says) in [
+        (with(1.01 * DT, 0.3, None), "shortest step"),
+        (with(0.9e-6 * DT, 0.3, None), "shortest step"),
+        (with(DT / 10.0, 1.01, None), "Courant"),
+        (with(DT / 10.0, 0.0, None), "Courant"),
+        (with(DT / 10.0, 0.3, Some(DT / 11.0)), "before the first"),
+        (with(DT / 10.0, 0.3, Some(1.1 * DT)), "before the first"),
+    ] {
+        let told = refused(free(), "leapfrog", pace);
+        assert!(told.contains(says), "{told}");
+    }
+}

@@ -1,0 +1,111 @@
+//! Steps as long as forces allow, and the ledger of a fluid.
+
+mod clock;
+mod ledger;
+mod limits;
+mod motions;
+mod scenes;
+#[path = "../support/mod.rs"]
+mod support;
+
+use glam::DVec3;
+use motes::error::Error;
+use motes::fluids::{self, Limits, Medium, Smoothing};
+use motes::forces::{Force, Law, Problem};
+use motes::integrators::Paced;
+use motes::kernel::{Backend, Pace, Plan};
+use motes::neighbors::Grid;
+use motes::settings::Value;
+use motes::simulation::Clock;
+use motes::{Bounds, Cpu, Gpu, Particles, Setup, Simulation, Solver};
+use support::Shared;
+use support::states::{force, integrator};
+
+/// The longest step.
+const DT: f64 = 0.013;
+const SPACING: f64 = 0.1;
+/// Half of the support.
+const LENGTH: f64 = 0.1;
+
+/// A force that does nothing and limits nothing: steps end where the run stops.
+struct Free;
+
+impl Force for Free {
+    fn laws(&self) -> Vec<Law> {
+        Vec::new()
+    }
+    fn paces(&self, _: &mut Plan, _: &Problem) -> Result<Option<f64>, Error> {
+        Ok(Some(0.0))
+    }
+}
+
+/// The limits of a fluid without sound, and nothing else of it.
+struct Silent;
+
+impl Silent {
+    fn medium(problem: &Problem) -> Medium {
+        let dimensions = problem.bounds.dimensions;
+        let (density, spacing, support) = (1000.0, SPACING, 2.0);
+        let smoothing = Smoothing::Cubic;
+        Medium { density, spacing, support, smoothing, sound: 0.0, exponent: 7, negative: false, dimensions }
+    }
+}
+
+impl Force for Silent {
+    fn laws(&self) -> Vec<Law> {
+        Vec::new()
+    }
+    fn grids(&self, problem: &Problem) -> Result<Vec<(Grid, bool)>, Error> {
+        Ok(vec![(Self::medium(problem).grid(problem)?, true)])
+    }
+    fn paces(&self, plan: &mut Plan, problem: &Problem) -> Result<Option<f64>, Error> {
+        fluids::limits(&Self::medium(problem), Limits { sound: None, viscosity: 0.0 }, plan, problem)
+    }
+}
+
+/// Steps down to a thousandth, with C = 0.3.
+const PACE: Pace = Pace { least: DT / 1000.0, courant: 0.3, before: None };
+
+fn paced(particles: &Particles, forces: Vec<Box<dyn Force>>, name: &str, pace: Pace) -> Setup {
+    Setup {
+        particles: particles.clone(),
+        forces,
+        integrator: Box::new(Paced { integrator: integrator(name), pace }),
+        dt: DT,
+        bounds: Bounds::default(),
+        solver: Solver::default(),
+    }
+}
+
+fn on_gpu(shared: &Shared, setup: &Setup) -> Simulation<Gpu> {
+    Simulation::new(&shared.found.device, &shared.found.queue, setup).expect("a simulation")
+}
+
+fn on_cpu(setup: &Setup) -> Simulation<Cpu> {
+    let count = u32::try_from(setup.particles.len()).expect("few");
+    Simulation::on(Cpu::new(count).expect("a processor"), setup).expect("a simulation")
+}
+
+fn clock<B: Backend>(simulation: &mut Simulation<B>) -> Clock {
+    pollster::block_on(simulation.clock()).expect("a clock").expect("steps are paced")
+}
+
+/// `fluid` with a speed of sound, and some more.
+fn fluid(sound: f64, more: &[(&'static str, Value)]) -> Box<dyn Force> {
+    let mut settings = vec![("spacing", Value::Number(SPACING)), ("sound_speed", Value::Number(sound))];
+    settings.extend_from_slice(more);
+    force("fluid", &settings)
+}
+
+/// A drop of 5 × 5 × 5 particles that flies apart and together, somewhat out of its lattice.
+fn drop() -> Particles {
+    let mut random = support::Random::new(17);
+    let mut particles = Particles::default();
+    for i in 0..125u32 {
+        let place = DVec3::new(f64::from(i % 5), f64::from(i / 5 % 5), f64::from(i / 25));
+        let x = (SPACING * (place + 0.1 * random.vector())).as_vec3().as_dvec3();
+        particles.push(x, (0.3 * random.vector()).as_vec3().as_dvec3(), f64::from(1.0f32), 0.02);
+    }
+    particles.species = vec![0; 125];
+    particles
+}
