@@ -124,8 +124,8 @@ impl Setup {
     /// [`Error::Scene`] names the particles and the cause.
     pub fn start(&self) -> Result<Option<Start>, Error> {
         let problem = self.problem(Machine { software: true, subgroup: 0, invocations: 1 })?;
-        let media = self.forces.iter().map(|force| force.fluid(&problem));
-        let Some(fluid) = media.filter_map(Result::transpose).next().transpose()? else { return Ok(None) };
+        let mut media = self.forces.iter().map(|force| force.fluid(&problem));
+        let Some(fluid) = media.find_map(Result::transpose).transpose()? else { return Ok(None) };
         // Who waits or is dead is in nobody's way; a scene has the ids of those last.
         let living: Vec<usize> = (0..self.particles.len()).filter(|id| self.particles.lives(*id)).collect();
         let of = |list: &[DVec3]| -> Vec<DVec3> { living.iter().map(|id| list[*id]).collect() };
