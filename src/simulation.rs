@@ -1,9 +1,11 @@
 //! A simulation: particles, forces and an integrator on a backend.
 
+mod pressures;
 mod setup;
 mod solves;
 mod ties;
 
+pub use pressures::PressureSolves;
 pub use setup::{Plans, Setup};
 pub use solves::{Outcome, Solves};
 
@@ -11,6 +13,7 @@ use glam::DVec3;
 
 use crate::boundary;
 use crate::error::Error;
+use crate::fluids::DFSPH_REPORT;
 use crate::gpu::Gpu;
 use crate::integrators::SOLVE_REPORT;
 use crate::kernel::{
@@ -46,6 +49,8 @@ pub struct Simulation<B: Backend> {
     plan: String,
     /// Whether a step keeps a report of its solves.
     solves: bool,
+    /// Whether it keeps one of solves for pressure.
+    pressures: bool,
     count: u32,
     /// As the setup gave them: nothing changes them.
     species: Vec<u32>,
@@ -65,7 +70,8 @@ impl<B: Backend> Simulation<B> {
         let count = setup.check()?;
         let plans = setup.plans(backend.machine())?;
         let plan = plans.step.to_string();
-        let solves = plans.step.kernels.iter().any(|kernel| kernel.names(SOLVE_REPORT));
+        let [solves, pressures] =
+            [SOLVE_REPORT, DFSPH_REPORT].map(|name| plans.step.kernels.iter().any(|kernel| kernel.names(name)));
         let start = backend.compile(&plans.start)?;
         let step = backend.compile(&plans.step)?;
         let measure = (backend.compile(&plans.measure.0)?, backend.compile(&plans.measure.1)?);
@@ -101,7 +107,7 @@ impl<B: Backend> Simulation<B> {
         }
         let (links, breaks) = (particles.links.clone(), setup.breaks());
         let (begun, dt, steps) = (false, setup.dt, 0);
-        Ok(Self { backend, start, begun, step, measure, plan, solves, count, species, links, breaks, dt, steps })
+        Ok(Self { backend, start, begun, step, measure, plan, solves, pressures, count, species, links, breaks, dt, steps })
     }
     /// Advances. May return before the device is done; reading waits.
     ///

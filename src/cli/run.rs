@@ -195,6 +195,7 @@ impl Run {
         }
         let concluded = self.conclude(steps, &output, stepping, image.as_ref());
         solves::tell(&self.progress, simulation.solves().await?);
+        solves::tell_pressures(&self.progress, simulation.pressure_solves().await?);
         concluded
     }
 
