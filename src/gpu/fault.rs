@@ -48,7 +48,7 @@ pub fn scoped<T>(device: &wgpu::Device, call: impl FnOnce() -> T) -> Result<T, E
     let validation = device.push_error_scope(wgpu::ErrorFilter::Validation);
     let result = call();
     let complaints = [ready(validation.pop()), ready(internal.pop()), ready(memory.pop())];
-    eprintln!("XX {complaints:?}"); match complaints.into_iter().flatten().flatten().next() {
+    match complaints.into_iter().flatten().flatten().next() {
         None => Ok(result),
         Some(wgpu::Error::OutOfMemory { source }) => Err(Error::OutOfMemory(source.to_string())),
         Some(error) => Err(sort(error.to_string())),

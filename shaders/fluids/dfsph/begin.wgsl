@@ -30,5 +30,5 @@ fn begin(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: v
     let relaxation = select(0.0, RELAXATION * response.alpha / (world.dt * world.dt), enough);
     let stiffness = select(0.0, WARM * kept_stiffness[id].divergence, relaxation > 0.0);
     unknowns[k] = Unknown(stiffness, relaxation, select(ANYTHING, -world.dt * response.change, enough), 1.0);
-    pushes[k] = vec4f(vec3f(), 1.0);
+    pushes[k] = vec4f(0.0, 0.0, 0.0, 1.0);
 }

@@ -10,9 +10,9 @@ const PARTS: &str = "parts";
 /// Invocations of a workgroup, as in total.wgsl.
 const WORKGROUP: u32 = 256;
 /// Errors that one workgroup adds by itself.
-const ALONE: u32 = 1 << 14;
+const ALONE: u32 = 1 << 13;
 /// Of more, how many are one part of the sum.
-const CHUNK: u32 = 1 << 12;
+const CHUNK: u32 = 1 << 11;
 
 /// The kernels: one where there are few particles, else two.
 pub fn kernels(of: &Dfsph<'_>, solve: Solve) -> Result<Vec<Kernel>, Error> {
