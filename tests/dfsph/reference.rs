@@ -71,9 +71,11 @@ impl Flow {
     }
     fn alpha(&self, i: usize) -> f64 {
         let all: DVec3 = self.neighbors[i].iter().map(|j| self.volume(*j) * self.slope(i, *j)).sum();
+        let walls = self.neighbors[i].iter().filter(|j| self.wall[**j]);
+        let walls: DVec3 = walls.map(|j| self.volume(*j) * self.slope(i, *j)).sum();
         let fluid = self.neighbors[i].iter().filter(|j| !self.wall[**j]);
         let squares: f64 = fluid.map(|j| self.volume(i) * self.volume(*j) * self.slope(i, *j).length_squared()).sum();
-        1.0 / (all.length_squared() + squares)
+        1.0 / ((all + walls).dot(all) + squares)
     }
     pub fn fluid(&self) -> impl Iterator<Item = usize> + '_ {
         (0..self.wall.len()).filter(|i| !self.wall[*i])
@@ -81,7 +83,7 @@ impl Flow {
     /// What κ makes of a velocity.
     fn pressed(&self, start: &[DVec3], kappa: &[f64], dt: f64) -> Vec<DVec3> {
         let one = |i: usize| {
-            let push = |j: &usize| self.volume(*j) * (kappa[i] + kappa[*j]) * self.slope(i, *j);
+            let push = |j: &usize| self.volume(*j) * (kappa[i] + if self.wall[*j] { kappa[i] } else { kappa[*j] }) * self.slope(i, *j);
             let push: DVec3 = self.neighbors[i].iter().map(push).sum();
             if self.wall[i] { start[i] } else { start[i] - dt * push }
         };

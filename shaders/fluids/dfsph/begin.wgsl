@@ -11,6 +11,7 @@
 override FEWEST: f32 = 0.0;
 override WARM: f32 = 0.0;
 const ANYTHING: f32 = 1000.0;
+const WALL: f32 = -1.0;
 const WORKGROUP: u32 = 64u;
 
 @compute @workgroup_size(WORKGROUP)
@@ -21,7 +22,7 @@ fn begin(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: v
     let id = sorted_id[k];
     errors[k] = 0.0;
     if is_held(id) {
-        unknowns[k] = Unknown();
+        unknowns[k] = Unknown(WALL, 0.0, 0.0, 0.0);
         pushes[k] = vec4f();
         return;
     }

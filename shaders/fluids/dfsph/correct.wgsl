@@ -5,6 +5,7 @@
 @group(3) @binding(7) var<storage, read> dfsph_state: array<State>;
 
 override SOLVE: u32 = 0u;
+override STRICT: f32 = 1.0;
 
 fn acts_on(me: Particle) -> bool { return me.solved > 0.0 && dfsph_state[SOLVE].code == 0.0; }
 
@@ -14,5 +15,5 @@ fn deliver(k: u32, me: Particle, sum: Sum) {
     let stiffness = max(unknown.stiffness - unknown.relaxation * residual, 0.0);
     unknowns[k].stiffness = stiffness;
     let changed = abs(stiffness - unknown.stiffness) / max(unknown.relaxation, 1e-30);
-    errors[k] = select(max(-residual, 0.0), changed, unknown.relaxation > 0.0);
+    errors[k] = select(max(-residual, 0.0), changed, unknown.relaxation > 0.0 && STRICT > 0.5);
 }

@@ -14,7 +14,8 @@ fn finish(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: 
     if k >= world.count { return; }
     let id = sorted_id[k];
     let unknown = unknowns[k];
-    stiffness[id].density = unknown.stiffness;
-    pressure[id] = medium.density * (stiffness[id].divergence + unknown.stiffness);
+    let mine = max(unknown.stiffness, 0.0);
+    stiffness[id].density = mine;
+    pressure[id] = medium.density * (stiffness[id].divergence + mine);
     if unknown.solved > 0.0 { acceleration[id] += vec4f(pushes[k].xyz, 0.0); }
 }

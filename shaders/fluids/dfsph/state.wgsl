@@ -1,10 +1,10 @@
 // Divergence-free smoothed particle hydrodynamics (Bender & Koschier 2015): what is known of particles, in the order of the grid.
 
-// How much denser than at rest, as a part of that; α = 1 / (|Σ V ∇W|² + Σ |V ∇W|²); D, the rate at which the density grows, as
+// How much denser than at rest, as a part of that; α = 1 / (|Σ V ∇W|² + Σ |V ∇W|²), but for walls; D, the rate at which the density grows, as
 // a part of that at rest; how many are in range.
 struct Response { excess: f32, alpha: f32, change: f32, neighbors: f32 }
 
-// κ = p / ρ; what a residual changes it by; what accelerations by pressure may compress by in a step; whether it is of the fluid.
+// κ = p / ρ, below 0 for walls; what a residual changes it by; what accelerations by pressure may compress by in a step; whether it is of the fluid.
 struct Unknown { stiffness: f32, relaxation: f32, source: f32, solved: f32 }
 
 // The κ of both solves.

@@ -1,4 +1,4 @@
-// A particle of a fluid or a wall, and its κ; that of walls is 0.
+// A particle of a fluid or a wall, and its κ; that of walls is below 0.
 @group(2) @binding(5) var<storage, read> sorted_id: array<u32>;
 @group(2) @binding(6) var<storage, read> sorted_position: array<vec4f>;
 @group(3) @binding(4) var<storage, read> unknowns: array<Unknown>;

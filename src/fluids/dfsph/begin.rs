@@ -12,6 +12,8 @@ use crate::kernel::{Host, Kernel};
 
 /// What source says that anything may be.
 const ANYTHING: f64 = 1000.0;
+/// The κ of walls.
+const WALL: f64 = -1.0;
 
 /// The kernel.
 pub fn kernel(of: &Dfsph<'_>) -> Result<Kernel, Error> {
@@ -32,7 +34,7 @@ pub fn kernel(of: &Dfsph<'_>) -> Result<Kernel, Error> {
             let kappa = if relaxation > 0.0 { warm * kept[STIFFNESS * id] } else { 0.0 };
             let source = if enough { -dt * response[2] } else { ANYTHING };
             let solved = if who.is_held(id) { 0.0 } else { 1.0 };
-            let unknown = if who.is_held(id) { [0.0; 4] } else { [kappa, relaxation, source, solved] };
+            let unknown = if who.is_held(id) { [WALL, 0.0, 0.0, 0.0] } else { [kappa, relaxation, source, solved] };
             unknowns[UNKNOWN * k..UNKNOWN * (k + 1)].copy_from_slice(&unknown);
             pushes[k] = DVec4::W * solved;
         }

@@ -19,7 +19,7 @@ pub fn collect(of: &Dfsph<'_>) -> Result<Kernel, Error> {
         let mut kappa = host.writing::<f32>(KAPPA)?;
         host.writing::<f32>(STATES)?[STATE..].fill(0.0);
         for (k, id) in slots(host)?.into_iter().enumerate() {
-            kappa[STIFFNESS * id] = unknowns[UNKNOWN * k];
+            kappa[STIFFNESS * id] = unknowns[UNKNOWN * k].max(0.0);
             if unknowns[UNKNOWN * k + 3] > 0.0 {
                 acceleration[id] += pushes[k].truncate().extend(0.0);
                 pushes[k] = acceleration[id].truncate().extend(1.0);

@@ -18,8 +18,9 @@ pub fn kernel(of: &Dfsph<'_>) -> Result<Kernel, Error> {
         let (mut kappa, mut pressure) = (host.writing::<f32>(KAPPA)?, host.write(PRESSURE)?);
         let mut acceleration = host.write(ACCELERATION)?;
         for (k, id) in slots(host)?.into_iter().enumerate() {
-            kappa[STIFFNESS * id + 1] = unknowns[UNKNOWN * k];
-            pressure[id] = medium.density * (kappa[STIFFNESS * id] + unknowns[UNKNOWN * k]);
+            let mine = unknowns[UNKNOWN * k].max(0.0);
+            kappa[STIFFNESS * id + 1] = mine;
+            pressure[id] = medium.density * (kappa[STIFFNESS * id] + mine);
             if unknowns[UNKNOWN * k + 3] > 0.0 {
                 acceleration[id] += pushes[k].truncate().extend(0.0);
             }

@@ -28,7 +28,8 @@ pub fn push(of: &Dfsph<'_>, solve: Solve) -> Result<Kernel, Error> {
             medium.range(),
             |me| solved[me.index],
             |me, you, r, sum: &mut DVec3| {
-                *sum += you.mass / medium.density * (kappa[me.index] + kappa[you.index]) * medium.gradient(r) * r;
+                let yours = if kappa[you.index] < 0.0 { kappa[me.index] } else { kappa[you.index] };
+                *sum += you.mass / medium.density * (kappa[me.index] + yours) * medium.gradient(r) * r;
             },
         )?;
         let mut pushes = host.writing::<Vec4>(&pushes)?;
@@ -41,7 +42,7 @@ pub fn push(of: &Dfsph<'_>, solve: Solve) -> Result<Kernel, Error> {
     };
     let files = vec![crate::shader!("fluids/dfsph/stiff.wgsl"), crate::shader!("fluids/dfsph/push.wgsl")];
     let kernel = of.sweep(format!("fluid {} push", solve.name()), files, Arc::new(twin))?;
-    Ok(with(kernel, &[("SOLVE", f64::from(solve as u32))]))
+    Ok(with(kernel, &[("SOLVE", f64::from(solve as u32)), ("STRICT", std::env::var("STRICT").ok().and_then(|w| w.parse().ok()).unwrap_or(1.0))]))
 }
 
 /// How fast accelerations make the density grow, as a part of that at rest, by id; of those that are solved for.
@@ -95,5 +96,5 @@ pub fn correct(of: &Dfsph<'_>, solve: Solve) -> Result<Kernel, Error> {
         crate::shader!("fluids/dfsph/correct.wgsl"),
     ];
     let kernel = of.sweep(format!("fluid {} correct", solve.name()), files, Arc::new(twin))?;
-    Ok(with(kernel, &[("SOLVE", f64::from(solve as u32))]))
+    Ok(with(kernel, &[("SOLVE", f64::from(solve as u32)), ("STRICT", std::env::var("STRICT").ok().and_then(|w| w.parse().ok()).unwrap_or(1.0))]))
 }

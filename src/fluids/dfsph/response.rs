@@ -18,6 +18,7 @@ struct Sum {
     number: f64,
     change: f64,
     gradient: DVec3,
+    walls: DVec3,
     squares: f64,
     neighbors: f64,
 }
@@ -38,7 +39,11 @@ pub fn kernel(of: &Dfsph<'_>) -> Result<Kernel, Error> {
                 sum.number += yours * medium.kernel(r);
                 sum.change += yours * (you.velocity - me.velocity).dot(slope);
                 sum.gradient += yours * slope;
-                sum.squares += if who.is_held(you.index) { 0.0 } else { mine * yours * slope.length_squared() };
+                if who.is_held(you.index) {
+                    sum.walls += yours * slope;
+                } else {
+                    sum.squares += mine * yours * slope.length_squared();
+                }
                 sum.neighbors += 1.0;
             },
         )?;
@@ -47,7 +52,7 @@ pub fn kernel(of: &Dfsph<'_>) -> Result<Kernel, Error> {
         for (k, id) in slots(host)?.into_iter().enumerate() {
             let (Some(sum), Some(me)) = (&sums[id], bodies.get(id)) else { continue };
             let number = sum.number + volume(me.mass) * medium.kernel(DVec3::ZERO);
-            let inverse = sum.gradient.length_squared() + sum.squares;
+            let inverse = (sum.gradient + sum.walls).dot(sum.gradient) + sum.squares;
             let alpha = if inverse * medium.range().powi(2) > LEAST { 1.0 / inverse } else { 0.0 };
             density[id] = medium.density * number;
             let response = [number - 1.0, alpha, sum.change, sum.neighbors];
