@@ -93,17 +93,21 @@ impl Flow {
     pub fn solve(&mut self, density: &[f64], free: &[bool], dt: f64, tolerance: f64, most: u32) -> Solved {
         let (start, count) = (self.velocity.clone(), self.fluid().count() as f64);
         let alpha: Vec<f64> = (0..start.len()).map(|i| if self.wall[i] || free[i] { 0.0 } else { self.alpha(i) }).collect();
-        let mut kappa = vec![0.0; start.len()];
+        let omega = 1.25 / if self.medium.dimensions == 2 { 2.75 } else { 3.5 };
+        let (mut kappa, mut reached) = (vec![0.0; start.len()], vec![0.0; start.len()]);
         for iterations in 1..=most {
             self.velocity = self.pressed(&start, &kappa, dt);
             let mut error = 0.0;
             let mut next = kappa.clone();
             for i in self.fluid().filter(|i| !free[*i]) {
                 let over = density[i] + dt * self.divergence(i) - 1.0;
-                next[i] = (kappa[i] + 0.5 * alpha[i] / (dt * dt) * over).max(0.0);
-                error += (next[i] - kappa[i]).abs() / (0.5 * alpha[i] / (dt * dt)) / count;
+                let weight = omega * alpha[i] / (dt * dt);
+                next[i] = (kappa[i] + weight * over).max(0.0);
+                error += (next[i] - kappa[i]).abs() / weight / count;
             }
-            kappa = next;
+            let onward = f64::from(iterations - 1) / f64::from(iterations + 2);
+            kappa = next.iter().zip(&reached).map(|(next, reached)| (next + onward * (next - reached)).max(0.0)).collect();
+            reached = next;
             if error <= tolerance && iterations >= 2 || iterations == most {
                 return Solved { iterations, error, kappa };
             }

@@ -10,6 +10,7 @@
 
 override FEWEST: f32 = 0.0;
 override WARM: f32 = 0.0;
+override RELAXATION: f32 = 0.0;
 const ANYTHING: f32 = 1000.0;
 const WALL: f32 = -1.0;
 const WORKGROUP: u32 = 64u;
@@ -30,6 +31,6 @@ fn begin(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: v
     let enough = response.neighbors >= FEWEST;
     let relaxation = select(0.0, RELAXATION * response.alpha / (world.dt * world.dt), enough);
     let stiffness = select(0.0, WARM * kept_stiffness[id].divergence, relaxation > 0.0);
-    unknowns[k] = Unknown(stiffness, relaxation, select(ANYTHING, -world.dt * response.change, enough), 1.0);
+    unknowns[k] = Unknown(stiffness, stiffness, relaxation, select(ANYTHING, -world.dt * response.change, enough));
     pushes[k] = vec4f(0.0, 0.0, 0.0, 1.0);
 }

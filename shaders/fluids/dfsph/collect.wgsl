@@ -17,7 +17,7 @@ fn collect(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups:
     let id = sorted_id[k];
     stiffness[id].divergence = max(unknowns[k].stiffness, 0.0);
     // Walls move as they are led.
-    if unknowns[k].solved > 0.0 {
+    if unknowns[k].stiffness >= 0.0 {
         acceleration[id] += vec4f(pushes[k].xyz, 0.0);
         pushes[k] = vec4f(acceleration[id].xyz, 1.0);
     }

@@ -17,5 +17,5 @@ fn finish(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: 
     let mine = max(unknown.stiffness, 0.0);
     stiffness[id].density = mine;
     pressure[id] = medium.density * (stiffness[id].divergence + mine);
-    if unknown.solved > 0.0 { acceleration[id] += vec4f(pushes[k].xyz, 0.0); }
+    if unknown.stiffness >= 0.0 { acceleration[id] += vec4f(pushes[k].xyz, 0.0); }
 }

@@ -4,6 +4,7 @@
 @group(3) @binding(9) var<storage, read> kept_stiffness: array<Stiffness>;
 
 override WARM: f32 = 0.0;
+override RELAXATION: f32 = 0.0;
 
 fn acts_on(me: Particle) -> bool { return me.solved > 0.0; }
 
@@ -12,5 +13,5 @@ fn deliver(k: u32, me: Particle, sum: Sum) {
     let relaxation = RELAXATION * response.alpha / (world.dt * world.dt);
     let source = -(response.excess + world.dt * (response.change + world.dt * sum.change));
     let stiffness = select(0.0, WARM * kept_stiffness[me.index].density, relaxation > 0.0);
-    unknowns[k] = Unknown(stiffness, relaxation, source, 1.0);
+    unknowns[k] = Unknown(stiffness, stiffness, relaxation, source);
 }

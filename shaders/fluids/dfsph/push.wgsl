@@ -7,7 +7,7 @@ struct Sum { acceleration: vec3f }
 override SOLVE: u32 = 0u;
 
 // A solve that is done stays done.
-fn acts_on(me: Particle) -> bool { return me.solved > 0.0 && dfsph_state[SOLVE].code == 0.0; }
+fn acts_on(me: Particle) -> bool { return me.stiffness >= 0.0 && dfsph_state[SOLVE].code == 0.0; }
 
 fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
     let yours = select(you.stiffness, me.stiffness, you.stiffness < 0.0);

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::Vec4;
 
 use super::push::changes;
-use super::{Dfsph, KAPPA, KEPT, PUSHES, RELAXATION, RESPONSE, RESPONSES, STATE, STATES, STIFFNESS, UNKNOWN, UNKNOWNS, with};
+use super::{Dfsph, KAPPA, KEPT, PUSHES, RESPONSE, RESPONSES, STATE, STATES, STIFFNESS, UNKNOWN, UNKNOWNS, with};
 use crate::error::Error;
 use crate::kernel::{ACCELERATION, Host, Kernel};
 
@@ -20,7 +20,7 @@ pub fn collect(of: &Dfsph<'_>) -> Result<Kernel, Error> {
         host.writing::<f32>(STATES)?[STATE..].fill(0.0);
         for (k, id) in slots(host)?.into_iter().enumerate() {
             kappa[STIFFNESS * id] = unknowns[UNKNOWN * k].max(0.0);
-            if unknowns[UNKNOWN * k + 3] > 0.0 {
+            if unknowns[UNKNOWN * k] >= 0.0 {
                 acceleration[id] += pushes[k].truncate().extend(0.0);
                 pushes[k] = acceleration[id].truncate().extend(1.0);
             }
@@ -34,6 +34,7 @@ pub fn collect(of: &Dfsph<'_>) -> Result<Kernel, Error> {
 /// The second begins: what the density will be at the end of the step.
 pub fn predict(of: &Dfsph<'_>) -> Result<Kernel, Error> {
     let (medium, slots, warm) = (of.medium, of.slots(), of.warm());
+    let relaxes = of.relaxation();
     let [unknowns, pushes, responses] = [UNKNOWNS, PUSHES, RESPONSES].map(|name| of.name(name));
     let twin = move |host: &Host| {
         let (ids, dt) = (slots(host)?, host.world().dt);
@@ -43,10 +44,10 @@ pub fn predict(of: &Dfsph<'_>) -> Result<Kernel, Error> {
         for (k, id) in ids.into_iter().enumerate() {
             let Some(change) = changes[id] else { continue };
             let response = &responses[RESPONSE * k..];
-            let relaxation = RELAXATION * response[1] / (dt * dt);
+            let relaxation = relaxes * response[1] / (dt * dt);
             let source = -(response[0] + dt * (response[2] + dt * change));
             let kappa = if relaxation > 0.0 { warm * kept[STIFFNESS * id + 1] } else { 0.0 };
-            unknowns[UNKNOWN * k..UNKNOWN * (k + 1)].copy_from_slice(&[kappa, relaxation, source, 1.0]);
+            unknowns[UNKNOWN * k..UNKNOWN * (k + 1)].copy_from_slice(&[kappa, kappa, relaxation, source]);
         }
         Ok(())
     };
@@ -56,5 +57,5 @@ pub fn predict(of: &Dfsph<'_>) -> Result<Kernel, Error> {
         crate::shader!("fluids/dfsph/predict.wgsl"),
     ];
     let kernel = of.sweep("fluid predict".to_owned(), files, Arc::new(twin))?;
-    Ok(with(kernel, &[("WARM", warm)]))
+    Ok(with(kernel, &[("WARM", warm), ("RELAXATION", relaxes)]))
 }

@@ -21,7 +21,7 @@ pub fn kernel(of: &Dfsph<'_>) -> Result<Kernel, Error> {
             let mine = unknowns[UNKNOWN * k].max(0.0);
             kappa[STIFFNESS * id + 1] = mine;
             pressure[id] = medium.density * (kappa[STIFFNESS * id] + mine);
-            if unknowns[UNKNOWN * k + 3] > 0.0 {
+            if unknowns[UNKNOWN * k] >= 0.0 {
                 acceleration[id] += pushes[k].truncate().extend(0.0);
             }
         }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DVec3, Vec4};
 
-use super::{Dfsph, ERRORS, PUSHES, Solve, UNKNOWN, UNKNOWNS, with};
+use super::{Dfsph, ERRORS, PUSHES, STATE, STATES, Solve, UNKNOWN, UNKNOWNS, with};
 use crate::error::Error;
 use crate::fluids::Medium;
 use crate::kernel::{Host, Kernel, Name};
@@ -21,7 +21,7 @@ pub fn push(of: &Dfsph<'_>, solve: Solve) -> Result<Kernel, Error> {
         let (ids, unknowns) = (slots(host)?, host.reading::<f32>(&unknowns)?);
         let (mut kappa, mut solved) = (vec![0.0; ids.len()], vec![false; ids.len()]);
         for (id, unknown) in ids.iter().zip(unknowns.chunks_exact(UNKNOWN)) {
-            (kappa[*id], solved[*id]) = (unknown[0], unknown[3] > 0.0);
+            (kappa[*id], solved[*id]) = (unknown[0], unknown[0] >= 0.0);
         }
         let sums = gathered(
             host,
@@ -42,7 +42,7 @@ pub fn push(of: &Dfsph<'_>, solve: Solve) -> Result<Kernel, Error> {
     };
     let files = vec![crate::shader!("fluids/dfsph/stiff.wgsl"), crate::shader!("fluids/dfsph/push.wgsl")];
     let kernel = of.sweep(format!("fluid {} push", solve.name()), files, Arc::new(twin))?;
-    Ok(with(kernel, &[("SOLVE", f64::from(solve as u32)), ("STRICT", std::env::var("STRICT").ok().and_then(|w| w.parse().ok()).unwrap_or(1.0))]))
+    Ok(with(kernel, &[("SOLVE", f64::from(solve as u32))]))
 }
 
 /// How fast accelerations make the density grow, as a part of that at rest, by id; of those that are solved for.
@@ -75,16 +75,20 @@ pub fn correct(of: &Dfsph<'_>, solve: Solve) -> Result<Kernel, Error> {
             return Ok(());
         }
         let (ids, dt) = (slots(host)?, host.world().dt);
+        let turn = host.reading::<f32>(STATES)?[STATE * solve as usize];
+        let onward = turn / (turn + 3.0);
         let changes = changes(host, &medium, &ids, &pushes)?;
         let (mut unknowns, mut errors) = (host.writing::<f32>(&unknowns)?, host.writing::<f32>(&errors)?);
         for ((unknown, error), id) in unknowns.chunks_exact_mut(UNKNOWN).zip(errors.iter_mut()).zip(ids) {
             if let Some(change) = changes[id] {
-                let (before, relaxation, source) = (unknown[0], unknown[1], unknown[2]);
+                let [before, reached, relaxation, source] = [0, 1, 2, 3].map(|member| unknown[member]);
                 let residual = source - dt * dt * change;
-                unknown[0] = (before - relaxation * residual).max(0.0);
+                let next = (before - relaxation * residual).max(0.0);
+                unknown[0] = (next + onward * (next - reached)).max(0.0);
+                unknown[1] = next;
                 *error = match relaxation {
                     0.0 => (-residual).max(0.0),
-                    _ => (unknown[0] - before).abs() / relaxation,
+                    _ => (next - before).abs() / relaxation,
                 };
             }
         }
@@ -96,5 +100,5 @@ pub fn correct(of: &Dfsph<'_>, solve: Solve) -> Result<Kernel, Error> {
         crate::shader!("fluids/dfsph/correct.wgsl"),
     ];
     let kernel = of.sweep(format!("fluid {} correct", solve.name()), files, Arc::new(twin))?;
-    Ok(with(kernel, &[("SOLVE", f64::from(solve as u32)), ("STRICT", std::env::var("STRICT").ok().and_then(|w| w.parse().ok()).unwrap_or(1.0))]))
+    Ok(with(kernel, &[("SOLVE", f64::from(solve as u32))]))
 }
