@@ -107,7 +107,22 @@ impl<B: Backend> Simulation<B> {
         }
         let (links, breaks) = (particles.links.clone(), setup.breaks());
         let (begun, dt, steps) = (false, setup.dt, 0);
-        Ok(Self { backend, start, begun, step, measure, plan, solves, pressures, count, species, links, breaks, dt, steps })
+        Ok(Self {
+            backend,
+            start,
+            begun,
+            step,
+            measure,
+            plan,
+            solves,
+            pressures,
+            count,
+            species,
+            links,
+            breaks,
+            dt,
+            steps,
+        })
     }
     /// Advances. May return before the device is done; reading waits.
     ///

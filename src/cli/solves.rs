@@ -33,7 +33,8 @@ pub fn tell(progress: &Progress, solves: Option<Solves>) {
 /// Tells what became of the solves for pressure, and the way out where some did not converge.
 pub fn tell_pressures(progress: &Progress, solves: Option<[PressureSolves; 2]>) {
     for (what, one) in ["divergence", "density"].into_iter().zip(solves.into_iter().flatten()) {
-        let PressureSolves { solves, failures, first_failure, most_iterations, iterations, all_iterations, error } = one;
+        let PressureSolves { solves, failures, first_failure, most_iterations, iterations, all_iterations, error } =
+            one;
         let mean = f64::from(all_iterations) / f64::from(solves.max(1));
         progress.event(
             "pressure_solves",

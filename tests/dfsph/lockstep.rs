@@ -24,7 +24,8 @@ fn device_and_twins_solve_alike() {
         let plans = setup.plans(gpu.machine()).expect("plans");
         let mut simulation = Simulation::on(gpu, &setup).expect("a simulation");
         let mut random = Random::new(5);
-        let velocity: Vec<Vec4> = (0..count).map(|_| (random.vector() * SPACING * 10.0).as_vec3().extend(0.0)).collect();
+        let velocity: Vec<Vec4> =
+            (0..count).map(|_| (random.vector() * SPACING * 10.0).as_vec3().extend(0.0)).collect();
         let mut seen = BTreeMap::<String, bool>::new();
         for (pass, plan) in [&plans.start, &plans.step, &plans.step].into_iter().enumerate() {
             if pass == 1 {

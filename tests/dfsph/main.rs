@@ -41,7 +41,9 @@ impl Tank {
         let mass = DENSITY * if flat { SPACING * SPACING } else { SPACING.powi(3) };
         let mut random = Random::new(3);
         let mut particles = Particles::default();
-        let across = |i: usize, j: usize| DVec3::X * (i as f64 + 0.5) + if flat { DVec3::ZERO } else { DVec3::Y * (j as f64 + 0.5) };
+        let across = |i: usize, j: usize| {
+            DVec3::X * (i as f64 + 0.5) + if flat { DVec3::ZERO } else { DVec3::Y * (j as f64 + 0.5) }
+        };
         for i in 0..wide {
             for j in 0..deep {
                 let place = SPACING * (across(i, j) - gap * up);
@@ -64,7 +66,8 @@ impl Tank {
         let side = wide as f64 * SPACING;
         let mut bounds = Bounds::new(DVec3::splat(-0.1), DVec3::new(side - 0.1, side - 0.1, 2.0), Side::Periodic);
         bounds.dimensions = if flat { 2 } else { 3 };
-        bounds.sides = if flat { [Side::Periodic, Side::Open, Side::Open] } else { [Side::Periodic, Side::Periodic, Side::Open] };
+        bounds.sides =
+            if flat { [Side::Periodic, Side::Open, Side::Open] } else { [Side::Periodic, Side::Periodic, Side::Open] };
         Self { particles, bounds, up, layers }
     }
     /// How many are of the floor.
@@ -89,5 +92,12 @@ fn fluid(settings: &[(&'static str, Value)]) -> Box<dyn Force> {
 
 fn setup(particles: &Particles, bounds: Bounds, forces: Vec<Box<dyn Force>>, dt: f64) -> Setup {
     let particles = particles.clone();
-    Setup { particles, forces, integrator: integrator("symplectic_euler"), dt, bounds, solver: motes::Solver::default() }
+    Setup {
+        particles,
+        forces,
+        integrator: integrator("symplectic_euler"),
+        dt,
+        bounds,
+        solver: motes::Solver::default(),
+    }
 }

@@ -61,7 +61,8 @@ impl Flow {
     }
     /// ρ / ρ₀
     pub fn density(&self, i: usize) -> f64 {
-        let of = |j: &usize| self.volume(*j) * self.medium.kernel((self.shortest)(self.position[i] - self.position[*j]));
+        let of =
+            |j: &usize| self.volume(*j) * self.medium.kernel((self.shortest)(self.position[i] - self.position[*j]));
         self.neighbors[i].iter().map(of).sum::<f64>() + self.volume(i) * self.medium.kernel(DVec3::ZERO)
     }
     /// Σ V (v − v') · ∇W
@@ -83,7 +84,9 @@ impl Flow {
     /// What κ makes of a velocity.
     fn pressed(&self, start: &[DVec3], kappa: &[f64], dt: f64) -> Vec<DVec3> {
         let one = |i: usize| {
-            let push = |j: &usize| self.volume(*j) * (kappa[i] + if self.wall[*j] { kappa[i] } else { kappa[*j] }) * self.slope(i, *j);
+            let push = |j: &usize| {
+                self.volume(*j) * (kappa[i] + if self.wall[*j] { kappa[i] } else { kappa[*j] }) * self.slope(i, *j)
+            };
             let push: DVec3 = self.neighbors[i].iter().map(push).sum();
             if self.wall[i] { start[i] } else { start[i] - dt * push }
         };
@@ -92,7 +95,8 @@ impl Flow {
     /// Solves such that over ρ / ρ₀ = `density` the velocity leaves no more than 1; whose `free` is true may be compressed.
     pub fn solve(&mut self, density: &[f64], free: &[bool], dt: f64, tolerance: f64, most: u32) -> Solved {
         let (start, count) = (self.velocity.clone(), self.fluid().count() as f64);
-        let alpha: Vec<f64> = (0..start.len()).map(|i| if self.wall[i] || free[i] { 0.0 } else { self.alpha(i) }).collect();
+        let alpha: Vec<f64> =
+            (0..start.len()).map(|i| if self.wall[i] || free[i] { 0.0 } else { self.alpha(i) }).collect();
         let omega = 1.25 / if self.medium.dimensions == 2 { 2.75 } else { 3.5 };
         let (mut kappa, mut reached) = (vec![0.0; start.len()], vec![0.0; start.len()]);
         for iterations in 1..=most {
@@ -106,7 +110,8 @@ impl Flow {
                 error += (next[i] - kappa[i]).abs() / weight / count;
             }
             let onward = f64::from(iterations - 1) / f64::from(iterations + 2);
-            kappa = next.iter().zip(&reached).map(|(next, reached)| (next + onward * (next - reached)).max(0.0)).collect();
+            kappa =
+                next.iter().zip(&reached).map(|(next, reached)| (next + onward * (next - reached)).max(0.0)).collect();
             reached = next;
             if error <= tolerance && iterations >= 2 || iterations == most {
                 return Solved { iterations, error, kappa };

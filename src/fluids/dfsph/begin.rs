@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DVec4, Vec4};
 
 use super::{
-    Dfsph, ERRORS, KEPT, PUSHES, RESPONSE, RESPONSES, STATE, STATES, STIFFNESS, UNKNOWN, UNKNOWNS, with,
+    Dfsph, ERRORS, KEPT, PUSHES, RESPONSE, RESPONSES, STATE, STATES, STIFFNESS, UNKNOWN, UNKNOWNS, WARM, with,
 };
 use crate::error::Error;
 use crate::kernel::{Host, Kernel};
@@ -18,7 +18,7 @@ const WALL: f64 = -1.0;
 /// The kernel.
 pub fn kernel(of: &Dfsph<'_>) -> Result<Kernel, Error> {
     let (holding, tables) = of.problem.holding();
-    let (who, slots, warm, fewest) = (of.problem.clone(), of.slots(), of.warm(), of.fewest());
+    let (who, slots, fewest) = (of.problem.clone(), of.slots(), of.fewest());
     let relaxes = of.relaxation();
     let names = [RESPONSES, UNKNOWNS, PUSHES, ERRORS].map(|name| of.name(name));
     let twin = move |host: &Host| {
@@ -32,7 +32,7 @@ pub fn kernel(of: &Dfsph<'_>) -> Result<Kernel, Error> {
             let response = &responses[RESPONSE * k..];
             let enough = response[3] >= fewest;
             let relaxation = if enough { relaxes * response[1] / (dt * dt) } else { 0.0 };
-            let kappa = if relaxation > 0.0 { warm * kept[STIFFNESS * id] } else { 0.0 };
+            let kappa = if relaxation > 0.0 { WARM * kept[STIFFNESS * id] } else { 0.0 };
             let source = if enough { -dt * response[2] } else { ANYTHING };
             let solved = if who.is_held(id) { 0.0 } else { 1.0 };
             let unknown = if who.is_held(id) { [WALL, 0.0, 0.0, 0.0] } else { [kappa, kappa, relaxation, source] };
@@ -43,5 +43,5 @@ pub fn kernel(of: &Dfsph<'_>) -> Result<Kernel, Error> {
     };
     let files = [holding, crate::shader!("fluids/dfsph/begin.wgsl")];
     let kernel = of.plain("fluid begin".to_owned(), &files, &[], of.problem.count, Arc::new(twin))?;
-    Ok(Kernel { tables, ..with(kernel, &[("FEWEST", fewest), ("WARM", warm), ("RELAXATION", relaxes)]) })
+    Ok(Kernel { tables, ..with(kernel, &[("FEWEST", fewest), ("WARM", WARM), ("RELAXATION", relaxes)]) })
 }

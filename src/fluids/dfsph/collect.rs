@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::Vec4;
 
 use super::push::changes;
-use super::{Dfsph, KAPPA, KEPT, PUSHES, RESPONSE, RESPONSES, STATE, STATES, STIFFNESS, UNKNOWN, UNKNOWNS, with};
+use super::{Dfsph, KAPPA, KEPT, PUSHES, RESPONSE, RESPONSES, STATE, STATES, STIFFNESS, UNKNOWN, UNKNOWNS, WARM, with};
 use crate::error::Error;
 use crate::kernel::{ACCELERATION, Host, Kernel};
 
@@ -33,7 +33,7 @@ pub fn collect(of: &Dfsph<'_>) -> Result<Kernel, Error> {
 
 /// The second begins: what the density will be at the end of the step.
 pub fn predict(of: &Dfsph<'_>) -> Result<Kernel, Error> {
-    let (medium, slots, warm) = (of.medium, of.slots(), of.warm());
+    let (medium, slots) = (of.medium, of.slots());
     let relaxes = of.relaxation();
     let [unknowns, pushes, responses] = [UNKNOWNS, PUSHES, RESPONSES].map(|name| of.name(name));
     let twin = move |host: &Host| {
@@ -46,7 +46,7 @@ pub fn predict(of: &Dfsph<'_>) -> Result<Kernel, Error> {
             let response = &responses[RESPONSE * k..];
             let relaxation = relaxes * response[1] / (dt * dt);
             let source = -(response[0] + dt * (response[2] + dt * change));
-            let kappa = if relaxation > 0.0 { warm * kept[STIFFNESS * id + 1] } else { 0.0 };
+            let kappa = if relaxation > 0.0 { WARM * kept[STIFFNESS * id + 1] } else { 0.0 };
             unknowns[UNKNOWN * k..UNKNOWN * (k + 1)].copy_from_slice(&[kappa, kappa, relaxation, source]);
         }
         Ok(())
@@ -57,5 +57,5 @@ pub fn predict(of: &Dfsph<'_>) -> Result<Kernel, Error> {
         crate::shader!("fluids/dfsph/predict.wgsl"),
     ];
     let kernel = of.sweep("fluid predict".to_owned(), files, Arc::new(twin))?;
-    Ok(with(kernel, &[("WARM", warm), ("RELAXATION", relaxes)]))
+    Ok(with(kernel, &[("WARM", WARM), ("RELAXATION", relaxes)]))
 }

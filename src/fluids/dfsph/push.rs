@@ -46,12 +46,7 @@ pub fn push(of: &Dfsph<'_>, solve: Solve) -> Result<Kernel, Error> {
 }
 
 /// How fast accelerations make the density grow, as a part of that at rest, by id; of those that are solved for.
-pub fn changes(
-    host: &Host,
-    medium: &Medium,
-    ids: &[usize],
-    pushes: &Name,
-) -> Result<Vec<Option<f64>>, Error> {
+pub fn changes(host: &Host, medium: &Medium, ids: &[usize], pushes: &Name) -> Result<Vec<Option<f64>>, Error> {
     let mut felt = vec![glam::DVec4::ZERO; ids.len()];
     let pushes = host.reading::<Vec4>(pushes)?;
     ids.iter().zip(pushes.iter()).for_each(|(id, push)| felt[*id] = *push);
