@@ -3,6 +3,7 @@
 mod alarms;
 mod boundary;
 mod curious;
+mod dfsph;
 mod equivalent_neighbors;
 mod equivalent_primitives;
 mod equivalents;
