@@ -47,10 +47,8 @@ pub struct Simulation<B: Backend> {
     step: B::Program,
     measure: (B::Program, B::Program),
     plan: String,
-    /// Whether a step keeps a report of its solves.
-    solves: bool,
-    /// Whether it keeps one of solves for pressure.
-    pressures: bool,
+    /// Whether a step keeps a report of its solves, and one of those for pressure.
+    reports: [bool; 2],
     count: u32,
     /// As the setup gave them: nothing changes them.
     species: Vec<u32>,
@@ -70,7 +68,7 @@ impl<B: Backend> Simulation<B> {
         let count = setup.check()?;
         let plans = setup.plans(backend.machine())?;
         let plan = plans.step.to_string();
-        let [solves, pressures] =
+        let reports =
             [SOLVE_REPORT, DFSPH_REPORT].map(|name| plans.step.kernels.iter().any(|kernel| kernel.names(name)));
         let start = backend.compile(&plans.start)?;
         let step = backend.compile(&plans.step)?;
@@ -107,22 +105,7 @@ impl<B: Backend> Simulation<B> {
         }
         let (links, breaks) = (particles.links.clone(), setup.breaks());
         let (begun, dt, steps) = (false, setup.dt, 0);
-        Ok(Self {
-            backend,
-            start,
-            begun,
-            step,
-            measure,
-            plan,
-            solves,
-            pressures,
-            count,
-            species,
-            links,
-            breaks,
-            dt,
-            steps,
-        })
+        Ok(Self { backend, start, begun, step, measure, plan, reports, count, species, links, breaks, dt, steps })
     }
     /// Advances. May return before the device is done; reading waits.
     ///

@@ -194,8 +194,7 @@ impl Run {
             film.develop(&mut simulation, &output, &self.progress).await?;
         }
         let concluded = self.conclude(steps, &output, stepping, image.as_ref());
-        solves::tell(&self.progress, simulation.solves().await?);
-        solves::tell_pressures(&self.progress, simulation.pressure_solves().await?);
+        solves::tell(&self.progress, simulation.solves().await?, simulation.pressure_solves().await?);
         concluded
     }
 

@@ -90,12 +90,6 @@ impl Fluid {
             least: count("min_iterations"),
             most: count("max_iterations"),
         };
-        if number("alpha") > 0.0 {
-            return Err(Error::Scene(format!(
-                "a fluid has alpha = {}, a viscosity that goes with the speed of sound, which dfsph has not: give viscosity instead",
-                number("alpha")
-            )));
-        }
         Dfsph::new(medium, asked, problem)
     }
     fn friction(&self) -> Friction {
@@ -141,8 +135,13 @@ impl Force for Fluid {
     }
     fn remark(&self, dt: f64) -> Option<String> {
         let speed = COURANT * self.0.number("spacing") / dt;
+        let alpha = if self.0.number("alpha") > 0.0 {
+            "; alpha goes with the speed of sound, which is none where pressure is solved for: give viscosity instead"
+        } else {
+            ""
+        };
         self.solves().then(|| {
-            format!("the fluid's dt = {dt} is for speeds up to {speed:.3}: in a step nobody should go farther than {COURANT} spacings")
+            format!("the fluid's dt = {dt} is for speeds up to {speed:.3}: in a step nobody should go farther than {COURANT} spacings{alpha}")
         })
     }
     fn answers(&self) -> bool {

@@ -31,7 +31,7 @@ impl<B: Backend> Simulation<B> {
     /// # Errors
     /// What reading says.
     pub async fn pressure_solves(&mut self) -> Result<Option<[PressureSolves; 2]>, Error> {
-        if !self.pressures {
+        if !self.reports[1] {
             return Ok(None);
         }
         let report = self.backend.read(DFSPH_REPORT, &Array::Uint(Vec::new()), DFSPH_WORDS).await?;

@@ -1,5 +1,9 @@
 //! Fluids whose pressure is solved for: the kernels against their twins, what a solve leaves, columns at rest, and odd states.
-#![allow(clippy::cast_possible_truncation, reason = "numbers are rounded to what f32 holds, and ids are few")]
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "numbers are rounded to what f32 holds, and ids and steps are few"
+)]
 
 mod lockstep;
 mod odd;

@@ -42,6 +42,6 @@ pub fn kernel(of: &Dfsph<'_>) -> Result<Kernel, Error> {
         Ok(())
     };
     let files = [holding, crate::shader!("fluids/dfsph/begin.wgsl")];
-    let kernel = of.plain("fluid begin".to_owned(), &files, &[], of.problem.count, Arc::new(twin))?;
+    let kernel = of.plain("fluid begin", &files, &[], of.problem.count, Arc::new(twin))?;
     Ok(Kernel { tables, ..with(kernel, &[("FEWEST", fewest), ("WARM", WARM), ("RELAXATION", relaxes)]) })
 }

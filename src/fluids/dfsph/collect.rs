@@ -28,7 +28,7 @@ pub fn collect(of: &Dfsph<'_>) -> Result<Kernel, Error> {
         Ok(())
     };
     let files = [crate::shader!("fluids/dfsph/collect.wgsl")];
-    of.plain("fluid collect".to_owned(), &files, &[], of.problem.count, Arc::new(twin))
+    of.plain("fluid collect", &files, &[], of.problem.count, Arc::new(twin))
 }
 
 /// The second begins: what the density will be at the end of the step.

@@ -41,7 +41,7 @@ fn tally(of: &Dfsph<'_>, solve: Solve) -> Result<Kernel, Error> {
     };
     let files = [crate::shader!("fluids/dfsph/total.wgsl"), crate::shader!("fluids/dfsph/tally.wgsl")];
     let name = format!("fluid {} tally", solve.name());
-    let mut kernel = of.plain(name, &files, &extent(count), groups * WORKGROUP, Arc::new(twin))?;
+    let mut kernel = of.plain(&name, &files, &extent(count), groups * WORKGROUP, Arc::new(twin))?;
     kernel.passes[0].fields.push((PARTS, parts.clone()));
     kernel.sizes.push((parts, u64::from(groups)));
     Ok(with(kernel, &[("SOLVE", f64::from(solve as u32))]))
@@ -79,7 +79,7 @@ fn decide(of: &Dfsph<'_>, solve: Solve, what: &'static str, elements: u32) -> Re
         crate::shader!("fluids/dfsph/decide.wgsl"),
     ];
     let name = format!("fluid {} decide", solve.name());
-    let mut kernel = of.plain(name, &files, &extent(elements), WORKGROUP, Arc::new(twin))?;
+    let mut kernel = of.plain(&name, &files, &extent(elements), WORKGROUP, Arc::new(twin))?;
     let fields = &mut kernel.passes[0].fields;
     fields.retain(|(name, _)| *name != ERRORS);
     fields.push((ERRORS, field.clone()));

@@ -28,5 +28,5 @@ pub fn kernel(of: &Dfsph<'_>) -> Result<Kernel, Error> {
         Ok(())
     };
     let files = [crate::shader!("fluids/dfsph/finish.wgsl")];
-    of.plain("fluid finish".to_owned(), &files, &[], of.problem.count, Arc::new(twin))
+    of.plain("fluid finish", &files, &[], of.problem.count, Arc::new(twin))
 }

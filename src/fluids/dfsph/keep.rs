@@ -25,7 +25,7 @@ pub fn kernel(of: &Dfsph<'_>) -> Result<Kernel, Error> {
         for ((state, report), error) in solves.zip(errors.iter_mut()) {
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
             let iterations = state[0] as u32;
-            if state[1] != 1.0 {
+            if (state[1] - 1.0).abs() > 0.0 {
                 if report[1] == 0 {
                     report[2] = host.world().step;
                 }
@@ -40,5 +40,5 @@ pub fn kernel(of: &Dfsph<'_>) -> Result<Kernel, Error> {
         Ok(())
     };
     let files = [crate::shader!("fluids/dfsph/keep.wgsl")];
-    of.plain("fluid keep".to_owned(), &files, &[], of.problem.count.max(2), Arc::new(twin))
+    of.plain("fluid keep", &files, &[], of.problem.count.max(2), Arc::new(twin))
 }

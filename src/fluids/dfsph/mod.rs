@@ -102,7 +102,9 @@ impl<'a> Dfsph<'a> {
         let mut kernels = vec![push::push(self, solve)?, push::correct(self, solve)?];
         kernels.extend(decide::kernels(self, solve)?);
         for _ in 0..self.asked.most {
-            kernels.iter().for_each(|kernel| plan.add(kernel.clone()));
+            for kernel in &kernels {
+                plan.add(kernel.clone());
+            }
         }
         Ok(())
     }
@@ -137,7 +139,7 @@ impl<'a> Dfsph<'a> {
     /// A kernel over slots or particles, or of so many invocations.
     fn plain(
         &self,
-        name: String,
+        name: &str,
         files: &[Source],
         extent: &[(&'static str, Scalar)],
         threads: u32,
@@ -148,9 +150,9 @@ impl<'a> Dfsph<'a> {
         all.push(crate::shader!("fluids/medium.wgsl"));
         all.extend_from_slice(files);
         let shader = Shader::join(&all)?;
-        let uniforms = blocks(&name, &shader, &[self.medium.block(), ("extent", extent.to_vec())])?;
+        let uniforms = blocks(name, &shader, &[self.medium.block(), ("extent", extent.to_vec())])?;
         let pass = Pass { uniforms, ..Pass::new(shader.clone(), threads) };
-        let kernel = Kernel { passes: vec![pass], ..Kernel::new(&name, shader, Vec::new(), threads, twin) };
+        let kernel = Kernel { passes: vec![pass], ..Kernel::new(name, shader, Vec::new(), threads, twin) };
         Ok(self.bound(kernel))
     }
     /// The same with the fields of the grid, and the sizes of what does not have one element for each particle.
