@@ -5,12 +5,14 @@ mod mortals;
 mod pace;
 mod pictures;
 mod population;
+mod pressures;
 mod setup;
 mod solves;
 mod ties;
 
 pub use mortals::serves;
 pub use pace::Clock;
+pub use pressures::PressureSolves;
 pub use setup::{Plans, Setup};
 pub use solves::{Outcome, Solves};
 
@@ -18,6 +20,7 @@ use glam::DVec3;
 
 use crate::boundary;
 use crate::error::Error;
+use crate::fluids::DFSPH_REPORT;
 use crate::gpu::Gpu;
 use crate::integrators::SOLVE_REPORT;
 use crate::kernel::{
@@ -52,8 +55,8 @@ pub struct Simulation<B: Backend> {
     step: B::Program,
     measure: (B::Program, B::Program),
     plan: String,
-    /// Whether a step keeps a report of its solves.
-    solves: bool,
+    /// Whether a step keeps a report of its solves, and one of those for pressure.
+    reports: [bool; 2],
     count: u32,
     /// As the setup gave them: nothing changes them.
     species: Vec<u32>,
@@ -77,7 +80,8 @@ impl<B: Backend> Simulation<B> {
         let count = setup.check()?;
         let plans = setup.plans(backend.machine())?;
         let plan = plans.step.to_string();
-        let solves = plans.step.kernels.iter().any(|kernel| kernel.names(SOLVE_REPORT));
+        let reports =
+            [SOLVE_REPORT, DFSPH_REPORT].map(|name| plans.step.kernels.iter().any(|kernel| kernel.names(name)));
         let start = backend.compile(&plans.start)?;
         let step = backend.compile(&plans.step)?;
         let measure = (backend.compile(&plans.measure.0)?, backend.compile(&plans.measure.1)?);
@@ -131,7 +135,7 @@ impl<B: Backend> Simulation<B> {
             step,
             measure,
             plan,
-            solves,
+            reports,
             count,
             species,
             links,

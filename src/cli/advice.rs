@@ -225,6 +225,16 @@ pub fn advice(scene: &Scene, setup: &Setup) -> Result<Vec<String>, Error> {
     let name = scene.integrator.name;
     for (force, its) in setup.forces.iter().map(|force| (force, force.integrators())).filter(|(_, its)| !its.is_empty())
     {
+        if force.answers() {
+            remarks.extend(force.remark(setup.dt));
+            if !its.contains(&name) {
+                remarks.push(format!(
+                    "the fluid solves for the pressure of a whole step, felt where it begins: it wants {}, not {name}",
+                    its.join(" or ")
+                ));
+            }
+            continue;
+        }
         if !its.contains(&name) {
             let law = force.laws().first().map(|law| law.name.clone()).unwrap_or_default();
             remarks.push(format!("`{law}` is a rule for whole steps: it wants {}, not {name}", its.join(" or ")));

@@ -109,6 +109,14 @@ pub trait Force: Send + Sync {
     fn breaks(&self) -> bool {
         false
     }
+    /// Whether it answers to what all others say: it is evaluated after them, wherever the scene names it.
+    fn answers(&self) -> bool {
+        false
+    }
+    /// What one should know of it before it runs in steps of `dt`.
+    fn remark(&self, _dt: f64) -> Option<String> {
+        None
+    }
     /// Whether rods keep their lengths by it.
     fn keeps_rods(&self) -> bool {
         false

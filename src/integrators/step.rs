@@ -81,7 +81,9 @@ impl<'a> Step<'a> {
         self.neighbors(&chosen);
         let mut laws = Plan::default();
         let name = |force: &dyn Force| force.laws().first().map(|law| law.name.clone());
-        for (place, force) in self.forces.iter().enumerate().filter(|(place, _)| chosen(*place)) {
+        let all = || self.forces.iter().enumerate().filter(|(place, _)| chosen(*place));
+        let ordered = all().filter(|(_, force)| !force.answers()).chain(all().filter(|(_, force)| force.answers()));
+        for (place, force) in ordered {
             // Two forces of one kind are two kernels.
             let earlier =
                 self.forces[..place].iter().filter(|other| name(other.as_ref()) == name(force.as_ref())).count();

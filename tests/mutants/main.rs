@@ -4,6 +4,7 @@ mod alarms;
 mod births;
 mod boundary;
 mod curious;
+mod dfsph;
 mod equivalent_neighbors;
 mod equivalent_primitives;
 mod equivalents;
