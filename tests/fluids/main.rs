@@ -14,6 +14,7 @@ mod invariants;
 mod keys;
 mod lockstep;
 mod smoothing;
+mod tension;
 mod vortices;
 mod walls;
 
