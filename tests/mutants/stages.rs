@@ -192,7 +192,7 @@ pub fn all(shared: &Shared) -> Vec<Stage> {
     crate::held::all(&device, &mut stages);
     crate::rods::rods(&device, &mut stages);
     crate::strained::all(&device, &mut stages);
-    crate::dfsph::all(&device, &mut stages);
+    crate::dfsph::all(shared, &device, &mut stages);
     crate::ewald::all(shared, &device, &mut stages);
     pairs(shared, &device, &mut stages);
     crate::neighbors::all(shared, &device, &mut stages);
