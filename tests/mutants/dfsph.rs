@@ -176,6 +176,7 @@ fn ends(simulation: &Rc<RefCell<Simulation<Gpu>>>, decide: &Kernel, stages: &mut
     stages.push(
         Stage::amid(&format!("{}, broken", decide.name), simulation, alone(decide.clone())).told("dfsph_state", told),
     );
+    words(simulation, &field, &[1e-3]);
 }
 
 /// Errors of so many that they are added in two dispatches.
