@@ -44,8 +44,8 @@ fn a_run_ends_where_it_shall() {
     let (now, there) = (clock(&mut device), clock(&mut twin));
     assert_eq!((now.time, there.time, now.dt, now.reason), (stop, stop, 0.0, Reason::Stop));
     assert!(now.steps > 5 && now.steps < 40 && now.steps == device.steps(), "{now:?}");
-    // The last two were made alike, rather than one long and one tiny.
-    assert!(now.reasons[Reason::Stop as usize] == 2 && now.between[0] > 0.4 * now.between[1], "{now:?}");
+    // The last were made alike, two or, where the limit has shrunk in between, three, rather than one long and one tiny.
+    assert!((2..=3).contains(&now.reasons[Reason::Stop as usize]) && now.between[0] > 0.4 * now.between[1], "{now:?}");
     let rests = bytes(&mut device);
     device.step(20).expect("steps that do nothing");
     assert!(bytes(&mut device) == rests && clock(&mut device) == now, "who rests must not move");
