@@ -135,12 +135,17 @@ impl<B: Backend> Simulation<B> {
     /// When the device is lost, out of memory, or does not answer in time.
     pub fn step(&mut self, steps: u32) -> Result<(), Error> {
         self.room(steps)?;
+        self.begin()?;
+        self.backend.run(&self.step, steps)?;
+        self.steps += u64::from(steps);
+        Ok(())
+    }
+    /// Runs what is done once before the first step, where that has not been.
+    fn begin(&mut self) -> Result<(), Error> {
         if !self.begun {
             self.backend.run(&self.start, 1)?;
             self.begun = true;
         }
-        self.backend.run(&self.step, steps)?;
-        self.steps += u64::from(steps);
         Ok(())
     }
     /// The device counts steps in 32 bits.
@@ -176,9 +181,9 @@ impl<B: Backend> Simulation<B> {
     /// [`Error::NotFinite`], [`Error::Crowded`], or what reading says. Speeds that run away are no error here.
     pub async fn snapshot(&mut self) -> Result<Snapshot, Error> {
         alarm::sound(&self.alarm().await?)?;
-        if self.begins && !self.begun {
-            self.backend.run(&self.start, 1)?;
-            self.begun = true;
+        // What a fluid's walls weigh, and its density at rest, are said there.
+        if self.begins {
+            self.begin()?;
         }
         self.backend.run(&self.measure.0, 1)?;
         let count = self.count as usize;

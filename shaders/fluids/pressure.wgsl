@@ -1,6 +1,6 @@
 // Momentum (Monaghan 1992, 2005), with r from me to you, v = v_you − v_me, and g r the gradient of W at you:
 //   a = Σ m (p/ρ² + p'/ρ'² + Π) g r,  Π = −α c μ / ρ̄,  μ = s v·r / (r² + 0.01 s²) where they come closer, s the smoothing length
-//   a −= Σ m ν (1/ρ + 1/ρ') g r² / (r² + 0.01 s²) v   (Morris, Fox & Zhu 1997, with ρ ν for each of them)
+//   a −= Σ m ν (1/ρ + 1/ρ') g v   (Morris, Fox & Zhu 1997, with ρ ν for each of them; g is finite, so that nothing else need be)
 // Walls have the density of rest, my own pressure (Akinci et al. 2012) or one of theirs, and a share of the friction.
 struct Params { alpha: f32, viscosity: f32, wall: f32, mirror: u32 }
 struct Sum { acceleration: vec3f }
@@ -21,7 +21,7 @@ fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
     let near = d2 + 0.01 * medium.smoothing * medium.smoothing;
     let closing = min(v.x * r.x + v.y * r.y + v.z * r.z, 0.0) * medium.smoothing / near;
     let artificial = params.alpha * medium.sound * closing / (0.5 * (me.density + density));
-    let laminar = params.viscosity * (1.0 / me.density + 1.0 / density) * d2 / near;
+    let laminar = params.viscosity * (1.0 / me.density + 1.0 / density);
     let push = me.pressure + pressure - friction * artificial;
     (*sum).acceleration += (you.mass * gradient(r)) * (push * r - (friction * laminar) * v);
 }

@@ -15,7 +15,7 @@ use motes::{Bounds, Error, Setup, Side};
 use super::solves;
 
 /// What a law's twin says to a particle at rest somewhere.
-fn felt(twin: &Twin, (time, step): (f64, u32), position: DVec3, bounds: Bounds) -> Result<DVec4, Error> {
+pub fn felt(twin: &Twin, (time, step): (f64, u32), position: DVec3, bounds: Bounds) -> Result<DVec4, Error> {
     let mut host = Host::default();
     host.insert(POSITION.name, Array::Vec4(vec![position.extend(1.3)]));
     host.insert(VELOCITY.name, Array::Vec4(vec![DVec4::ZERO]));

@@ -12,12 +12,13 @@ use super::args::SceneArgs;
 use super::course;
 use super::engine::Engine;
 use super::failure::Failure;
+use super::fluid;
 use super::progress::duration;
 use super::substeps::{self, Loaded};
 
 /// Checks a scene: its faults, its memory, and the time that a run would take.
 pub async fn check(args: &SceneArgs) -> Result<(), Failure> {
-    let Loaded { scene, setup, .. } = substeps::load(args, None).await?;
+    let Loaded { scene, setup, start, .. } = substeps::load(args, None).await?;
     let count = setup.check()?;
     Picture::with(&scene.picture, &setup.particles, &[], Trail::new(0), &Scenery::of(&setup.particles))?;
     let engine = Engine::choose(&args.device).await?;
@@ -25,6 +26,13 @@ pub async fn check(args: &SceneArgs) -> Result<(), Failure> {
     out!("on {}", engine.describe());
     if scene.bounds != Bounds::default() {
         out!("box: {}", scene.bounds);
+    }
+
+    let mut remarks = Vec::new();
+    if let Some(start) = &start {
+        let (lines, notes) = fluid::told(&setup, start)?;
+        out!("\nfluid\n{}", lines.join("\n"));
+        remarks = notes;
     }
 
     let plans = setup.plans(engine.machine(count)?)?;
@@ -52,7 +60,7 @@ pub async fn check(args: &SceneArgs) -> Result<(), Failure> {
     };
     let total = per_step.mul_f64(scene.steps as f64);
     out!("\ntime: {} per step, about {} in all, without writing files", duration(per_step), duration(total));
-    let remarks = advice(&scene, &setup)?;
+    remarks.extend(advice(&scene, &setup)?);
     for remark in engine.remarks(&setup)?.into_iter().chain(remarks) {
         out!("note: {remark}");
     }

@@ -32,7 +32,8 @@ impl Book {
     pub fn of(setup: &Setup) -> Result<Option<Self>, Error> {
         let problem = setup.problem(Machine { software: true, subgroup: 0, invocations: 1 })?;
         for force in &setup.forces {
-            if let Some(medium) = force.fluid(&problem)? {
+            if let Some(fluid) = force.fluid(&problem)? {
+                let medium = fluid.medium;
                 let held = (0..setup.particles.len()).map(|id| problem.is_held(id)).collect();
                 let (table, first, last, worst) = (None, None, Ledger::default(), Ledger::default());
                 let (bounds, dt, mean) = (setup.bounds, setup.dt, 0.0);

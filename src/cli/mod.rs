@@ -29,6 +29,7 @@ mod failure;
 mod far;
 mod film;
 mod ledger;
+mod fluid;
 mod output;
 mod plot;
 mod progress;

@@ -38,7 +38,7 @@ const TRAIL: u64 = 1000;
 /// Runs a scene.
 pub async fn run(args: &RunArgs) -> Result<(), Failure> {
     let frames = args.frames.map(|n| format!("output.frames={n}"));
-    let Loaded { scene, setup, verdict } = substeps::load(&args.scene, frames).await?;
+    let Loaded { scene, setup, verdict, .. } = substeps::load(&args.scene, frames).await?;
     let count = setup.check()?;
     let engine = Engine::choose(&args.scene.device).await?;
     let mut run = Run::new(args, scene, &setup, &engine)?;

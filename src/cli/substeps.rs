@@ -1,5 +1,6 @@
 //! Steps that springs bear: a warning before a run, and the division of steps that are too long.
 
+use motes::fluids::Start;
 use motes::integrators::{Entry, INTEGRATORS};
 use motes::scene::Scene;
 use motes::stability::Verdict;
@@ -17,6 +18,8 @@ pub struct Loaded {
     pub setup: Setup,
     /// What springs ask of its steps, if there are any.
     pub verdict: Option<Verdict>,
+    /// How its fluid starts, if there is one.
+    pub start: Option<Start>,
 }
 
 /// Loads the scene of the arguments, with one more value set; with `--auto-substeps` in steps that its springs bear.
@@ -77,9 +80,9 @@ pub async fn load(args: &SceneArgs, set: Option<String>) -> Result<Loaded, Failu
 
 async fn judge(mut scene: Scene) -> Result<Loaded, Failure> {
     let setup = engine::setup(&mut scene);
-    setup.check()?;
+    let start = setup.start()?;
     let verdict = Verdict::of(&setup, scene.integrator.build, scene.steps).await?;
-    Ok(Loaded { scene, setup, verdict })
+    Ok(Loaded { scene, setup, verdict, start })
 }
 
 /// The spring that asks for the shortest step.

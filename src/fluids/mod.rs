@@ -23,7 +23,7 @@ pub use limits::{Limits, limits};
 pub use medium::Medium;
 pub use pressure::{Friction, Walls, pressure};
 pub use smoothing::Smoothing;
-pub use start::{Start, Still};
+pub use start::{Continuum, Start, Still};
 pub use state::state;
 pub use tension::{Tension, tension};
 pub use wall_pressure::wall_pressure;

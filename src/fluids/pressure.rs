@@ -106,6 +106,6 @@ fn push(
     let near = r.length_squared() + 0.01 * length * length;
     let closing = v.dot(r).min(0.0) * length / near;
     let artificial = friction.alpha * medium.sound * closing / (0.5 * (mine.x + density));
-    let laminar = friction.viscosity * (1.0 / mine.x + 1.0 / density) * r.length_squared() / near;
+    let laminar = friction.viscosity * (1.0 / mine.x + 1.0 / density);
     you.mass * medium.gradient(r) * ((mine.y + pressure - share * artificial) * r - share * laminar * v)
 }

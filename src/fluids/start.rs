@@ -6,7 +6,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::company::Company;
-use super::{Medium, gap};
+use super::{Medium, WallMass, gap};
 use crate::error::Error;
 use crate::kernel::Bounds;
 
@@ -17,6 +17,17 @@ const MACH: f64 = 0.2;
 /// Two that are nearer than this \[spacings\] hardly feel each other's pressure, whose gradient is none at no distance: they
 /// stay together for ever.
 const SAME_PLACE: f64 = 0.1;
+
+/// What a force makes of everybody who is not held.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Continuum {
+    /// What flows.
+    pub medium: Medium,
+    /// What its walls weigh.
+    pub walls: WallMass,
+    /// Whether its density is summed over masses around; else it begins at rest, whatever is around.
+    pub summed: bool,
+}
 
 /// Particles as they stand before the first step.
 #[derive(Debug, Clone, Copy)]
@@ -34,8 +45,10 @@ pub struct Still<'a> {
 /// How a fluid starts.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Start {
-    /// The fluid.
+    /// What flows.
     pub medium: Medium,
+    /// Whether its density is that of the start, or only what a sum over masses would say: see [`Continuum`].
+    pub summed: bool,
     /// How many particles are of the fluid.
     pub fluid: u32,
     /// How many are of walls.
@@ -61,7 +74,8 @@ impl Start {
     ///
     /// # Errors
     /// [`Error::Scene`] when there is nothing of the fluid, or something of it weighs nothing.
-    pub fn of(medium: &Medium, still: &Still<'_>) -> Result<Self, Error> {
+    pub fn of(fluid: &Continuum, still: &Still<'_>) -> Result<Self, Error> {
+        let medium = &fluid.medium;
         let ids: Vec<usize> = (0..still.position.len()).filter(|id| !still.walls[*id]).collect();
         if ids.is_empty() {
             let text = "there is a fluid and nothing of it: everybody is held, and who is held is of its walls; add a \
@@ -77,7 +91,7 @@ impl Start {
             )));
         }
         let company = Company::new(still.position, still.bounds, medium.range());
-        let mass = masses(medium, still, &company);
+        let mass = masses(fluid, still, &company);
         let densities: Vec<(f64, Option<(usize, f64)>)> =
             ids.par_iter().map(|id| felt(medium, still, &company, &mass, *id)).collect();
         let (mut densest, mut thinnest) = ((0, 0.0), (0, f64::INFINITY));
@@ -99,6 +113,7 @@ impl Start {
         let high = ids.iter().map(|id| still.position[*id]).reduce(DVec3::max).unwrap_or_default();
         Ok(Self {
             medium: *medium,
+            summed: fluid.summed,
             fluid: id32(ids.len()),
             walls: id32(still.position.len() - ids.len()),
             extent: (low, high),
@@ -107,7 +122,7 @@ impl Start {
             thinnest: (id32(thinnest.0), thinnest.1),
             same,
             dense,
-            cause: cause(medium, still, &company, &mass, densest.0),
+            cause: cause(fluid, still, &company, &mass, densest.0),
         })
     }
     /// The pressure of the densest particle \[mass / (length time²)\].
@@ -128,7 +143,7 @@ impl Start {
     /// [`Error::Scene`] that names the particles, and the cause.
     pub fn check(&self) -> Result<(), Error> {
         let (id, ratio) = self.densest;
-        if self.dense > 0 {
+        if self.summed && self.dense > 0 {
             return Err(Error::Scene(format!(
                 "this start would explode: {} of {} particles of the fluid are too dense; particle {id}, the densest, is at {ratio:.3} times \
                  the density at rest, which is a pressure of {:.3e} and bursts at {:.2} of the speed of sound ({MACH} is the most): {}",
@@ -160,10 +175,14 @@ fn speed(medium: &Medium, ratio: f64) -> f64 {
 }
 
 /// What everybody weighs: walls as much as the fluid whose place they take.
-fn masses(medium: &Medium, still: &Still<'_>, company: &Company<'_>) -> Vec<f64> {
+fn masses(fluid: &Continuum, still: &Still<'_>, company: &Company<'_>) -> Vec<f64> {
+    let medium = &fluid.medium;
     let of = |id: usize| {
         if !still.walls[id] {
             return still.mass[id];
+        }
+        if fluid.walls == WallMass::Lattice {
+            return medium.mass();
         }
         let mut sum = medium.kernel(DVec3::ZERO);
         company.of(id, |you, r| sum += if still.walls[you] { medium.kernel(r) } else { 0.0 });
@@ -192,7 +211,8 @@ fn felt(
 }
 
 /// Why it is so dense there: the first that is out of the way among masses, spacings, walls and company.
-fn cause(medium: &Medium, still: &Still<'_>, company: &Company<'_>, mass: &[f64], id: usize) -> String {
+fn cause(fluid: &Continuum, still: &Still<'_>, company: &Company<'_>, mass: &[f64], id: usize) -> String {
+    let medium = &fluid.medium;
     let (own, lattice, d) = (mass[id], medium.mass(), medium.spacing);
     let (mut walls, mut wall) = (0.0, None::<(usize, f64)>);
     company.of(id, |you, r| {
@@ -203,7 +223,10 @@ fn cause(medium: &Medium, still: &Still<'_>, company: &Company<'_>, mass: &[f64]
             }
         }
     });
-    let (_, nearest) = felt(medium, still, company, mass, id);
+    // It may be farther away than the kernel reaches.
+    let others = (0..still.position.len()).filter(|other| *other != id && !still.walls[*other]);
+    let away = others.map(|other| (other, still.bounds.shortest(still.position[other] - still.position[id]).length()));
+    let nearest = away.reduce(|a, b| if b.1 < a.1 { b } else { a });
     if (own / lattice - 1.0).abs() > 0.01 {
         let dimensions = medium.dimensions;
         let power = (own / medium.density).powf(1.0 / f64::from(dimensions));
@@ -218,7 +241,10 @@ fn cause(medium: &Medium, still: &Still<'_>, company: &Company<'_>, mass: &[f64]
             )
         };
     }
-    let rest = gap(medium.smoothing, medium.support, 1, medium.dimensions) * d;
+    let rest = match fluid.walls {
+        WallMass::Sampled => d * gap(medium.smoothing, medium.support, 1, medium.dimensions),
+        WallMass::Lattice => d,
+    };
     if let Some((other, r)) = nearest.filter(|(_, r)| *r < 0.9 * d) {
         return format!(
             "particle {other} of the fluid is {r:.3e} away from it, and the spacing is {d}: two blocks overlap, or stand too near to \
@@ -227,8 +253,8 @@ fn cause(medium: &Medium, still: &Still<'_>, company: &Company<'_>, mass: &[f64]
     }
     match wall {
         Some((other, r)) if r < rest.max(SQRT_2 * d) => format!(
-            "particle {other} of a wall is {r:.3e} away from it, and a wall of one layer leaves the fluid at rest at {rest:.3e} (with a \
-             support of {} spacings): move it away, or let the shapes tank and wall place it",
+            "particle {other} of a wall is {r:.3e} away from it, and leaves the fluid at rest at {rest:.3e} (for a support \
+             of {} spacings): move it away, or let the shapes tank and wall place it",
             medium.support
         ),
         _ => format!("{:.0} % of that are walls, the rest is fluid around it: give it more room", 100.0 * walls),

@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::{Force, Law, Problem};
 use crate::error::Error;
-use crate::fluids::{self, Continuity, Friction, Limits, Medium, Smoothing, Tension, WallMass, Walls};
+use crate::fluids::{self, Continuity, Continuum, Friction, Limits, Medium, Smoothing, Tension, WallMass, Walls};
 use crate::kernel::Plan;
 use crate::neighbors::Grid;
 use crate::settings::{Key, Kind, Settings, Value};
@@ -111,8 +111,9 @@ impl Force for Fluid {
     fn grids(&self, problem: &Problem) -> Result<Vec<(Grid, bool)>, Error> {
         Ok(vec![(self.medium(problem)?.grid(problem)?, true)])
     }
-    fn fluid(&self, problem: &Problem) -> Result<Option<Medium>, Error> {
-        self.medium(problem).map(Some)
+    fn fluid(&self, problem: &Problem) -> Result<Option<Continuum>, Error> {
+        let (medium, summed) = (self.medium(problem)?, self.continuity()?.is_none());
+        Ok(Some(Continuum { medium, walls: self.wall_mass(), summed }))
     }
     fn begin(&self, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
         let medium = self.medium(problem)?;

@@ -8,7 +8,7 @@ pub use custom::Custom;
 use kind::{Kind, SPECIES, species};
 
 use crate::error::Error;
-use crate::fluids::Medium;
+use crate::fluids::Continuum;
 pub use crate::kernel::Problem;
 use crate::kernel::{Plan, Scalar};
 use crate::neighbors::Grid;
@@ -113,7 +113,7 @@ pub trait Force: Send + Sync {
     ///
     /// # Errors
     /// [`Error::Scene`] when there is no such fluid.
-    fn fluid(&self, _problem: &Problem) -> Result<Option<Medium>, Error> {
+    fn fluid(&self, _problem: &Problem) -> Result<Option<Continuum>, Error> {
         Ok(None)
     }
     /// The integrators under which it is what its paper says; none: under all.

@@ -1,5 +1,7 @@
 //! A block of fluid at rest.
 
+use std::f64::consts::TAU;
+
 use glam::DVec3;
 
 use super::build::{CENTER, PARTICLE_RADIUS, Reader, SEED, VELOCITY};
@@ -23,6 +25,18 @@ const KEYS: &[Key] = &[
     SPACING,
     DENSITY,
     Key::new("jitter", Kind::NotNegative, Value::Number(0.0), "largest displacement along each axis, in spacings"),
+    Key::new(
+        "vortices",
+        Kind::Number,
+        Value::Number(0.0),
+        "the speed of vortices in it, one period along each of x and y (Taylor & Green 1937) [length / time]",
+    ),
+    Key::new(
+        "strain",
+        Kind::Number,
+        Value::Number(0.0),
+        "the rate at which it is drawn out along y and pressed together along x [1 / time]",
+    ),
     SEED,
     CENTER,
     VELOCITY,
@@ -46,6 +60,13 @@ fn build(settings: &Settings) -> Result<Particles, Error> {
     let jitter = reader.not_negative("jitter")?;
     let (center, velocity) = (reader.vector("center")?, reader.vector("velocity")?);
     let radius = reader.not_negative("particle_radius")?;
+    let [vortices, strain] = ["vortices", "strain"].map(|key| reader.number(key, "finite", |_| true));
+    let (vortices, strain) = (vortices?, strain?);
+    let flow = |x: DVec3| {
+        let (x, angle) = (x * spacing, TAU * x / numbers);
+        let whirl = DVec3::new(-libm::cos(angle.x) * libm::sin(angle.y), libm::sin(angle.x) * libm::cos(angle.y), 0.0);
+        velocity + vortices * whirl + strain * DVec3::new(-x.x, x.y, 0.0)
+    };
     let mut random = Random::new(settings.whole("seed"));
     let middle = (numbers - DVec3::ONE) * 0.5;
     for k in steps(numbers.z) {
@@ -58,7 +79,7 @@ fn build(settings: &Settings) -> Result<Particles, Error> {
                     let z = if flat { 0.0 } else { random.between(-jitter, jitter) };
                     place += DVec3::new(x, y, z);
                 }
-                particles.push(place * spacing + center, velocity, mass, radius);
+                particles.push(place * spacing + center, flow(place), mass, radius);
             }
         }
     }

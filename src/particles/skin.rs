@@ -33,17 +33,23 @@ pub(super) const KERNEL: Key = Key::new(
     Value::Text(Cow::Borrowed("cubic")),
     "what smooths the fluid, as in the force",
 );
+pub(super) const WALL_MASS: Key = Key::new(
+    "wall_mass",
+    Kind::Choice(&["sampled", "lattice"]),
+    Value::Text(Cow::Borrowed("sampled")),
+    "what the force lets walls weigh: sampled ones keep the gap that leaves the fluid at rest, those of a lattice go on with its own",
+);
 pub(super) const LAYERS: Key = Key::new(
     "layers",
-    Kind::Count,
-    Value::Number(1.0),
-    "how many particles a wall is thick: 1 for a support of 2 spacings; for wider ones as many as that has spacings",
+    Kind::Whole,
+    Value::Number(0.0),
+    "how many particles a wall is thick; 0: one where it is sampled, on a lattice as many as the support has spacings",
 );
 /// The same for all walls.
 pub(super) const RADIUS: Key = PARTICLE_RADIUS;
 
-/// The most layers: supports end at 6 spacings.
-const MOST: u64 = 8;
+/// The most layers: supports end at 6 spacings, and no fluid feels what is farther away.
+const MOST: u64 = 64;
 
 /// The layers of a wall.
 pub(super) struct Skin {
@@ -60,12 +66,15 @@ impl Skin {
         let (spacing, density) = (reader.positive("spacing")?, reader.positive("density")?);
         let support = reader.number("support", "1.5 to 6 spacings", |x| (1.5..=6.0).contains(&x))?;
         let layers = reader.settings.whole("layers");
-        if !(1..=MOST).contains(&layers) {
-            return Err(reader.error(&format!("layers is {layers}; it must be 1 to {MOST}")));
+        if layers > MOST {
+            return Err(reader.error(&format!("layers is {layers}; {MOST} are the most")));
         }
-        let layers = u32::try_from(layers).unwrap_or(1);
+        let lattice = reader.settings.text("wall_mass") == "lattice";
+        let enough = if lattice { (1..6).find(|n| f64::from(*n) >= support).unwrap_or(6) } else { 1 };
+        let layers = u32::try_from(layers).ok().filter(|n| *n > 0).unwrap_or(enough);
         let dimensions = if flat { 2 } else { 3 };
-        let gap = gap(Smoothing::named(reader.settings.text("kernel")), support, layers, dimensions);
+        let smoothing = Smoothing::named(reader.settings.text("kernel"));
+        let gap = if lattice { 1.0 } else { gap(smoothing, support, layers, dimensions) };
         let mass = density * if flat { spacing * spacing } else { spacing.powi(3) };
         // The fluid's first layer stands half a spacing before the face.
         let depth = (gap - 0.5) * spacing;

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use glam::DVec3;
 
 use super::build::{CENTER, Reader};
-use super::skin::{DENSITY, KERNEL, LAYERS, RADIUS, SPACING, SUPPORT, Skin, cells, steps};
+use super::skin::{DENSITY, KERNEL, LAYERS, RADIUS, SPACING, SUPPORT, Skin, WALL_MASS, cells, steps};
 use super::{Particles, Shape, one_part};
 use crate::error::Error;
 use crate::settings::{Key, Kind, Settings, Value};
@@ -30,6 +30,7 @@ const KEYS: &[Key] = &[
     ),
     SUPPORT,
     KERNEL,
+    WALL_MASS,
     LAYERS,
     DENSITY,
     CENTER,

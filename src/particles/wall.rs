@@ -7,7 +7,7 @@ use glam::DVec3;
 
 use super::build::{CENTER, Reader};
 use super::mesh::Mesh;
-use super::skin::{DENSITY, KERNEL, LAYERS, RADIUS, SPACING, SUPPORT, Skin, cells, steps};
+use super::skin::{DENSITY, KERNEL, LAYERS, RADIUS, SPACING, SUPPORT, Skin, WALL_MASS, cells, steps};
 use super::{Particles, Shape, one_part};
 use crate::error::Error;
 use crate::settings::{Key, Kind, Settings, Value};
@@ -44,6 +44,7 @@ const KEYS: &[Key] = &[
     SPACING,
     SUPPORT,
     KERNEL,
+    WALL_MASS,
     LAYERS,
     DENSITY,
     CENTER,

@@ -7,7 +7,7 @@ use super::tree::{Data, Entry};
 use super::walk::Table;
 
 /// What shapes and forces of fluids share.
-const SHARED: [&str; 4] = ["spacing", "density", "support", "kernel"];
+const SHARED: [&str; 5] = ["spacing", "density", "support", "kernel", "wall_mass"];
 
 /// What the first force that makes a fluid says of it.
 pub(super) fn said<'a>(mut tables: impl Iterator<Item = &'a Table<'a>>) -> Vec<Entry> {

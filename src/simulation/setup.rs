@@ -119,10 +119,10 @@ impl Setup {
     pub fn start(&self) -> Result<Option<Start>, Error> {
         let problem = self.problem(Machine { software: true, subgroup: 0, invocations: 1 })?;
         let media = self.forces.iter().map(|force| force.fluid(&problem));
-        let Some(medium) = media.filter_map(Result::transpose).next().transpose()? else { return Ok(None) };
+        let Some(fluid) = media.filter_map(Result::transpose).next().transpose()? else { return Ok(None) };
         let Particles { position, velocity, mass, .. } = &self.particles;
         let walls: Vec<bool> = (0..position.len()).map(|id| problem.is_held(id)).collect();
-        let mut start = Start::of(&medium, &Still { position, mass, walls: &walls, bounds: &self.bounds })?;
+        let mut start = Start::of(&fluid, &Still { position, mass, walls: &walls, bounds: &self.bounds })?;
         let speeds = velocity.iter().zip(&walls).filter(|(_, wall)| !**wall).map(|(v, _)| v.length());
         start.speed = speeds.fold(0.0, f64::max);
         start.check()?;

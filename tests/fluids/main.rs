@@ -5,13 +5,21 @@
 #[path = "../support/mod.rs"]
 mod support;
 
+mod channels;
+mod columns;
+mod continuity;
+mod drops;
+mod friction;
 mod invariants;
 mod lockstep;
 mod smoothing;
+mod vortices;
 mod walls;
 
+use glam::DVec3;
 use motes::forces::Force;
-use motes::{Bounds, Gpu, Particles, Setup, Simulation};
+use motes::scene::{Options, Scene, Source};
+use motes::{Bounds, Gpu, POSITION, Particles, Setup, Simulation, VELOCITY};
 use support::Shared;
 use support::states::integrator;
 
@@ -28,4 +36,31 @@ fn setup(particles: &Particles, forces: Vec<Box<dyn Force>>, name: &str, dt: f64
 
 fn gpu(shared: &Shared, setup: &Setup) -> Simulation<Gpu> {
     Simulation::new(&shared.found.device, &shared.found.queue, setup).expect("a simulation")
+}
+
+/// A scene of the program with some changes, and its setup.
+fn scene(name: &str, changes: &[&str]) -> (Scene, Setup) {
+    let changes: Vec<_> = changes.iter().map(|text| (*text).to_owned()).collect();
+    let load = || {
+        let source = Source::find(name).expect("a scene of the program");
+        Scene::load(&source, &changes, &Options::default()).unwrap_or_else(|faults| panic!("{faults}"))
+    };
+    let parts = load();
+    let integrator = (parts.integrator.build)();
+    let setup = Setup {
+        particles: parts.particles,
+        forces: parts.forces,
+        integrator,
+        dt: parts.dt,
+        bounds: parts.bounds,
+        solver: motes::Solver::default(),
+    };
+    (load(), setup)
+}
+
+/// Where everybody is, and how they move.
+fn state(simulation: &mut Simulation<Gpu>) -> Vec<(DVec3, DVec3)> {
+    let read = |simulation: &mut Simulation<Gpu>, field| pollster::block_on(simulation.read(field)).expect("a field");
+    let (x, v) = (read(simulation, POSITION), read(simulation, VELOCITY));
+    x.iter().zip(v).map(|(x, v)| (x.truncate().as_dvec3(), v.truncate().as_dvec3())).collect()
 }

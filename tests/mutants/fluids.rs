@@ -16,7 +16,7 @@ use crate::stages::{Device, FEW, Stage};
 use crate::support::equivalents::{Equivalent, same};
 use crate::support::fluids::{SPACING, bounds, cloud, fluid};
 use crate::support::machines::{alone, subgroups_of_eight};
-use crate::support::states::{integrator, word};
+use crate::support::states::{integrator, vector, word};
 use crate::support::{Random, Shared};
 
 use Value::{Flag, Number};
@@ -24,6 +24,21 @@ use Value::{Flag, Number};
 pub const EQUIVALENT: &[Equivalent] = &[
     same("fluids/cubic", "return select(2.0", "<=", "<", "both halves have one value where they meet"),
     same("fluids/cubic", "return select(-6.0", "<=", "<", "both halves have one value where they meet"),
+    same(
+        "fluids/density_advance",
+        "const WORKGROUP",
+        "64u",
+        "65u",
+        "the host reads the size of a workgroup by reflection",
+    ),
+    same(
+        "fluids/density_rest",
+        "const WORKGROUP",
+        "64u",
+        "65u",
+        "the host reads the size of a workgroup by reflection",
+    ),
+    same("fluids/wall_state", "const WORKGROUP", "64u", "65u", "the host reads the size of a workgroup by reflection"),
     same("fluids/state", "const WORKGROUP", "64u", "65u", "the host reads the size of a workgroup by reflection"),
 ];
 
@@ -43,6 +58,8 @@ fn cases() -> Vec<Case> {
     vec![
         case("in space", false, Side::Periodic, true, vec![]),
         case("in the plane", true, Side::Open, true, vec![("kernel", word("wendland")), ("support", Number(2.6))]),
+        case("a state", false, Side::Open, true, state(0.7)),
+        case("a state without walls", true, Side::Periodic, false, state(0.0)),
         case(
             "without walls",
             true,
@@ -50,6 +67,19 @@ fn cases() -> Vec<Case> {
             false,
             vec![("negative_pressure", Flag(false)), ("gamma", Number(2.0))],
         ),
+    ]
+}
+
+/// Density as a state, walls with a pressure of their own, and XSPH.
+fn state(depth: f64) -> Vec<(&'static str, Value)> {
+    vec![
+        ("density_by", word("continuity")),
+        ("diffusion", Number(0.2)),
+        ("xsph", Number(0.3)),
+        ("weight", vector(0.3, -0.9, depth)),
+        ("walls", word("extrapolate")),
+        ("wall_mass", word("lattice")),
+        ("negative_pressure", Flag(depth > 0.0)),
     ]
 }
 
@@ -67,13 +97,19 @@ pub fn simulation(device: &Device, machine: Machine, setup: &Setup) -> Simulatio
     simulation
 }
 
-/// Other numbers than before in what a kernel makes anew.
+/// Other numbers than before in what a kernel makes anew, and in what walls are told.
 fn forget(simulation: &mut Simulation<Gpu>, kernel: &Kernel) {
     let mut random = Random::new(41);
-    for name in kernel.writes().iter().filter(|name| *name == "density" || name.starts_with("flow")) {
+    let anew = |name: &str| match kernel.name.as_str() {
+        "fluid state" => name.starts_with("flow"),
+        "fluid density" | "fluid rest" | "fluid density rate" => kernel.writes().iter().any(|other| other == name),
+        other => other.contains("wall") && name.starts_with("wall_"),
+    };
+    let plan = alone(kernel.clone());
+    for name in plan.fields(1).into_keys().filter(|name| anew(name)) {
         let gpu = simulation.backend();
-        let words: Vec<f32> = (0..gpu.size(name) / 4).map(|_| random.narrow()).collect();
-        gpu.write_bytes(name, 0, bytemuck::cast_slice(&words)).expect("a field");
+        let words: Vec<f32> = (0..gpu.size(&name) / 4).map(|_| random.narrow()).collect();
+        gpu.write_bytes(&name, 0, bytemuck::cast_slice(&words)).expect("a field");
     }
 }
 

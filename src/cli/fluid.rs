@@ -1,0 +1,97 @@
+//! What `check` says of a fluid before it runs.
+
+use glam::DVec3;
+use motes::fluids::Start;
+use motes::forces::{Over, Problem};
+use motes::kernel::{Machine, World};
+use motes::{Error, Setup};
+
+use super::advice::felt;
+
+/// The Mach number of the fastest flow, where the density varies by 1 % (Monaghan 1994).
+const MACH: f64 = 0.1;
+
+/// The lines about a start, and what is worth to be told of it.
+pub fn told(setup: &Setup, start: &Start) -> Result<(Vec<String>, Vec<String>), Error> {
+    let (medium, mut notes) = (&start.medium, Vec::new());
+    let size = if medium.dimensions == 2 { "square" } else { "cubic" };
+    let mut lines = vec![
+        format!(
+            "  at rest      density {}, on a {size} lattice of {}; a particle weighs {:.4e} and reaches {:.4e}",
+            medium.density,
+            medium.spacing,
+            medium.mass(),
+            medium.range()
+        ),
+        format!("  particles    {} of the fluid, {} of walls", start.fluid, start.walls),
+    ];
+    let weight = weight(setup)?;
+    let (g, extent) = (weight.length(), start.extent.1 - start.extent.0);
+    // Half a spacing of fluid is beyond the first and the last.
+    let height = extent.dot(weight.normalize_or_zero().abs()) + medium.spacing;
+    let fall = (2.0 * g * height).sqrt();
+    let fastest = fall.max(start.speed);
+    let how = if fall >= start.speed {
+        format!("√(2 g H) = {fall:.4} with g = {g:.4}, H = {height:.4}")
+    } else {
+        "as it starts".to_owned()
+    };
+    if fastest > 0.0 {
+        let ratio = medium.sound / fastest;
+        lines.push(format!("  sound        {}, {ratio:.1} times the fastest flow expected: {how}", medium.sound));
+        if ratio * MACH < 0.8 {
+            notes.push(format!(
+                "the speed of sound is {ratio:.1} times the fastest flow expected ({how}): the density will vary by {:.0} %; \
+                 sound_speed = {:.4} makes that 1 %",
+                100.0 / (ratio * ratio),
+                fastest / MACH
+            ));
+        }
+    } else {
+        lines.push(format!("  sound        {}; nothing says how fast it will flow", medium.sound));
+    }
+    if !start.summed {
+        lines.push("  at the start everybody at rest, for density comes by continuity".to_owned());
+        return Ok((lines, notes));
+    }
+    let ((dense, densest), (thin, thinnest)) = (start.densest, start.thinnest);
+    let pressure = match medium.density * g * height {
+        column if column > 0.0 => format!("{:.3} ρ g H", start.pressure() / column),
+        _ => format!("{:.3e}", start.pressure()),
+    };
+    lines.push(format!(
+        "  at the start the densest at {densest:.4} of rest (particle {dense}), a pressure of {pressure}"
+    ));
+    lines.push(format!("               the thinnest at {thinnest:.4} of rest (particle {thin})"));
+    let burst = start.burst();
+    if burst > MACH * medium.sound {
+        notes.push(format!(
+            "the densest of the fluid, particle {dense}, is at {densest:.3} times the density at rest: that bursts at {burst:.3e}, which is \
+             more than the fastest flow that the speed of sound is made for"
+        ));
+    }
+    if densest < 0.97 {
+        notes.push(format!(
+            "the densest of the fluid, particle {dense}, is at {densest:.3} times the density at rest: under weight it will sink together \
+             by as much; are masses density × spacing^{} = {:.4e}?",
+            medium.dimensions,
+            medium.mass()
+        ));
+    }
+    Ok((lines, notes))
+}
+
+/// The acceleration of all that pulls everybody alike, at the middle of the start.
+fn weight(setup: &Setup) -> Result<DVec3, Error> {
+    let machine = Machine { software: true, subgroup: 0, invocations: 1 };
+    let mut weight = DVec3::ZERO;
+    for law in setup.forces.iter().flat_map(|force| force.laws()).filter(|law| law.over == Over::Each) {
+        let velocity = law.clone().kernel(&Problem::new(1, machine))?.names("velocity");
+        if let (Some(twin), false) = (&law.twin, velocity) {
+            let middle = setup.particles.position.iter().sum::<DVec3>() / setup.particles.len() as f64;
+            let world = World { time: 0.0, dt: setup.dt, step: 0, count: 1, bounds: setup.bounds };
+            weight += felt(twin, (world.time, world.step), middle, world.bounds)?.truncate();
+        }
+    }
+    Ok(weight)
+}

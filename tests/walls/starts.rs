@@ -1,0 +1,122 @@
+//! Starts: what would explode is refused, and the cause is named.
+
+use motes::Setup;
+
+use crate::setup;
+
+/// A scene of a fluid in the plane or in space, of these particles.
+fn scene(flat: bool, force: &str, particles: &str) -> Setup {
+    let plane = if flat { "[box]\nsize = [9, 9, 0]\nboundary = \"open\"\n" } else { "" };
+    setup(&format!(
+        "[simulation]\ndt = 1e-4\nsteps = 1\n{plane}{particles}[[force]]\nkind = \"fluid\"\nspacing = 0.1\nsound_speed = 20\n{force}"
+    ))
+}
+
+fn block(more: &str) -> String {
+    format!("[[particles]]\nshape = \"block\"\n{more}\n")
+}
+
+fn refused(setup: &Setup) -> String {
+    setup.start().expect_err("a bad start").to_string()
+}
+
+#[test]
+fn what_would_explode_is_named() {
+    let cube = block("size = [0.6, 0.6, 0.6]");
+    let square = block("size = [0.6, 0.6, 0]");
+    // A wall of one layer, one spacing from the first of the fluid.
+    let floor = "[[particles]]\nshape = \"lattice\"\nsize = [6, 6, 1]\nspacing = 0.1\ncenter = [0, 0, -0.35]\nfixed = [FIXED]\n";
+    let fixed: Vec<String> = (0..36).map(|id| id.to_string()).collect();
+    let floor = floor.replace("FIXED", &fixed.join(", "));
+    for (flat, force, particles, words) in [
+        (
+            false,
+            "support = 3\n",
+            format!("{cube}{floor}"),
+            "of a wall is 1.000e-1 away from it, and leaves the fluid at rest at 1.395e-1",
+        ),
+        (
+            false,
+            "",
+            block("size = [0.6, 0.6, 0.6]\ndensity = 2000"),
+            "it weighs 2.000000e0, and density × spacing^3 = 1.000000e0 is right",
+        ),
+        (true, "", block("size = [0.6, 0.6, 0]\ndensity = 1300"), "density × spacing^2 = 1.000000e1 is right"),
+        (
+            false,
+            "",
+            block("size = [0.6, 0.6, 0.6]\nspacing = 0.2"),
+            "particles have the spacing 0.200000, and the force has 0.1",
+        ),
+        (
+            true,
+            "",
+            block("size = [0.6, 0.6, 0]\nspacing = 0.15"),
+            "particles have the spacing 0.150000, and the force has 0.1",
+        ),
+        (
+            false,
+            "",
+            format!("{cube}{}", block("size = [0.6, 0.6, 0.6]\ncenter = [0.55, 0, 0]")),
+            "of the fluid is 5.000e-2 away from it, and the spacing is 0.1: two blocks overlap",
+        ),
+        (true, "", format!("{square}{}", block("size = [0.2, 0.2, 0]\ncenter = [0.1, 0.1, 0]")), "two blocks overlap"),
+    ] {
+        let error = refused(&scene(flat, force, &particles));
+        assert!(
+            error.contains("this start would explode") && error.contains(words),
+            "`{error}` does not say `{words}`"
+        );
+    }
+}
+
+#[test]
+fn two_at_one_place_are_refused_however_wide_the_kernel() {
+    // With a support of 4 spacings one more at the same place is 4 % of the density: no pressure to speak of, and none that parts
+    // them.
+    let one = "[[particles]]\nbodies = [{ position = [0.05, 0.05, 0.05], mass = 1 }]\n";
+    let setup = scene(false, "support = 4\n", &format!("{}{one}", block("size = [0.6, 0.6, 0.6]")));
+    let error = refused(&setup);
+    assert!(error.contains("particles 129 and 216 of the fluid are") && error.contains("apart"), "{error}");
+}
+
+#[test]
+fn what_is_no_fluid_is_refused() {
+    let empty = block("size = [0.6, 0.6, 0.6]") + "[[particles]]\nbodies = [{ position = [2, 0, 0], mass = 0 }]\n";
+    let error = refused(&scene(false, "", &empty));
+    assert!(
+        error.contains("particle 216 is of the fluid and weighs nothing") && error.contains("give it the mass 1"),
+        "{error}"
+    );
+    let walls = refused(&scene(false, "", "[[particles]]\nshape = \"tank\"\nsize = [1, 1, 1]\n"));
+    assert!(walls.contains("nothing of it") && walls.contains("shape = \"block\""), "{walls}");
+    let two =
+        scene(false, "[[force]]\nkind = \"fluid\"\nspacing = 0.1\nsound_speed = 9\n", &block("size = [0.6, 0.6, 0.6]"));
+    let error = two.check().expect_err("two fluids").to_string();
+    assert!(error.contains("2 forces that make a fluid of everybody"), "{error}");
+    let none = setup("[simulation]\ndt = 1\nsteps = 1\n[[particles]]\nbodies = [{ position = [0, 0, 0], mass = 0 }]\n");
+    assert_eq!(none.start().expect("no fluid"), None);
+}
+
+#[test]
+fn by_continuity_a_fluid_begins_at_rest() {
+    let heavy = block("size = [0.6, 0.6, 0.6]\ndensity = 2000");
+    let start = scene(false, "density_by = \"continuity\"\n", &heavy).start().expect("a start").expect("a fluid");
+    assert!(!start.summed && start.densest.1 > 1.9, "{start:?}");
+    assert!(refused(&scene(false, "density_by = \"summation\"\n", &heavy)).contains("explode"));
+}
+
+/// The bound is Mach 0.2 by the Riemann invariant of Tait's equation: (1.2 · 3 / 2 − …) for γ = 7, ((1 + x)³ − 1) / 3 = 0.2 at
+/// x = 1.6^(1/3) − 1 = 0.1696.
+#[test]
+fn the_bound_is_where_it_says() {
+    let dense = |density: f64| scene(false, "", &block(&format!("size = [0.6, 0.6, 0.6]\ndensity = {density}")));
+    let start = dense(1169.0).start().expect("just below").expect("a fluid");
+    assert!((start.densest.1 - 1.169).abs() < 1e-9 && (start.burst() / 20.0 - 0.1992).abs() < 1e-3, "{start:?}");
+    assert!(refused(&dense(1170.0)).contains("64 of 216 particles"), "{}", refused(&dense(1170.0)));
+    // Tait: B ((ρ/ρ₀)^7 − 1), B = ρ₀ c² / 7.
+    let wanted = 1000.0 * 400.0 / 7.0 * (1.169f64.powi(7) - 1.0);
+    assert!((start.pressure() / wanted - 1.0).abs() < 1e-9, "{} {wanted}", start.pressure());
+    // Who is led is of a wall, whatever it weighs.
+    assert_eq!((start.fluid, start.walls), (216, 0));
+}

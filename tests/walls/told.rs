@@ -1,0 +1,50 @@
+//! What `motes check` tells of a fluid, and that `run` refuses what it refuses.
+
+use std::process::Command;
+
+fn motes(arguments: &[&str]) -> (i32, String, String) {
+    let out = Command::new(env!("CARGO_BIN_EXE_motes")).args(arguments).output().expect("motes");
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    (out.status.code().unwrap_or(-1), text(&out.stdout), text(&out.stderr))
+}
+
+#[test]
+fn check_tells_of_a_fluid() {
+    let few = ["--backend", "cpu", "--set", "force.1.spacing=0.2", "--set", "simulation.dt=0.001"];
+    let (code, out, _) = motes(&[&["check", "dam_break_2d"][..], &few].concat());
+    assert_eq!(code, 0, "{out}");
+    for words in [
+        "density 1000.0, on a square lattice of 0.2; a particle weighs 4.0000e1 and reaches 4.0000e-1",
+        "50 of the fluid, 52 of walls",
+        "62.6, 10.0 times the fastest flow expected: √(2 g H) = 6.2642 with g = 9.8100, H = 2.0000",
+        "the densest at 1.0035 of rest (particle 0), a pressure of 0.709 ρ g H",
+        "the thinnest at 0.7",
+    ] {
+        let plain = out.replace("density 1000,", "density 1000.0,");
+        assert!(plain.contains(words), "no `{words}` in\n{out}");
+    }
+    let slow = ["--set", "force.1.sound_speed=20"];
+    let (_, out, _) = motes(&[&["check", "dam_break_2d"][..], &few, &slow].concat());
+    assert!(out.contains("note: the speed of sound is 3.2 times the fastest flow expected"), "{out}");
+    assert!(out.contains("sound_speed = 62.6418 makes that 1 %"), "{out}");
+    let light = ["--set", "particles.0.density=800"];
+    let (_, out, _) = motes(&[&["check", "dam_break_2d"][..], &few, &light].concat());
+    assert!(out.contains("under weight it will sink together"), "{out}");
+    let heavy = ["--set", "particles.0.density=1120"];
+    let (_, out, _) = motes(&[&["check", "dam_break_2d"][..], &few, &heavy].concat());
+    assert!(out.contains("more than the fastest flow that the speed of sound is made for"), "{out}");
+}
+
+#[test]
+fn check_and_run_refuse_what_would_explode() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let output = folder.path().join("out").display().to_string();
+    let bad = ["--backend", "cpu", "--set", "force.1.spacing=0.2", "--set", "particles.0.density=2000"];
+    let runs: [Vec<&str>; 2] = [vec!["check", "dam_break_2d"], vec!["run", "dam_break_2d", "-o", &output]];
+    for arguments in runs {
+        let (code, _, err) = motes(&[&arguments[..], &bad].concat());
+        assert_eq!(code, 3, "{err}");
+        assert!(err.contains("this start would explode") && err.contains("it weighs 8.000000e1"), "{err}");
+    }
+    assert!(!folder.path().join("out").exists(), "refused before anything is written");
+}
