@@ -10,6 +10,7 @@ pub mod integrators;
 #[cfg(feature = "scene")]
 pub mod io;
 pub mod kernel;
+pub mod life;
 pub mod links;
 pub mod lockstep;
 pub mod measure;
@@ -31,7 +32,7 @@ pub mod visit;
 pub use cpu::Cpu;
 pub use error::Error;
 pub use gpu::Gpu;
-pub use kernel::{ACCELERATION, Bounds, POSITION, SPECIES, Side, Solver, TARGET, VELOCITY};
+pub use kernel::{ACCELERATION, Bounds, LIFE, POSITION, SPECIES, Side, Solver, TARGET, VELOCITY};
 pub use measure::Measure;
 pub use particles::Particles;
 pub use simulation::{Setup, Simulation, Snapshot};

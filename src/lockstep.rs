@@ -9,7 +9,7 @@ use glam::DVec4;
 
 use crate::error::Error;
 use crate::gpu::Gpu;
-use crate::kernel::{Access, Array, Backend, Host, Kernel, Name, POSITION, Plan, Twin, VELOCITY, World};
+use crate::kernel::{Access, Array, Backend, Host, Kernel, LIFE, Name, POSITION, Plan, Twin, VELOCITY, World};
 
 /// What a kernel may be wrong by, in parts of what it changed: a sum of n terms of one magnitude rounds by about √n ulp,
 /// and blocks keep √n below 100; with 6e-8 for an ulp that is 6e-6. The worst seen on lavapipe is 2e-6.
@@ -77,6 +77,9 @@ pub async fn compare(gpu: &mut Gpu, plan: &Plan, count: u32) -> Result<Vec<Verdi
             if fields.iter().all(|(name, ..)| name != always) && gpu.size(always) >= 16 * u64::from(count) {
                 fields.push((always.to_owned(), 16 * u64::from(count), Array::Vec4(Vec::new()), 1));
             }
+        }
+        if fields.iter().all(|(name, ..)| name != LIFE.name) && gpu.size(LIFE.name) >= 4 * u64::from(count) {
+            fields.push((LIFE.name.to_owned(), 4 * u64::from(count), Array::Uint(Vec::new()), 1));
         }
         for (place, (name, bytes, ..)) in fields.iter().enumerate() {
             behind(gpu, name, *bytes, sentinel(place))?;

@@ -1,12 +1,18 @@
 //! A simulation: particles, forces and an integrator on a backend.
 
 mod alarm;
+mod mortals;
 mod pace;
+mod pictures;
+mod population;
+mod pressures;
 mod setup;
 mod solves;
 mod ties;
 
+pub use mortals::serves;
 pub use pace::Clock;
+pub use pressures::PressureSolves;
 pub use setup::{Plans, Setup};
 pub use solves::{Outcome, Solves};
 
@@ -14,15 +20,16 @@ use glam::DVec3;
 
 use crate::boundary;
 use crate::error::Error;
+use crate::fluids::DFSPH_REPORT;
 use crate::gpu::Gpu;
 use crate::integrators::SOLVE_REPORT;
 use crate::kernel::{
-    ACCELERATION, ALARM, Array, Backend, Element, Field, HOME, POSITION, Pace, QUIET, SPECIES, TARGET, VELOCITY, World,
+    ACCELERATION, ALARM, Array, Backend, Element, Field, HOME, LIFE, POSITION, Pace, QUIET, SPECIES, TARGET, VELOCITY,
+    World,
 };
 use crate::links::Links;
 use crate::motion;
 use crate::particles::Particles;
-use crate::render::{self, Film, Image, Picture};
 
 /// The state at the end of a step.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,14 +56,16 @@ pub struct Simulation<B: Backend> {
     step: B::Program,
     measure: (B::Program, B::Program),
     plan: String,
-    /// Whether a step keeps a report of its solves.
-    solves: bool,
+    /// Whether a step keeps a report of its solves, and one of those for pressure.
+    reports: [bool; 2],
     count: u32,
     /// As the setup gave them: nothing changes them.
     species: Vec<u32>,
     /// As the setup gave them, and whether springs may have broken since.
     links: Links,
     breaks: bool,
+    /// How many may be born or die: everybody, or nobody.
+    mortals: u32,
     dt: f64,
     /// How long steps are, where they are not all alike.
     pace: Option<Pace>,
@@ -72,15 +81,20 @@ impl<B: Backend> Simulation<B> {
         let count = setup.check()?;
         let plans = setup.plans(backend.machine())?;
         let plan = plans.step.to_string();
-        let solves = plans.step.kernels.iter().any(|kernel| kernel.names(SOLVE_REPORT));
+        let reports =
+            [SOLVE_REPORT, DFSPH_REPORT].map(|name| plans.step.kernels.iter().any(|kernel| kernel.names(name)));
         let start = backend.compile(&plans.start)?;
         let step = backend.compile(&plans.step)?;
         let measure = (backend.compile(&plans.measure.0)?, backend.compile(&plans.measure.1)?);
         backend.set_world(World { time: 0.0, dt: setup.dt, step: 0, count, bounds: setup.bounds })?;
         let particles = &setup.particles;
+        // Who does not live has no mass, and no velocity.
+        let living = |id: usize| f64::from(u8::from(particles.lives(id)));
         let inside = |x| boundary::wrapped(&setup.bounds, x);
-        let position = particles.position.iter().zip(&particles.mass).map(|(x, m)| inside(*x).extend(*m)).collect();
-        let velocity = particles.velocity.iter().zip(&particles.radius).map(|(v, r)| v.extend(*r));
+        let position = particles.position.iter().zip(&particles.mass);
+        let position = position.enumerate().map(|(id, (x, m))| inside(*x).extend(living(id) * m)).collect();
+        let velocity = particles.velocity.iter().zip(&particles.radius).enumerate();
+        let velocity = velocity.map(|(id, (v, r))| (living(id) * *v).extend(*r));
         let mut velocity: Vec<_> = velocity.collect();
         let held = motion::sorted(&particles.held);
         for one in &held {
@@ -94,6 +108,11 @@ impl<B: Backend> Simulation<B> {
         let species = particles.species.clone();
         if plans.all().any(|plan| plan.fields(count).contains_key(SPECIES.name)) {
             backend.write(SPECIES.name, &Array::Uint(species.clone()))?;
+        }
+        let mortal = particles.is_mortal();
+        if mortal {
+            let word = |id: usize| particles.life.get(id).copied().unwrap_or_default().word();
+            backend.write(LIFE.name, &Array::Uint((0..particles.len()).map(word).collect()))?;
         }
         // A target for everybody, by id; those that are not held have no use for it.
         let places = |ids: &mut dyn Iterator<Item = usize>| {
@@ -117,11 +136,12 @@ impl<B: Backend> Simulation<B> {
             step,
             measure,
             plan,
-            solves,
+            reports,
             count,
             species,
             links,
             breaks,
+            mortals: if mortal { count } else { 0 },
             dt,
             pace,
             steps,
@@ -201,33 +221,9 @@ impl<B: Backend> Simulation<B> {
             }
         }
         particles.species.clone_from(&self.species);
+        particles.life = self.lives().await?;
         let time = self.clock().await?.map_or(self.steps as f64 * self.dt, |clock| clock.time);
         Ok(Snapshot { step: self.steps, time, particles, potential })
-    }
-    /// Draws the current state. Only the picture is read back.
-    ///
-    /// # Errors
-    /// [`Error::Scene`] when the picture was made for another number of particles, or what drawing says.
-    pub async fn draw(&mut self, picture: &Picture) -> Result<Image, Error> {
-        self.fits(picture)?;
-        render::draw(&mut self.backend, picture).await
-    }
-    /// Draws the current state as the next picture of a film.
-    ///
-    /// # Errors
-    /// As for [`Simulation::draw`].
-    pub async fn shoot(&mut self, film: &mut Film) -> Result<Image, Error> {
-        self.fits(film.picture())?;
-        render::shoot(&mut self.backend, film).await
-    }
-    fn fits(&self, picture: &Picture) -> Result<(), Error> {
-        if picture.frame.count != self.count {
-            let (made, have) = (picture.frame.count, self.count);
-            return Err(Error::Scene(format!(
-                "a picture of {made} particles cannot be drawn of {have}: make a new one"
-            )));
-        }
-        Ok(())
     }
     /// One step, as `motes explain` prints it.
     #[must_use]

@@ -135,12 +135,13 @@ fn no_binding_number_is_written_in_rust() {
 }
 
 /// A module may name only what stands before it.
-const ORDER: [&str; 26] = [
+const ORDER: [&str; 27] = [
     "error",
     "settings",
     "links",
     "motion",
     "solids",
+    "life",
     "kernel",
     "boundary",
     "primitives",

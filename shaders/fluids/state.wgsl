@@ -8,7 +8,7 @@ const WORKGROUP: u32 = 64u;
 @compute @workgroup_size(WORKGROUP)
 fn state(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let k = folded(group, groups) * WORKGROUP + lane;
-    if k >= world.count { return; }
+    if k >= present() { return; }
     let id = sorted_id[k];
     if is_held(id) {
         flow[k] = vec4f();

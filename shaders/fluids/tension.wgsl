@@ -7,14 +7,14 @@ struct Sum { acceleration: vec3f }
 @group(3) @binding(0) var<uniform> params: Params;
 @group(1) @binding(2) var<storage, read_write> acceleration: array<vec4f>;
 
-// At the same place: there is no way from one to the other.
-const COINCIDENT: f32 = 1e-30;
+// Below the square of any distance; at one place there is no way from one to the other, and nobody pulls.
+const NOTHING: f32 = 1e-30;
 
 fn acts_on(me: Particle) -> bool { return me.density > 0.0; }
 
 fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
     let d2 = r.x * r.x + r.y * r.y + r.z * r.z;
-    let inverse = select(0.0, inverseSqrt(max(d2, COINCIDENT)), d2 > COINCIDENT);
+    let inverse = inverseSqrt(max(d2, NOTHING));
     let q = d2 * inverse * medium.per_support;
     let p = 1.0 - q;
     if you.density > 0.0 {

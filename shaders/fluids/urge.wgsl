@@ -1,5 +1,5 @@
 // How many steps a particle of a fluid wants in a longest one T (Monaghan 1992; Ihmsen et al. 2014), C the Courant number, s the
-// smoothing length, d the spacing:  T / C √(|a| / s),  T / C (c + |μ|) / s,  T / C |v| / (0.4 d).  Walls want none.
+// smoothing length, d the spacing:  T / C √(|a| / s),  T / C (c + |μ|) / s,  T / C |v| / (0.4 d).  Walls want none, nor who does not live.
 struct Params { acceleration: f32, signal: f32, sound: f32, speed: f32 }
 
 @group(0) @binding(0) var<uniform> world: World;
@@ -16,6 +16,7 @@ fn urge(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
     let i = folded(group, groups) * WORKGROUP + lane;
     if i < world.count && !is_held(i) {
         let a = params.acceleration * sqrt(length(acceleration[i].xyz));
-        urges[i] = vec4f(a, params.signal * (params.sound + closing[i]), params.speed * length(velocity[i].xyz), 0.0);
+        let urge = vec4f(a, params.signal * (params.sound + closing[i]), params.speed * length(velocity[i].xyz), 0.0);
+        urges[i] = select(vec4f(), urge, lives(i));
     }
 }

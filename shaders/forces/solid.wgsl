@@ -33,7 +33,7 @@ fn touch(frame: Frame, x: vec3f) -> Touch {
 @compute @workgroup_size(WORKGROUP)
 fn solid(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let i = folded(group, groups) * WORKGROUP + lane;
-    if i < world.count && is_of(i, params.species) && !is_held(i) {
+    if i < world.count && is_of(i, params.species) && !is_held(i) && lives(i) {
         let frame = frame();
         let hit = touch(frame, position[i].xyz);
         if hit.depth > 0.0 {

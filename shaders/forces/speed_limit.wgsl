@@ -21,7 +21,7 @@ fn limited(v: vec3f) -> vec3f {
 @compute @workgroup_size(WORKGROUP)
 fn speed_limit(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let i = folded(group, groups) * WORKGROUP + lane;
-    if i < world.count && is_of(i, params.species) && !is_held(i) {
+    if i < world.count && is_of(i, params.species) && !is_held(i) && lives(i) {
         let v = velocity[i];
         velocity[i] = vec4f(limited(v.xyz), v.w);
     }

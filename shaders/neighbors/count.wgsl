@@ -11,7 +11,7 @@ fn count(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: v
     let i = folded(group, groups) * WORKGROUP + lane;
     if i < world.count {
         var k = NOWHERE;
-        if chosen(i) {
+        if chosen(i) && lives(i) {
             k = key(cell(home(position[i].xyz)));
             arrivals[i] = atomicAdd(&starts[k], 1u);
         }

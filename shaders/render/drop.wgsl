@@ -1,4 +1,4 @@
-// A drop of fluid as a ball in the picture, by its depth at each pixel.
+// A drop of fluid in the picture, by its depth at each pixel: a ball, but flatter towards its rim.
 fn bulge(p: vec4f, x: i32, y: i32) -> f32 {
     let d = (middle(x, y) - p.xy) / p.w;
     return sqrt(max(1.0 - dot(d, d), 0.0));
@@ -8,5 +8,5 @@ fn bulge(p: vec4f, x: i32, y: i32) -> f32 {
 fn depth_at(p: vec4f, bulge: f32) -> f32 {
     var scale = frame.scale;
     if frame.distance > 0.0 { scale = (frame.scale * frame.distance - p.w) / p.z; }
-    return p.z + p.w * (1.0 - bulge) / scale;
+    return p.z + frame.oblate * p.w * (1.0 - bulge) / scale;
 }

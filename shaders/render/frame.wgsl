@@ -33,9 +33,11 @@ struct Frame {
     map: u32,      // pixels of what the lamp sees, each way
     slab: f32,     // what is farther from the centre, towards the eye or away from it, is not drawn [length]
     drop: f32,     // radius at which a particle is drawn at least; of a fluid that of its drops [length]
+    oblate: f32,   // how far a drop's rim is behind its front [drop]
     grain: f32,    // parts in which the thickness of a drop is counted
     layer: f32,    // thickness that one of those stands for [length]
     murk: f32,     // how much a fluid absorbs [1 / length]
+    stain: f32,    // how much less of its own colour
     foam: f32,     // the speed from which on it is white
     range: f32,    // how much farther and nearer the same surface may be, and how wide it is made smooth [drop]
     calm: f32,

@@ -22,7 +22,7 @@ fn smooth_at(i: u32) {
     var scale = frame.scale;
     if frame.distance > 0.0 { scale *= frame.distance / z; }
     // Pixels that are there on both sides.
-    let reach = clamp(i32(frame.calm * frame.drop * scale), 1, i32(frame.farthest));
+    let reach = min(i32(frame.calm * frame.drop * scale), i32(frame.farthest));
     let end = min(reach, min(at, last - at));
     var sum = vec2f(z, thickness[i]);
     var color = unpack4x8unorm(dye[i]);

@@ -1,4 +1,4 @@
-// Light on a fluid: what is behind it is bent and absorbed,  T = exp(−t (k − dye) / clarity)  (Beer 1852), the rest is dye;
+// Light on a fluid: what is behind it is bent and absorbed,  T = exp(−t (k − stain dye) / clarity)  (Beer 1852), the rest is dye;
 // the sky is reflected by Schlick's fraction (1994), the lamp as a highlight (Blinn 1977). Foam is matte.
 @group(3) @binding(3) var<storage, read> front: array<u32>;
 @group(3) @binding(15) var<storage, read> scenery: array<u32>;
@@ -16,19 +16,21 @@ const BEND: f32 = 0.35;      // pixels aside, for each of the thickness and of t
 const FURTHEST: f32 = 40.0;  // of those
 const LOW: vec3f = vec3f(0.32, 0.36, 0.44);
 const HIGH: vec3f = vec3f(0.80, 0.90, 1.0);
-const GLASS: vec3f = vec3f(0.62, 0.70, 0.80);
-const BEHIND: f32 = 0.35;
-const BEFORE: f32 = 0.5;
+const GLASS: vec3f = vec3f(0.42, 0.48, 0.56);
+const BEHIND: f32 = 0.5;
+const BEFORE: f32 = 0.8;
 
 // A place of the surface, in the picture's axes.
 fn place_of(x: i32, y: i32, z: f32) -> vec3f {
-    let off = (middle(x, y) - 0.5 * vec2f(f32(frame.width), f32(frame.height))) * vec2f(1.0, -1.0) / frame.scale;
+    let half = 0.5 * vec2f(f32(frame.width), f32(frame.height));
+    let off = (middle(x, y) - half) / vec2f(frame.scale, -frame.scale);
     if frame.distance > 0.0 { return vec3f(off * z / frame.distance, -z); }
     return vec3f(off, -z);
 }
 
 fn level_at(x: i32, y: i32) -> f32 {
-    if x < 0 || y < 0 || x >= i32(frame.width) || y >= i32(frame.height) { return NEVER; }
+    // What is below 0 is much.
+    if u32(x) >= frame.width || u32(y) >= frame.height { return NEVER; }
     return level[pixel(x, y)];
 }
 
@@ -44,32 +46,32 @@ fn slope(x: i32, y: i32, z: f32, way: vec2i) -> vec3f {
 
 // What is behind the fluid, at a pixel.
 fn under(place: vec2f, depth: f32) -> vec3f {
-    let q = clamp(place, vec2f(0.5), vec2f(f32(frame.width), f32(frame.height)) - 0.5);
+    let size = vec2f(f32(frame.width), f32(frame.height));
+    let q = min(max(place, vec2f()), size - 0.5);
     let i = pixel(i32(q.x), i32(q.y));
     let stands = unpack4x8unorm(scenery[i]);
     let lines = edges(q, depth, front[i]).x;
     return mix(mix(background(q), stands.rgb, stands.a), GLASS, BEHIND * lines);
 }
 
-fn look(x: i32, y: i32, z: f32) -> vec3f {
-    let i = pixel(x, y);
-    // To the right and down: the picture's y is up.
-    let normal = normalize(cross(slope(x, y, z, vec2i(0, 1)), slope(x, y, z, vec2i(1, 0))));
-    let here = place_of(x, y, z);
+// To the right and down: the picture's y is up.
+fn normal_at(x: i32, y: i32, z: f32) -> vec3f {
+    return normalize(cross(slope(x, y, z, vec2i(0, 1)), slope(x, y, z, vec2i(1, 0))));
+}
+
+fn look(i: u32, here: vec3f, normal: vec3f, behind: vec3f) -> vec3f {
     let view = select(vec3f(0.0, 0.0, 1.0), -normalize(here), frame.distance > 0.0);
-    var scale = frame.scale;
-    if frame.distance > 0.0 { scale *= frame.distance / z; }
     let paint = unpack4x8unorm(dye[i]);
-    let bend = min(BEND * scale * thickness[i], FURTHEST) * vec2f(normal.x, -normal.y);
-    let clear = exp(-thickness[i] * frame.murk * (ABSORB - paint.rgb));
+    let clear = exp(-thickness[i] * frame.murk * (ABSORB - frame.stain * paint.rgb));
     let day = max(0.6 * dot(normal, LAMP) + 0.4, 0.0);
     let facing = clamp(dot(normal, view), 0.0, 1.0);
     let mirror = (0.03 + 0.97 * pow(1.0 - facing, 5.0)) * (1.0 - paint.a);
     let sky = frame.gloss * mix(LOW, HIGH, 0.5 + 0.5 * reflect(-view, normal).y);
     let shine = pow(max(dot(normal, normalize(LAMP + view)), 0.0), 120.0) * (1.0 - paint.a);
-    var c = mix(paint.rgb * (0.4 + 0.75 * day), under(middle(x, y) + bend, z), clear);
-    c = mix(c, vec3f(0.45 + 0.55 * day), paint.a);
-    return mix(c, sky, mirror) + 0.8 * shine;
+    var c = mix(paint.rgb * (0.4 + 0.75 * day), behind, clear);
+    // Mist where it is thin.
+    c = mix(c, vec3f(0.7 + 0.3 * day), paint.a * (1.0 - pow(clear.r, 4.0)));
+    return clamp(mix(c, sky, mirror) + 0.8 * shine, vec3f(0.0), vec3f(1.0));
 }
 
 @compute @workgroup_size(WORKGROUP)
@@ -78,9 +80,18 @@ fn water(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: v
     if i < frame.width * frame.height {
         let x = i32(i % frame.width);
         let y = i32(i / frame.width);
-        var c = under(middle(x, y), level[i]);
-        if level[i] < NEVER { c = mix(c, clamp(look(x, y, level[i]), vec3f(0.0), vec3f(1.0)), f32(rim[i]) / 255.0); }
-        c = mix(c, GLASS, BEFORE * edges(middle(x, y), level[i], front[i]).y);
+        let z = level[i];
+        var normal = vec3f();
+        var bend = vec2f();
+        if z < NEVER {
+            normal = normal_at(x, y, z);
+            var scale = frame.scale;
+            if frame.distance > 0.0 { scale *= frame.distance / z; }
+            bend = min(BEND * scale * thickness[i], FURTHEST) * vec2f(normal.x, -normal.y);
+        }
+        var c = under(middle(x, y) + bend, z);
+        if z < NEVER { c = mix(c, look(i, place_of(x, y, z), normal, c), f32(rim[i]) / 255.0); }
+        c = mix(c, GLASS, BEFORE * edges(middle(x, y), z, front[i]).y);
         wet[i] = pack4x8unorm(vec4f(c, 1.0));
     }
 }

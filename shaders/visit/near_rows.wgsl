@@ -1,7 +1,6 @@
 // What the `near` visits share: the rows of cells around me. A row is contiguous in the grid, but for the seam of the
 // fold: there it is in parts, of which the middle one is on my side.
 @group(1) @binding(4) var<storage, read_write> alarm: array<atomic<u32>>; // steps done, id, id of one with too many around
-@group(2) @binding(1) var<storage, read> starts: array<u32>;
 
 // Candidates of one search, at most: lavapipe ends an invocation's loops after 65 535 turns, without a word.
 override MOST: u32 = 240000u;

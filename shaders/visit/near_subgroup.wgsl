@@ -30,7 +30,7 @@ fn near(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
     let mine = grid.first + folded(group, groups) * WORKGROUP + lane;
     let k = min(mine, grid.end - 1u);
     let me = target_of(k);
-    let awake = mine < grid.end && acts_on(me);
+    let awake = mine < min(grid.end, present()) && acts_on(me);
     let a = around(me.position);
     var sum = Sum();
     var waits = awake;

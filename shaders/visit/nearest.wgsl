@@ -87,7 +87,7 @@ fn look(me: Particle, slot: u32, s: Stretch, list: ptr<function, List>) {
 @compute @workgroup_size(WORKGROUP)
 fn nearest(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let k = grid.first + folded(group, groups) * WORKGROUP + lane;
-    if k < grid.end {
+    if k < min(grid.end, present()) {
         let me = particle(sorted_id[k]);
         if acts_on(me) {
             let c = cell(home(me.position));

@@ -10,6 +10,7 @@ pub fn kernel(problem: &Problem) -> Result<Kernel, Error> {
     let (holding, tables) = problem.holding();
     let shader = Shader::join(&[
         holding,
+        problem.living(),
         crate::shader!("world.wgsl"),
         crate::shader!("broken.wgsl"),
         crate::shader!("boundary/reflecting.wgsl"),
@@ -18,7 +19,9 @@ pub fn kernel(problem: &Problem) -> Result<Kernel, Error> {
     let twin = move |host: &Host| {
         let bounds = host.world().bounds;
         let (mut position, mut velocity) = (host.write(POSITION)?, host.write(VELOCITY)?);
-        let free = position.iter_mut().zip(velocity.iter_mut()).enumerate().filter(|(id, _)| !who.is_held(*id));
+        let lives = host.lives()?;
+        let free =
+            position.iter_mut().zip(velocity.iter_mut()).enumerate().filter(|(id, _)| !who.is_held(*id) && lives(*id));
         for (_, (x, v)) in free.filter(|(_, (x, _))| x.is_finite()) {
             for axis in (0..3).filter(|axis| bounds.sides[*axis] == Side::Reflecting) {
                 let (place, thrown_back) = folded(x[axis], bounds.low[axis], bounds.high[axis]);

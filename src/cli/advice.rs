@@ -12,7 +12,7 @@ use motes::motion::Hold;
 use motes::scene::Scene;
 use motes::{Bounds, Error, Setup, Side};
 
-use super::solves;
+use super::{births, solves};
 
 /// What a law's twin says to a particle at rest somewhere.
 pub fn felt(twin: &Twin, (time, step): (f64, u32), position: DVec3, bounds: Bounds) -> Result<DVec4, Error> {
@@ -141,14 +141,14 @@ pub fn conserved(setup: &Setup) -> Result<Conserved, Error> {
     conserved.momentum &= held.is_empty();
     conserved.angular_momentum &= held.is_empty();
     conserved.energy &= held.iter().all(|one| one.by == Hold::Fixed);
-    // Who holds a speed takes energy and momentum, or gives some.
+    // Who holds a speed takes energy and momentum, or gives some; so does who is born or dies.
     let mut limits = Plan::default();
     for force in &setup.forces {
         let problem = Problem::new(1, MACHINE).moved(&setup.particles.motions, setup.dt);
         force.limit(&mut limits, &problem)?;
         force.confine(&mut limits, &problem, 1.0)?;
     }
-    if !limits.order.is_empty() {
+    if !limits.order.is_empty() || setup.particles.is_mortal() {
         conserved = Conserved { energy: false, momentum: false, angular_momentum: false };
     }
     Ok(conserved)
@@ -174,6 +174,7 @@ fn inside(setup: &Setup) -> Option<String> {
 pub fn advice(scene: &Scene, setup: &Setup) -> Result<Vec<String>, Error> {
     let mut remarks = scene.remarks.clone();
     remarks.extend(inside(setup));
+    remarks.extend(births::early(setup, scene.steps as f64 * scene.dt));
     let laws: Vec<Law> = setup.forces.iter().flat_map(|force| force.laws()).collect();
     remarks.extend(idle(&setup.particles.links, &laws));
     let implicit = setup.integrator.is_implicit();
@@ -224,6 +225,16 @@ pub fn advice(scene: &Scene, setup: &Setup) -> Result<Vec<String>, Error> {
     let name = scene.integrator.name;
     for (force, its) in setup.forces.iter().map(|force| (force, force.integrators())).filter(|(_, its)| !its.is_empty())
     {
+        if force.answers() {
+            remarks.extend(force.remark(setup.dt));
+            if !its.contains(&name) {
+                remarks.push(format!(
+                    "the fluid solves for the pressure of a whole step, felt where it begins: it wants {}, not {name}",
+                    its.join(" or ")
+                ));
+            }
+            continue;
+        }
         if !its.contains(&name) {
             let law = force.laws().first().map(|law| law.name.clone()).unwrap_or_default();
             remarks.push(format!("`{law}` is a rule for whole steps: it wants {}, not {name}", its.join(" or ")));

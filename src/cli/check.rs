@@ -9,6 +9,7 @@ use motes::{Bounds, Cpu, Gpu, Simulation};
 
 use super::advice::advice;
 use super::args::SceneArgs;
+use super::births;
 use super::course;
 use super::engine::Engine;
 use super::failure::Failure;
@@ -36,6 +37,10 @@ pub async fn check(args: &SceneArgs) -> Result<(), Failure> {
     }
 
     let plans = setup.plans(engine.machine(count)?)?;
+    let end = scene.steps as f64 * scene.dt;
+    for line in births::forecast(&setup, end) {
+        out!("{line}");
+    }
     out!("\nmemory on the device");
     let mut fields = BTreeMap::new();
     for plan in plans.all() {

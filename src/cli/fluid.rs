@@ -50,6 +50,15 @@ pub fn told(setup: &Setup, start: &Start) -> Result<(Vec<String>, Vec<String>), 
     } else {
         lines.push(format!("  sound        {}; nothing says how fast it will flow", medium.sound));
     }
+    let (light, heavy) = start.mass;
+    if light < 0.99 * medium.mass() || heavy > 1.01 * medium.mass() {
+        notes.push(format!(
+            "particles of the fluid weigh {light:.4e} to {heavy:.4e}, and density × spacing^{} of the force is {:.4e}: is their spacing \
+             another, or their density?",
+            medium.dimensions,
+            medium.mass()
+        ));
+    }
     if !start.summed {
         lines.push("  at the start everybody at rest, for density comes by continuity".to_owned());
         return Ok((lines, notes));

@@ -33,11 +33,10 @@ impl Book {
         let problem = setup.problem(Machine { software: true, subgroup: 0, invocations: 1 })?;
         for force in &setup.forces {
             if let Some(fluid) = force.fluid(&problem)? {
-                let medium = fluid.medium;
                 let held = (0..setup.particles.len()).map(|id| problem.is_held(id)).collect();
                 let (table, first, last, worst) = (None, None, Ledger::default(), Ledger::default());
                 let (bounds, dt, mean) = (setup.bounds, setup.dt, 0.0);
-                return Ok(Some(Self { medium, bounds, held, dt, table, first, last, worst, mean }));
+                return Ok(Some(Self { medium: fluid.medium, bounds, held, dt, table, first, last, worst, mean }));
             }
         }
         Ok(None)

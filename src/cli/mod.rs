@@ -19,6 +19,7 @@ mod advice;
 mod aftermath;
 mod args;
 mod bench;
+mod births;
 mod check;
 mod compare;
 mod course;

@@ -4,6 +4,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use motes::io::{Precision, atomically, csv, npz};
+use motes::life::Population;
 use motes::links::Links;
 use motes::measure::Flock;
 use motes::render::{Color, Picture, Scenery, Trail, framed, group_color, pack};
@@ -16,6 +17,7 @@ use super::table::Table;
 
 const HEADER: &str = "step,time,kinetic,potential,total,momentum_x,momentum_y,momentum_z,angular_momentum_x,\
                       angular_momentum_y,angular_momentum_z";
+const FLOW: &str = "step,time,waiting,living,dead,born,mass";
 const FLOCK: &str = "step,time,order,speed,neighbors,most_neighbors,clusters,largest_cluster";
 
 /// The folder, and what is in it so far.
@@ -32,6 +34,9 @@ pub struct Output {
     /// Of a flock: its table, how far one looks for company, and in which box.
     flock: Option<(Table, (f64, Option<u32>), Bounds)>,
     company: Vec<Flock>,
+    /// Where particles are born or die: how many.
+    flow: Option<Table>,
+    population: Option<Population>,
     /// Where a few particles have been.
     pub trail: Trail,
     /// What pictures show beside particles.
@@ -68,6 +73,8 @@ impl Output {
             rows: Vec::new(),
             flock: flock.transpose()?,
             company: Vec::new(),
+            flow: None,
+            population: None,
             scenery: Scenery::default(),
             // A trail is for pictures.
             trail: Trail::new(if scene.output.formats.contains(&Format::Png) || scene.output.frames > 0 {
@@ -90,7 +97,21 @@ impl Output {
             table.row(f.step, &numbers)?;
             self.company.push(f);
         }
+        if self.flow.is_none() && !snapshot.particles.life.is_empty() {
+            self.flow = Some(Table::new(self.folder.join("flow.csv"), FLOW)?);
+        }
+        if let Some(table) = &mut self.flow {
+            let of = snapshot.particles.population();
+            let born = (of.living + of.dead) as f64;
+            let mass = snapshot.particles.mass.iter().sum::<f64>();
+            table.row(row.step, &[row.time, of.waiting as f64, of.living as f64, of.dead as f64, born, mass])?;
+            self.population = Some(of);
+        }
         Ok(())
+    }
+    /// How many wait, live and are dead, where that changes.
+    pub fn population(&self) -> Option<Population> {
+        self.population
     }
     /// The first row, which energies are compared with.
     pub fn first(&self) -> Measure {

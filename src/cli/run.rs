@@ -210,7 +210,7 @@ impl Run {
             film.develop(&mut simulation, &output, &self.progress).await?;
         }
         let concluded = self.conclude((steps, &course), &output, stepping, image.as_ref());
-        solves::tell(&self.progress, simulation.solves().await?);
+        solves::tell(&self.progress, simulation.solves().await?, simulation.pressure_solves().await?);
         concluded
     }
 

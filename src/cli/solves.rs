@@ -2,13 +2,14 @@
 
 use motes::forces::Force;
 use motes::integrators::implicit;
-use motes::simulation::{Outcome, Solves};
+use motes::simulation::{Outcome, PressureSolves, Solves};
 use serde_json::json;
 
 use super::progress::Progress;
 
 /// Tells what became of the solves, and the way out where some did not converge.
-pub fn tell(progress: &Progress, solves: Option<Solves>) {
+pub fn tell(progress: &Progress, solves: Option<Solves>, pressures: Option<[PressureSolves; 2]>) {
+    tell_pressures(progress, pressures);
     let Some(Solves { solves: all, failures, first_failure, most_iterations, iterations, outcome, residual }) = solves
     else {
         return;
@@ -27,6 +28,30 @@ pub fn tell(progress: &Progress, solves: Option<Solves>) {
             _ => "raise solver.iterations or solver.solves, loosen solver.tolerance, or choose a smaller dt",
         };
         progress.say(&format!("warning: {failures} of {all} solves did not converge, the first in step {step}: {why}"));
+    }
+}
+
+/// Tells what became of the solves for pressure, and the way out where some did not converge.
+fn tell_pressures(progress: &Progress, solves: Option<[PressureSolves; 2]>) {
+    for (what, one) in ["divergence", "density"].into_iter().zip(solves.into_iter().flatten()) {
+        let PressureSolves { solves, failures, first_failure, most_iterations, iterations, all_iterations, error } =
+            one;
+        let mean = f64::from(all_iterations) / f64::from(solves.max(1));
+        progress.event(
+            "pressure_solves",
+            json!({ "of": what, "solves": solves, "failures": failures, "first_failure": first_failure,
+                "most_iterations": most_iterations, "iterations": iterations, "mean_iterations": mean, "error": error }),
+        );
+        progress.conclude(&format!(
+            "{solves} solves for the {what} of the fluid: {mean:.1} iterations in the mean, {most_iterations} at most, {iterations} \
+             in the last step, mean error {error:.1e}"
+        ));
+        if let Some(step) = first_failure {
+            progress.say(&format!(
+                "warning: {failures} of {solves} solves for the {what} of the fluid did not converge, the first in step {step}: \
+                 raise max_iterations, loosen the tolerance, or choose a smaller dt"
+            ));
+        }
     }
 }
 

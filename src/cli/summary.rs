@@ -3,6 +3,7 @@
 use std::time::Duration;
 
 use motes::Measure;
+use motes::life::Population;
 use motes::links::Links;
 use motes::measure::Flock;
 
@@ -56,6 +57,11 @@ pub fn speed(steps: u64, count: usize, stepping: Duration, took: Duration) -> St
         large(rate),
         large(rate * count as f64)
     )
+}
+
+/// How many live, and what became of the others.
+pub fn population(of: Population) -> String {
+    format!("{} live, {} are dead, {} wait to be born", of.living, of.dead, of.waiting)
 }
 
 /// How many springs tore.

@@ -51,7 +51,11 @@ impl<'a> Company<'a> {
         let steps = |axis: usize| {
             let of = self.around[axis];
             // Around three cells one has seen all there are.
-            let (from, to) = if of == 1 { (0, 0) } else { (-1, if of == 2 { 0 } else { 1 }) };
+            let (from, to) = match of {
+                1 => (0, 0),
+                2 => (-1, 0),
+                _ => (-1, 1),
+            };
             (from..=to).map(move |step| {
                 let cell = home[axis] + step;
                 if of == 0 { cell } else { cell.rem_euclid(of) }

@@ -92,7 +92,8 @@ fn closing(medium: &Medium, problem: &Problem) -> Result<Kernel, Error> {
 
 fn urge(shares: &Shares, problem: &Problem) -> Result<Kernel, Error> {
     let (holding, tables) = problem.holding();
-    let shader = Shader::join(&[holding, crate::shader!("world.wgsl"), crate::shader!("fluids/urge.wgsl")])?;
+    let shader =
+        Shader::join(&[holding, problem.living(), crate::shader!("world.wgsl"), crate::shader!("fluids/urge.wgsl")])?;
     let params = vec![
         ("acceleration", Scalar::Float(shares.acceleration)),
         ("signal", Scalar::Float(shares.signal)),
@@ -105,13 +106,14 @@ fn urge(shares: &Shares, problem: &Problem) -> Result<Kernel, Error> {
     let twin = move |host: &Host| {
         let (velocity, acceleration) = (host.read(VELOCITY)?, host.read(ACCELERATION)?);
         let (closing, mut urges) = (host.read(CLOSING)?, host.write::<Vec4>(URGES)?);
+        let lives = host.lives()?;
         for (i, urge) in urges.iter_mut().enumerate().filter(|(i, _)| !who.is_held(*i)) {
             *urge = DVec4::new(
                 shares.acceleration * acceleration[i].truncate().length().sqrt(),
                 shares.signal * (shares.sound + closing[i]),
                 shares.speed * velocity[i].truncate().length(),
                 0.0,
-            );
+            ) * f64::from(u8::from(lives(i)));
         }
         Ok(())
     };

@@ -4,6 +4,7 @@
 mod company;
 mod continuity;
 mod density;
+mod dfsph;
 mod gap;
 mod limits;
 mod medium;
@@ -18,6 +19,7 @@ mod xsph;
 
 pub use continuity::{Continuity, advance, rate, rest};
 pub use density::density;
+pub use dfsph::{Asked, DFSPH_ERRORS, DFSPH_REPORT, DFSPH_WORDS, Dfsph};
 pub use gap::gap;
 pub use limits::{Limits, limits};
 pub use medium::Medium;
@@ -36,6 +38,8 @@ use crate::kernel::Field;
 pub const DENSITY: Field<f32> = Field::new("density");
 /// How fast that changes, where it is a state: [`rate`].
 pub(crate) const DENSITY_RATE: Field<f32> = Field::new("density_rate");
+/// The pressure, where it is solved for \[mass / (length time²), or mass / time² in two dimensions\]; of walls it is 0.
+pub const PRESSURE: Field<f32> = Field::new("pressure");
 /// What a neighbour is asked for, in the order of the grid: density, which is 0 for walls; pressure over its square; internal
 /// energy per unit mass.
 pub(crate) const FLOW: &str = "flow";

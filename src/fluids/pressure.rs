@@ -7,7 +7,7 @@ use glam::{DVec3, Vec4};
 use super::{FLOW, Medium};
 use crate::error::Error;
 use crate::kernel::{ACCELERATION, Host, Kernel, Problem, Scalar};
-use crate::neighbors::{Grid, SORTED_ID};
+use crate::neighbors::Grid;
 use crate::visit::{Body, Sweep, gathered};
 
 /// How a fluid rubs.
@@ -82,8 +82,8 @@ pub(super) fn flowing(sweep: Sweep, problem: &Problem) -> Result<Kernel, Error> 
 
 /// What flows, by id: density, p / ρ² and energy.
 pub(super) fn states(host: &Host, grid: &Grid) -> Result<Vec<DVec3>, Error> {
-    let (ids, flow) = (host.reading::<u32>(&grid.field(SORTED_ID).1)?, host.reading::<Vec4>(&grid.field(FLOW).1)?);
-    let mut states = vec![DVec3::ZERO; ids.len()];
+    let (ids, flow) = (grid.occupants(host)?, host.reading::<Vec4>(&grid.field(FLOW).1)?);
+    let mut states = vec![DVec3::ZERO; host.world().count as usize];
     ids.iter().zip(flow.iter()).for_each(|(id, flow)| states[*id as usize] = flow.truncate());
     Ok(states)
 }

@@ -55,6 +55,8 @@ pub struct Start {
     pub walls: u32,
     /// Where the fluid begins and ends \[length\].
     pub extent: (DVec3, DVec3),
+    /// The lightest and the heaviest of the fluid \[mass\].
+    pub mass: (f64, f64),
     /// The fastest of the fluid \[length / time\].
     pub speed: f64,
     /// The densest particle of the fluid, and how dense it is, as a part of the density at rest.
@@ -117,6 +119,7 @@ impl Start {
             fluid: id32(ids.len()),
             walls: id32(still.position.len() - ids.len()),
             extent: (low, high),
+            mass: ids.iter().map(|id| still.mass[*id]).fold((f64::INFINITY, 0.0), |(a, b), m| (m.min(a), m.max(b))),
             speed: 0.0,
             densest: (id32(densest.0), densest.1),
             thinnest: (id32(thinnest.0), thinnest.1),

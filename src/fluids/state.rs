@@ -7,7 +7,7 @@ use glam::{DVec4, Vec4};
 use super::{DENSITY, FLOW, Medium};
 use crate::error::Error;
 use crate::kernel::{Host, Kernel, Pass, Problem, Shader};
-use crate::neighbors::SORTED_ID;
+use crate::neighbors::{SORTED_ID, STARTS};
 use crate::visit::blocks;
 
 /// The kernel that writes density, pressure and energy down in the order of the grid.
@@ -21,16 +21,20 @@ pub fn state(medium: &Medium, problem: &Problem) -> Result<Kernel, Error> {
         holding,
         crate::shader!("world.wgsl"),
         crate::shader!("fields.wgsl"),
+        crate::shader!("neighbors/starts.wgsl"),
+        grid.present(problem),
         medium.smoothing.source(),
         crate::shader!("fluids/medium.wgsl"),
         crate::shader!("fluids/state.wgsl"),
     ])?;
     let uniforms = blocks("the state of a fluid", &shader, &[medium.block()])?;
-    let fields = [SORTED_ID, FLOW].map(|name| grid.field(name));
-    let pass = Pass { uniforms, ..Pass::new(shader, problem.count) }.on(&fields);
+    let constants = grid.cells_of(&shader).into_iter().collect();
+    let fields = [SORTED_ID, FLOW, STARTS].map(|name| grid.field(name));
+    let pass = Pass { constants, uniforms, ..Pass::new(shader, problem.count) }.on(&fields);
+    let (starts, cells) = (grid.field(STARTS).1, u64::from(grid.count()) + 1);
     let (me, who) = (*medium, problem.clone());
     let twin = move |host: &Host| {
-        let (ids, density) = (host.reading::<u32>(&grid.field(SORTED_ID).1)?, host.read(DENSITY)?);
+        let (ids, density) = (grid.occupants(host)?, host.read(DENSITY)?);
         let mut flow = host.writing::<Vec4>(&grid.field(FLOW).1)?;
         for (flow, id) in flow.iter_mut().zip(ids.iter().map(|id| *id as usize)) {
             let (pressure, energy) = me.state(density[id]);
@@ -42,7 +46,7 @@ pub fn state(medium: &Medium, problem: &Problem) -> Result<Kernel, Error> {
         name: "fluid state".to_owned(),
         passes: vec![pass],
         twin: Some(Arc::new(twin)),
-        sizes: Vec::new(),
+        sizes: vec![(starts, cells)],
         scratch: Vec::new(),
         tables,
     })

@@ -8,7 +8,7 @@ use glam::{DVec3, DVec4, Vec4};
 use super::{FLOW, Medium, NORMAL};
 use crate::error::Error;
 use crate::kernel::{ACCELERATION, Host, Kernel, Name, Problem, Scalar, Source};
-use crate::neighbors::{Grid, SORTED_ID};
+use crate::neighbors::Grid;
 use crate::visit::{Body, Sweep, gathered};
 
 /// How a surface pulls.
@@ -116,11 +116,11 @@ fn pull(medium: &Medium, tension: Tension, problem: &Problem) -> Result<Kernel, 
 
 /// Who stands in each slot, and densities by id: 0 for walls.
 fn densities(host: &Host, grid: &Grid) -> Result<(Vec<u32>, Vec<f64>), Error> {
-    let ids = host.reading::<u32>(&grid.field(SORTED_ID).1)?;
+    let ids = grid.occupants(host)?;
     let flow = host.reading::<Vec4>(&grid.field(FLOW).1)?;
-    let mut density = vec![0.0; ids.len()];
+    let mut density = vec![0.0; host.world().count as usize];
     ids.iter().zip(flow.iter()).for_each(|(id, flow)| density[*id as usize] = flow.x);
-    Ok((ids.to_vec(), density))
+    Ok((ids, density))
 }
 
 /// π h^D C / 32, of q = r / h.

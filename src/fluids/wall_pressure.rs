@@ -8,7 +8,6 @@ use super::pressure::{flowing, states};
 use super::{FLOW, Medium};
 use crate::error::Error;
 use crate::kernel::{Host, Kernel, Pass, Problem, Scalar, Shader};
-use crate::neighbors::SORTED_ID;
 use crate::visit::{Sweep, gathered};
 
 /// The pressure that walls find, over ρ₀², in the order of the grid.
@@ -42,7 +41,7 @@ pub fn wall_pressure(medium: &Medium, weight: DVec3, problem: &Problem) -> Resul
                 }
             },
         )?;
-        let ids = host.reading::<u32>(&slots.field(SORTED_ID).1)?;
+        let ids = slots.occupants(host)?;
         let mut pressure = host.writing::<f32>(&slots.field(WALL_PRESSURE).1)?;
         for (pressure, id) in pressure.iter_mut().zip(ids.iter()) {
             if let Some([sum, number]) = found[*id as usize] {

@@ -6,7 +6,9 @@ use glam::DVec3;
 
 use super::{Force, Law, Problem};
 use crate::error::Error;
-use crate::fluids::{self, Continuity, Continuum, Friction, Limits, Medium, Smoothing, Tension, WallMass, Walls};
+use crate::fluids::{
+    self, Asked, Continuity, Continuum, Dfsph, Friction, Limits, Medium, Smoothing, Tension, WallMass, Walls,
+};
 use crate::kernel::Plan;
 use crate::neighbors::Grid;
 use crate::settings::{Key, Kind, Settings, Value};
@@ -17,7 +19,8 @@ pub const KEYS: &[Key] = &[
     Key::required("spacing", Kind::Positive, "how far apart particles are at rest, on a cubic lattice [length]"),
     Key::new("support", Kind::Positive, Value::Number(2.0), "how far the kernel reaches [spacings]"),
     Key::new("kernel", Kind::Choice(Smoothing::NAMES), Value::Text(Cow::Borrowed("cubic")), "what smooths: the cubic spline, or Wendland's C2"),
-    Key::required("sound_speed", Kind::Positive, "the speed of sound: ten times the fastest flow makes the density vary by 1 % [length / time]"),
+    Key::new("solver", Kind::Choice(&["wcsph", "dfsph"]), Value::Text(Cow::Borrowed("wcsph")), "pressure by an equation of state, or solved for (Bender & Koschier 2015)"),
+    Key::new("sound_speed", Kind::NotNegative, Value::Number(0.0), "wcsph: the speed of sound: ten times the fastest flow makes the density vary by 1 % [length / time]"),
     Key::new("gamma", Kind::Count, Value::Number(7.0), "the exponent of Tait's equation p = (ρ₀ c² / γ) ((ρ/ρ₀)^γ − 1), 2 to 15"),
     Key::new("negative_pressure", Kind::Flag, Value::Flag(false), "whether pressure may be below 0: where there is no free surface"),
     Key::new("alpha", Kind::NotNegative, Value::Number(0.0), "the artificial viscosity α (Monaghan 1992)"),
@@ -31,11 +34,19 @@ pub const KEYS: &[Key] = &[
     Key::new("weight", Kind::Vector, Value::Vector(DVec3::ZERO), "the acceleration of weight that a force gives, so that diffusion (Fourtakas et al. 2019) and walls leave a fluid at rest alone [length / time²]"),
     Key::new("tension", Kind::NotNegative, Value::Number(0.0), "surface tension γ (Akinci, Akinci & Teschner 2013); what it is in N/m depends on spacing and support"),
     Key::new("adhesion", Kind::NotNegative, Value::Number(0.0), "how walls pull the fluid, β (as above)"),
+    Key::new("tolerance", Kind::Positive, Value::Number(1e-4), "dfsph: the mean error of the density that is left [parts of the density]"),
+    Key::new("divergence_tolerance", Kind::Positive, Value::Number(1e-3), "dfsph: what the velocity may compress by in a step, in the mean [parts of the density]"),
+    Key::new("min_iterations", Kind::Count, Value::Number(2.0), "dfsph: the fewest iterations of a solve"),
+    Key::new("max_iterations", Kind::Count, Value::Number(50.0), "dfsph: the most iterations of a solve"),
 ];
 
 const WALLS: &[&str] = &["mirror", "extrapolate"];
 const WALL_MASS: &[&str] = &["sampled", "lattice"];
 const DENSITY_BY: &[&str] = &["summation", "continuity"];
+
+/// How far a particle may go in a step where pressure is solved for, in spacings (Courant, Friedrichs & Lewy 1928; 0.4 as Bender &
+/// Koschier 2015 have it).
+const COURANT: f64 = 0.4;
 
 /// `fluid`: smoothed particle hydrodynamics with density by summation or continuity and Tait's equation of state (Monaghan 1994; Becker &
 /// Teschner 2007). Everybody is of the fluid but who is held: those are walls (Akinci et al. 2012).
@@ -64,20 +75,46 @@ impl Fluid {
                  of neighbours; say 2 to 3"
             )));
         }
+        let solves = self.solves();
+        if !solves && number("sound_speed") == 0.0 {
+            return Err(Error::Scene(
+                "a fluid has no sound_speed: give ten times the speed of the fastest flow, or solver = \"dfsph\", which needs none"
+                    .to_owned(),
+            ));
+        }
         Ok(Medium {
             density: number("density"),
             spacing: number("spacing"),
             support,
             smoothing: Smoothing::named(self.0.text("kernel")),
-            sound: number("sound_speed"),
+            sound: if solves { 0.0 } else { number("sound_speed") },
             exponent,
             negative: self.0.flag("negative_pressure"),
             dimensions: problem.bounds.dimensions,
         })
     }
+    /// Whether its pressure is solved for.
+    fn solves(&self) -> bool {
+        self.0.text("solver") == "dfsph"
+    }
+    fn dfsph<'a>(&self, medium: Medium, problem: &'a Problem) -> Result<Dfsph<'a>, Error> {
+        let number = |name| self.0.number(name);
+        let count = |name| u32::try_from(self.0.whole(name)).unwrap_or(u32::MAX);
+        let asked = Asked {
+            density: number("tolerance"),
+            divergence: number("divergence_tolerance"),
+            least: count("min_iterations"),
+            most: count("max_iterations"),
+        };
+        Dfsph::new(medium, asked, problem)
+    }
     fn friction(&self) -> Friction {
         let number = |name| self.0.number(name);
         Friction { alpha: number("alpha"), viscosity: number("viscosity"), wall: number("wall_friction") }
+    }
+    fn tension(&self) -> Option<Tension> {
+        let tension = Tension { tension: self.0.number("tension"), adhesion: self.0.number("adhesion") };
+        (tension.tension > 0.0 || tension.adhesion > 0.0).then_some(tension)
     }
     fn walls(&self) -> Walls {
         if self.0.text("walls") == "extrapolate" {
@@ -91,6 +128,13 @@ impl Fluid {
     /// How density follows the fluid, where it is a state.
     fn continuity(&self) -> Result<Option<Continuity>, Error> {
         let diffusion = self.0.number("diffusion");
+        if self.solves() && (self.0.text("density_by") == "continuity" || self.0.text("walls") == "extrapolate") {
+            return Err(Error::Scene(
+                "a fluid with solver = \"dfsph\" has its density by summation, and its walls have the pressure of who presses on \
+                 them: leave out density_by = \"continuity\" and walls = \"extrapolate\", or say solver = \"wcsph\""
+                    .to_owned(),
+            ));
+        }
         if self.0.text("density_by") == "continuity" {
             return Ok(Some(Continuity { diffusion, weight: self.0.vector("weight") }));
         }
@@ -128,28 +172,36 @@ impl Force for Fluid {
     }
     fn paces(&self, plan: &mut Plan, problem: &Problem) -> Result<Option<f64>, Error> {
         let medium = self.medium(problem)?;
-        let limits = Limits { sound: Some(medium.sound), viscosity: self.0.number("viscosity") };
+        let limits = Limits { sound: (!self.solves()).then_some(medium.sound), viscosity: self.0.number("viscosity") };
         fluids::limits(&medium, limits, plan, problem)
     }
     fn evaluate(&self, plan: &mut Plan, _: usize, problem: &Problem) -> Result<(), Error> {
         let medium = self.medium(problem)?;
-        if self.continuity()?.is_none() {
-            plan.add(fluids::density(&medium, problem)?);
+        let (friction, solves) = (self.friction(), self.solves());
+        let (xsph, tension) = (self.0.number("xsph"), self.tension());
+        // Where pressure is solved for, sound and with it the pressure of a state are none: friction and tension are left.
+        if !solves || friction.viscosity > 0.0 || xsph > 0.0 || tension.is_some() {
+            if self.continuity()?.is_none() {
+                plan.add(fluids::density(&medium, problem)?);
+            }
+            plan.add(fluids::state(&medium, problem)?);
         }
-        plan.add(fluids::state(&medium, problem)?);
         if let Walls::Extrapolate { weight } = self.walls()
             && !problem.held.is_empty()
         {
             fluids::wall_pressure(&medium, weight, problem)?.into_iter().for_each(|kernel| plan.add(kernel));
         }
-        plan.add(fluids::pressure(&medium, self.friction(), self.walls(), problem)?);
-        let xsph = self.0.number("xsph");
+        if !solves || friction.viscosity > 0.0 {
+            plan.add(fluids::pressure(&medium, friction, self.walls(), problem)?);
+        }
         if xsph > 0.0 {
             plan.add(fluids::xsph(&medium, xsph, problem)?);
         }
-        let tension = Tension { tension: self.0.number("tension"), adhesion: self.0.number("adhesion") };
-        if tension.tension > 0.0 || tension.adhesion > 0.0 {
+        if let Some(tension) = tension {
             fluids::tension(&medium, tension, problem)?.into_iter().for_each(|kernel| plan.add(kernel));
+        }
+        if solves {
+            self.dfsph(medium, problem)?.evaluate(plan)?;
         }
         Ok(())
     }
@@ -173,5 +225,28 @@ impl Force for Fluid {
              density_by = \"summation\""
                 .to_owned(),
         ))
+    }
+    fn conclude(&self, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
+        if self.solves() {
+            self.dfsph(self.medium(problem)?, problem)?.conclude(plan)?;
+        }
+        Ok(())
+    }
+    fn remark(&self, dt: f64) -> Option<String> {
+        let speed = COURANT * self.0.number("spacing") / dt;
+        let alpha = if self.0.number("alpha") > 0.0 {
+            "; alpha goes with the speed of sound, which is none where pressure is solved for: give viscosity instead"
+        } else {
+            ""
+        };
+        self.solves().then(|| {
+            format!("the fluid's dt = {dt} is for speeds up to {speed:.3}: in a step nobody should go farther than {COURANT} spacings{alpha}")
+        })
+    }
+    fn answers(&self) -> bool {
+        self.solves()
+    }
+    fn integrators(&self) -> &'static [&'static str] {
+        if self.solves() { &["symplectic_euler"] } else { &[] }
     }
 }

@@ -114,6 +114,9 @@ impl Force for Gravity {
             Law::attracting("gravity", self.over(0.0), files, values, rule, far)
         }]
     }
+    fn goes_by_mass(&self) -> bool {
+        true
+    }
     fn evaluate(&self, plan: &mut Plan, earlier: usize, problem: &Problem) -> Result<(), Error> {
         self.fits(problem)?;
         let name = |name: &str| if earlier == 0 { name.to_owned() } else { format!("{name} {}", earlier + 1) };

@@ -88,6 +88,10 @@ pub trait Force: Send + Sync {
     fn conclude(&self, _plan: &mut Plan, _problem: &Problem) -> Result<(), Error> {
         Ok(())
     }
+    /// Whether who has no mass is met by nobody: then those who do not live may stand among those whom it meets.
+    fn goes_by_mass(&self) -> bool {
+        false
+    }
     /// Adds kernels that say how many steps each particle would have in a longest one, were it alone: they fill
     /// [`URGES`](crate::kernel::URGES), from accelerations, positions and velocities at the end of a step. It gives the
     /// same of what is alike for everybody, as viscosity is; nothing where it does not know.
@@ -104,6 +108,14 @@ pub trait Force: Send + Sync {
     /// Whether links change as it acts.
     fn breaks(&self) -> bool {
         false
+    }
+    /// Whether it answers to what all others say: it is evaluated after them, wherever the scene names it.
+    fn answers(&self) -> bool {
+        false
+    }
+    /// What one should know of it before it runs in steps of `dt`.
+    fn remark(&self, _dt: f64) -> Option<String> {
+        None
     }
     /// Whether rods keep their lengths by it.
     fn keeps_rods(&self) -> bool {

@@ -124,16 +124,16 @@ impl Force for Solid {
     }
 }
 
-fn files(wall: &Wall, holding: Source, clock: Source) -> Vec<Source> {
+fn files(wall: &Wall, who: [Source; 2], clock: Source) -> Vec<Source> {
     let mut files = vec![
         crate::shader!("world.wgsl"),
         crate::shader!("nearest_image.wgsl"),
         crate::shader!("law/species.wgsl"),
-        holding,
         crate::shader!("motion/turned.wgsl"),
         crate::shader!("solids/distance.wgsl"),
         crate::shader!("forces/solid.wgsl"),
     ];
+    files.extend(who);
     match wall.motion {
         Some(_) => files.extend([clock, crate::shader!("motion/pose.wgsl"), crate::shader!("solids/moving.wgsl")]),
         None => files.push(crate::shader!("solids/still.wgsl")),
@@ -143,13 +143,8 @@ fn files(wall: &Wall, holding: Source, clock: Source) -> Vec<Source> {
 
 fn kernel(wall: Wall, problem: &Problem, factor: f64) -> Result<Kernel, Error> {
     let (holding, mut tables) = problem.holding();
-    let shader = Shader::join(&files(&wall, holding, problem.clock()))?;
-    let (radius, size, axis) = match wall.shape {
-        Shape::Sphere(radius) => (radius, DVec3::ZERO, DVec3::ZERO),
-        Shape::Box(size) => (0.0, size, DVec3::ZERO),
-        Shape::Plane(normal) => (0.0, DVec3::ZERO, normal),
-        Shape::Capsule(axis, radius) => (radius, DVec3::ZERO, axis),
-    };
+    let shader = Shader::join(&files(&wall, [holding, problem.living()], problem.clock()))?;
+    let (radius, size, axis) = wall.shape.parts();
     let values = [
         ("position", Scalar::Vector(wall.position)),
         ("radius", Scalar::Float(radius)),
@@ -181,7 +176,7 @@ fn kernel(wall: Wall, problem: &Problem, factor: f64) -> Result<Kernel, Error> {
         let bodies = crate::visit::bodies(host)?;
         let (mut position, mut velocity) = (host.write(POSITION)?, host.write(VELOCITY)?);
         let frame = wall.frame(if wall.motion.is_some() { time(host, &who, who.reached)? } else { 0.0 });
-        for body in bodies.iter().filter(|body| wall.who.has(body) && !who.is_held(body.index)) {
+        for body in bodies.iter().filter(|body| wall.who.has(body) && body.lives && !who.is_held(body.index)) {
             let (way, change) = wall.meet(&frame, body.position, body.velocity, factor * world.dt, &world);
             position[body.index] += way.extend(0.0);
             velocity[body.index] += change.extend(0.0);

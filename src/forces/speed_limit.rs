@@ -7,6 +7,7 @@ use glam::DVec4;
 use super::{Force, Kind as Who, Law, Problem, SPECIES, species};
 use crate::error::Error;
 use crate::kernel::{Host, Kernel, Pass, Plan, Scalar, Shader, VELOCITY};
+use crate::visit::Body;
 use crate::settings::{Key, Kind, Settings, Value};
 
 /// What a scene may say.
@@ -49,6 +50,7 @@ pub fn kernel(problem: &Problem, [least, most]: [f64; 2], who: Who) -> Result<Ke
     let (holding, tables) = problem.holding();
     let shader = Shader::join(&[
         holding,
+        problem.living(),
         crate::shader!("world.wgsl"),
         crate::shader!("law/species.wgsl"),
         crate::shader!("forces/speed_limit.wgsl"),
@@ -61,7 +63,8 @@ pub fn kernel(problem: &Problem, [least, most]: [f64; 2], who: Who) -> Result<Ke
     let twin = move |host: &Host| {
         let bodies = crate::visit::bodies(host)?;
         let mut velocity = host.write(VELOCITY)?;
-        for (v, _) in velocity.iter_mut().zip(&bodies).filter(|(_, body)| who.has(body) && !problem.is_held(body.index)) {
+        let has = |body: &Body| who.has(body) && body.lives && !problem.is_held(body.index);
+        for (v, _) in velocity.iter_mut().zip(&bodies).filter(|(_, body)| has(body)) {
             let speed = v.truncate().length();
             if speed > most {
                 *v *= DVec4::splat(most / speed).with_w(1.0);

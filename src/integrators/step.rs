@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use glam::DVec4;
 
-use super::verbs::{at, clear, drift, held, keep, kick, kick_drift, pace, runge_kutta, tick, watch};
+use super::verbs::{at, clear, drift, held, keep, kick, kick_drift, life, pace, runge_kutta, tick, watch};
 use crate::boundary;
 use crate::error::Error;
 use crate::forces::{Force, Problem};
@@ -81,7 +81,9 @@ impl<'a> Step<'a> {
         self.neighbors(&chosen);
         let mut laws = Plan::default();
         let name = |force: &dyn Force| force.laws().first().map(|law| law.name.clone());
-        for (place, force) in self.forces.iter().enumerate().filter(|(place, _)| chosen(*place)) {
+        let all = || self.forces.iter().enumerate().filter(|(place, _)| chosen(*place));
+        let ordered = all().filter(|(_, force)| !force.answers()).chain(all().filter(|(_, force)| force.answers()));
+        for (place, force) in ordered {
             // Two forces of one kind are two kernels.
             let earlier =
                 self.forces[..place].iter().filter(|other| name(other.as_ref()) == name(force.as_ref())).count();
@@ -99,10 +101,17 @@ impl<'a> Step<'a> {
         if !self.problem.held.is_empty() {
             self.add(held::hold(&self.problem));
         }
+        if self.problem.mortal {
+            self.add_all(life::still(&self.problem));
+        }
     }
     /// Who is held gets the velocity that brings it where it shall be at the end of the step.
     pub fn lead(&mut self) {
         self.add_all(held::lead(&self.problem));
+    }
+    /// Who is due is born, and who is in a drain dies.
+    pub fn populate(&mut self) {
+        self.add_all(life::kernels(&self.problem));
     }
     /// What forces do once, before the first step.
     pub fn begin(&mut self) {
@@ -180,7 +189,7 @@ impl<'a> Step<'a> {
         let mut laws = self.forces.iter().flat_map(|force| force.laws());
         laws.any(|law| law.tree(&self.problem).is_some_and(|tree| matches!(tree.opening, Opening::Relative { .. })))
     }
-    /// The plan of one step: what the integrator wrote, the clock's tick, and a look for broken numbers.
+    /// The plan of one step: what the integrator wrote, the clock's tick, births and deaths, and a look for broken numbers.
     ///
     /// # Errors
     /// The first thing that went wrong while the step was written.
@@ -188,6 +197,7 @@ impl<'a> Step<'a> {
         self.each_force(|force, plan, problem| force.conclude(plan, problem));
         self.urge();
         self.add(if self.problem.pace.is_some() { pace::tick(&self.problem) } else { tick::kernel() });
+        self.populate();
         self.add(watch::kernel(self.problem.count));
         self.finished()
     }
@@ -201,7 +211,8 @@ impl<'a> Step<'a> {
         // By what they run, not by what they are called: a force may be called anything.
         let runs = |kernel: &Kernel, entry| kernel.passes.iter().all(|p| p.shader.reflection().entry == entry);
         let asked = |kernel: &Kernel| {
-            !runs(kernel, tick::NAME) && kernel.passes.iter().any(|p| p.shader.reflection().reads_time)
+            ![tick::NAME, life::BEAR].into_iter().any(|entry| runs(kernel, entry))
+                && kernel.passes.iter().any(|p| p.shader.reflection().reads_time)
         };
         let within: Vec<_> = self.plan.kernels.iter().map(|k| runs(k, at::NAME)).collect();
         if !self.plan.kernels.iter().zip(&within).any(|(kernel, at)| !at && asked(kernel)) {

@@ -13,7 +13,7 @@ use super::problems::Problems;
 const DEFLATED: u64 = 1032;
 
 /// The arrays beside [`NUMBERS`].
-const OTHERS: [&str; 4] = ["species", "id", "time", "step"];
+const OTHERS: [&str; 5] = ["species", "life", "id", "time", "step"];
 
 /// An archive, and what was wrong with it so far.
 pub(super) struct Arrays<R: Read + Seek> {

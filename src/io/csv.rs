@@ -1,5 +1,5 @@
-//! Comma-separated text. Columns `x,y,z`, and any of `vx,vy,vz` (0 when left out), `mass` (1), `radius` (0), `species` (0), `id`
-//! and `name`; lines that start with `#` are comments.
+//! Comma-separated text. Columns `x,y,z`, and any of `vx,vy,vz` (0 when left out), `mass` (1), `radius` (0), `species` (0), `life`
+//! (1: it lives; 0: it is yet to be born; 2: it is dead), `id` and `name`; lines that start with `#` are comments.
 
 use std::fmt::Write as _;
 use std::io::{self, Write};
@@ -13,6 +13,7 @@ use super::line::Line;
 use super::problems::{Problems, order};
 use super::{Precision, input, open, picked};
 use crate::error::Error;
+use crate::life::Life;
 use crate::particles::Particles;
 
 /// The columns with numbers, and what they are when left out.
@@ -20,6 +21,7 @@ pub(super) const NUMBERS: [(&str, f64); 8] =
     [("x", 0.0), ("y", 0.0), ("z", 0.0), ("vx", 0.0), ("vy", 0.0), ("vz", 0.0), ("mass", 1.0), ("radius", 0.0)];
 const ID: &str = "id";
 const SPECIES: &str = "species";
+const LIFE: &str = "life";
 const NAME: &str = "name";
 
 /// Reads particles. With a column `id` the rows may come in any order; ids count from 0.
@@ -50,6 +52,15 @@ pub fn read(path: &Path) -> Result<Particles, Error> {
         if let (Some(of), Some(species)) = (of, particles.species.last_mut()) {
             *species = of;
         }
+        if let Some(place) = columns.life {
+            let word = whole(&record, place, LIFE, &line, &mut problems);
+            let life = word.and_then(Life::of);
+            if let (Some(word), None) = (word, life) {
+                problems
+                    .note(|| format!("{line}, column {LIFE}: {word} is none of 0 (waits), 1 (lives) and 2 (is dead)"));
+            }
+            particles.life.push(life.unwrap_or_default());
+        }
         if let Some(id) = columns.id.and_then(|place| whole(&record, place, ID, &line, &mut problems)) {
             ids.push(u64::from(id));
             lines.push(line);
@@ -75,11 +86,12 @@ struct Columns {
     numbers: [Option<usize>; 8],
     id: Option<usize>,
     species: Option<usize>,
+    life: Option<usize>,
 }
 
 impl Columns {
     fn named(header: &ByteRecord, problems: &mut Problems) -> Self {
-        let mut columns = Self { count: header.len(), numbers: [None; 8], id: None, species: None };
+        let mut columns = Self { count: header.len(), numbers: [None; 8], id: None, species: None, life: None };
         let mut name = None;
         for place in 0..header.len() {
             let title = shown(header, place);
@@ -87,9 +99,10 @@ impl Columns {
                 Some(number) => &mut columns.numbers[number],
                 None if title == ID => &mut columns.id,
                 None if title == SPECIES => &mut columns.species,
+                None if title == LIFE => &mut columns.life,
                 None if title == NAME => &mut name,
                 None => {
-                    problems.note(|| unknown("column", &title, &[SPECIES, ID, NAME]));
+                    problems.note(|| unknown("column", &title, &[SPECIES, LIFE, ID, NAME]));
                     continue;
                 }
             };
@@ -172,8 +185,8 @@ pub(super) fn unknown(what: &str, title: &str, others: &[&'static str]) -> Strin
     }
 }
 
-/// Writes a header and one row per particle, in the order of the ids: `id,x,y,z,vx,vy,vz,mass`, and `species` where any is
-/// not 0. Each number is the shortest decimal that reads back to the same bits of the precision, also where it is read as f64
+/// Writes a header and one row per particle, in the order of the ids: `id,x,y,z,vx,vy,vz,mass`, `species` where any is not 0, and
+/// `life` where any does not live. Each number is the shortest decimal that reads back to the same bits of the precision, also where it is read as f64
 /// first; radii are not written.
 ///
 /// # Errors
@@ -184,7 +197,9 @@ pub fn write_csv(mut out: impl Write, particles: &Particles, precision: Precisio
     const PIECES: usize = 32;
     let species = particles.species.iter().any(|species| *species != 0);
     out.write_all(b"id,x,y,z,vx,vy,vz,mass")?;
-    out.write_all(if species { b",species\n" } else { b"\n" })?;
+    let mortal = particles.life.iter().any(|life| *life != Life::Living);
+    out.write_all(if species { b",species" } else { b"" })?;
+    out.write_all(if mortal { b",life\n" } else { b"\n" })?;
     let mut pieces: Vec<String> = vec![String::new(); PIECES];
     for start in (0..particles.len()).step_by(ROWS * PIECES) {
         pieces.par_iter_mut().enumerate().for_each(|(piece, text)| {
@@ -194,6 +209,9 @@ pub fn write_csv(mut out: impl Write, particles: &Particles, precision: Precisio
                 row(text, id, particles, precision);
                 if species {
                     let _ = write!(text, ",{}", particles.species[id]);
+                }
+                if mortal {
+                    let _ = write!(text, ",{}", particles.life.get(id).copied().unwrap_or_default().word());
                 }
                 text.push('\n');
             }

@@ -98,5 +98,8 @@ fn picked(particles: &Particles, order: &[usize]) -> Particles {
         );
     }
     picked.species = order.iter().map(|place| particles.species[*place]).collect();
+    if !particles.life.is_empty() {
+        picked.life = order.iter().map(|place| particles.life.get(*place).copied().unwrap_or_default()).collect();
+    }
     picked
 }

@@ -1,5 +1,5 @@
 //! NPZ, `NumPy`'s archive of named arrays: `id`, `x`, `y`, `z`, `vx`, `vy`, `vz`, `mass`, `radius`,
-//! `species`, `time`, `step`.
+//! `species`, `life`, `time`, `step`.
 //!
 //! `numpy.load("snapshot.npz")["x"]` is the array of x by id.
 
@@ -17,6 +17,7 @@ use super::csv::NUMBERS;
 use super::problems::{Problems, order};
 use super::{Precision, Snapshot, input, open, picked};
 use crate::error::Error;
+use crate::life::Life;
 use crate::particles::Particles;
 
 /// Bytes that are written at once.
@@ -33,10 +34,11 @@ pub fn read(path: &Path) -> Result<Snapshot, Error> {
     let time = arrays.single("time");
     let step = arrays.single("step");
     let columns = NUMBERS.map(|(name, _)| arrays.column(name));
-    let (ids, species) = (arrays.column("id"), arrays.column("species"));
+    let (ids, species, life) = (arrays.column("id"), arrays.column("species"), arrays.column("life"));
     let mut problems = arrays.problems;
     let rows = columns[0].as_ref().map(Vec::len);
-    for (values, name) in columns.iter().zip(NUMBERS.map(|(name, _)| name)).chain([(&ids, "id"), (&species, "species")])
+    for (values, name) in
+        columns.iter().zip(NUMBERS.map(|(name, _)| name)).chain([(&ids, "id"), (&species, "species"), (&life, "life")])
     {
         check(name, values.as_deref(), rows, &mut problems);
     }
@@ -58,6 +60,7 @@ pub fn read(path: &Path) -> Result<Snapshot, Error> {
             Some(species) => species.iter().map(|of| *of as u32).collect(),
             None => vec![0; rows.unwrap_or(0)],
         },
+        life: life.unwrap_or_default().into_iter().filter_map(word).collect(),
         ..Particles::default()
     };
     if let Some(ids) = ids {
@@ -80,12 +83,18 @@ fn check(name: &str, values: Option<&[f64]>, rows: Option<usize>, problems: &mut
             problems.note(|| format!("{name}[{place}] is {value}, which is not finite"));
         } else if *value < 0.0 && matches!(name, "mass" | "radius") {
             problems.note(|| format!("{name}[{place}] is {value}, which is below 0"));
+        } else if name == "life" && word(*value).is_none() {
+            problems.note(|| format!("{name}[{place}] is {value}, none of 0 (waits), 1 (lives) and 2 (is dead)"));
         } else if matches!(name, "id" | "species")
             && !(value.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(value))
         {
             problems.note(|| format!("{name}[{place}] is {value}, not a whole number from 0 to {}", u32::MAX));
         }
     }
+}
+
+fn word(value: f64) -> Option<Life> {
+    [Life::Waiting, Life::Living, Life::Dead].into_iter().find(|life| (f64::from(life.word()) - value).abs() == 0.0)
 }
 
 fn vectors(x: &[f64], y: &[f64], z: &[f64]) -> Vec<DVec3> {
@@ -101,7 +110,8 @@ fn whole(x: f64) -> u64 {
     x as u64
 }
 
-/// Writes a snapshot, uncompressed: `id` (u4), `x` … `vz`, `mass`, `radius` (f4 or f8), `species` (u4) where any is not 0, and
+/// Writes a snapshot, uncompressed: `id` (u4), `x` … `vz`, `mass`, `radius` (f4 or f8), `species` (u4) where any is not 0,
+/// `life` (u4) where any does not live, and
 /// the single numbers `time` (f8) and `step` (u8). The same snapshot gives the same bytes: no date is stored.
 ///
 /// # Errors
@@ -134,6 +144,10 @@ pub fn write_npz(
     }
     if particles.species.iter().any(|species| *species != 0) {
         put(&mut archive, "species", &[count], particles.species.iter().map(|of| of.to_le_bytes()), 0_u32)?;
+    }
+    if particles.life.iter().any(|life| *life != Life::Living) {
+        let of = |id: usize| particles.life.get(id).copied().unwrap_or_default().word();
+        put(&mut archive, "life", &[count], (0..particles.len()).map(|id| of(id).to_le_bytes()), 0_u32)?;
     }
     archive.zip_writer().finish().map(drop).map_err(io::Error::other)
 }

@@ -13,6 +13,9 @@ pub const VELOCITY: Field<Vec4> = Field::new("velocity");
 pub const ACCELERATION: Field<Vec4> = Field::new("acceleration");
 /// Of which kind a particle is: predator or prey, one phase or another. A number that scenes choose.
 pub const SPECIES: Field<u32> = Field::new("species");
+/// Whether a particle takes part, as [`Life::word`](crate::life::Life::word) has it: 0 waits to be born, 1 lives, 2 is dead. It
+/// is there where somebody may be born or die.
+pub const LIFE: Field<u32> = Field::new("life");
 /// Where held particles with a target shall be, by id: `xyz` the place \[length\], `w` the time at which they shall be there
 /// \[time\]. They go there at one pace, and stay; who is late is there after the next step. At the start it is where they
 /// are. Write it with [`Simulation::write`](crate::simulation::Simulation::write) whenever a new place is known. It is there

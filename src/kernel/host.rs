@@ -5,8 +5,9 @@ use std::collections::BTreeMap;
 use std::marker::PhantomData;
 use std::sync::{RwLock, RwLockReadGuard, RwLockWriteGuard};
 
-use super::{Array, Element, Field, World};
+use super::{Array, Element, Field, LIFE, World};
 use crate::error::Error;
+use crate::life::Life;
 
 /// Named arrays, and what every kernel knows.
 #[derive(Debug, Default)]
@@ -116,6 +117,14 @@ impl Host {
             return Err(missing(name));
         }
         Ok(Writing(guard, PhantomData))
+    }
+    /// Who takes part, by id: everybody, where nobody says.
+    ///
+    /// # Errors
+    /// When that is being written.
+    pub fn lives(&self) -> Result<impl Fn(usize) -> bool + Sync + use<>, Error> {
+        let life = if self.contains(LIFE.name) { self.read(LIFE)?.to_vec() } else { Vec::new() };
+        Ok(move |id: usize| life.get(id).is_none_or(|word| *word == Life::Living.word()))
     }
     /// What every kernel knows.
     #[must_use]

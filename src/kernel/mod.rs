@@ -17,7 +17,7 @@ mod world;
 pub use backend::{Backend, Machine};
 pub use bounds::{Bounds, Side};
 pub use field::{
-    ACCELERATION, ALARM, ALARM_WORDS, Array, Element, Field, HOME, POSITION, QUIET, SPECIES, TARGET, VELOCITY,
+    ACCELERATION, ALARM, ALARM_WORDS, Array, Element, Field, HOME, LIFE, POSITION, QUIET, SPECIES, TARGET, VELOCITY,
 };
 pub use host::{Host, Reading, Writing};
 pub use pace::{PACE, PACE_WORDS, Pace, Reason, STOP, TICKS, URGENT, URGES, split, ticks, time};

@@ -232,11 +232,13 @@ impl Plan {
     }
 }
 
-/// The block of two names that comes most often in a row at the start, and how often; or one name, once.
+/// The shortest block of two to four names that comes more than twice in a row at the start, and how often; or one name, once.
 fn repeated(names: &[String]) -> (usize, usize) {
-    let Some(block) = names.get(..2) else { return (1, 1) };
-    let times = names.chunks_exact(2).take_while(|next| *next == block).count();
-    if times > 2 { (2, times) } else { (1, 1) }
+    let times = |length: usize| {
+        let Some(block) = names.get(..length) else { return (length, 0) };
+        (length, names.chunks_exact(length).take_while(|next| *next == block).count())
+    };
+    (2..=4).map(times).find(|(_, times)| *times > 2).unwrap_or((1, 1))
 }
 
 impl std::fmt::Display for Plan {

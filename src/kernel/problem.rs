@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::{Bounds, Machine, Pace, Shader, Side, Solver, Source, Table};
+use crate::life::{Birth, Drain};
 use crate::links::{Links, Network};
 use crate::motion::{self, Held, Motion};
 
@@ -32,6 +33,12 @@ pub struct Problem {
     pub mask: Arc<Vec<u32>>,
     /// What leads some of them, and solids.
     pub motions: Arc<Vec<Motion>>,
+    /// Who is to be born.
+    pub births: Arc<Vec<Birth>>,
+    /// Where particles die.
+    pub drains: Arc<Vec<Drain>>,
+    /// Whether not everybody lives, all the time.
+    pub mortal: bool,
     /// The step size \[time\]: motions are told in steps.
     pub dt: f64,
     /// How much of the step positions have been advanced by, where a plan is being written: when a drift ends.
@@ -58,6 +65,9 @@ impl Problem {
             held: Arc::default(),
             mask: Arc::default(),
             motions: Arc::default(),
+            births: Arc::default(),
+            drains: Arc::default(),
+            mortal: false,
             dt: 1.0,
             reached: 1.0,
             solver: Solver::default(),
@@ -91,6 +101,17 @@ impl Problem {
     #[must_use]
     pub fn moved(self, motions: &[Motion], dt: f64) -> Self {
         Self { motions: Arc::new(motions.to_vec()), dt, ..self }
+    }
+    /// The same with these births and drains; `mortal` where somebody may not live without them too.
+    #[must_use]
+    pub fn mortal(self, births: &[Birth], drains: &[Drain], mortal: bool) -> Self {
+        let mortal = mortal || !births.is_empty() || !drains.is_empty();
+        Self { births: Arc::new(births.to_vec()), drains: Arc::new(drains.to_vec()), mortal, ..self }
+    }
+    /// The file with `fn lives(id: u32) -> bool`.
+    #[must_use]
+    pub fn living(&self) -> Source {
+        if self.mortal { crate::shader!("life/living.wgsl") } else { crate::shader!("life/everybody.wgsl") }
     }
     /// The file with `fn is_held(id: u32) -> bool`, and the table that it reads.
     #[must_use]

@@ -61,7 +61,8 @@ impl Measure {
             total.center += part.center;
             mass += m;
         }
-        let mean = particles.position.iter().sum::<DVec3>() / count.max(1) as f64;
+        let living = || (0..count).filter(|id| particles.lives(*id));
+        let mean = living().map(|id| particles.position[id]).sum::<DVec3>() / living().count().max(1) as f64;
         total.center = if mass > 0.0 { total.center / mass } else { mean };
         total
     }

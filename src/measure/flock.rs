@@ -41,7 +41,7 @@ impl Flock {
     pub fn of(snapshot: &Snapshot, bounds: Bounds, range: Option<f64>, species: Option<u32>) -> Result<Self, Error> {
         let all = &snapshot.particles;
         let of = |list: &[DVec3]| -> Vec<DVec3> {
-            let chosen = |i: &usize| species.is_none_or(|kind| all.species.get(*i) == Some(&kind));
+            let chosen = |i: &usize| all.lives(*i) && species.is_none_or(|kind| all.species.get(*i) == Some(&kind));
             (0..list.len()).filter(chosen).map(|i| list[i]).collect()
         };
         let (positions, velocities) = (of(&all.position), of(&all.velocity));

@@ -53,7 +53,7 @@ impl Ledger {
         // Single precision may put who is at a side just behind it.
         let slack = f64::from(f32::EPSILON) * bounds.low.abs().max(bounds.high.abs());
         let sounds = medium.sound > 0.0;
-        for i in (0..particles.len()).filter(|i| !held(*i)) {
+        for i in (0..particles.len()).filter(|i| !held(*i) && particles.lives(*i)) {
             let (x, v, m) = (particles.position[i], particles.velocity[i], particles.mass[i]);
             let rho = density.get(i).copied().map_or(medium.density, f64::from);
             ledger.count += 1;

@@ -36,7 +36,7 @@ impl Grid {
             crate::shader!("neighbors/carry_still.wgsl")
         };
         let mut passes = fill::passes(&starts, bins, 0)?;
-        passes.push(self.pass(problem, &[chosen, crate::shader!("neighbors/count.wgsl")])?);
+        passes.push(self.pass(problem, &[chosen, problem.living(), crate::shader!("neighbors/count.wgsl")])?);
         passes.extend(scan::passes(&starts, &sums, bins, machine)?);
         passes.push(self.pass(problem, &[crate::shader!("neighbors/scatter.wgsl")])?);
         passes.push(self.pass(problem, &[carry, crate::shader!("neighbors/order.wgsl")])?);
@@ -65,12 +65,41 @@ impl Grid {
         Ok(Pass { constants, uniforms, ..Pass::new(shader, problem.count) }.on(&fields))
     }
 
+    /// The file with `fn present() -> u32`, how many stand in its slots; whoever joins it says `neighbors/starts.wgsl` too,
+    /// and gives it [`Grid::cells_of`].
+    #[must_use]
+    pub fn present(&self, problem: &Problem) -> Source {
+        // Where only one species is in it, everybody looks around by id.
+        if problem.mortal && self.of.is_none() {
+            return crate::shader!("neighbors/present_living.wgsl");
+        }
+        crate::shader!("neighbors/present.wgsl")
+    }
+    /// The `override` by which a shader finds that number.
+    #[must_use]
+    pub fn cells_of(&self, shader: &Shader) -> Option<(&'static str, f64)> {
+        shader.reflection().overrides.contains_key("CELLS").then(|| ("CELLS", f64::from(self.count())))
+    }
+    /// Who stands in its slots, slot by slot.
+    ///
+    /// # Errors
+    /// When it has not been built.
+    pub fn occupants(&self, host: &Host) -> Result<Vec<u32>, Error> {
+        let ids = host.reading::<u32>(&self.field(SORTED_ID).1)?;
+        let starts = self.field(STARTS).1;
+        // Where nobody binds the cells, everybody is in them.
+        let all = ids.len();
+        let end =
+            if host.contains(&starts) { host.reading::<u32>(&starts)?.last().map_or(0, |n| *n as usize) } else { all };
+        Ok(ids[..end.min(all)].to_vec())
+    }
     /// The twin.
     fn sort(&self, host: &Host, moving: bool) -> Result<(), Error> {
         let (position, velocity) = (host.read(POSITION)?, host.read(VELOCITY)?);
         let count = (host.world().count as usize).min(position.len());
         let species = if self.of.is_some() { host.read(SPECIES)?.to_vec() } else { Vec::new() };
-        let chosen = |i: usize| self.of.is_none_or(|of| species.get(i) == Some(&of));
+        let lives = host.lives()?;
+        let chosen = |i: usize| lives(i) && self.of.is_none_or(|of| species.get(i) == Some(&of));
         let places = position[..count].iter().map(|x| x.truncate());
         let cells = Cells::sort(self, host.world().bounds, places, chosen);
 

@@ -7,6 +7,7 @@ pub mod cloth;
 pub mod clusters;
 pub mod disk;
 pub mod drop;
+pub mod emitter;
 mod exponential_disk;
 pub mod hair;
 mod halo;
@@ -28,6 +29,7 @@ mod zeldovich;
 use glam::DVec3;
 
 use crate::error::Error;
+use crate::life::{Birth, Drain, Life, Population};
 use crate::links::Links;
 use crate::motion::{Held, Hold, Motion};
 use crate::settings::{Key, Settings};
@@ -51,6 +53,12 @@ pub struct Particles {
     pub held: Vec<Held>,
     /// What leads some of those, and solids: [`Hold::Motion`] counts them from 0.
     pub motions: Vec<Motion>,
+    /// Whether they take part; who is not told of, lives. Who does not has no velocity and no mass, whatever is said here.
+    pub life: Vec<Life>,
+    /// Who is to be born, when and how.
+    pub births: Vec<Birth>,
+    /// Where particles die.
+    pub drains: Vec<Drain>,
 }
 
 /// A named generator: what a scene's `shape = "…"` may say.
@@ -110,6 +118,21 @@ impl Particles {
     pub fn is_empty(&self) -> bool {
         self.position.is_empty()
     }
+    /// Whether one takes part.
+    #[must_use]
+    pub fn lives(&self, id: usize) -> bool {
+        self.life.get(id).is_none_or(|life| *life == Life::Living)
+    }
+    /// Whether not everybody takes part, all the time.
+    #[must_use]
+    pub fn is_mortal(&self) -> bool {
+        !self.births.is_empty() || !self.drains.is_empty() || self.life.iter().any(|life| *life != Life::Living)
+    }
+    /// How many wait, live and are dead.
+    #[must_use]
+    pub fn population(&self) -> Population {
+        Population::of(&self.life, self.len())
+    }
     /// Adds one, of species 0.
     pub fn push(&mut self, position: DVec3, velocity: DVec3, mass: f64, radius: f64) {
         self.position.push(position);
@@ -138,5 +161,16 @@ impl Particles {
         let held = |held: &Held| Held { id: held.id.saturating_add(first), by: by(held.by) };
         self.held.extend(other.held.iter().map(held));
         self.motions.extend_from_slice(&other.motions);
+        if !other.life.is_empty() {
+            self.life.resize(first as usize, Life::Living);
+            self.life.extend_from_slice(&other.life);
+        }
+        let emitters = self.births.iter().map(|birth| birth.emitter.saturating_add(1)).max().unwrap_or(0);
+        let later = |birth: &Birth| {
+            let (id, emitter) = (birth.id.saturating_add(first), birth.emitter.saturating_add(emitters));
+            Birth { id, emitter, ..*birth }
+        };
+        self.births.extend(other.births.iter().map(later));
+        self.drains.extend_from_slice(&other.drains);
     }
 }

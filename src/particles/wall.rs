@@ -136,7 +136,8 @@ fn hull(reader: &Reader<'_>, skin: &Skin, side: f64, size: DVec3) -> Result<Vec<
 /// A sphere along a spiral (Swinbank & Purser 2006), or a circle.
 fn sphere(reader: &Reader<'_>, skin: &Skin, side: f64, size: DVec3) -> Result<Vec<DVec3>, Error> {
     let flat = size.z == 0.0;
-    let round = size.x > 0.0 && size.y == size.x && (flat || size.z == size.x);
+    let uneven = (size - size.x).abs();
+    let round = size.x > 0.0 && uneven.y == 0.0 && (flat || uneven.z == 0.0);
     if !round {
         return Err(
             reader.error(&format!("size is {size}; a sphere is as large along all axes, or 0 along z for a circle"))

@@ -11,6 +11,9 @@ use crate::error::Error;
 use crate::kernel::{Host, Kernel, Threads};
 use crate::primitives::fill;
 
+/// Depths that so few of the numbers between them part are one.
+const SAME: u32 = 64;
+
 /// The kernel: four fields are emptied, and two dispatches over all drops.
 pub fn kernel(frame: &Frame) -> Result<Kernel, Error> {
     let mut passes = Vec::new();
@@ -18,7 +21,7 @@ pub fn kernel(frame: &Frame) -> Result<Kernel, Error> {
         passes.extend(fill::passes(&field.name.into(), frame.area(), value)?);
     }
     let (threads, rows) = cover::layers(frame);
-    for file in [crate::shader!("render/drops.wgsl"), crate::shader!("render/drops_claim.wgsl")] {
+    for file in [crate::shader!("render/drops.wgsl"), crate::shader!("render/source.wgsl")] {
         let files = [crate::shader!("render/disc.wgsl"), crate::shader!("render/drop.wgsl"), file];
         let mut pass = frame.pass(&files, threads, 64)?;
         pass.constants = vec![("ROWS", f64::from(rows))];
@@ -33,20 +36,24 @@ pub fn kernel(frame: &Frame) -> Result<Kernel, Error> {
         source.fill(NOBODY);
         volume.fill(0);
         rim.fill(0);
-        for (id, p) in projected.iter().enumerate().filter(|(_, p)| p.w > 0.0) {
+        for p in projected.iter().filter(|p| p.w > 0.0) {
             touched(&frame, *p, |at, pixel| {
                 let (half, depth) = front_at(&frame, *p, pixel);
                 if depth >= front[at] {
                     return;
                 }
-                // In the order of ids, the first of equals keeps the pixel.
-                if depth < crest[at] {
-                    crest[at] = depth;
-                    source[at] = u32::try_from(id).unwrap_or(u32::MAX);
-                }
+                crest[at] = crest[at].min(depth);
                 volume[at] += whole(frame.water.grain * half + 0.5);
                 let cover = (p.w + 0.5 - pixel.distance(p.truncate().truncate())).clamp(0.0, 1.0);
                 rim[at] = rim[at].max(whole(255.0 * cover + 0.5));
+            });
+        }
+        for (id, p) in (0..).zip(projected.iter()).filter(|(_, p)| p.w > 0.0) {
+            touched(&frame, *p, |at, pixel| {
+                // In the order of ids, the first of equals keeps the pixel.
+                if source[at] == NOBODY && front_at(&frame, *p, pixel).1 <= crest[at].wrapping_add(SAME) {
+                    source[at] = id;
+                }
             });
         }
         Ok(())
@@ -70,7 +77,7 @@ fn front_at(frame: &Frame, p: DVec4, pixel: DVec2) -> (f64, u32) {
     let half = (1.0 - ((pixel - p.truncate().truncate()) / p.w).length_squared()).max(0.0).sqrt();
     let parallel = frame.camera.distance == 0.0;
     let scale = if parallel { frame.scale() } else { (frame.scale() * frame.camera.distance - p.w) / p.z };
-    (half, key(p.z + p.w * (1.0 - half) / scale))
+    (half, key(p.z + frame.water.oblate * p.w * (1.0 - half) / scale))
 }
 
 /// The surface before it is smooth.

@@ -44,7 +44,7 @@ pub const NEXT_THICKNESS: Field<f32> = Field::new("next_thickness");
 pub const NEXT_DYE: Field<u32> = Field::new("next_dye");
 /// Background, scenery and fluid.
 pub const WET: Field<u32> = Field::new("wet");
-pub const EDGE: Field<u32> = Field::new("edge");
+pub const EDGE: Field<Vec4> = Field::new("edge");
 
 /// Fields that live as long as one picture is drawn.
 pub const OWN: [&str; 37] = [

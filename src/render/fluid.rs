@@ -8,6 +8,13 @@ use crate::settings::Settings;
 
 /// Radii of drops, as a part of how far apart they are: with less there are holes, with more a fluid is fat.
 const FULL: f64 = 0.75;
+/// The same in a plane, where none is behind a hole.
+const FULL_FLAT: f64 = 0.95;
+const ALONE: f64 = 0.2;
+/// How far the rim of a drop is behind its front \[drop\]: at the edge of a fluid nothing smooths what is steep. In parallel
+/// rays, as a plane is looked at, a fluid is nearly flat.
+const OBLATE: f64 = 0.7;
+const OBLATE_FLAT: f64 = 0.3;
 /// How far the surface is made smooth \[drops\], and how much nearer and farther the same surface may be.
 const CALM: f64 = 2.0;
 const RANGE: f64 = 3.0;
@@ -16,8 +23,8 @@ const FARTHEST: u32 = 48;
 /// By so many particles it is judged how far apart they are.
 const SAMPLE: usize = 64;
 /// How deep one sees into water, as a part of half the height of the picture; and into what is coloured \[drops\].
-const WATER: f64 = 0.3;
-const PAINT: f64 = 0.5;
+const WATER: f64 = 0.11;
+const PAINT: f64 = 0.1;
 /// Of water: green is absorbed less than red, blue least.
 pub const DYE: [u8; 3] = [18, 112, 176];
 
@@ -34,7 +41,10 @@ impl Water {
             return Self::default();
         }
         let given = settings.number("drop");
-        let drop = if given > 0.0 { given } else { FULL * spacing(particles, &scenery.held, camera.extent) };
+        let usual = || if scenery.drop > 0.0 { scenery.drop } else { drop_of(particles) };
+        let drop = if given > 0.0 { given } else { usual() };
+        // One alone is as large as it looks well.
+        let drop = if drop > 0.0 { drop } else { ALONE * camera.extent };
         let count = u32::try_from(particles.len()).unwrap_or(u32::MAX).max(1);
         // All drops on one pixel do not overflow, and a half of one is added to each.
         let grain = f64::from(1_u32 << (u32::MAX / count).ilog2().saturating_sub(1).min(16));
@@ -44,14 +54,17 @@ impl Water {
             (false, false) => WATER * camera.extent,
             (false, true) => PAINT * drop,
         };
+        let parallel = settings.text("projection") == "orthographic";
         let foam = settings.number("foam");
         let bright = ["dusk", "day"].contains(&settings.text("background"));
         Self {
             drop,
+            oblate: if parallel { OBLATE_FLAT } else { OBLATE },
             grain,
             // A drop overlaps with others: of its ball it has but its own share, a cube.
             layer: 2.0 * drop / grain / (4.0 / 3.0 * std::f64::consts::PI * FULL.powi(3)),
             murk: depth.recip(),
+            stain: if painted { 0.0 } else { 1.0 },
             foam: if foam > 0.0 { foam } else { super::frame::NEVER },
             range: RANGE,
             calm: CALM,
@@ -63,11 +76,12 @@ impl Water {
     }
 }
 
-/// How far apart particles are that are not held: the middle of the distances from some to their nearest.
-fn spacing(particles: &Particles, held: &[u32], extent: f64) -> f64 {
+/// The radius of drops of particles that are not held, by the middle of the distances from some to their nearest; zero
+/// where there is but one.
+pub fn drop_of(particles: &Particles) -> f64 {
     let mut free = vec![true; particles.len()];
-    for id in held {
-        if let Some(one) = free.get_mut(*id as usize) {
+    for one in &particles.held {
+        if let Some(one) = free.get_mut(one.id as usize) {
             *one = false;
         }
     }
@@ -80,6 +94,7 @@ fn spacing(particles: &Particles, held: &[u32], extent: f64) -> f64 {
     let stride = places.len().div_ceil(SAMPLE).max(1);
     let mut all: Vec<f64> = places.iter().step_by(stride).map(nearest).filter(|r| r.is_finite()).collect();
     let middle = all.len() / 2;
-    // One drop alone: as large as a drop in a picture may be.
-    if all.is_empty() { 0.2 * extent } else { *all.select_nth_unstable_by(middle, f64::total_cmp).1 }
+    let flat = places.windows(2).all(|pair| (pair[1].z - pair[0].z).abs() <= 0.0);
+    let part = if flat { FULL_FLAT } else { FULL };
+    if all.is_empty() { 0.0 } else { part * *all.select_nth_unstable_by(middle, f64::total_cmp).1 }
 }

@@ -51,7 +51,7 @@ pub const KEYS: &[Key] = &[
         "drop",
         Kind::NotNegative,
         Value::Number(0.0),
-        "of a fluid: the radius of a drop, three quarters of the spacing; 0: by how far apart particles are [length]",
+        "of a fluid: the radius of a drop; 0: by how far apart particles are at the start, 0.75 of that, in a plane 0.95 [length]",
     ),
     Key::new(
         "clarity",

@@ -4,6 +4,7 @@
 //! numbers, so that a picture has the same bytes on every run. Cloth is a surface, springs are lines, and solids stand
 //! among them, in the light of one lamp.
 
+mod absent;
 mod blank;
 mod camera;
 mod cover;
@@ -43,6 +44,7 @@ mod trail;
 mod vertex;
 mod water;
 
+pub use absent::absent;
 pub use camera::{Camera, framed};
 pub use draw::{Image, draw};
 pub use film::{Film, shoot};

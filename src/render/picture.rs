@@ -4,6 +4,7 @@ use std::borrow::Cow;
 
 use glam::DVec3;
 
+use super::absent::absent;
 use super::camera::FEW;
 use super::frame::{HOLDER, LIT, LIT_VERTEX, NEAREST, NEVER, VERTEX};
 use super::light::{LAMP_VIEW, from_lamp};
@@ -31,6 +32,8 @@ pub struct Picture {
     /// Brightness of lights, as a multiple of the automatic one.
     pub exposure: f64,
     facets: Facets,
+    /// Whether some may not live, who are not drawn.
+    mortal: bool,
 }
 
 /// Pixels from side to side, at most: one invocation draws a whole line.
@@ -82,7 +85,7 @@ impl Picture {
         let plain = facets.count > 0 && settings.text("color") == "auto";
         let color = if plain {
             Color::choose(&settings.clone().with("color", Value::Text("group".into())), particles, groups)
-        } else if wet && settings.text("color") == "auto" && !groups.iter().any(|g| Some(g) != groups.first()) {
+        } else if wet && settings.text("color") == "auto" {
             Color::Given(vec![pack(fluid::DYE); particles.len()])
         } else {
             Color::choose(settings, particles, groups)
@@ -143,7 +146,14 @@ impl Picture {
             slab: if settings.number("slab") > 0.0 { 0.5 * settings.number("slab") } else { NEVER },
             lamp: LAMP_VIEW * camera.extent * (width / height).max(1.0),
         };
-        Ok(Self { frame, color, trail, exposure: settings.number("exposure"), facets })
+        Ok(Self {
+            frame,
+            color,
+            trail,
+            exposure: settings.number("exposure"),
+            facets,
+            mortal: !particles.life.is_empty(),
+        })
     }
     /// The same picture with other trails.
     pub fn retrace(&mut self, trail: Trail) {
@@ -168,6 +178,9 @@ impl Picture {
         let mut plan = Plan::default();
         plan.add(blank::kernel(&self.frame)?);
         plan.add(project::kernel(&self.frame)?);
+        if self.mortal {
+            plan.add(absent(self.frame.count)?);
+        }
         match self.color {
             Color::Speed { .. } => plan.add(paint::kernel(&self.frame)?),
             Color::Heading => plan.add(heading::kernel(&self.frame)?),

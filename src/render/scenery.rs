@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::{DQuat, DVec3};
 
 use super::camera::FEW;
+use super::fluid::drop_of;
 use super::frame::{AROUND, AROUND_START, EDGE, FACET, Frame, NOBODY, SLOT, SOLID, VEIL};
 use super::solid::{Shape, Solid};
 use super::tank;
@@ -26,6 +27,8 @@ pub struct Scenery {
     pub tanks: Vec<Solid>,
     /// The first of those, where it is no container of the scene.
     pub bounded: Option<Solid>,
+    /// The radius of the drops of a fluid, by how far apart particles are at the start \[length\]; zero: as they are now.
+    pub drop: f64,
     /// Who is held, by id: in a fluid those are walls.
     pub held: Arc<Vec<u32>>,
     /// The same in a scene, and the motions that they go along with: see [`Scenery::at`].
@@ -39,7 +42,14 @@ impl Scenery {
         let held = particles.held.iter().map(|one| one.id).collect();
         let bounded = around_walls(particles);
         let tanks = bounded.into_iter().collect();
-        Self { links: Arc::new(particles.links.clone()), tanks, bounded, held: Arc::new(held), ..Self::default() }
+        Self {
+            links: Arc::new(particles.links.clone()),
+            tanks,
+            bounded,
+            drop: drop_of(particles),
+            held: Arc::new(held),
+            ..Self::default()
+        }
     }
     /// The same in a box, where that is closed all round.
     #[must_use]

@@ -20,7 +20,7 @@ struct Surface {
 /// The kernel: twice as many dispatches as rounds.
 pub fn kernel(frame: &Frame) -> Result<Kernel, Error> {
     let files = [crate::shader!("render/settle.wgsl")];
-    let each = 4 * u64::from(whole(f64::from(frame.water.farthest)));
+    let each = 4 * u64::from(frame.water.farthest);
     let across = frame.pass(&files, Threads::new(frame.area()), each)?;
     let mut down = across.clone().on(&[
         ("level", NEXT_LEVEL.name.into()),
@@ -71,7 +71,7 @@ impl Surface {
             if down { (columns, i / columns, frame.height as usize) } else { (1, i % columns, columns) };
         let range = frame.water.range * frame.water.drop;
         let reach = whole((frame.water.calm * frame.water.drop * frame.scale_at(z)).max(0.0)) as usize;
-        let reach = reach.clamp(1, whole(f64::from(frame.water.farthest)) as usize);
+        let reach = reach.min(frame.water.farthest as usize);
         let mut sum = (z, self.thickness[i], bytes(self.dye[i]));
         let mut weights = 1.0;
         for k in 1..=reach.min(at).min(len - 1 - at) {

@@ -5,8 +5,6 @@ use glam::{DVec2, DVec3, DVec4};
 use super::frame::{Frame, key};
 use super::solid::{Shape, Solid};
 
-/// Words of an edge on the device.
-pub const WORDS: usize = 8;
 /// Ends of an edge that is not in the picture are so far out of it.
 const AWAY: f64 = -1e6;
 
@@ -61,9 +59,8 @@ pub struct Edge {
 }
 
 /// All edges.
-pub fn edges(words: &[u32]) -> Vec<Edge> {
-    let end = |w: &[u32]| DVec4::from_array([0, 1, 2, 3].map(|k| f64::from(f32::from_bits(w[k]))));
-    words.chunks_exact(WORDS).map(|w| Edge { ends: [end(&w[..4]), end(&w[4..])] }).collect()
+pub fn edges(ends: &[DVec4]) -> Vec<Edge> {
+    ends.chunks_exact(2).map(|pair| Edge { ends: [pair[0], pair[1]] }).collect()
 }
 
 impl Edge {

@@ -17,12 +17,16 @@ use crate::kernel::{Host, Kernel, Scalar, Threads};
 pub struct Water {
     /// The radius of a drop \[length\]; zero where there is no fluid.
     pub drop: f64,
+    /// How far its rim is behind its front, as a part of that.
+    pub oblate: f64,
     /// Parts in which the thickness of a drop is counted.
     pub grain: f64,
     /// The thickness that one of those stands for \[length\].
     pub layer: f64,
     /// How much of it absorbs light \[1 / length\].
     pub murk: f64,
+    /// How much less it absorbs of the light of its own colour: 1 for water, 0 for paint.
+    pub stain: f64,
     /// The speed from which on it is white \[length / time\].
     pub foam: f64,
     /// How much nearer and farther the same surface may be \[drops\].
@@ -41,13 +45,15 @@ pub struct Water {
 
 impl Water {
     /// By their names in shaders.
-    pub(super) fn values(&self) -> [(&'static str, Scalar); 11] {
+    pub(super) fn values(&self) -> [(&'static str, Scalar); 13] {
         let float = Scalar::Float;
         [
             ("drop", float(self.drop)),
+            ("oblate", float(self.oblate)),
             ("grain", float(self.grain)),
             ("layer", float(self.layer)),
             ("murk", float(self.murk)),
+            ("stain", float(self.stain)),
             ("foam", float(self.foam)),
             ("range", float(self.range)),
             ("calm", float(self.calm)),
@@ -69,9 +75,9 @@ const BEND: f64 = 0.35;
 const FURTHEST: f64 = 40.0;
 const LOW: DVec3 = DVec3::new(0.32, 0.36, 0.44);
 const HIGH: DVec3 = DVec3::new(0.80, 0.90, 1.0);
-const GLASS: DVec3 = DVec3::new(0.62, 0.70, 0.80);
-const BEHIND: f64 = 0.35;
-const BEFORE: f64 = 0.5;
+const GLASS: DVec3 = DVec3::new(0.42, 0.48, 0.56);
+const BEHIND: f64 = 0.5;
+const BEFORE: f64 = 0.8;
 
 /// The kernel.
 pub fn kernel(frame: &Frame, facets: &Facets) -> Result<Kernel, Error> {
@@ -101,10 +107,12 @@ pub fn kernel(frame: &Frame, facets: &Facets) -> Result<Kernel, Error> {
         host.write(WET)?.par_iter_mut().zip(0..on.area()).for_each(|(out, i)| {
             let (x, y) = (i % on.width, i / on.width);
             let (at, z) = (i as usize, pool.level[i as usize]);
-            let mut c = pool.under(middle(x, y), z);
-            if z < NEVER {
-                let look = pool.look(i64::from(x), i64::from(y), z).clamp(DVec3::ZERO, DVec3::ONE);
-                c = c.lerp(look, f64::from(rim[at]) / 255.0);
+            let normal = (z < NEVER).then(|| pool.normal(i64::from(x), i64::from(y), z));
+            let aside = normal.map_or(DVec2::ZERO, |normal| pool.aside(at, z, normal));
+            let mut c = pool.under(middle(x, y) + aside, z);
+            if let Some(normal) = normal {
+                let place = pool.place(i64::from(x), i64::from(y), z);
+                c = c.lerp(pool.look(at, place, normal, c), f64::from(rim[at]) / 255.0);
             }
             let before = Edge::cover(pool.edges, &on, middle(x, y), z, pool.front[at]).y;
             *out = rounded(c.lerp(GLASS, BEFORE * before));
@@ -150,22 +158,26 @@ impl Pool<'_> {
         }
     }
     fn under(&self, place: DVec2, depth: f64) -> DVec3 {
-        let q = place.clamp(DVec2::splat(0.5), self.frame.size() - 0.5);
+        let q = place.max(DVec2::ZERO).min(self.frame.size() - 0.5);
         let at = self.frame.pixel(whole(q.x), whole(q.y));
         let stands = self.scenery[at];
         let behind = Edge::cover(self.edges, &self.frame, q, depth, self.front[at]).x;
         let c = background(&self.frame, q).lerp(unpack(stands), f64::from(stands >> 24) / 255.0);
         c.lerp(GLASS, BEHIND * behind)
     }
-    fn look(&self, x: i64, y: i64, z: f64) -> DVec3 {
+    fn normal(&self, x: i64, y: i64, z: f64) -> DVec3 {
+        self.slope(x, y, z, (0, 1)).cross(self.slope(x, y, z, (1, 0))).normalize()
+    }
+    /// How many pixels aside one sees what is behind it.
+    fn aside(&self, at: usize, z: f64, normal: DVec3) -> DVec2 {
+        (BEND * self.frame.scale_at(z) * self.thickness[at]).min(FURTHEST) * DVec2::new(normal.x, -normal.y)
+    }
+    fn look(&self, at: usize, place: DVec3, normal: DVec3, behind: DVec3) -> DVec3 {
         let frame = &self.frame;
-        let at = usize::try_from(y * i64::from(frame.width) + x).unwrap_or(0);
-        let normal = self.slope(x, y, z, (0, 1)).cross(self.slope(x, y, z, (1, 0))).normalize();
-        let view = if frame.camera.distance > 0.0 { -self.place(x, y, z).normalize() } else { DVec3::Z };
+        let view = if frame.camera.distance > 0.0 { -place.normalize() } else { DVec3::Z };
         let (paint, foam) = (unpack(self.dye[at]), f64::from(self.dye[at] >> 24) / 255.0);
         let thickness = self.thickness[at];
-        let aside = (BEND * frame.scale_at(z) * thickness).min(FURTHEST) * DVec2::new(normal.x, -normal.y);
-        let exponent = -thickness * frame.water.murk * (ABSORB - paint);
+        let exponent = -thickness * frame.water.murk * (ABSORB - frame.water.stain * paint);
         let clear = DVec3::from_array(exponent.to_array().map(f64::exp));
         let day = (0.6 * normal.dot(LAMP) + 0.4).max(0.0);
         let facing = normal.dot(view).clamp(0.0, 1.0);
@@ -174,9 +186,8 @@ impl Pool<'_> {
         let sky = frame.water.gloss * LOW.lerp(HIGH, 0.5 + 0.5 * up);
         let shine = normal.dot((LAMP + view).normalize()).max(0.0).powi(120) * (1.0 - foam);
         let body = paint * (0.4 + 0.75 * day);
-        let behind = self.under(DVec2::new(x as f64, y as f64) + 0.5 + aside, z);
         let c = body + (behind - body) * clear;
-        let c = c.lerp(DVec3::splat(0.45 + 0.55 * day), foam);
-        c.lerp(sky, mirror) + 0.8 * shine
+        let c = c.lerp(DVec3::splat(0.7 + 0.3 * day), foam * (1.0 - clear.x.powi(4)));
+        (c.lerp(sky, mirror) + 0.8 * shine).clamp(DVec3::ZERO, DVec3::ONE)
     }
 }

@@ -37,6 +37,7 @@ pub const SCENES: &[Builtin] = scenes![
     "cold_collapse",
     "periodic_box",
     "fountain",
+    "fountain_pool",
     "pendulum",
     "double_pendulum",
     "spring_chain",

@@ -16,6 +16,8 @@ mod bounds;
 mod builtin;
 mod color;
 mod diagnostic;
+mod drain;
+mod emitter;
 mod files;
 mod fluid;
 mod force;
@@ -47,6 +49,8 @@ use crate::settings::Settings;
 pub use bounds::BOX_KEYS;
 pub use builtin::{Builtin, SCENES};
 pub use diagnostic::{Diagnostic, Diagnostics, Excerpt, Mended};
+pub use drain::DRAIN_KEYS;
+pub use emitter::EMITTER_KEYS;
 pub use links::LINKS_KEYS;
 pub use motion::MOTION_KEYS;
 pub use output::{Format, Output};
@@ -170,7 +174,7 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
 
     let mut particles = Particles::default();
     let mut groups = Vec::new();
-    if all("particles").next().is_none() {
+    if all("particles").chain(all("emitter")).next().is_none() {
         let fault = Fault::missing(&Place::end(), "there are no particles");
         report.push(
             fault.note("help: add\n\n         [[particles]]\n         shape = \"plummer\"\n         count = 1000"),
@@ -191,6 +195,20 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
         }
     }
 
+    #[expect(clippy::cast_precision_loss, reason = "a time")]
+    let end = simulation.dt * simulation.steps as f64;
+    for table in all("emitter") {
+        let start = ids(&particles);
+        let room = options.most_particles.saturating_sub(start);
+        let within = (bounds.dimensions, end, room);
+        if let Some(emitted) = emitter::read(table, within, &mut particles, &mut out, report) {
+            groups.push(Group { ids: start..start + emitted.count, color: emitted.color });
+        }
+    }
+    for table in all("drain") {
+        particles.drains.extend(drain::read(table, bounds.dimensions, &mut out, report));
+    }
+
     for table in all("links") {
         links::read(table, &mut particles, &bounds, files, &mut out, report);
     }
@@ -205,6 +223,13 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
         }
     }
 
+    // Who is born or dies, the forces must know of.
+    let integrator = (simulation.integrator.build)();
+    if let (Some(first), Err(why)) =
+        (all("emitter").chain(all("drain")).next(), crate::simulation::serves(&particles, &forces, integrator.as_ref()))
+    {
+        report.push(Fault::at(first.place, why.to_string()));
+    }
     if let Some((pace, place)) = &simulation.pace {
         force::paced(&forces, (*pace, place), report);
     }

@@ -6,7 +6,7 @@ use crate::particles::SHAPES;
 use crate::render;
 use crate::settings::Key;
 
-use super::{bounds, force, links, motion, output, particles, simulation, solver};
+use super::{bounds, drain, emitter, force, links, motion, output, particles, simulation, solver};
 
 /// A section.
 pub(super) struct Section {
@@ -35,6 +35,8 @@ pub(super) const SECTIONS: &[Section] = &[
         own: particles::OWN,
         kinds: || SHAPES.iter().map(|s| s.keys).chain([particles::OFFSETS]).collect(),
     },
+    Section { name: "emitter", many: true, keys: emitter::EMITTER_KEYS, own: emitter::OWN, kinds: Vec::new },
+    Section { name: "drain", many: true, keys: drain::DRAIN_KEYS, own: &[], kinds: Vec::new },
     Section { name: "links", many: true, keys: links::LINKS_KEYS, own: links::OWN, kinds: Vec::new },
     Section {
         name: "force",

@@ -1,11 +1,15 @@
 //! What a simulation is made of, checked, and the plans that come of it.
 
+use glam::DVec3;
+
+use super::mortals;
 use crate::boundary;
 use crate::error::Error;
 use crate::fluids::{Start, Still};
 use crate::forces::{Force, Problem};
 use crate::integrators::{Integrator, Step};
 use crate::kernel::{Bounds, Machine, Plan, Solver};
+use crate::life;
 use crate::motion::{self, Hold};
 use crate::particles::Particles;
 
@@ -53,6 +57,7 @@ impl Setup {
         let mut start = Step::new(&self.forces, problem.clone());
         start.enclose();
         start.lead();
+        start.populate();
         start.begin();
         self.integrator.start(&mut start);
         let mut step = Step::new(&self.forces, problem.clone());
@@ -100,6 +105,7 @@ impl Setup {
             .of_species(&self.particles.species)
             .tied(&self.particles.links, &self.particles.held)
             .moved(&self.particles.motions, self.dt)
+            .mortal(&self.particles.births, &self.particles.drains, self.particles.is_mortal())
             .breaking(self.breaks())
             .solved(self.solver)
             .paced(self.integrator.pace()))
@@ -118,11 +124,19 @@ impl Setup {
     /// [`Error::Scene`] names the particles and the cause.
     pub fn start(&self) -> Result<Option<Start>, Error> {
         let problem = self.problem(Machine { software: true, subgroup: 0, invocations: 1 })?;
-        let media = self.forces.iter().map(|force| force.fluid(&problem));
-        let Some(fluid) = media.filter_map(Result::transpose).next().transpose()? else { return Ok(None) };
-        let Particles { position, velocity, mass, .. } = &self.particles;
-        let walls: Vec<bool> = (0..position.len()).map(|id| problem.is_held(id)).collect();
-        let mut start = Start::of(&fluid, &Still { position, mass, walls: &walls, bounds: &self.bounds })?;
+        let mut media = self.forces.iter().map(|force| force.fluid(&problem));
+        let Some(fluid) = media.find_map(Result::transpose).transpose()? else { return Ok(None) };
+        // Who waits or is dead is in nobody's way; a scene has the ids of those last.
+        let living: Vec<usize> = (0..self.particles.len()).filter(|id| self.particles.lives(*id)).collect();
+        let of = |list: &[DVec3]| -> Vec<DVec3> { living.iter().map(|id| list[*id]).collect() };
+        let (position, velocity) = (of(&self.particles.position), of(&self.particles.velocity));
+        let mass: Vec<f64> = living.iter().map(|id| self.particles.mass[*id]).collect();
+        let walls: Vec<bool> = living.iter().map(|id| problem.is_held(*id)).collect();
+        if problem.mortal && walls.iter().all(|wall| *wall) {
+            return Ok(None);
+        }
+        let still = Still { position: &position, mass: &mass, walls: &walls, bounds: &self.bounds };
+        let mut start = Start::of(&fluid, &still)?;
         let speeds = velocity.iter().zip(&walls).filter(|(_, wall)| !**wall).map(|(v, _)| v.length());
         start.speed = speeds.fold(0.0, f64::max);
         start.check()?;
@@ -151,7 +165,8 @@ impl Setup {
     /// [`Error::Scene`] when there are none or too many, when dt is not a positive number, when a particle has a number
     /// that is none, or a negative mass, when there can be no such box, or when it does not hold them.
     pub fn check(&self) -> Result<u32, Error> {
-        let Particles { position, velocity, mass, radius, species, links, held, motions } = &self.particles;
+        let Particles { position, velocity, mass, radius, species, links, held, motions, life, births, drains } =
+            &self.particles;
         let count = position.len();
         let lengths = [velocity.len(), mass.len(), radius.len(), species.len()];
         if lengths.iter().any(|l| *l != count) {
@@ -187,6 +202,8 @@ impl Setup {
         }
         boundary::check(&self.bounds)?;
         motion::check(held, motions, count, self.bounds.dimensions, self.dt)?;
+        life::check((life, births, drains), held, count, self.bounds.dimensions)?;
+        mortals::serves(&self.particles, &self.forces, self.integrator.as_ref())?;
         if !links.rods.is_empty() && !self.forces.iter().any(|force| force.keeps_rods()) {
             let text = format!(
                 "nothing keeps the lengths of the rods (of which there are {}): add a [[force]] of kind = \"rod\"",

@@ -41,7 +41,7 @@ impl<B: Backend> Simulation<B> {
     /// # Errors
     /// What reading says.
     pub async fn solves(&mut self) -> Result<Option<Solves>, Error> {
-        if !self.solves {
+        if !self.reports[0] {
             return Ok(None);
         }
         let report = self.backend.read(SOLVE_REPORT, &Array::Uint(Vec::new()), SOLVE_REPORT_WORDS).await?;

@@ -61,6 +61,16 @@ impl Solid {
             }
         }
     }
+    /// As shaders know it: its radius, sides, and normal or axis; 0 where it has none.
+    #[must_use]
+    pub fn parts(self) -> (f64, DVec3, DVec3) {
+        match self {
+            Self::Sphere(radius) => (radius, DVec3::ZERO, DVec3::ZERO),
+            Self::Box(size) => (0.0, size, DVec3::ZERO),
+            Self::Plane(normal) => (0.0, DVec3::ZERO, normal),
+            Self::Capsule(axis, radius) => (radius, DVec3::ZERO, axis),
+        }
+    }
     /// The place of its word among [`SHAPES`].
     #[must_use]
     pub fn number(self) -> u32 {

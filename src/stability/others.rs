@@ -42,6 +42,7 @@ pub fn each(setup: &Setup) -> (f64, f64) {
     for jvp in jacobians {
         let norms = (0..particles.len()).map(|index| {
             let me = Body {
+                lives: true,
                 index,
                 position: particles.position[index],
                 velocity: particles.velocity[index],

@@ -20,12 +20,14 @@ pub struct Body {
     pub radius: f64,
     /// Of which kind it is; 0 where nobody says.
     pub species: u32,
+    /// Whether it takes part.
+    pub lives: bool,
 }
 
 impl Body {
-    fn new(index: usize, position: DVec4, velocity: DVec4, species: u32) -> Self {
+    fn new(index: usize, position: DVec4, velocity: DVec4, (species, lives): (u32, bool)) -> Self {
         let (mass, radius) = (position.w, velocity.w);
-        Self { index, position: position.truncate(), velocity: velocity.truncate(), mass, radius, species }
+        Self { index, position: position.truncate(), velocity: velocity.truncate(), mass, radius, species, lives }
     }
 }
 
@@ -37,6 +39,8 @@ pub fn bodies(host: &Host) -> Result<Vec<Body>, Error> {
     let count = host.world().count as usize;
     let (position, velocity) = (host.read(POSITION)?, host.read(VELOCITY)?);
     let species = if host.contains(SPECIES.name) { host.read(SPECIES)?.to_vec() } else { Vec::new() };
-    let body = |i: usize| Body::new(i, position[i], velocity[i], species.get(i).copied().unwrap_or(0));
+    let lives = host.lives()?;
+    let kind = |i: usize| (species.get(i).copied().unwrap_or(0), lives(i));
+    let body = |i: usize| Body::new(i, position[i], velocity[i], kind(i));
     Ok((0..count.min(position.len())).map(body).collect())
 }

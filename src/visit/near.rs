@@ -55,6 +55,7 @@ pub fn ground() -> Vec<Source> {
         crate::shader!("world.wgsl"),
         crate::shader!("fields.wgsl"),
         crate::shader!("neighbors/cell.wgsl"),
+        crate::shader!("neighbors/starts.wgsl"),
         crate::shader!("visit/near_rows.wgsl"),
     ]
 }
@@ -65,6 +66,7 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
         return Err(Error::Scene(format!("`{}` searches no grid", law.name)));
     };
     let mut sources = ground();
+    sources.push(grid.present(problem));
     sources.push(crate::shader!("visit/near_feel.wgsl"));
     sources.extend(particles(&law, moving));
     if let Over::Near { .. } = law.over {
@@ -93,6 +95,7 @@ pub fn passes(grid: &Grid, all: &Pass, problem: &Problem) -> Result<Vec<Pass>, E
         if let Some(binding) = all.shader.reflection().binding("grid") {
             pass.uniforms.push(("grid", grid.uniform(binding, first, end)?));
         }
+        pass.constants.extend(grid.cells_of(&all.shader));
         if narrow {
             pass.constants.push(("NARROW", 1.0));
         }

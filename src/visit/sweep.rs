@@ -33,6 +33,7 @@ impl Sweep {
     /// [`Error::Shader`] when a file does not compile, [`Error::Scene`] when a block has other members.
     pub fn kernel(self, problem: &Problem) -> Result<Kernel, Error> {
         let mut sources = near::ground();
+        sources.push(self.grid.present(problem));
         sources.extend(near::search(&self.grid, &problem.machine));
         sources.extend(self.files);
         let shader = Shader::join(&sources)?;
@@ -67,7 +68,7 @@ pub fn blocks(
     Ok(uniforms)
 }
 
-/// What everybody gathers who is chosen, of all others in range, in the order of their ids: the twin of a [`Sweep`].
+/// What everybody gathers who lives and is chosen, of all others in range, in the order of their ids: the twin of a [`Sweep`].
 ///
 /// # Errors
 /// When the host lacks positions or velocities.
@@ -80,7 +81,7 @@ pub fn gathered<S: Default + Send>(
     let (bodies, bounds) = (bodies(host)?, host.world().bounds);
     let gathered = |me: &Body| {
         let mut sum = S::default();
-        for you in bodies.iter().filter(|you| you.index != me.index) {
+        for you in bodies.iter().filter(|you| you.lives && you.index != me.index) {
             let way = you.position - me.position;
             if bounds.within(way, range) {
                 gather(me, you, bounds.shortest(way), &mut sum);
@@ -88,5 +89,5 @@ pub fn gathered<S: Default + Send>(
         }
         sum
     };
-    Ok(bodies.par_iter().map(|me| chosen(me).then(|| gathered(me))).collect())
+    Ok(bodies.par_iter().map(|me| (me.lives && chosen(me)).then(|| gathered(me))).collect())
 }

@@ -36,7 +36,12 @@ pub fn meetings<S: Default>(
             let mut meet = |you: &Body| {
                 gather(me, you, world.bounds.shortest(you.position - me.position), &world, &mut sum);
             };
-            let others = bodies.iter().filter(|you| you.index != me.index);
+            // Who does not live is in no grid; where all are met, it has no mass.
+            let in_grid = matches!(over, Over::Near { .. } | Over::Nearest { .. });
+            if !me.lives && in_grid && !matches!(over, Over::Near { of: Some(_), .. }) {
+                return;
+            }
+            let others = bodies.iter().filter(|you| you.index != me.index && (you.lives || !in_grid));
             match (over, over.range()) {
                 (Over::Nearest { count }, _) => {
                     nearest(me, others, count as usize, &world.bounds).into_iter().for_each(&mut meet);

@@ -13,6 +13,7 @@ mod friction;
 mod invariants;
 mod lockstep;
 mod smoothing;
+mod tension;
 mod vortices;
 mod walls;
 

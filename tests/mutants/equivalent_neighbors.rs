@@ -17,6 +17,7 @@ const BREAK: &str = "if seen > MOST || all(";
 
 pub const EQUIVALENT: &[Equivalent] = &[
     same("visit/nearest", "override COUNT: u32 = 7u;", "7u", "8u", ALWAYS_SET),
+    same("present_living", "override CELLS: u32 = 1u;", "1u", "2u", ALWAYS_SET),
     same("visit/within", "override RANGE: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
     same("cell.wgsl", "const FARTHEST", "536870912.0", "805306368.0", AT_ONE_PLACE),
     same("cell.wgsl", "let whole = ", "+", "-", AT_ONE_PLACE),

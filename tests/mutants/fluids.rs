@@ -23,6 +23,8 @@ use Value::{Flag, Number};
 
 pub const EQUIVALENT: &[Equivalent] = &[
     same("fluids/cubic", "return select(2.0", "<=", "<", "both halves have one value where they meet"),
+    same("fluids/tension", "const NOTHING", "1e-30", "2e-30", "nobody is as near as that"),
+    same("fluids/tension", "let pull = ", "<=", "<", "both halves have one value where they meet"),
     same("fluids/cubic", "return select(-6.0", "<=", "<", "both halves have one value where they meet"),
     same(
         "fluids/density_advance",
@@ -58,6 +60,14 @@ fn cases() -> Vec<Case> {
     vec![
         case("in space", false, Side::Periodic, true, vec![]),
         case("in the plane", true, Side::Open, true, vec![("kernel", word("wendland")), ("support", Number(2.6))]),
+        case("a surface", true, Side::Open, true, vec![("tension", Number(0.7)), ("adhesion", Number(900.0))]),
+        case(
+            "a surface in space",
+            false,
+            Side::Periodic,
+            true,
+            vec![("tension", Number(0.3)), ("adhesion", Number(1300.0))],
+        ),
         case("a state", false, Side::Open, true, state(0.7)),
         case("a state without walls", true, Side::Periodic, false, state(0.0)),
         case(
@@ -102,6 +112,7 @@ fn forget(simulation: &mut Simulation<Gpu>, kernel: &Kernel) {
     let mut random = Random::new(41);
     let anew = |name: &str| match kernel.name.as_str() {
         "fluid state" => name.starts_with("flow"),
+        "fluid normals" => name.starts_with("normal"),
         "fluid density" | "fluid rest" | "fluid density rate" => kernel.writes().iter().any(|other| other == name),
         other => other.contains("wall") && name.starts_with("wall_"),
     };

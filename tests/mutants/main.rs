@@ -1,8 +1,10 @@
 //! Mutation: every operator and literal of every shader is changed once, and the lockstep with the twins must notice.
 
 mod alarms;
+mod births;
 mod boundary;
 mod curious;
+mod dfsph;
 mod equivalent_neighbors;
 mod equivalent_primitives;
 mod equivalents;
@@ -124,6 +126,7 @@ fn every_mutant_is_noticed() {
         SOLVES,
         equivalent_primitives::EQUIVALENT,
         equivalent_neighbors::EQUIVALENT,
+        births::EQUIVALENT,
         trees::EQUIVALENT,
         walks::EQUIVALENT,
         paces::EQUIVALENT,

@@ -1,5 +1,6 @@
 //! Pictures: kernels against twins, the same bytes on every run, awkward sizes and places.
 
+mod fluids;
 mod limits;
 mod looks;
 mod places;

@@ -9,6 +9,7 @@ mod stages;
 #[path = "../support/mod.rs"]
 mod support;
 mod tied;
+mod wet;
 
 use std::path::Path;
 use std::sync::Mutex;
@@ -75,6 +76,10 @@ fn all(shared: &Shared) -> Vec<Stage> {
     }
     for scene in tied::tied() {
         stages.extend(stages::stages(&scene, &stages::canvas(&device, scene.picture.frame.count as usize)));
+    }
+    for scene in wet::wet() {
+        let all = stages::stages(&scene, &stages::canvas(&device, scene.picture.frame.count as usize));
+        stages.extend(all.into_iter().filter(|stage| wet::KERNELS.contains(&stage.kernel.name.as_str())));
     }
     stages
 }

@@ -116,14 +116,15 @@ pub fn stages(scene: &Scene, canvas: &Canvas) -> Vec<Stage> {
             // Scratch, which twins do without.
             None => continue,
             Some(Array::Vec4(v)) => Array::Vec4(v.iter().map(|_| random.vector().extend(random.next())).collect()),
+            Some(Array::Float(v)) => Array::Float(v.iter().map(|_| f64::from(random.narrow())).collect()),
             Some(Array::Uint(v)) => Array::Uint(v.iter().map(|_| random.narrow().to_bits()).collect()),
-            _ => panic!("{name} is of no known kind"),
         };
         cpu.write(name, &garbage.like(&garbage.to_bytes())).expect("a field");
     }
     // What the host says of facets, springs and solids is no garbage.
     for (name, words) in plans.iter().flat_map(|p| &p.kernels).flat_map(|kernel| &kernel.tables) {
-        cpu.write(name, &Array::Uint(words.to_vec())).expect("a table");
+        let kind = cpu.host().get(name).expect("a field");
+        cpu.write(name, &kind.like(bytemuck::cast_slice(words))).expect("a table");
     }
     for (name, array) in scene.fields() {
         cpu.write(name, &array.like(&array.to_bytes())).expect("a field");

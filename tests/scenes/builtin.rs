@@ -23,6 +23,7 @@ fn every_one_loads_and_says_what_to_see() {
         "cold_collapse",
         "periodic_box",
         "fountain",
+        "fountain_pool",
     ];
     let tied = ["pendulum", "double_pendulum", "spring_chain", "stiff", "cloth", "flag", "tear", "jelly", "hair"];
     let fluids = ["dam_break", "dam_break_2d", "wave_tank", "hydrostatic", "taylor_green", "poiseuille"];

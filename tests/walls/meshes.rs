@@ -1,5 +1,7 @@
 //! Walls out of meshes.
 
+use std::fmt::Write as _;
+
 use glam::DVec3;
 use motes::fluids::{Smoothing, gap};
 use motes::scene::{Builtin, Options, Scene, Source};
@@ -60,13 +62,13 @@ fn a_finer_mesh_of_the_same_gives_as_many() {
     let mut fine = String::new();
     for j in 0..=20 {
         for i in 0..=20 {
-            fine += &format!("v {} {} 0\n", f64::from(i) / 20.0, f64::from(j) / 20.0);
+            let _ = writeln!(fine, "v {} {} 0", f64::from(i) / 20.0, f64::from(j) / 20.0);
         }
     }
     for j in 0..20 {
         for i in 0..20 {
             let a = 1 + i + 21 * j;
-            fine += &format!("f {} {} {} {}\n", a, a + 1, a + 22, a + 21);
+            let _ = writeln!(fine, "f {} {} {} {}", a, a + 1, a + 22, a + 21);
         }
     }
     let [a, b] = [coarse, fine].map(|text| mesh(&text, &[("scale", number(1.0))]).expect("a square"));
@@ -107,7 +109,7 @@ fn what_is_wrong_is_told_with_its_line() {
 }
 
 const SCENE: &str = "[simulation]\ndt = 1\nsteps = 1\n[[particles]]\nshape = \"wall\"\nsurface = \"mesh\"\nmesh = \"NAME\"\nspacing = 0.25\n";
-const EMBEDDED: Builtin = Builtin {
+static EMBEDDED: Builtin = Builtin {
     name: "pyramid",
     text: "[simulation]\ndt = 1\nsteps = 1\n[[particles]]\nshape = \"wall\"\nsurface = \"mesh\"\nmesh = \"pyramid.obj\"\nspacing = 0.25\n",
     files: &[("pyramid.obj", include_str!("pyramid.obj"))],
@@ -126,8 +128,7 @@ fn scenes_name_meshes() {
     let outside = Options { allow_outside: true, ..Options::default() };
     let again = Scene::load(&again, &[], &outside).unwrap_or_else(|faults| panic!("{faults}"));
     assert_eq!(again.particles, scene.particles);
-    static EMBEDDED_SCENE: Builtin = EMBEDDED;
-    let carried = Scene::load(&Source::Builtin(&EMBEDDED_SCENE), &[], &Options::default());
+    let carried = Scene::load(&Source::Builtin(&EMBEDDED), &[], &Options::default());
     assert_eq!(carried.unwrap_or_else(|faults| panic!("{faults}")).particles.position, wanted);
     let faults = load(&SCENE.replace("NAME", "piramid.obj")).err().expect("no such file");
     assert!(faults.to_string().contains("did you mean \"pyramid.obj\"?") && faults.exit_code() == 4, "{faults}");

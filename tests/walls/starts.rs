@@ -51,8 +51,8 @@ fn what_would_explode_is_named() {
         (
             true,
             "",
-            block("size = [0.6, 0.6, 0]\nspacing = 0.15"),
-            "particles have the spacing 0.150000, and the force has 0.1",
+            block("size = [0.6, 0.6, 0]\nspacing = 0.17"),
+            "particles have the spacing 0.170000, and the force has 0.1",
         ),
         (
             false,

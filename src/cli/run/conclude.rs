@@ -57,8 +57,10 @@ impl Run {
         summary::momentum(output.rows(), self.conserved).into_iter().for_each(&say);
         output.company().map(|(first, last)| summary::company(first, last)).into_iter().for_each(&say);
         self.book.as_ref().and_then(Book::summary).into_iter().for_each(&say);
-        self.torn.iter().cloned().for_each(&say);
-        let more = [(output.company().is_some(), ", flock.csv"), (self.book.is_some(), ", fluid.csv")];
+        self.torn.iter().cloned().chain(output.population().map(summary::population)).for_each(&say);
+        let flow = output.population().is_some();
+        let more =
+            [(output.company().is_some(), ", flock.csv"), (self.book.is_some(), ", fluid.csv"), (flow, ", flow.csv")];
         let tables: String =
             more.iter().filter(|(is, _)| *is).fold("energy.csv".to_owned(), |all, (_, name)| all + name);
         let picture = if output.pictures() { format!("{}.png, ", self.scene.name) } else { String::new() };

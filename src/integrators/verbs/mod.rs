@@ -8,6 +8,7 @@ pub mod held;
 pub mod keep;
 pub mod kick;
 pub mod kick_drift;
+pub mod life;
 pub mod pace;
 pub mod runge_kutta;
 pub mod solve;

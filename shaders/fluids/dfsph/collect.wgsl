@@ -1,0 +1,24 @@
+// The solve for a velocity without compression is taken: its accelerations are felt like all others. What is felt then is what
+// the density at the end of the step is predicted with.
+@group(1) @binding(2) var<storage, read_write> acceleration: array<vec4f>;
+@group(2) @binding(5) var<storage, read> sorted_id: array<u32>;
+@group(3) @binding(4) var<storage, read> unknowns: array<Unknown>;
+@group(3) @binding(5) var<storage, read_write> pushes: array<vec4f>;
+@group(3) @binding(7) var<storage, read_write> dfsph_state: array<State>;
+@group(3) @binding(8) var<storage, read_write> stiffness: array<Stiffness>;
+
+const WORKGROUP: u32 = 64u;
+
+@compute @workgroup_size(WORKGROUP)
+fn collect(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let k = folded(group, groups) * WORKGROUP + lane;
+    if k >= world.count { return; }
+    if k == 0u { dfsph_state[1] = State(); }
+    let id = sorted_id[k];
+    stiffness[id].divergence = max(unknowns[k].stiffness, 0.0);
+    // Walls move as they are led.
+    if unknowns[k].stiffness >= 0.0 {
+        acceleration[id] += vec4f(pushes[k].xyz, 0.0);
+        pushes[k] = vec4f(acceleration[id].xyz, 1.0);
+    }
+}

@@ -1,0 +1,21 @@
+// An iteration of Jacobi:  κ ← max(κ − ω α / dt² (s − dt² D(a)), 0), for pressure does not pull; and on in the direction in which
+// κ goes, as Nesterov (1983) has it: what n layers of particles weigh is known after about n iterations, and not n². The error is
+// what pressure would compress by, and where there is too much of it what it would expand by: what κ changes by, as a density.
+@group(3) @binding(4) var<storage, read_write> unknowns: array<Unknown>;
+@group(3) @binding(6) var<storage, read_write> errors: array<f32>;
+@group(3) @binding(7) var<storage, read> dfsph_state: array<State>;
+
+override SOLVE: u32 = 0u;
+
+fn acts_on(me: Particle) -> bool { return me.solved > 0.0 && dfsph_state[SOLVE].code == 0.0; }
+
+fn deliver(k: u32, me: Particle, sum: Sum) {
+    let unknown = unknowns[k];
+    let turn = dfsph_state[SOLVE].iterations;
+    let residual = unknown.source - world.dt * world.dt * sum.change;
+    let next = max(unknown.stiffness - unknown.relaxation * residual, 0.0);
+    unknowns[k].stiffness = max(next + turn / (turn + 3.0) * (next - unknown.reached), 0.0);
+    unknowns[k].reached = next;
+    let change = abs(next - unknown.stiffness) / max(unknown.relaxation, 1e-30);
+    errors[k] = select(max(-residual, 0.0), change, unknown.relaxation > 0.0);
+}

@@ -1,0 +1,17 @@
+// What pressure does, where walls have mine:  a = −Σ V (κ + κ') ∇W = Σ V (κ + κ') g r, with r from me to you and g r the gradient of W at you.
+struct Sum { acceleration: vec3f }
+
+@group(3) @binding(5) var<storage, read_write> pushes: array<vec4f>;
+@group(3) @binding(7) var<storage, read> dfsph_state: array<State>;
+
+override SOLVE: u32 = 0u;
+
+// A solve that is done stays done.
+fn acts_on(me: Particle) -> bool { return me.stiffness >= 0.0 && dfsph_state[SOLVE].code == 0.0; }
+
+fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
+    let yours = select(you.stiffness, me.stiffness, you.stiffness < 0.0);
+    (*sum).acceleration += (you.mass / medium.density * (me.stiffness + yours) * gradient(r)) * r;
+}
+
+fn deliver(k: u32, me: Particle, sum: Sum) { pushes[k] = vec4f(sum.acceleration, 1.0); }

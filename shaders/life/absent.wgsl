@@ -1,0 +1,12 @@
+// Who does not live is not drawn.
+@group(0) @binding(0) var<uniform> world: World;
+@group(1) @binding(2) var<storage, read_write> projected: array<vec4f>; // pixels right and down, depth of its front, radius
+
+const WORKGROUP: u32 = 64u;
+const HIDDEN: vec4f = vec4f(0.0, 0.0, 0.0, -1.0);
+
+@compute @workgroup_size(WORKGROUP)
+fn absent(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let i = folded(group, groups) * WORKGROUP + lane;
+    if i < world.count && !lives(i) { projected[i] = HIDDEN; }
+}

@@ -1,0 +1,215 @@
+//! Divergence-free smoothed particle hydrodynamics (Bender & Koschier 2015): pressure that is solved for, so that steps may be as
+//! long as the flow allows, and not as short as sound asks.
+//!
+//! Both of its solves are one: find κ ≥ 0 such that accelerations a = −Σ V (κ + κ') ∇W compress by no more than s in the step,
+//! dt² D(a) ≤ s. The first has s = −dt D(v), and takes from the velocity what compresses; the second has s = 1 − ρ/ρ₀ − dt D(v +
+//! dt a) of all accelerations, and keeps the density. All of it is done in accelerations, before the kick.
+
+mod begin;
+mod collect;
+mod decide;
+mod finish;
+mod keep;
+mod push;
+mod response;
+
+use super::Medium;
+use crate::error::Error;
+use crate::kernel::{Host, Kernel, Name, Pass, Plan, Problem, Scalar, Shader, Source, Twin};
+use crate::neighbors::{Grid, SORTED_ID};
+use crate::visit::{Sweep, blocks};
+
+pub use keep::{ERRORS as DFSPH_ERRORS, REPORT as DFSPH_REPORT, WORDS as DFSPH_WORDS};
+
+/// How well pressure is solved for, and how long one tries.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Asked {
+    /// The mean error of the density that may be left, as a part of the density.
+    pub density: f64,
+    /// The same of what the velocity compresses by in a step.
+    pub divergence: f64,
+    /// The fewest iterations.
+    pub least: u32,
+    /// The most iterations.
+    pub most: u32,
+}
+
+/// Which of the two solves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Solve {
+    Divergence,
+    Density,
+}
+
+/// How much of the κ of the last step a solve begins with. With none of it a column at rest takes a quarter more iterations; with all
+/// of it that column does not come to rest.
+const WARM: f64 = 0.5;
+
+/// The members of the shaders' structs, in their order.
+const RESPONSE: usize = 4;
+const UNKNOWN: usize = 4;
+const STIFFNESS: usize = 2;
+const STATE: usize = 3;
+
+const RESPONSES: &str = "responses";
+const UNKNOWNS: &str = "unknowns";
+const PUSHES: &str = "pushes";
+const ERRORS: &str = "errors";
+const STATES: &str = "dfsph_state";
+const KAPPA: &str = "stiffness";
+const KEPT: &str = "kept_stiffness";
+
+/// A fluid in a problem, for which pressure is solved.
+pub struct Dfsph<'a> {
+    medium: Medium,
+    asked: Asked,
+    problem: &'a Problem,
+    grid: Grid,
+}
+
+impl<'a> Dfsph<'a> {
+    /// A fluid that keeps its density so well.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] when that cannot be had.
+    pub fn new(medium: Medium, asked: Asked, problem: &'a Problem) -> Result<Self, Error> {
+        asked.check()?;
+        Ok(Self { medium, asked, problem, grid: medium.grid(problem)? })
+    }
+    /// Adds both solves to a plan in which all else that accelerates has been felt.
+    ///
+    /// # Errors
+    /// When a shader does not compile.
+    pub fn evaluate(&self, plan: &mut Plan) -> Result<(), Error> {
+        plan.add(response::kernel(self)?);
+        plan.add(begin::kernel(self)?);
+        self.iterate(plan, Solve::Divergence)?;
+        plan.add(collect::collect(self)?);
+        plan.add(collect::predict(self)?);
+        self.iterate(plan, Solve::Density)?;
+        plan.add(finish::kernel(self)?);
+        Ok(())
+    }
+    /// Adds what is done once at the end of a step.
+    ///
+    /// # Errors
+    /// When a shader does not compile.
+    pub fn conclude(&self, plan: &mut Plan) -> Result<(), Error> {
+        plan.add(keep::kernel(self)?);
+        Ok(())
+    }
+    fn iterate(&self, plan: &mut Plan, solve: Solve) -> Result<(), Error> {
+        let mut kernels = vec![push::push(self, solve)?, push::correct(self, solve)?];
+        kernels.extend(decide::kernels(self, solve)?);
+        for _ in 0..self.asked.most {
+            for kernel in &kernels {
+                plan.add(kernel.clone());
+            }
+        }
+        Ok(())
+    }
+    /// ω of Jacobi's method. With Nesterov's it may be up to 4/3 over the largest eigenvalue of the matrix over its diagonal; that is
+    /// found by the power method in jittered blocks to be 2.7 in two dimensions and 3.5 in three where the support is two
+    /// spacings, 4.2 and 7.7 where it is three.
+    fn relaxation(&self) -> f64 {
+        let wide = self.medium.support / 2.0;
+        1.25 / if self.medium.dimensions == 2 { 2.75 * wide } else { 3.5 * wide * wide }
+    }
+    /// Neighbours of somebody inside of the fluid; with fewer, compression by the velocity is left to the density.
+    fn fewest(&self) -> f64 {
+        if self.medium.dimensions == 2 { 7.0 } else { 20.0 }
+    }
+    /// The field of the grid for a name of shaders.
+    fn name(&self, field: &'static str) -> Name {
+        self.grid.field(field).1
+    }
+    /// The ids in the order of the grid.
+    fn slots(&self) -> impl Fn(&Host) -> Result<Vec<usize>, Error> + Send + Sync + use<> {
+        let sorted = self.name(SORTED_ID);
+        move |host| Ok(host.reading::<u32>(&sorted)?.iter().map(|id| *id as usize).collect())
+    }
+    /// A search, of files that know what `state.wgsl` says.
+    fn sweep(&self, name: String, files: Vec<Source>, twin: Twin) -> Result<Kernel, Error> {
+        let mut all = vec![crate::shader!("fluids/dfsph/state.wgsl"), self.medium.smoothing.source()];
+        all.push(crate::shader!("fluids/medium.wgsl"));
+        all.extend(files);
+        let sweep = Sweep { name, grid: self.grid.clone(), files: all, blocks: vec![self.medium.block()], twin };
+        Ok(self.bound(sweep.kernel(self.problem)?))
+    }
+    /// A kernel over slots or particles, or of so many invocations.
+    fn plain(
+        &self,
+        name: &str,
+        files: &[Source],
+        extent: &[(&'static str, Scalar)],
+        threads: u32,
+        twin: Twin,
+    ) -> Result<Kernel, Error> {
+        let mut all = vec![crate::shader!("world.wgsl"), crate::shader!("fields.wgsl")];
+        all.extend([crate::shader!("fluids/dfsph/state.wgsl"), self.medium.smoothing.source()]);
+        all.push(crate::shader!("fluids/medium.wgsl"));
+        all.extend_from_slice(files);
+        let shader = Shader::join(&all)?;
+        let uniforms = blocks(name, &shader, &[self.medium.block(), ("extent", extent.to_vec())])?;
+        let pass = Pass { uniforms, ..Pass::new(shader.clone(), threads) };
+        let kernel = Kernel { passes: vec![pass], ..Kernel::new(name, shader, Vec::new(), threads, twin) };
+        Ok(self.bound(kernel))
+    }
+    /// The same with the fields of the grid, and the sizes of what does not have one element for each particle.
+    fn bound(&self, mut kernel: Kernel) -> Kernel {
+        let fields = [SORTED_ID, RESPONSES, UNKNOWNS, PUSHES, ERRORS].map(|name| self.grid.field(name));
+        for pass in &mut kernel.passes {
+            let bound = |name: &str| pass.fields.iter().any(|(inside, _)| *inside == name);
+            let new: Vec<_> = fields.iter().filter(|(name, _)| !bound(name)).cloned().collect();
+            pass.fields.extend(new);
+        }
+        kernel.sizes.extend([(STATES.into(), 2), (keep::REPORT.into(), keep::WORDS as u64), (keep::ERRORS.into(), 2)]);
+        kernel
+    }
+    /// Whether a solve is on its way, for a twin.
+    fn goes(host: &Host, solve: Solve) -> Result<bool, Error> {
+        Ok(host.reading::<f32>(STATES)?.get(STATE * solve as usize + 1).is_none_or(|code| *code == 0.0))
+    }
+}
+
+impl Solve {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Divergence => "divergence",
+            Self::Density => "density",
+        }
+    }
+}
+
+/// The same with values for `override`s, of those that its shaders have.
+fn with(mut kernel: Kernel, constants: &[(&'static str, f64)]) -> Kernel {
+    for pass in &mut kernel.passes {
+        let known = pass.shader.reflection();
+        pass.constants.extend(constants.iter().filter(|(name, _)| known.overrides.contains_key(*name)));
+    }
+    kernel
+}
+
+impl Asked {
+    /// Whether that can be had.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] when it cannot.
+    pub fn check(&self) -> Result<(), Error> {
+        /// Sums of thirty terms near 1, in single precision.
+        const FINEST: f64 = 2e-6;
+        let finest = self.density.min(self.divergence);
+        if finest < FINEST {
+            return Err(Error::Scene(format!(
+                "a fluid is to keep its density to a part of {finest:e}: single precision tells {FINEST:e}, and 1e-4 is usual"
+            )));
+        }
+        if self.most < self.least || self.most > 1000 {
+            return Err(Error::Scene(format!(
+                "a fluid's pressure is to take {} to {} iterations: give at least as many as the fewest, and 1000 at most",
+                self.least, self.most
+            )));
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,159 @@
+//! Births and drains: `bear` and `drain` change who lives, at the end of a step; `rest` takes what forces do to those who do
+//! not, and `guide` what they do to those who have just been born.
+
+use std::sync::Arc;
+
+use glam::DVec4;
+
+use crate::error::Error;
+use crate::kernel::{ACCELERATION, Host, Kernel, LIFE, POSITION, Pass, Problem, Scalar, Shader, Twin, VELOCITY, World};
+use crate::life::{self, Drain, Life};
+use crate::solids::Solid;
+
+/// What the shader of a birth is called.
+pub const BEAR: &str = "bear";
+/// Who is due within such a part of a step is due: rounding of times decides nothing.
+const SOON: f64 = 1.0 / 64.0;
+
+/// At the end of a step, and before the first one: who is due is born, who is in a drain dies.
+pub fn kernels(problem: &Problem) -> Result<Vec<Kernel>, Error> {
+    let births = (!problem.births.is_empty()).then(|| bear(problem));
+    let drains = problem.drains.iter().zip(1..).map(|(drain, number)| self::drain(problem, *drain, number));
+    births.into_iter().chain(drains).collect()
+}
+
+fn bear(problem: &Problem) -> Result<Kernel, Error> {
+    let shader = Shader::join(&[
+        crate::shader!("world.wgsl"),
+        crate::shader!("life/birth.wgsl"),
+        crate::shader!("life/bear.wgsl"),
+    ])?;
+    let births = problem.births.clone();
+    let twin = move |host: &Host| {
+        let world = host.world();
+        let mut life = host.write(LIFE)?;
+        let (mut position, mut velocity) = (host.write(POSITION)?, host.write(VELOCITY)?);
+        for birth in births.iter() {
+            let id = birth.id as usize;
+            if life[id] == Life::Waiting.word() && birth.time <= world.time + SOON * world.dt {
+                life[id] = Life::Living.word();
+                let x = position[id].truncate() + (world.time - birth.time) * birth.velocity;
+                position[id] = x.extend(birth.mass);
+                velocity[id] = birth.velocity.extend(velocity[id].w);
+            }
+        }
+        Ok(())
+    };
+    Ok(of_births(BEAR, shader, problem, Arc::new(twin)))
+}
+
+/// A kernel of one invocation for each birth.
+fn of_births(name: &str, shader: Arc<Shader>, problem: &Problem, twin: Twin) -> Kernel {
+    let count = problem.births.len();
+    let number = u32::try_from(count).unwrap_or(u32::MAX);
+    let pass = Pass { constants: vec![("END", count as f64)], ..Pass::new(shader, number) };
+    Kernel {
+        name: name.to_owned(),
+        passes: vec![pass],
+        twin: Some(twin),
+        sizes: vec![("births".into(), count as u64)],
+        scratch: Vec::new(),
+        tables: vec![("births".into(), Arc::new(life::table(&problem.births)))],
+    }
+}
+
+fn drain(problem: &Problem, drain: Drain, number: u32) -> Result<Kernel, Error> {
+    let (holding, tables) = problem.holding();
+    let shader = Shader::join(&[
+        holding,
+        crate::shader!("world.wgsl"),
+        crate::shader!("nearest_image.wgsl"),
+        crate::shader!("law/species.wgsl"),
+        crate::shader!("solids/distance.wgsl"),
+        crate::shader!("life/drain.wgsl"),
+    ])?;
+    let (radius, size, axis) = drain.solid.parts();
+    let values = [
+        ("position", Scalar::Vector(drain.position)),
+        ("radius", Scalar::Float(radius)),
+        ("size", Scalar::Vector(size)),
+        ("shape", Scalar::Uint(drain.solid.number())),
+        ("axis", Scalar::Vector(axis)),
+        ("side", Scalar::Float(if drain.outside { -1.0 } else { 1.0 })),
+        ("species", Scalar::Uint(drain.species.unwrap_or(u32::MAX))),
+    ];
+    let params = shader.reflection().binding("params");
+    let params = params.map_or(Ok(Vec::new()), |binding| binding.packed.pack("a drain", &values))?;
+    let who = problem.clone();
+    let twin = move |host: &Host| {
+        let (bodies, world) = (crate::visit::bodies(host)?, host.world());
+        let mut life = host.write(LIFE)?;
+        let (mut position, mut velocity) = (host.write(POSITION)?, host.write(VELOCITY)?);
+        let mut acceleration = host.write(ACCELERATION)?;
+        let free = bodies.iter().filter(|body| body.lives && !who.is_held(body.index));
+        for body in free.filter(|body| drain.species.is_none_or(|kind| kind == body.species)) {
+            if takes(&drain, body.position, &world) {
+                let id = body.index;
+                life[id] = Life::Dead.word();
+                position[id].w = 0.0;
+                velocity[id] = DVec4::ZERO.with_w(velocity[id].w);
+                acceleration[id] = DVec4::ZERO;
+            }
+        }
+        Ok(())
+    };
+    let pass = Pass { uniforms: vec![("params", params)], ..Pass::new(shader, problem.count) };
+    Ok(Kernel {
+        name: format!("drain {number}"),
+        passes: vec![pass],
+        twin: Some(Arc::new(twin)),
+        sizes: Vec::new(),
+        scratch: Vec::new(),
+        tables,
+    })
+}
+
+/// Whether who stands there dies.
+fn takes(drain: &Drain, x: glam::DVec3, world: &World) -> bool {
+    let r = x - drain.position;
+    let r = if matches!(drain.solid, Solid::Plane(_)) { r } else { world.bounds.shortest(r) };
+    let distance = drain.solid.distance(r, world.bounds.dimensions).1;
+    if drain.outside { distance > 0.0 } else { distance < 0.0 }
+}
+
+/// After each evaluation: a ← 0 for who does not live, and for who has just been born.
+pub fn still(problem: &Problem) -> Result<Vec<Kernel>, Error> {
+    let guided = problem.births.iter().any(|birth| birth.guided > 0.0).then(|| guide(problem));
+    std::iter::once(rest(problem)).chain(guided).collect()
+}
+
+fn guide(problem: &Problem) -> Result<Kernel, Error> {
+    let shader = Shader::join(&[
+        problem.living(),
+        crate::shader!("world.wgsl"),
+        crate::shader!("life/birth.wgsl"),
+        crate::shader!("life/guide.wgsl"),
+    ])?;
+    let births = problem.births.clone();
+    let twin = move |host: &Host| {
+        let (lives, time) = (host.lives()?, host.world().time);
+        let mut acceleration = host.write(ACCELERATION)?;
+        for birth in births.iter().filter(|birth| lives(birth.id as usize) && time < birth.time + birth.guided) {
+            let a = &mut acceleration[birth.id as usize];
+            *a = DVec4::ZERO.with_w(a.w);
+        }
+        Ok(())
+    };
+    Ok(of_births("guide", shader, problem, Arc::new(twin)))
+}
+
+fn rest(problem: &Problem) -> Result<Kernel, Error> {
+    let shader = Shader::join(&[problem.living(), crate::shader!("world.wgsl"), crate::shader!("life/rest.wgsl")])?;
+    let twin = |host: &Host| {
+        let lives = host.lives()?;
+        let mut acceleration = host.write(ACCELERATION)?;
+        acceleration.iter_mut().enumerate().filter(|(id, _)| !lives(*id)).for_each(|(_, a)| *a = DVec4::ZERO);
+        Ok(())
+    };
+    Ok(Kernel::new("rest", shader, Vec::new(), problem.count, Arc::new(twin)))
+}

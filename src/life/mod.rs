@@ -1,0 +1,83 @@
+//! Who lives: births by a schedule, and drains. How many particles there are is fixed for a run, and so are their ids: who is
+//! to be born waits among them from the start, and who is dead stays among them, so that no id is ever used twice.
+
+mod check;
+mod population;
+
+use glam::DVec3;
+
+pub use check::check;
+pub use population::{Population, schedule};
+
+use crate::solids::Solid;
+
+/// Whether a particle takes part. Who does not is in no grid, feels nothing, has no mass and no velocity, and is not drawn.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Life {
+    /// It is yet to be born, and stands where that will be.
+    Waiting,
+    /// It takes part.
+    #[default]
+    Living,
+    /// It has been drained, and stays where that was.
+    Dead,
+}
+
+impl Life {
+    /// The word that shaders and files know it by: 0, 1 or 2.
+    #[must_use]
+    pub fn word(self) -> u32 {
+        self as u32
+    }
+    /// What a word stands for, if for anything.
+    #[must_use]
+    pub fn of(word: u32) -> Option<Self> {
+        [Self::Waiting, Self::Living, Self::Dead].into_iter().find(|life| life.word() == word)
+    }
+}
+
+/// When and how a particle that waits is born. At the end of the first step that reaches its time it is put where it would be
+/// had it left the place where it waited just then, at this velocity. Who does not wait is not born again.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Birth {
+    /// Its id.
+    pub id: u32,
+    /// The time \[time\].
+    pub time: f64,
+    /// How it moves \[length / time\].
+    pub velocity: DVec3,
+    /// How heavy it is \[mass\].
+    pub mass: f64,
+    /// How long it goes straight on, whatever forces say, so that those before it have something behind them \[time\].
+    pub guided: f64,
+    /// The emitter that it is of, as a number that messages know it by.
+    pub emitter: u32,
+}
+
+/// A place in which particles die, at the end of a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Drain {
+    /// Its shape. A plane is the half space that its normal points away from.
+    pub solid: Solid,
+    /// Where its middle is; of a plane a point on it \[length\].
+    pub position: DVec3,
+    /// Whether one dies outside of the shape instead of inside.
+    pub outside: bool,
+    /// Who dies there; everybody, but who is held, where none is named.
+    pub species: Option<u32>,
+}
+
+/// Words of a birth in the table that `shaders/life/bear.wgsl` reads.
+const WORDS: usize = 8;
+
+/// That table, one `Birth` of the shader behind another.
+#[must_use]
+pub fn table(births: &[Birth]) -> Vec<u32> {
+    #[expect(clippy::cast_possible_truncation, reason = "rounding to f32 is what the device does")]
+    let bits = |x: f64| (x as f32).to_bits();
+    let row = |birth: &Birth| -> [u32; WORDS] {
+        let [x, y, z] = birth.velocity.to_array().map(bits);
+        [x, y, z, bits(birth.time), birth.id, bits(birth.mass), bits(birth.time + birth.guided), 0]
+    };
+    births.iter().flat_map(row).collect()
+}

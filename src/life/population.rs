@@ -1,0 +1,50 @@
+//! How many there are.
+
+use super::{Birth, Life};
+
+/// How many wait, live and are dead. Together they are all particles that there are.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Population {
+    /// Who is yet to be born.
+    pub waiting: u64,
+    /// Who takes part.
+    pub living: u64,
+    /// Who has been drained.
+    pub dead: u64,
+}
+
+impl Population {
+    /// Counts `count` particles; of whom nothing is said, lives.
+    #[must_use]
+    pub fn of(life: &[Life], count: usize) -> Self {
+        let number = |wanted: Life| life.iter().take(count).filter(|life| **life == wanted).count() as u64;
+        let (waiting, dead) = (number(Life::Waiting), number(Life::Dead));
+        Self { waiting, living: (count as u64).saturating_sub(waiting + dead), dead }
+    }
+}
+
+/// The number, the first and the last time of each emitter's births, in the order of the emitters.
+#[must_use]
+pub fn schedule(births: &[Birth]) -> Vec<(u64, f64, f64)> {
+    let emitters = births.iter().map(|birth| birth.emitter as usize + 1).max().unwrap_or(0);
+    let mut list = vec![(0, f64::INFINITY, f64::NEG_INFINITY); emitters];
+    for birth in births {
+        let (number, first, last) = &mut list[birth.emitter as usize];
+        (*number, *first, *last) = (*number + 1, first.min(birth.time), last.max(birth.time));
+    }
+    list
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn everybody_is_counted_once() {
+        let life = [Life::Waiting, Life::Dead, Life::Living, Life::Waiting, Life::Waiting];
+        assert_eq!(Population::of(&life, 9), Population { waiting: 3, living: 5, dead: 1 });
+        assert_eq!(Population::of(&life, 2), Population { waiting: 1, living: 0, dead: 1 });
+        assert!([0, 1, 2].into_iter().all(|word| Life::of(word).is_some_and(|life| life.word() == word)));
+        assert_eq!(Life::of(3), None);
+    }
+}

@@ -1,0 +1,88 @@
+//! `[[emitter]]`: particles that wait to be born.
+
+use crate::error::Error;
+use crate::life::Birth;
+use crate::particles::{Particles, emitter};
+use crate::settings::{Key, Kind, Settings, Value};
+
+use super::color;
+use super::report::{Fault, Report};
+use super::resolved::Writer;
+use super::walk::Table;
+
+pub(super) const OWN: &[&str] = &["color", "species", "first"];
+/// What every emitter may say beside what the library's may.
+const SPECIES: Key = Key::new("species", Kind::Whole, Value::Number(0.0), "of which kind its particles are");
+
+/// What a scene may say of an emitter.
+pub use crate::particles::emitter::KEYS as EMITTER_KEYS;
+
+/// One entry, read: how many particles, and their colour.
+pub(super) struct Emitted {
+    pub(super) count: u32,
+    pub(super) color: Option<[u8; 3]>,
+}
+
+/// Reads an entry, and adds its particles to those that are there; or only their births, where the particles of a file wait
+/// already from the id `first` on. A run that has gone on for a time t goes on from a state of it with `start` less t, `first`
+/// and a `count`: who is born already is not born again.
+pub(super) fn read(
+    table: &Table<'_>,
+    (dimensions, end, room): (u32, f64, u32),
+    particles: &mut Particles,
+    out: &mut Writer,
+    report: &mut Report,
+) -> Option<Emitted> {
+    let faults = report.len();
+    let settings = table.settings(EMITTER_KEYS, OWN, report);
+    let color = table.get("color").and_then(|e| color::read(&e.node, "color", report));
+    let own: Settings = [("species", SPECIES), ("first", Key::new("first", Kind::Whole, Value::Number(0.0), ""))]
+        .into_iter()
+        .filter_map(|(name, key)| Some((key, table.get(name)?)))
+        .filter_map(|(key, entry)| Some((key.name, super::value::read(&entry.node, key.name, key.kind, report)?)))
+        .fold(Settings::default(), |all, (name, value)| all.with(name, value));
+    if report.len() > faults {
+        return None;
+    }
+    let first = table.get("first").map(|entry| (entry, own.whole("first")));
+    let room = if first.is_some() { u32::MAX } else { room };
+    let made = match emitter::build(&settings, dimensions, end, room) {
+        Ok(made) => made,
+        Err(Error::Scene(why) | Error::Limit(why)) => {
+            report.push(Fault::at(table.place, why));
+            return None;
+        }
+        Err(why) => {
+            report.push(Fault::at(table.place, why.to_string()));
+            return None;
+        }
+    };
+    out.header("[[emitter]]");
+    out.settings(EMITTER_KEYS, &settings);
+    if let Some(rgb) = color {
+        out.text("color", &color::shown(rgb));
+    }
+    out.line("species", &own.whole("species").to_string());
+    let count = u32::try_from(made.len()).unwrap_or(u32::MAX);
+    let Some((entry, first)) = first else {
+        let species = u32::try_from(own.whole("species")).unwrap_or(u32::MAX);
+        particles.append(&made.of_species(species));
+        return Some(Emitted { count, color });
+    };
+    out.line("first", &first.to_string());
+    let have = particles.len() as u64;
+    if first + u64::from(count) > have {
+        let fault =
+            Fault::at(&entry.node.place, format!("{count} births from particle {first} on need more than there are"));
+        report.push(fault.label(format!("there are {have}: those of the file's own emitters are to be in it")));
+        return None;
+    }
+    let mut births = Particles { births: made.births, ..Particles::default() };
+    let first = u32::try_from(first).unwrap_or(u32::MAX);
+    births.births.iter_mut().for_each(|birth| *birth = Birth { id: birth.id + first, ..*birth });
+    let mut emitters = Particles::default();
+    emitters.births.clone_from(&particles.births);
+    emitters.append(&births);
+    particles.births = emitters.births;
+    Some(Emitted { count: 0, color })
+}

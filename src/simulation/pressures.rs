@@ -1,0 +1,57 @@
+//! What became of the solves for pressure of a run.
+
+use super::Simulation;
+use crate::error::Error;
+use crate::fluids::{DFSPH_ERRORS, DFSPH_REPORT, DFSPH_WORDS};
+use crate::kernel::{Array, Backend};
+
+/// What became of one of the two solves for pressure that a step of a fluid takes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PressureSolves {
+    /// Steps that were solved.
+    pub solves: u32,
+    /// How many of them did not converge.
+    pub failures: u32,
+    /// The first of those, counted from 0.
+    pub first_failure: Option<u32>,
+    /// The most iterations in one step.
+    pub most_iterations: u32,
+    /// Those of the last step.
+    pub iterations: u32,
+    /// Those of all steps; it wraps at 2³².
+    pub all_iterations: u32,
+    /// The mean error that the last step left, as a part of the density.
+    pub error: f64,
+}
+
+impl<B: Backend> Simulation<B> {
+    /// What became of the solves for a velocity without compression, and of those for the density; none where pressure is not
+    /// solved for.
+    ///
+    /// # Errors
+    /// What reading says.
+    pub async fn pressure_solves(&mut self) -> Result<Option<[PressureSolves; 2]>, Error> {
+        if !self.reports[1] {
+            return Ok(None);
+        }
+        let report = self.backend.read(DFSPH_REPORT, &Array::Uint(Vec::new()), DFSPH_WORDS).await?;
+        let errors = self.backend.read(DFSPH_ERRORS, &Array::Float(Vec::new()), 2).await?;
+        let (Array::Uint(report), Array::Float(errors)) = (report, errors) else { return Ok(None) };
+        let one = |which: usize| {
+            let words = report.get(which * DFSPH_WORDS / 2..(which + 1) * DFSPH_WORDS / 2)?;
+            let [solves, failures, first, most_iterations, iterations, all_iterations] = *words else { return None };
+            let first_failure = (failures > 0).then_some(first);
+            let error = errors.get(which).copied()?;
+            (solves > 0).then_some(PressureSolves {
+                solves,
+                failures,
+                first_failure,
+                most_iterations,
+                iterations,
+                all_iterations,
+                error,
+            })
+        };
+        Ok(one(0).zip(one(1)).map(|(divergence, density)| [divergence, density]))
+    }
+}

@@ -1,0 +1,165 @@
+//! Nobody is lost, nobody comes back, and what is summed is what lives.
+
+use glam::DVec3;
+use motes::life::{Drain, Life};
+use motes::settings::Value;
+use motes::solids::Solid;
+use motes::{ACCELERATION, Bounds, Cpu, LIFE, Measure, POSITION, Simulation, VELOCITY};
+
+use crate::support::states::force;
+use crate::support::{self, machines};
+use crate::{jet, pool, setup, state};
+
+pub fn drains() -> Vec<Drain> {
+    let ball = Solid::Sphere(0.25);
+    let near = Drain { solid: ball, position: DVec3::new(0.1, 0.1, 0.0), outside: false, species: None };
+    let right = Solid::Plane(DVec3::NEG_X);
+    vec![near, Drain { solid: right, position: DVec3::new(1.15, 0.0, 0.0), ..near }]
+}
+
+#[test]
+fn the_dead_stay_dead_and_ids_are_never_reused() {
+    let setup = pool(drains());
+    let count = setup.particles.len();
+    let shared = support::device();
+    let mut simulation = Simulation::on(machines::gpu(&shared, count), &setup).expect("a run");
+    let mut last = state(&mut simulation).particles;
+    let mut seen = [0; 2];
+    for _ in 0..12 {
+        simulation.step(7).expect("steps");
+        let snapshot = state(&mut simulation);
+        let now = &snapshot.particles;
+        for id in 0..count {
+            let (then, is) = (last.life[id], now.life[id]);
+            // Life goes on, and never back.
+            assert!(then.word() <= is.word(), "{id}: {then:?} and then {is:?}");
+            seen[0] += usize::from(then == Life::Waiting && is != then);
+            seen[1] += usize::from(is == Life::Dead && is != then);
+            if then == Life::Dead || is == Life::Waiting {
+                assert_eq!(now.position[id], last.position[id], "{id} stays");
+            }
+            if is != Life::Living {
+                assert_eq!(
+                    (now.velocity[id], now.mass[id], snapshot.potential[id]),
+                    (DVec3::ZERO, 0.0, 0.0),
+                    "{id} rests"
+                );
+            }
+        }
+        let of = now.population();
+        assert_eq!(of, pollster::block_on(simulation.population()).expect("a count"));
+        assert_eq!((of.waiting + of.living + of.dead) as usize, count);
+        // The ledger's sums are those over the living, of their own masses.
+        let own = |id: usize| {
+            setup.particles.births.iter().find(|b| b.id as usize == id).map_or(setup.particles.mass[id], |b| b.mass)
+        };
+        let alive = || (0..count).filter(|id| now.life[*id] == Life::Living);
+        let mass: f64 = alive().map(own).sum();
+        let momentum: DVec3 = alive().map(|id| own(id) * now.velocity[id]).sum();
+        let measure = Measure::of(&snapshot);
+        // Masses are those that f32 holds, to 6e-8.
+        assert!((now.mass.iter().sum::<f64>() / mass - 1.0).abs() < 1e-7);
+        assert!((measure.momentum - momentum).length() < 1e-6 * mass);
+        last = now.clone();
+    }
+    assert!(seen[0] > 20 && seen[1] > 10, "births and deaths were seen: {seen:?}");
+}
+
+/// Who waits or is dead is met by nobody: the others move as if there were nobody else, to the bit.
+#[test]
+fn nobody_meets_those_who_do_not_live() {
+    let alone = pool(Vec::new());
+    let n = alone.particles.len() - alone.particles.births.len();
+    let run = |particles| {
+        let setup = crate::Setup { particles, ..pool(Vec::new()) };
+        let count = u32::try_from(setup.particles.len()).expect("few");
+        let mut simulation = Simulation::on(Cpu::new(count).expect("some"), &setup).expect("a run");
+        simulation.step(3).expect("steps");
+        pollster::block_on(simulation.read(POSITION)).expect("positions")[..n].to_vec()
+    };
+    let mut some = alone.particles.clone();
+    // In the midst of the pool, some of them dead.
+    for k in n..some.len() {
+        some.position[k] = some.position[k % n] + DVec3::new(0.013, 0.021, 0.0);
+        some.life[k] = [Life::Waiting, Life::Dead][k % 2];
+        some.velocity[k] = DVec3::X;
+        some.mass[k] = 3.0;
+    }
+    some.births.clear();
+    let mut few = some.clone();
+    for list in [&mut few.position, &mut few.velocity] {
+        list.truncate(n);
+    }
+    few.mass.truncate(n);
+    few.radius.truncate(n);
+    few.species.truncate(n);
+    few.life.clear();
+    assert_eq!(run(some), run(few));
+}
+
+/// Gravity goes by mass, so that it needs no grid to pass by those who have none.
+#[test]
+fn the_dead_attract_nobody() {
+    let mut particles = support::cloud(40, 3);
+    particles.links = motes::links::Links::default();
+    let gravity = |particles| {
+        let forces = vec![force("gravity", &[("softening", Value::Number(0.1))])];
+        let mut simulation =
+            Simulation::on(Cpu::new(40).expect("some"), &setup(particles, forces, Bounds::default())).expect("a run");
+        simulation.step(1).expect("a step");
+        pollster::block_on(simulation.read(ACCELERATION)).expect("accelerations")
+    };
+    let mut massless = particles.clone();
+    (30..40).for_each(|id| massless.mass[id] = 0.0);
+    (0..40).for_each(|id| particles.life.push(if id < 30 { Life::Living } else { Life::Dead }));
+    let (dead, light) = (gravity(particles), gravity(massless));
+    for id in 0..30 {
+        assert!((dead[id] - light[id]).length() < 1e-6 * light[id].length(), "{id}");
+    }
+    assert!(dead[30..].iter().all(|a| *a == glam::Vec4::ZERO) && light[35].length() > 0.1);
+}
+
+#[test]
+fn batches_make_no_difference() {
+    let run = |steps: &[u32]| {
+        let setup = pool(drains());
+        let shared = support::device();
+        let mut simulation = Simulation::on(machines::gpu(&shared, setup.particles.len()), &setup).expect("a run");
+        steps.iter().for_each(|n| simulation.step(*n).expect("steps"));
+        let bits = |list: Vec<glam::Vec4>| list.iter().flat_map(|v| v.to_array().map(f32::to_bits)).collect::<Vec<_>>();
+        let position = pollster::block_on(simulation.read(POSITION)).expect("positions");
+        let velocity = pollster::block_on(simulation.read(VELOCITY)).expect("velocities");
+        (bits(position), bits(velocity), pollster::block_on(simulation.read(LIFE)).expect("lives"))
+    };
+    let (all, parts) = (run(&[50]), run(&[1, 3, 17, 29]));
+    assert!(all == parts && all.2.contains(&0) && all.2.contains(&1) && all.2.contains(&2));
+}
+
+#[test]
+fn without_births_nothing_is_added() {
+    let machine = motes::kernel::Machine { software: true, subgroup: 0, invocations: 1 };
+    let mut setup = pool(Vec::new());
+    setup.particles = {
+        let mut p = jet(0.1);
+        p.life.clear();
+        p.births.clear();
+        p.mass.fill(1.0);
+        p.position.iter_mut().for_each(|x| *x = x.abs().with_z(0.0));
+        p
+    };
+    let plans = setup.plans(machine).expect("plans");
+    let plain = plans.step.to_string();
+    assert!(plans.all().all(|plan| !plan.fields(6).contains_key("life")), "{plain}");
+    setup.particles.drains = drains();
+    let more = setup.plans(machine).expect("plans").step.to_string();
+    let rest = more.replace("rest | ", "").replace(" | drain 1 | drain 2", "");
+    assert!(more != plain && rest == plain, "{more}\n{plain}");
+    assert!(more.ends_with("tick | drain 1 | drain 2 | watch"), "{more}");
+}
+
+/// Rows that wait at one place are no fluid that would explode.
+#[test]
+fn who_waits_is_not_looked_at_as_a_start() {
+    let start = pool(drains()).start().expect("no explosion").expect("a fluid");
+    assert_eq!(start.fluid as usize, 60);
+}
