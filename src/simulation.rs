@@ -45,7 +45,6 @@ pub struct Snapshot {
 }
 
 /// Particles that move.
-#[expect(clippy::struct_excessive_bools, reason = "each is a fact of its own")]
 pub struct Simulation<B: Backend> {
     backend: B,
     start: B::Program,
