@@ -99,7 +99,8 @@ fn wants(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
             let pace = Pace { least: 1e-4, courant: 0.3, before: None };
             let forces = if silent { vec![Box::new(Silent) as Box<dyn Force>] } else { vec![fluid(&[])] };
             let setup = Setup {
-                particles: cloud(FEW, false, true),
+                // Where nobody is held, who writes behind the last is seen.
+                particles: cloud(FEW, false, !silent),
                 forces,
                 integrator: Box::new(Paced { integrator: integrator("leapfrog"), pace }),
                 dt: 0.003,
