@@ -18,6 +18,7 @@ fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
 }
 
 fn deliver(k: u32, me: Particle, sum: Sum) {
-    let p = select(0.0, sum.pressure / sum.number, sum.number > 0.0);
+    // Where no fluid is around, both are 0.
+    let p = sum.pressure / max(sum.number, 1e-30);
     wall_pressure[k] = select(max(p, 0.0), p, medium.negative != 0u) / (medium.density * medium.density);
 }
