@@ -50,6 +50,7 @@ fn pace_step() {
     let whole = pace_stop[0] - pace[0];
     if pace_stop[0] < pace[0] {
         ticks = 0u;
+        reason = STOP;
     } else if whole < 3u {
         let there = (whole << 24u) + pace_stop[1];
         let left = max(there, pace[1]) - pace[1];

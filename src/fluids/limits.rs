@@ -24,6 +24,7 @@ pub struct Limits {
 }
 
 /// What the urges of everybody are multiplied by.
+#[derive(Clone, Copy)]
 struct Shares {
     acceleration: f64,
     signal: f64,
@@ -47,7 +48,7 @@ pub fn limits(medium: &Medium, limits: Limits, plan: &mut Plan, problem: &Proble
         sound: limits.sound.unwrap_or(0.0),
         speed: if limits.sound.is_some() { 0.0 } else { longest / (0.4 * medium.spacing) },
     };
-    plan.add(urge(shares, problem)?);
+    plan.add(urge(&shares, problem)?);
     Ok(Some(longest * 8.0 * limits.viscosity / (length * length)))
 }
 
@@ -89,7 +90,7 @@ fn closing(medium: &Medium, problem: &Problem) -> Result<Kernel, Error> {
     Ok(Kernel { tables, ..sweep.kernel(problem)? })
 }
 
-fn urge(shares: Shares, problem: &Problem) -> Result<Kernel, Error> {
+fn urge(shares: &Shares, problem: &Problem) -> Result<Kernel, Error> {
     let (holding, tables) = problem.holding();
     let shader =
         Shader::join(&[holding, problem.living(), crate::shader!("world.wgsl"), crate::shader!("fluids/urge.wgsl")])?;
@@ -101,7 +102,7 @@ fn urge(shares: Shares, problem: &Problem) -> Result<Kernel, Error> {
     ];
     let uniforms = blocks("the limits of a fluid", &shader, &[("params", params)])?;
     let pass = Pass { uniforms, ..Pass::new(shader, problem.count) };
-    let who = problem.clone();
+    let (shares, who) = (*shares, problem.clone());
     let twin = move |host: &Host| {
         let (velocity, acceleration) = (host.read(VELOCITY)?, host.read(ACCELERATION)?);
         let (closing, mut urges) = (host.read(CLOSING)?, host.write::<Vec4>(URGES)?);

@@ -79,7 +79,10 @@ impl Scenery {
             let those = standing.iter().filter(move |one| one.inside == inside);
             those.map(|one| Solid::at(one, motions, time)).collect()
         };
-        let tanks = self.bounded.into_iter().chain(of(true)).collect();
+        // Where walls are held, a container is but what stands behind them.
+        let walled = self.bounded.is_some() && !self.held.is_empty();
+        let behind = if walled { Vec::new() } else { of(true) };
+        let tanks = self.bounded.into_iter().chain(behind).collect();
         Self { solids: of(false), tanks, ..self.clone() }
     }
 }

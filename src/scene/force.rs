@@ -176,9 +176,8 @@ pub(super) fn paced(forces: &[Box<dyn Force>], (pace, place): (Pace, &Place), re
     let machine = Machine { software: true, subgroup: 0, invocations: 1 };
     let problem = Problem::new(1, machine).paced(Some(pace));
     // What is wrong with a force by itself is told where it is built.
-    let offers =
-        |force: &&Box<dyn Force>| force.paces(&mut Plan::default(), &problem).map_or(true, |limit| limit.is_some());
-    if !forces.iter().any(|force| offers(&force)) {
+    let offers = |force: &dyn Force| force.paces(&mut Plan::default(), &problem).map_or(true, |limit| limit.is_some());
+    if !forces.iter().any(|force| offers(force.as_ref())) {
         let fault = Fault::at(place, "no force says how long a step may be, so that its length cannot be adaptive");
         report.push(fault.label("leave this out, or add a fluid"));
     }

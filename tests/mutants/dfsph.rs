@@ -12,9 +12,9 @@ use motes::settings::Value;
 use motes::{Bounds, Gpu, Particles, Setup, Side, Simulation, VELOCITY};
 
 use crate::stages::{Device, Stage};
-use crate::support::Random;
 use crate::support::machines::alone;
 use crate::support::states::{force, integrator, word};
+use crate::support::{Random, Shared};
 
 const SPACING: f64 = 0.06;
 /// What a stage keeps of a name: the second time that a kernel runs, an iteration has something to go on from.
@@ -91,7 +91,7 @@ fn simulation(device: &Device, flat: bool) -> (Simulation<Gpu>, Plan) {
 }
 
 /// A stage of each kernel of a step, and of how solves go on and end.
-pub fn all(device: &Device, stages: &mut Vec<Stage>) {
+pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
     for flat in [false, true] {
         let (simulation, plan) = simulation(device, flat);
         let simulation = Rc::new(RefCell::new(simulation));
@@ -128,7 +128,8 @@ pub fn all(device: &Device, stages: &mut Vec<Stage>) {
             }
         }
     }
-    many(device, stages);
+    // More than the smaller device takes in one dispatch.
+    many(&(shared.found.device.clone(), shared.found.queue.clone()), stages);
 }
 
 fn words(simulation: &Rc<RefCell<Simulation<Gpu>>>, field: &str, words: &[f32]) {
@@ -175,6 +176,7 @@ fn ends(simulation: &Rc<RefCell<Simulation<Gpu>>>, decide: &Kernel, stages: &mut
     stages.push(
         Stage::amid(&format!("{}, broken", decide.name), simulation, alone(decide.clone())).told("dfsph_state", told),
     );
+    words(simulation, &field, &[1e-3]);
 }
 
 /// Errors of so many that they are added in two dispatches.

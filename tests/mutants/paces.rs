@@ -23,6 +23,7 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("integrators/pace.wgsl", "override LEAST: u32 = 1u;", "1u", "2u", ALWAYS_SET),
     same("integrators/pace.wgsl", "override VISCOUS: f32 = 0.0;", "0.0", "1.0", ALWAYS_SET),
     same("at_paced.wgsl", "override FACTOR: f32 = 0.0;", "0.0", "1.0", ALWAYS_SET),
+    same("blame.wgsl", "if i < world.count {", "<", "<=", "behind the last there is nobody who asks"),
     same("integrators/pace.wgsl", "for (var k = 0u; k < 4u;", "<", "<=", "the last one is looked at twice"),
     same("integrators/pace.wgsl", "for (var k = 0u; k < 4u;", "4u", "5u", "the last one is looked at twice"),
     same("integrators/pace.wgsl", "} else if whole < 3u {", "<", "<=", FAR),
@@ -163,9 +164,11 @@ fn paces(device: &Device, stages: &mut Vec<Stage>) {
 fn blames(device: &Device, stages: &mut Vec<Stage>) {
     let mut random = Random::new(5);
     let mut urges: Vec<Vec4> = (0..FEW).map(|_| random.vector().as_vec3().abs().extend(0.0)).collect();
-    // Each is the most of two, one of them the last; zero of neither.
-    for (part, ids) in [[40, 377], [20, FEW - 1], [130, 131]].into_iter().enumerate() {
-        ids.iter().for_each(|id| urges[*id][part] = 2.5);
+    // Each is the most of some: two, two of which one is the last, the last alone.
+    for (part, ids) in [[40, 377], [20, FEW - 1], [FEW - 1, FEW - 1]].into_iter().enumerate() {
+        for id in ids {
+            urges[id][part] = 2.5;
+        }
     }
     let clock = pollster::block_on(moving(device, FEW, None).backend().world()).expect("a clock");
     for reason in 0..7 {

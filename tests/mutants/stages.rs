@@ -195,7 +195,7 @@ pub fn all(shared: &Shared) -> Vec<Stage> {
     crate::births::all(shared, &device, &mut stages);
     crate::rods::rods(&device, &mut stages);
     crate::strained::all(&device, &mut stages);
-    crate::dfsph::all(&device, &mut stages);
+    crate::dfsph::all(shared, &device, &mut stages);
     crate::ewald::all(shared, &device, &mut stages);
     crate::fluids::all(shared, &device, &mut stages);
     pairs(shared, &device, &mut stages);

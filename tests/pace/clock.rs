@@ -38,14 +38,14 @@ fn a_run_ends_where_it_shall() {
     let until = 0.071_234_567;
     let stop = device.stop_at(until).expect("a stop");
     assert!((stop - until).abs() <= DT / f64::from(1 << 25), "{stop} is not {until}");
-    assert!(stop == twin.stop_at(until).expect("a stop"));
+    assert!(stop.to_bits() == twin.stop_at(until).expect("a stop").to_bits());
     device.step(40).expect("steps");
     twin.step(40).expect("steps");
     let (now, there) = (clock(&mut device), clock(&mut twin));
     assert_eq!((now.time, there.time, now.dt, now.reason), (stop, stop, 0.0, Reason::Stop));
     assert!(now.steps > 5 && now.steps < 40 && now.steps == device.steps(), "{now:?}");
-    // The last two were made alike, rather than one long and one tiny.
-    assert!(now.reasons[Reason::Stop as usize] == 2 && now.between[0] > 0.4 * now.between[1], "{now:?}");
+    // The last were made alike, two or, where the limit has shrunk in between, three, rather than one long and one tiny.
+    assert!((2..=3).contains(&now.reasons[Reason::Stop as usize]) && now.between[0] > 0.4 * now.between[1], "{now:?}");
     let rests = bytes(&mut device);
     device.step(20).expect("steps that do nothing");
     assert!(bytes(&mut device) == rests && clock(&mut device) == now, "who rests must not move");
@@ -72,7 +72,7 @@ fn batches_and_measurements_change_no_bit() {
         apart.step(3).expect("steps");
         if k % 2 == 0 {
             let snapshot = pollster::block_on(apart.snapshot()).expect("a snapshot");
-            assert!(snapshot.time == clock(&mut apart).time && snapshot.step == 3 * (k + 1));
+            assert!(snapshot.time.to_bits() == clock(&mut apart).time.to_bits() && snapshot.step == 3 * (k + 1));
         }
     }
     assert!(bytes(&mut together) == bytes(&mut apart));

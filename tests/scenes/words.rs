@@ -86,7 +86,7 @@ kind = "magnetism"
    |
  7 | kind = "magnetism"
    |        ^^^^^^^^^^^
-   = known: `gravity`, `uniform`, `drag`, `wind`, `vortex`, `attractor`, `boids`, `speed_limit`, `obstacle`, `solid`, `flee`, `chase`, `goal`, `wander`, `soft_turn`, `rod`, `vicsek`, `spring`, `strain_limit`, `tear`, `joint`, `air`
+   = known: `gravity`, `uniform`, `drag`, `wind`, `vortex`, `attractor`, `boids`, `speed_limit`, `obstacle`, `solid`, `flee`, `chase`, `goal`, `wander`, `soft_turn`, `rod`, `vicsek`, `spring`, `strain_limit`, `tear`, `joint`, `fluid`, `air`
 
 a.toml: 1 error"#,
     );
@@ -108,7 +108,7 @@ count = 5
    |
  5 | shape = "plumer"
    |         ^^^^^^^^ did you mean "plummer"?
-   = known: `plummer`, `hernquist`, `sphere`, `disk`, `clusters`, `lattice`, `box`, `spray`, `chain`, `cloth`, `jelly`, `hair`
+   = known: `plummer`, `hernquist`, `sphere`, `disk`, `clusters`, `lattice`, `block`, `drop`, `tank`, `wall`, `box`, `spray`, `chain`, `cloth`, `jelly`, `hair`
 
 a.toml: 1 error"#,
     );

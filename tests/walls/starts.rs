@@ -1,8 +1,9 @@
 //! Starts: what would explode is refused, and the cause is named.
 
 use motes::Setup;
+use motes::scene::SCENES;
 
-use crate::setup;
+use crate::{builtin, setup};
 
 /// A scene of a fluid in the plane or in space, of these particles.
 fn scene(flat: bool, force: &str, particles: &str) -> Setup {
@@ -96,6 +97,18 @@ fn what_is_no_fluid_is_refused() {
     assert!(error.contains("2 forces that make a fluid of everybody"), "{error}");
     let none = setup("[simulation]\ndt = 1\nsteps = 1\n[[particles]]\nbodies = [{ position = [0, 0, 0], mass = 0 }]\n");
     assert_eq!(none.start().expect("no fluid"), None);
+}
+
+#[test]
+fn scenes_that_come_with_the_program_start_well() {
+    let fluids: Vec<_> = SCENES.iter().filter(|scene| scene.text.contains("kind = \"fluid\"")).collect();
+    assert!(fluids.len() >= 3);
+    for scene in fluids {
+        let start =
+            builtin(scene.name, &[]).start().unwrap_or_else(|why| panic!("{}: {why}", scene.name)).expect("a fluid");
+        // Up to corners of three walls.
+        assert!(!start.summed || start.densest.1 < 1.012, "{}: {start:?}", scene.name);
+    }
 }
 
 #[test]

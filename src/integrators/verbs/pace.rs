@@ -50,7 +50,7 @@ pub fn pace(pace: &Pace, viscous: f64, problem: &Problem) -> Result<Kernel, Erro
             }
         }
         let mut step = (TICKS as f32 / rate) as u32;
-        let spare = (31 - (step | 1).leading_zeros()).max(DIGITS) - DIGITS;
+        let spare = (step | 1).ilog2().max(DIGITS) - DIGITS;
         step = step >> spare << spare;
         if step < least {
             if words[6] == u32::MAX {
@@ -106,7 +106,7 @@ pub fn blame(pace: &Pace, problem: &Problem) -> Result<Kernel, Error> {
                 Reason::Speed => |v| v.z,
                 _ => return u32::MAX,
             };
-            let found = urges.iter().position(|urge| part(urge) == part(&most));
+            let found = urges.iter().position(|urge| part(urge).total_cmp(&part(&most)).is_eq());
             found.and_then(|id| u32::try_from(id).ok()).unwrap_or(u32::MAX)
         };
         let mut words = host.write(PACE)?;

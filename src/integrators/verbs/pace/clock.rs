@@ -30,7 +30,7 @@ pub fn tick(problem: &Problem) -> Result<Kernel, Error> {
             let all = *rest + *ticks;
             (*whole, *rest) = (*whole + all / TICKS, all % TICKS);
             let (step, time) = (clock.step + 1, (f64::from(*whole) + f64::from(*rest) / f64::from(TICKS)) * unit);
-            host.set_world(World { step, time, ..clock });
+            host.set_world(World { time, step, ..clock });
             grown(&mut host.write(ALARM)?, step);
         }
         Ok(())
