@@ -37,7 +37,7 @@ fn block(flat: bool) -> (Particles, Bounds) {
     for k in 0..=layers {
         for n in 0..if flat { wide } else { wide * wide } {
             let jitter = random.vector() * if k == 0 { 0.0 } else { 0.2 };
-            let place = DVec3::new((n % wide) as f64, (n / wide) as f64, k as f64) + jitter + DVec3::splat(0.5);
+            let place = DVec3::new(f64::from(n % wide), f64::from(n / wide), f64::from(k)) + jitter + DVec3::splat(0.5);
             let place = if flat { DVec3::new(place.x, place.z, 0.0) } else { place };
             if k == 0 {
                 particles.held.push(Held { id: particles.len() as u32, by: Hold::Fixed });
@@ -158,7 +158,7 @@ pub fn anything(simulation: &Rc<RefCell<Simulation<Gpu>>>, kernel: &Kernel, name
         let mut any = |element: usize| {
             let x = random.narrow();
             match (field.split(' ').next().unwrap_or_default(), element % 4) {
-                ("unknowns", 2) if element % 3 == 0 => Some(0.0),
+                ("unknowns", 2) if element.is_multiple_of(3) => Some(0.0),
                 ("unknowns", 2) | ("stiffness" | "kept_stiffness", _) => Some(x.abs()),
                 ("pushes", 3) => Some(if x > -0.5 { 1.0 } else { 0.0 }),
                 ("unknowns" | "pushes" | "errors", _) => Some(x),
@@ -176,7 +176,9 @@ pub fn anything(simulation: &Rc<RefCell<Simulation<Gpu>>>, kernel: &Kernel, name
     let stage = Stage::amid(name, simulation, plan).slack(4.0);
     let mut simulation = simulation.borrow_mut();
     let gpu = simulation.backend();
-    before.iter().for_each(|(field, bytes)| gpu.write_bytes(field, 0, bytes).expect("a field"));
+    for (field, bytes) in before {
+        gpu.write_bytes(&field, 0, &bytes).expect("a field");
+    }
     gpu.set_world(clock).expect("a clock");
     stage
 }
