@@ -1,17 +1,17 @@
 // Adds what all invocations of a workgroup hold, by a fixed tree. Every one of them has the result.
 const WORKGROUP: u32 = 256u;
 
-var<workgroup> parts: array<vec4f, WORKGROUP>;
+var<workgroup> shares: array<vec4f, WORKGROUP>;
 
 fn total(lane: u32, mine: vec4f) -> vec4f {
     var sum = mine;
     for (var width = WORKGROUP; width > 1u; width /= 2u) {
-        if lane < width { parts[lane] = sum; }
+        if lane < width { shares[lane] = sum; }
         workgroupBarrier();
         let half = width / 2u;
-        if lane < half { sum += parts[lane + half]; }
+        if lane < half { sum += shares[lane + half]; }
     }
-    if lane == 0u { parts[0] = sum; }
+    if lane == 0u { shares[0] = sum; }
     workgroupBarrier();
-    return parts[0];
+    return shares[0];
 }

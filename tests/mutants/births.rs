@@ -76,7 +76,9 @@ fn drains(bounds: &Bounds, edge: DVec3) -> Vec<Drain> {
     drains.push(Drain { solid: Solid::Plane(DVec3::X), position: edge, outside: false, species: None });
     if bounds.has(Side::Periodic) {
         // Across the seam.
-        drains.iter_mut().for_each(|drain| drain.position += DVec3::new(0.7, 0.6, -0.8));
+        for drain in &mut drains {
+            drain.position += DVec3::new(0.7, 0.6, -0.8);
+        }
         drains.pop();
     }
     drains

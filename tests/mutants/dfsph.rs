@@ -6,7 +6,8 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use glam::{DVec3, Vec4};
-use motes::kernel::{Backend, Kernel, Plan};
+use motes::fluids::DFSPH_REPORT;
+use motes::kernel::{Backend, Kernel, Plan, World};
 use motes::motion::{Held, Hold};
 use motes::settings::Value;
 use motes::{Bounds, Gpu, Particles, Setup, Side, Simulation, VELOCITY};
@@ -16,14 +17,19 @@ use crate::support::machines::alone;
 use crate::support::states::{force, integrator, word};
 use crate::support::{Random, Shared};
 
-const SPACING: f64 = 0.06;
+pub const SPACING: f64 = 0.06;
 /// What a stage keeps of a name: the second time that a kernel runs, an iteration has something to go on from.
 const SECOND: u32 = 2;
+/// These are shown numbers of all kinds as well, also such as no step comes by.
+const ANY: [&str; 5] = ["begin", "collect", "predict", "divergence correct", "finish"];
 
-/// A jittered block on a floor, of masses that are not all the same, and a few particles that are alone or nearly so; more than
-/// four workgroups of slots.
+/// A step so long that what a residual changes κ by is about 1, less or more.
+pub const ANYTIME: f64 = 0.13;
+
+/// A jittered block on a floor, of masses that are not all the same, and a few particles that are alone or nearly so; eight
+/// workgroups of slots, which is two rows of the smaller device, and none too many.
 fn block(flat: bool) -> (Particles, Bounds) {
-    let (wide, layers) = if flat { (20, 13) } else { (6, 7) };
+    let (wide, layers) = if flat { (20, 23) } else { (6, 12) };
     let mut random = Random::new(17);
     let mut particles = Particles::default();
     let area = SPACING * SPACING;
@@ -31,7 +37,7 @@ fn block(flat: bool) -> (Particles, Bounds) {
     for k in 0..=layers {
         for n in 0..if flat { wide } else { wide * wide } {
             let jitter = random.vector() * if k == 0 { 0.0 } else { 0.2 };
-            let place = DVec3::new((n % wide) as f64, (n / wide) as f64, k as f64) + jitter + DVec3::splat(0.5);
+            let place = DVec3::new(f64::from(n % wide), f64::from(n / wide), f64::from(k)) + jitter + DVec3::splat(0.5);
             let place = if flat { DVec3::new(place.x, place.z, 0.0) } else { place };
             if k == 0 {
                 particles.held.push(Held { id: particles.len() as u32, by: Hold::Fixed });
@@ -105,6 +111,10 @@ pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
                     Stage::amid(&format!("{}, flat {flat}", kernel.name), &simulation, alone(kernel.clone()))
                         .slack(4.0),
                 );
+                if ANY.iter().any(|end| kernel.name.ends_with(end)) {
+                    let name = format!("{} of any, flat {flat}", kernel.name);
+                    stages.push(anything(&simulation, kernel, &name, ANYTIME));
+                }
             }
             let mut simulation = simulation.borrow_mut();
             let gpu = simulation.backend();
@@ -122,23 +132,64 @@ pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
                     stages.push(Stage::amid(&format!("{name}, done"), &simulation, alone(named(&name))));
                 }
             }
-            for codes in [[1.0, 3.0], [3.0, 1.0], [2.0, 2.0]] {
+            for (codes, failed) in
+                [([1.0, 3.0], [0, 0]), ([3.0, 1.0], [0, 0]), ([2.0, 2.0], [3, 0]), ([2.0, 3.0], [0, 3])]
+            {
                 state(&simulation, codes);
+                let report = failed.map(|failed| [7, failed, 99, if failed > 0 { 9 } else { 1 }, 50, 60]);
+                words(&simulation, DFSPH_REPORT, &report.concat().into_iter().map(f32::from_bits).collect::<Vec<_>>());
                 stages.push(Stage::amid(&format!("keep {codes:?}"), &simulation, alone(named("keep"))));
             }
         }
     }
-    // More than the smaller device takes in one dispatch.
-    many(&(shared.found.device.clone(), shared.found.queue.clone()), stages);
+    crate::crowds::all(shared, device, stages);
 }
 
-fn words(simulation: &Rc<RefCell<Simulation<Gpu>>>, field: &str, words: &[f32]) {
+/// A kernel where what solves know is any number, in steps of such a length; what was there is put back.
+pub fn anything(simulation: &Rc<RefCell<Simulation<Gpu>>>, kernel: &Kernel, name: &str, dt: f64) -> Stage {
+    let plan = alone(kernel.clone());
+    let mut random = Random::new(29);
+    let mut before = Vec::new();
+    let clock = pollster::block_on(simulation.borrow_mut().backend().world()).expect("a clock");
+    for field in plan.fields(1).into_keys() {
+        let mut simulation = simulation.borrow_mut();
+        let gpu = simulation.backend();
+        let elements = gpu.size(&field) as usize / 4;
+        let mut any = |element: usize| {
+            let x = random.narrow();
+            match (field.split(' ').next().unwrap_or_default(), element % 4) {
+                ("unknowns", 2) if element.is_multiple_of(3) => Some(0.0),
+                ("unknowns", 2) | ("stiffness" | "kept_stiffness", _) => Some(x.abs()),
+                ("pushes", 3) => Some(if x > -0.5 { 1.0 } else { 0.0 }),
+                ("unknowns" | "pushes" | "errors", _) => Some(x),
+                ("dfsph_state", _) => Some([4.0, if name.contains("correct") { 0.0 } else { 3.0 }, 0.3][element % 3]),
+                _ => None,
+            }
+        };
+        let words: Option<Vec<f32>> = (0..elements).map(&mut any).collect();
+        if let Some(words) = words {
+            before.push((field.clone(), pollster::block_on(gpu.bytes(&field, 0, gpu.size(&field))).expect("a field")));
+            gpu.write_bytes(&field, 0, bytemuck::cast_slice(&words)).expect("a field");
+        }
+    }
+    simulation.borrow_mut().backend().set_world(World { dt, ..clock }).expect("a clock");
+    let stage = Stage::amid(name, simulation, plan).slack(4.0);
+    let mut simulation = simulation.borrow_mut();
+    let gpu = simulation.backend();
+    for (field, bytes) in before {
+        gpu.write_bytes(&field, 0, &bytes).expect("a field");
+    }
+    gpu.set_world(clock).expect("a clock");
+    stage
+}
+
+pub fn words(simulation: &Rc<RefCell<Simulation<Gpu>>>, field: &str, words: &[f32]) {
     let mut simulation = simulation.borrow_mut();
     simulation.backend().write_bytes(field, 0, bytemuck::cast_slice(words)).expect("a field");
 }
 
 /// Iterations, codes and errors of the two solves.
-fn state(simulation: &Rc<RefCell<Simulation<Gpu>>>, [first, second]: [f32; 2]) {
+pub fn state(simulation: &Rc<RefCell<Simulation<Gpu>>>, [first, second]: [f32; 2]) {
     words(simulation, "dfsph_state", &[4.0, first, 0.3, 5.0, second, 0.7]);
 }
 
@@ -177,43 +228,4 @@ fn ends(simulation: &Rc<RefCell<Simulation<Gpu>>>, decide: &Kernel, stages: &mut
         Stage::amid(&format!("{}, broken", decide.name), simulation, alone(decide.clone())).told("dfsph_state", told),
     );
     words(simulation, &field, &[1e-3]);
-}
-
-/// Errors of so many that they are added in two dispatches.
-fn many(device: &Device, stages: &mut Vec<Stage>) {
-    const MANY: usize = 9000;
-    let mut particles = Particles::default();
-    let mut random = Random::new(19);
-    for n in 0..MANY {
-        particles.push(DVec3::X * n as f64, DVec3::ZERO, 1.0, 0.0);
-    }
-    let forces = vec![force("fluid", &[("spacing", Value::Number(0.1)), ("solver", word("dfsph"))])];
-    let mut gpu = Gpu::new(&device.0, &device.1, MANY as u32).expect("a GPU");
-    gpu.pad(5);
-    let integrator = integrator("symplectic_euler");
-    let setup =
-        Setup { particles, forces, integrator, dt: 0.007, bounds: Bounds::default(), solver: motes::Solver::default() };
-    let plan = setup.plans(gpu.machine()).expect("plans").step;
-    let simulation = Rc::new(RefCell::new(Simulation::on(gpu, &setup).expect("a simulation")));
-    let errors: Vec<f32> = (0..MANY).map(|_| 1.3 + random.narrow()).collect();
-    for which in ["divergence", "density"] {
-        let named = |end: &str| {
-            let name = format!("fluid {which} {end}");
-            plan.steps().find(|kernel| kernel.name == name).expect("a kernel").clone()
-        };
-        let (tally, decide) = (named("tally"), named("decide"));
-        for (code, other) in [(0.0, 1.0), (1.0, 0.0)] {
-            words(&simulation, tally.passes[0].field("errors"), &errors);
-            words(&simulation, decide.passes[0].field("errors"), &errors[..MANY.div_ceil(2048)]);
-            let codes = if which == "density" { [other, code] } else { [code, other] };
-            state(&simulation, codes);
-            for kernel in [&tally, &decide] {
-                stages.push(Stage::amid(
-                    &format!("{} of many, {code}", kernel.name),
-                    &simulation,
-                    alone(kernel.clone()),
-                ));
-            }
-        }
-    }
 }

@@ -39,7 +39,6 @@ pub const EQUIVALENT: &[Equivalent] = &[
         "it takes two of the worst roundings, and a pair that is just in range",
     ),
     same("near_rows", REACH, "2097152.0", "3145728.0", "up to 2²² two cells are enough"),
-    same("near_rows", "return Around(cell, r,", "2u", "3u", FURTHER),
     same("near_rows", "return Around(cell, r,", "1u", "2u", FURTHER),
     same("near_rows", "first = min(c.x, 0) + n.x;", "0", "1", EMPTY),
     same("near_rows", "if first >= last", ">=", ">", EMPTY),

@@ -8,7 +8,6 @@ const SLOW_WAY: &str = "it takes the way for blocks that are not apart, or not f
 const ENOUGH: &str = "more halvings than there are keys";
 const LAST_DIGITS: &str = "a part in a million, where `tests/pins` holds places to two units in the last place";
 const SINE: &str = "let sine_end";
-const COSINE: &str = "let cosine_end";
 const STORES_NOTHING: &str = "lanes behind the last particle store nothing of theirs";
 const EDGE: &str = "nobody stands at the very edge";
 const AT_THE_SIDE: &str = "who is at the side stays at the side, by one way or the other";
@@ -59,12 +58,7 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("lead.wgsl", "override FIRST: u32 = 0u;", "0u", "1u", ALWAYS_SET),
     same("", "override END: u32 = 1u;", "1u", "2u", ALWAYS_SET),
     same("hold.wgsl", "if i < END {", "<", "<=", "behind the last one stands the id of nobody"),
-    same("pose.wgsl", SINE, "-", " ", LAST_DIGITS),
     same("pose.wgsl", SINE, "0.0000000239", "3.585e-8", LAST_DIGITS),
-    same("pose.wgsl", SINE, "+", "-", LAST_DIGITS),
-    same("pose.wgsl", COSINE, "-", " ", LAST_DIGITS),
-    same("pose.wgsl", COSINE, "0.0000002605", "3.9075e-7", LAST_DIGITS),
-    same("pose.wgsl", COSINE, "+", "-", LAST_DIGITS),
     same("pose.wgsl", "for (var k", "0u", "1u", ENOUGH),
     same("pose.wgsl", "for (var k", "<", "<=", ENOUGH),
     same("pose.wgsl", "for (var k", "32u", "33u", ENOUGH),

@@ -3,8 +3,10 @@
 mod alarms;
 mod births;
 mod boundary;
+mod crowds;
 mod curious;
 mod dfsph;
+mod equivalent_dfsph;
 mod equivalent_neighbors;
 mod equivalent_primitives;
 mod equivalents;
@@ -126,6 +128,7 @@ fn every_mutant_is_noticed() {
         SOLVES,
         equivalent_primitives::EQUIVALENT,
         equivalent_neighbors::EQUIVALENT,
+        equivalent_dfsph::EQUIVALENT,
         births::EQUIVALENT,
         trees::EQUIVALENT,
         walks::EQUIVALENT,

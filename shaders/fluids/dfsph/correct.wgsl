@@ -16,6 +16,6 @@ fn deliver(k: u32, me: Particle, sum: Sum) {
     let next = max(unknown.stiffness - unknown.relaxation * residual, 0.0);
     unknowns[k].stiffness = max(next + turn / (turn + 3.0) * (next - unknown.reached), 0.0);
     unknowns[k].reached = next;
-    let change = abs(next - unknown.stiffness) / max(unknown.relaxation, 1e-30);
-    errors[k] = select(max(-residual, 0.0), change, unknown.relaxation > 0.0);
+    errors[k] = max(-residual, 0.0);
+    if unknown.relaxation > 0.0 { errors[k] = abs(next - unknown.stiffness) / unknown.relaxation; }
 }

@@ -18,7 +18,7 @@ fn decide(@builtin(local_invocation_index) lane: u32) {
     let end = select(0u, extent.elements, goes);
     var sum = 0.0;
     for (var k = lane; k < end; k += WORKGROUP) { sum += errors[k]; }
-    sum = total(lane, sum);
+    sum = total(lane, vec4f(sum)).x;
     if lane == 0u && goes {
         state.error = sum * SHARE;
         state.iterations += 1.0;

@@ -15,6 +15,6 @@ fn tally(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: v
     let end = select(first, min(first + extent.chunk, extent.elements), dfsph_state[SOLVE].code == 0.0);
     var sum = 0.0;
     for (var k = first + lane; k < end; k += WORKGROUP) { sum += errors[k]; }
-    sum = total(lane, sum);
+    sum = total(lane, vec4f(sum)).x;
     if lane == 0u && first < end { parts[block] = sum; }
 }

@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::kernel::{Host, Kernel, Scalar};
 
 const PARTS: &str = "parts";
-/// Invocations of a workgroup, as in total.wgsl.
+/// Invocations of a workgroup, as in solve_total.wgsl.
 const WORKGROUP: u32 = 256;
 /// Errors that one workgroup adds by itself.
 const ALONE: u32 = 1 << 13;
@@ -39,7 +39,7 @@ fn tally(of: &Dfsph<'_>, solve: Solve) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    let files = [crate::shader!("fluids/dfsph/total.wgsl"), crate::shader!("fluids/dfsph/tally.wgsl")];
+    let files = [crate::shader!("integrators/solve_total.wgsl"), crate::shader!("fluids/dfsph/tally.wgsl")];
     let name = format!("fluid {} tally", solve.name());
     let mut kernel = of.plain(&name, &files, &extent(count), groups * WORKGROUP, Arc::new(twin))?;
     kernel.passes[0].fields.push((PARTS, parts.clone()));
@@ -75,7 +75,7 @@ fn decide(of: &Dfsph<'_>, solve: Solve, what: &'static str, elements: u32) -> Re
     };
     let files = [
         crate::shader!("broken.wgsl"),
-        crate::shader!("fluids/dfsph/total.wgsl"),
+        crate::shader!("integrators/solve_total.wgsl"),
         crate::shader!("fluids/dfsph/decide.wgsl"),
     ];
     let name = format!("fluid {} decide", solve.name());

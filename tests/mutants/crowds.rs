@@ -1,0 +1,112 @@
+//! Stages of a fluid whose pressure is solved for, of one particle, of two and two, and of many.
+#![allow(clippy::cast_possible_truncation, reason = "numbers are rounded to what f32 holds")]
+
+use std::cell::RefCell;
+use std::rc::Rc;
+
+use glam::DVec3;
+use motes::kernel::{Backend, Kernel, Plan};
+use motes::settings::Value;
+use motes::{Bounds, Gpu, Particles, Setup, Simulation};
+
+use crate::dfsph::{ANYTIME, SPACING, anything, state, words};
+use crate::stages::{Device, Stage};
+use crate::support::machines::alone;
+use crate::support::states::{force, integrator, word};
+use crate::support::{Random, Shared};
+
+/// A stage for each of what few show, and many.
+pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
+    for flat in [false, true] {
+        pairs(device, flat, stages);
+    }
+    lone(device, stages);
+    // More than the smaller device takes in one dispatch.
+    many(&(shared.found.device.clone(), shared.found.queue.clone()), stages);
+}
+
+/// A fluid of those, at rest, a step on its way.
+fn resting(device: &Device, places: &[DVec3], flat: bool) -> (Rc<RefCell<Simulation<Gpu>>>, Plan) {
+    let mut particles = Particles::default();
+    let mass = SPACING.powi(if flat { 2 } else { 3 });
+    for place in places {
+        particles.push(*place, DVec3::ZERO, mass, 0.0);
+    }
+    let number = |key, x| (key, Value::Number(x));
+    let settings = [number("spacing", SPACING), number("density", 1.0), ("solver", word("dfsph"))];
+    let mut gpu = Gpu::new(&device.0, &device.1, particles.len() as u32).expect("a GPU");
+    gpu.pad(5);
+    let bounds = Bounds { dimensions: if flat { 2 } else { 3 }, ..Bounds::default() };
+    let (forces, integrator) = (vec![force("fluid", &settings)], integrator("symplectic_euler"));
+    let setup = Setup { particles, forces, integrator, dt: 0.007, bounds, solver: motes::Solver::default() };
+    let plan = setup.plans(gpu.machine()).expect("plans").step;
+    let mut simulation = Simulation::on(gpu, &setup).expect("a simulation");
+    simulation.step(1).expect("a step");
+    (Rc::new(RefCell::new(simulation)), plan)
+}
+
+fn named(plan: &Plan, name: &str) -> Kernel {
+    plan.steps().find(|kernel| kernel.name == name).expect("a kernel").clone()
+}
+
+/// Pairs further and further into each other's range: 1 / α is about 15 (1 − r / h)⁴ / h² in the plane and 7 in space, so that of
+/// each some pairs are on both sides of what counts as nothing, one of them near to it.
+///
+/// α is four times as wrong as 1 − r / h, of which two roundings of r / h are 2 · 6e-8 / 0.0145 = 8e-6: three times the usual.
+fn pairs(device: &Device, flat: bool, stages: &mut Vec<Stage>) {
+    let pair = |k: i32| {
+        let apart = 2.0 * SPACING * (1.0 - 0.0145 * 1.09f64.powi(k));
+        [0.0, apart].map(|x| DVec3::new(x, 0.5 * f64::from(k), 0.0).as_vec3().as_dvec3())
+    };
+    let places: Vec<DVec3> = (0..6).flat_map(pair).collect();
+    let (simulation, plan) = resting(device, &places, flat);
+    let response = alone(named(&plan, "fluid response"));
+    // It is made anew, and judged by how it changes.
+    let field = response.fields(1).into_keys().find(|name| name.starts_with("responses")).expect("a field");
+    words(&simulation, &field, &[0.0; 48]);
+    let name = format!("fluid response of pairs, flat {flat}");
+    stages.push(Stage::amid(&name, &simulation, response).slack(4.0));
+}
+
+/// A state that nobody but the first begins anew.
+fn lone(device: &Device, stages: &mut Vec<Stage>) {
+    let (simulation, plan) = resting(device, &[DVec3::ZERO], false);
+    for name in ["fluid begin", "fluid collect"] {
+        stages.push(anything(&simulation, &named(&plan, name), &format!("{name}, alone"), ANYTIME));
+    }
+}
+
+/// Errors of so many that they are added in two dispatches.
+fn many(device: &Device, stages: &mut Vec<Stage>) {
+    const MANY: usize = 9000;
+    let mut particles = Particles::default();
+    let mut random = Random::new(19);
+    for n in 0..MANY {
+        particles.push(DVec3::X * n as f64, DVec3::ZERO, 1.0, 0.0);
+    }
+    let forces = vec![force("fluid", &[("spacing", Value::Number(0.1)), ("solver", word("dfsph"))])];
+    let mut gpu = Gpu::new(&device.0, &device.1, MANY as u32).expect("a GPU");
+    gpu.pad(5);
+    let integrator = integrator("symplectic_euler");
+    let setup =
+        Setup { particles, forces, integrator, dt: 0.007, bounds: Bounds::default(), solver: motes::Solver::default() };
+    let plan = setup.plans(gpu.machine()).expect("plans").step;
+    let simulation = Rc::new(RefCell::new(Simulation::on(gpu, &setup).expect("a simulation")));
+    let errors: Vec<f32> = (0..MANY).map(|_| 1.3 + random.narrow()).collect();
+    for which in ["divergence", "density"] {
+        let [tally, decide] = ["tally", "decide"].map(|end| named(&plan, &format!("fluid {which} {end}")));
+        for (code, other) in [(0.0, 1.0), (1.0, 0.0)] {
+            words(&simulation, tally.passes[0].field("errors"), &errors);
+            words(&simulation, decide.passes[0].field("errors"), &errors[..MANY.div_ceil(2048)]);
+            let codes = if which == "density" { [other, code] } else { [code, other] };
+            state(&simulation, codes);
+            for kernel in [&tally, &decide] {
+                stages.push(Stage::amid(
+                    &format!("{} of many, {code}", kernel.name),
+                    &simulation,
+                    alone(kernel.clone()),
+                ));
+            }
+        }
+    }
+}

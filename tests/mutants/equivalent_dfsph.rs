@@ -1,0 +1,26 @@
+//! Mutants of a fluid whose pressure is solved for that no test can notice, because they do the same; each with its reason.
+
+use crate::support::equivalents::{Equivalent, same};
+
+const ALWAYS_SET: &str = "the host sets every override";
+const ALL_KNOW: &str = "all know the same, and whoever says it says the same";
+const EDGE: &str = "nobody stands at the very edge";
+
+pub const EQUIVALENT: &[Equivalent] = &[
+    same("fluids/dfsph/", "override SOLVE: u32 = 0u;", "0u", "1u", ALWAYS_SET),
+    same("fluids/dfsph/", "override WARM: f32 = 0.0;", "0.0", "1.0", ALWAYS_SET),
+    same("fluids/dfsph/", "override RELAXATION: f32 = 0.0;", "0.0", "1.0", ALWAYS_SET),
+    same("dfsph/begin.wgsl", "override FEWEST: f32 = 0.0;", "0.0", "1.0", ALWAYS_SET),
+    same("dfsph/decide.wgsl", "override SHARE: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
+    same("dfsph/decide.wgsl", "override TOLERANCE: f32 = 0.0;", "0.0", "1.0", ALWAYS_SET),
+    same("dfsph/decide.wgsl", "override LEAST: f32 = 0.0;", "0.0", "1.0", ALWAYS_SET),
+    same("dfsph/decide.wgsl", "override MOST: f32 = 0.0;", "0.0", "1.0", ALWAYS_SET),
+    same("dfsph/decide.wgsl", "let end = select(0u,", "0u", "1u", "nobody takes the sum of a solve that is done"),
+    same("dfsph/decide.wgsl", "if lane == 0u && goes {", "==", "!=", ALL_KNOW),
+    same("dfsph/decide.wgsl", "if lane == 0u && goes {", "0u", "1u", ALL_KNOW),
+    same("dfsph/decide.wgsl", "} else if state.error <= TOLERANCE", "<=", "<", EDGE),
+    same("dfsph/tally.wgsl", "if lane == 0u && first < end {", "==", "!=", ALL_KNOW),
+    same("dfsph/tally.wgsl", "if lane == 0u && first < end {", "0u", "1u", ALL_KNOW),
+    same("dfsph/response.wgsl", "let resists = inverse > LEAST", ">", ">=", EDGE),
+    same("dfsph/finish.wgsl", "if k >= world.count {", ">=", ">", "behind the last slot stands the id of nobody"),
+];
