@@ -56,9 +56,13 @@ fn its_scenes_and_its_law_work() {
     std::fs::write(folder.path().join("swirl.wgsl"), blocks("wgsl")[0]).expect("written");
     let scenes = blocks("toml");
     assert!(scenes[0].contains("[simulation]") && scenes.iter().any(|text| text.contains("swirl.wgsl")));
-    // The first one is whole; the others say more of it.
+    // The first one is whole, and so is one with a simulation of its own; the others say more of the first.
     for (n, more) in scenes.iter().enumerate() {
-        let text = if n == 0 { (*more).to_owned() } else { format!("{}\n{more}", scenes[0]) };
+        let text = if n == 0 || more.contains("\n[simulation]\n") {
+            (*more).to_owned()
+        } else {
+            format!("{}\n{more}", scenes[0])
+        };
         let path = folder.path().join("orbit.toml");
         std::fs::write(&path, text).expect("written");
         let output = std::process::Command::new(env!("CARGO_BIN_EXE_motes"))

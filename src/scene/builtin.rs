@@ -50,6 +50,8 @@ pub const SCENES: &[Builtin] = scenes![
     "dam_break",
     "dam_break_2d",
     "wave_tank",
+    "droplet",
+    "two_drops",
     "hydrostatic",
     "taylor_green",
     "poiseuille",

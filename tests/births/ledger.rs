@@ -48,7 +48,7 @@ fn the_dead_stay_dead_and_ids_are_never_reused() {
         }
         let of = now.population();
         assert_eq!(of, pollster::block_on(simulation.population()).expect("a count"));
-        assert_eq!((of.waiting + of.living + of.dead) as usize, count);
+        assert_eq!(of.waiting + of.living + of.dead, count as u64);
         // The ledger's sums are those over the living, of their own masses.
         let own = |id: usize| {
             setup.particles.births.iter().find(|b| b.id as usize == id).map_or(setup.particles.mass[id], |b| b.mass)
@@ -125,7 +125,9 @@ fn batches_make_no_difference() {
         let setup = pool(drains());
         let shared = support::device();
         let mut simulation = Simulation::on(machines::gpu(&shared, setup.particles.len()), &setup).expect("a run");
-        steps.iter().for_each(|n| simulation.step(*n).expect("steps"));
+        for n in steps {
+            simulation.step(*n).expect("steps");
+        }
         let bits = |list: Vec<glam::Vec4>| list.iter().flat_map(|v| v.to_array().map(f32::to_bits)).collect::<Vec<_>>();
         let position = pollster::block_on(simulation.read(POSITION)).expect("positions");
         let velocity = pollster::block_on(simulation.read(VELOCITY)).expect("velocities");

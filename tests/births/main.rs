@@ -18,17 +18,17 @@ use motes::{Bounds, Particles, Setup, Side, Simulation};
 use support::states::{force, integrator, word};
 
 /// No round number, and no part of an interval between two births.
-pub const DT: f64 = 0.0137;
+const DT: f64 = 0.0137;
 
 /// The particles of an emitter with these settings, until some end.
-pub fn emitted(settings: &[(&'static str, Value)], dimensions: u32, end: f64) -> Particles {
+fn emitted(settings: &[(&'static str, Value)], dimensions: u32, end: f64) -> Particles {
     let defaults = Settings::defaults(emitter::KEYS);
     let settings = settings.iter().fold(defaults, |s, (key, value)| s.with(key, value.clone()));
     emitter::build(&settings, dimensions, end, 100_000).expect("an emitter")
 }
 
 /// A mouth of three rows by two, at an angle.
-pub fn jet(end: f64) -> Particles {
+fn jet(end: f64) -> Particles {
     let settings = [
         ("shape", word("rectangle")),
         ("size", Value::Vector(DVec3::new(0.3, 0.2, 0.0))),
@@ -41,7 +41,7 @@ pub fn jet(end: f64) -> Particles {
 }
 
 /// A spray of a disk, in a cone.
-pub fn spray(end: f64) -> Particles {
+fn spray(end: f64) -> Particles {
     let settings = [
         ("radius", Value::Number(0.2)),
         ("direction", Value::Vector(DVec3::Y)),
@@ -55,12 +55,12 @@ pub fn spray(end: f64) -> Particles {
 }
 
 /// What is to run.
-pub fn setup(particles: Particles, forces: Vec<Box<dyn Force>>, bounds: Bounds) -> Setup {
+fn setup(particles: Particles, forces: Vec<Box<dyn Force>>, bounds: Bounds) -> Setup {
     Setup { particles, forces, integrator: integrator("leapfrog"), dt: DT, bounds, solver: motes::Solver::default() }
 }
 
 /// A fluid of that spacing in the plane, slow enough for [`DT`].
-pub fn fluid() -> Box<dyn Force> {
+fn fluid() -> Box<dyn Force> {
     force(
         "fluid",
         &[("spacing", Value::Number(0.1)), ("sound_speed", Value::Number(2.0)), ("alpha", Value::Number(0.1))],
@@ -68,7 +68,7 @@ pub fn fluid() -> Box<dyn Force> {
 }
 
 /// A pool in the plane, a jet into it, and a drain in which some of both die; mirrors around.
-pub fn pool(drains: Vec<Drain>) -> Setup {
+fn pool(drains: Vec<Drain>) -> Setup {
     let block = motes::particles::shape("block").expect("a shape");
     let settings = Settings::defaults(block.keys)
         .with("size", Value::Vector(DVec3::new(1.2, 0.5, 0.0)))
@@ -97,6 +97,6 @@ pub fn pool(drains: Vec<Drain>) -> Setup {
 }
 
 /// The state of a simulation, for a moment.
-pub fn state<B: Backend>(simulation: &mut Simulation<B>) -> motes::Snapshot {
+fn state<B: Backend>(simulation: &mut Simulation<B>) -> motes::Snapshot {
     pollster::block_on(simulation.snapshot()).expect("a state")
 }

@@ -24,8 +24,9 @@ fn as_many_are_born_as_are_due() {
     let rows = particles.len() as u64;
     particles.append(&spray(end));
     // As many as leave before the end: rows of six, and one by one.
-    assert_eq!(rows, 6 * (end * 1.3 / 0.1).ceil() as u64);
-    assert_eq!(particles.len() as u64 - rows, ((end - 0.1) * 71.0).ceil() as u64);
+    assert!((rows as f64 - 6.0 * (end * 1.3 / 0.1).ceil()).abs() < 0.5, "{rows}");
+    let single = particles.len() as u64 - rows;
+    assert!((single as f64 - ((end - 0.1) * 71.0).ceil()).abs() < 0.5, "{single}");
     let shared = support::device();
     let gpu = machines::gpu(&shared, particles.len());
     let mut simulation = Simulation::on(gpu, &setup(particles.clone(), Vec::new(), Bounds::default())).expect("a run");
@@ -111,8 +112,7 @@ fn a_jet_is_at_rest_density() {
         ("spacing", Value::Number(0.1)),
     ];
     let particles = emitted(&settings, 2, 1.2);
-    let mut bounds = Bounds::default();
-    bounds.dimensions = 2;
+    let bounds = Bounds { dimensions: 2, ..Bounds::default() };
     let count = u32::try_from(particles.len()).expect("few");
     let mut simulation =
         Simulation::on(Cpu::new(count).expect("some"), &setup(particles, vec![fluid()], bounds)).expect("a run");

@@ -18,7 +18,7 @@ bodies = [{ position = [0, 0, 0] }]
    |
  3 | stepps = 10
    | ^^^^^^ did you mean `steps`?
-   = known here: `steps`, `until`, `integrator`, `dt`
+   = known here: `steps`, `until`, `integrator`, `dt`, `adaptive`, `dt_min`, `dt_before`, `cfl`
 
 a.toml: 1 error",
     );
@@ -64,7 +64,7 @@ bodies = [{ position = [0, 0, 0] }]
    |
  4 | every = 5
    | ^^^^^ it belongs in [output]
-   = known here: `steps`, `until`, `integrator`, `dt`
+   = known here: `steps`, `until`, `integrator`, `dt`, `adaptive`, `dt_min`, `dt_before`, `cfl`
 
 a.toml: 1 error",
     );
@@ -249,7 +249,7 @@ error: [simulation] lacks `dt`
   --> a.toml:2:1
    |
  2 | [simulation]
-   | ^^^^^^^^^^^^ add `dt`, a number above zero: the length of a step [time]
+   | ^^^^^^^^^^^^ add `dt`, a number above zero: the length of a step, of the longest where they are adaptive [time]
 
 a.toml: 2 errors",
     );

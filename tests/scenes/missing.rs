@@ -54,7 +54,7 @@ bodies = [{ position = [0, 0, 0] }]
   --> a.toml:1:1
    |
  1 | [simulation]
-   | ^^^^^^^^^^^^ add `dt`, a number above zero: the length of a step [time]
+   | ^^^^^^^^^^^^ add `dt`, a number above zero: the length of a step, of the longest where they are adaptive [time]
 
 a.toml: 1 error",
     );
