@@ -10,6 +10,6 @@ struct Particle { index: u32, position: vec3f, mass: f32, velocity: vec3f, densi
 fn candidate(slot: u32) -> Particle {
     let p = sorted_position[slot];
     let id = sorted_id[slot];
-    let rho = select(density[id], 0.0, is_held(id));
-    return Particle(id, p.xyz, p.w, sorted_velocity[slot].xyz, rho, 0.0);
+    let known = select(density[id], 0.0, is_held(id));
+    return Particle(id, p.xyz, p.w, sorted_velocity[slot].xyz, known, 0.0);
 }
