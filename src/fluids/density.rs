@@ -15,14 +15,7 @@ use crate::visit::{Sweep, gathered};
 /// When the range is none, or a shader does not compile.
 pub fn density(medium: &Medium, problem: &Problem) -> Result<Kernel, Error> {
     let (holding, tables) = problem.holding();
-    let files = vec![
-        holding,
-        crate::shader!("visit/near_still.wgsl"),
-        crate::shader!("visit/near_told.wgsl"),
-        medium.smoothing.source(),
-        crate::shader!("fluids/medium.wgsl"),
-        crate::shader!("fluids/density.wgsl"),
-    ];
+    let files = medium.search(holding, crate::shader!("fluids/density.wgsl"));
     let (me, who) = (*medium, problem.clone());
     let twin = move |host: &Host| {
         let range = me.range();

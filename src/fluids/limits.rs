@@ -54,14 +54,7 @@ pub fn limits(medium: &Medium, limits: Limits, plan: &mut Plan, problem: &Proble
 
 fn closing(medium: &Medium, problem: &Problem) -> Result<Kernel, Error> {
     let (holding, tables) = problem.holding();
-    let files = vec![
-        holding,
-        crate::shader!("visit/near_still.wgsl"),
-        crate::shader!("visit/near_told.wgsl"),
-        medium.smoothing.source(),
-        crate::shader!("fluids/medium.wgsl"),
-        crate::shader!("fluids/closing.wgsl"),
-    ];
+    let files = medium.search(holding, crate::shader!("fluids/closing.wgsl"));
     let (me, who) = (*medium, problem.clone());
     let twin = move |host: &Host| {
         let length = 0.5 * me.range();

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::Smoothing;
 use crate::error::Error;
-use crate::kernel::{Problem, Scalar};
+use crate::kernel::{Problem, Scalar, Source};
 use crate::neighbors::Grid;
 
 /// A fluid: its density at rest, how compressible it is, and how its particles smooth it.
@@ -92,6 +92,17 @@ impl Medium {
     /// [`Error::Scene`] when the range is none.
     pub fn grid(&self, problem: &Problem) -> Result<Grid, Error> {
         Grid::new(self.range(), None, problem)
+    }
+    /// What a search is made of whose neighbours are asked for their places and masses, and whether they are held.
+    pub(super) fn search(&self, holding: Source, own: Source) -> Vec<Source> {
+        vec![
+            holding,
+            crate::shader!("visit/near_still.wgsl"),
+            crate::shader!("visit/near_told.wgsl"),
+            self.smoothing.source(),
+            crate::shader!("fluids/medium.wgsl"),
+            own,
+        ]
     }
     /// The block `medium` of shaders.
     #[must_use]

@@ -3,6 +3,8 @@
 
 use rayon::prelude::*;
 
+use super::cells::sorted;
+
 /// How far agents look.
 pub const RADIUS: f32 = 2.0;
 const REPULSE: f32 = 0.05;
@@ -34,19 +36,7 @@ impl Agents {
     pub fn step(&mut self, dt: f32) {
         let keys: Vec<u32> =
             self.position.par_iter().map(|x| u32::try_from(self.key(self.cell(*x))).unwrap_or(0)).collect();
-        let mut starts = vec![0u32; self.cells.pow(3) + 1];
-        for k in &keys {
-            starts[*k as usize + 1] += 1;
-        }
-        for c in 1..starts.len() {
-            starts[c] += starts[c - 1];
-        }
-        let mut next = starts.clone();
-        let mut ids = vec![0u32; keys.len()];
-        for (i, k) in (0u32..).zip(&keys) {
-            ids[next[*k as usize] as usize] = i;
-            next[*k as usize] += 1;
-        }
+        let (starts, ids) = sorted(&keys, self.cells.pow(3));
         let sorted: Vec<[f32; 3]> = ids.par_iter().map(|i| self.position[*i as usize]).collect();
         let pushes: Vec<[f32; 3]> =
             (0..sorted.len()).into_par_iter().with_min_len(256).map(|slot| self.push(slot, &sorted, &starts)).collect();

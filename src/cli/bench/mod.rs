@@ -2,6 +2,7 @@
 
 mod agents;
 mod bodies;
+mod cells;
 mod direct;
 mod fluids;
 mod gravity;

@@ -5,6 +5,8 @@
 use motes::fluids::{Friction, Medium};
 use rayon::prelude::*;
 
+use super::cells::sorted;
+
 /// A fluid in a periodic cube from 0 to `side`.
 pub struct Water {
     position: Vec<[f32; 3]>,
@@ -70,19 +72,7 @@ impl Water {
     pub fn step(&mut self, dt: f32) {
         let keys: Vec<u32> =
             self.position.par_iter().map(|x| u32::try_from(self.key(self.cell(*x))).unwrap_or(0)).collect();
-        let mut starts = vec![0u32; self.cells.pow(3) + 1];
-        for k in &keys {
-            starts[*k as usize + 1] += 1;
-        }
-        for c in 1..starts.len() {
-            starts[c] += starts[c - 1];
-        }
-        let mut next = starts.clone();
-        let mut ids = vec![0u32; keys.len()];
-        for (i, k) in (0u32..).zip(&keys) {
-            ids[next[*k as usize] as usize] = i;
-            next[*k as usize] += 1;
-        }
+        let (starts, ids) = sorted(&keys, self.cells.pow(3));
         let sorted: Vec<[f32; 3]> = ids.par_iter().map(|i| self.position[*i as usize]).collect();
         let law = self.law;
         let all = || (0..sorted.len()).into_par_iter().with_min_len(256);
