@@ -36,7 +36,7 @@ impl Backend for Cpu {
     type Program = Plan;
 
     fn machine(&self) -> Machine {
-        Machine { software: true, subgroup: 0, invocations: 1 }
+        Machine::HOST
     }
     fn compile(&mut self, plan: &Plan) -> Result<Plan, Error> {
         for kernel in &plan.kernels {

@@ -113,7 +113,7 @@ fn tides_draw_a_bridge_and_two_tails() {
 #[test]
 fn a_hundred_million_bodies_fit_a_large_gpu() {
     const COUNT: u32 = 100_000_000;
-    let machine = Machine { software: false, subgroup: 0, invocations: 1 << 18 };
+    let machine = Machine { software: false, subgroup: 0, invocations: 1 << 18, ..Machine::HOST };
     let forces = [force("gravity", &[("over", word("tree"))])];
     let mut step = Step::new(&forces, Problem::new(COUNT, machine));
     step.kick(0.5);

@@ -124,7 +124,7 @@ fn a_comparison_tells_what_is_left_out_from_what_is_rounded() {
 fn whom_auto_lets_meet_is_said_below_and_above_the_crossing() {
     let folder = tempfile::tempdir().expect("a folder");
     let out = folder.path().join("out").to_str().expect("a path of words").to_owned();
-    let machine = |software| motes::kernel::Machine { software, subgroup: 0, invocations: 1 };
+    let machine = |software| motes::kernel::Machine { software, ..motes::kernel::Machine::HOST };
     let crossings = [true, false].map(|software| motes::visit::crossing(&machine(software)));
     let (_, words, _) = motes(&["check", &cluster(&folder, 40, "over = \"auto\"")]);
     let told = words.split("from about ").nth(1).and_then(|rest| rest.split(' ').next()?.parse().ok());

@@ -231,7 +231,7 @@ fn limits_by_hand() {
         bounds: Bounds::default(),
         solver: motes::Solver::default(),
     };
-    let machine = motes::kernel::Machine { software: true, subgroup: 0, invocations: 1 };
+    let machine = motes::kernel::Machine::HOST;
     let fault = setup.plans(machine).err().expect("no speed is above 3 and below 2").to_string();
     assert!(fault.contains('3') && fault.contains('2'), "{fault}");
 }

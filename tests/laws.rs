@@ -259,7 +259,7 @@ fn no_law_binds_more_than_is_allowed() {
     let mut most = 0;
     every(|name, _, _, force| {
         for machine in [(false, 0), (true, 0), (true, 8)] {
-            let machine = Machine { software: machine.0, subgroup: machine.1, invocations: 1 };
+            let machine = Machine { software: machine.0, subgroup: machine.1, invocations: 1, ..Machine::HOST };
             for kernel in
                 machines::kernels(force.as_ref(), &forces::Problem::new(1000, machine).tied(&support::links(1000), &[]))
             {

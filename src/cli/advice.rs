@@ -154,7 +154,7 @@ pub fn conserved(setup: &Setup) -> Result<Conserved, Error> {
     Ok(conserved)
 }
 
-const MACHINE: Machine = Machine { software: true, subgroup: 0, invocations: 1 };
+const MACHINE: Machine = Machine::HOST;
 
 /// Who begins inside of a solid is thrown out of it in the first step.
 fn inside(setup: &Setup) -> Option<String> {

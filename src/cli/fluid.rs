@@ -92,7 +92,7 @@ pub fn told(setup: &Setup, start: &Start) -> Result<(Vec<String>, Vec<String>), 
 
 /// The acceleration of all that pulls everybody alike, at the middle of the start.
 fn weight(setup: &Setup) -> Result<DVec3, Error> {
-    let machine = Machine { software: true, subgroup: 0, invocations: 1 };
+    let machine = Machine::HOST;
     let mut weight = DVec3::ZERO;
     for law in setup.forces.iter().flat_map(|force| force.laws()).filter(|law| law.over == Over::Each) {
         let velocity = law.clone().kernel(&Problem::new(1, machine))?.names("velocity");

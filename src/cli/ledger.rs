@@ -30,7 +30,7 @@ pub struct Book {
 impl Book {
     /// The book of a setup; none where nothing flows.
     pub fn of(setup: &Setup) -> Result<Option<Self>, Error> {
-        let problem = setup.problem(Machine { software: true, subgroup: 0, invocations: 1 })?;
+        let problem = setup.problem(Machine::HOST)?;
         for force in &setup.forces {
             if let Some(fluid) = force.fluid(&problem)? {
                 let held = (0..setup.particles.len()).map(|id| problem.is_held(id)).collect();

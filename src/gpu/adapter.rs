@@ -45,7 +45,7 @@ impl Found {
     #[must_use]
     pub fn facts(&self) -> Vec<(&'static str, String)> {
         let (limits, info) = (self.device.limits(), self.adapter.get_info());
-        let largest = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
+        let largest = binding(&limits);
         let offered = |feature| if self.device.features().contains(feature) { "yes" } else { "no" }.to_owned();
         vec![
             ("largest field", format!("{} MiB, {} particles", largest >> 20, largest / 16)),
@@ -164,6 +164,11 @@ pub(super) fn describe(info: &wgpu::AdapterInfo) -> String {
     format!("{} ({kind}, {:?}, {})", info.name, info.backend, driver.trim())
 }
 
+/// Bytes of a field, at most.
+pub(super) fn binding(limits: &wgpu::Limits) -> u64 {
+    limits.max_buffer_size.min(limits.max_storage_buffer_binding_size)
+}
+
 /// What kernels may want to know of a device.
 pub(super) fn machine(device: &wgpu::Device) -> Machine {
     let info = device.adapter_info();
@@ -172,5 +177,8 @@ pub(super) fn machine(device: &wgpu::Device) -> Machine {
     let subgroup =
         if device.features().contains(wgpu::Features::SUBGROUP) && fixed { info.subgroup_min_size } else { 0 };
     // A large GPU holds about a quarter of a million invocations at once; a processor wants a workgroup for each core.
-    Machine { software, subgroup, invocations: if software { 256 } else { 1 << 18 } }
+    let invocations = if software { 256 } else { 1 << 18 };
+    let limits = device.limits();
+    let workgroups = limits.max_compute_workgroups_per_dimension;
+    Machine { software, subgroup, invocations, binding: binding(&limits), workgroups }
 }

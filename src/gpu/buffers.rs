@@ -1,7 +1,8 @@
 //! Fields as buffers, by name.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
+use super::adapter::binding;
 use super::fault;
 use crate::error::Error;
 
@@ -9,15 +10,21 @@ pub struct Buffers {
     device: wgpu::Device,
     count: u32,
     padding: u64,
+    /// Those that say how many workgroups a dispatch has.
+    telling: BTreeSet<String>,
     named: BTreeMap<String, (wgpu::Buffer, u64)>,
 }
 
 impl Buffers {
     pub fn new(device: wgpu::Device, count: u32) -> Self {
-        Self { device, count, padding: 0, named: BTreeMap::new() }
+        Self { device, count, padding: 0, telling: BTreeSet::new(), named: BTreeMap::new() }
     }
     pub fn pad(&mut self, elements: u64) {
         self.padding = elements;
+    }
+    /// Says that a field, once it is made, tells how many workgroups a dispatch has.
+    pub fn tells(&mut self, name: &str) {
+        self.telling.insert(name.to_owned());
     }
     pub fn get(&self, name: &str) -> Option<&wgpu::Buffer> {
         self.named.get(name).map(|(buffer, _)| buffer)
@@ -35,15 +42,18 @@ impl Buffers {
             }
             return Ok(false);
         }
-        let limits = self.device.limits();
-        let limit = limits.max_buffer_size.min(limits.max_storage_buffer_binding_size);
+        let limit = binding(&self.device.limits());
         if bytes > limit {
             return Err(too_large(name, bytes, limit, self.count));
         }
         // 16 bytes hold one element of any field.
         let size = bytes.next_multiple_of(16).max(16) + self.padding * 16;
         let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC | wgpu::BufferUsages::COPY_DST;
-        let extra = if name == "world" { wgpu::BufferUsages::UNIFORM } else { wgpu::BufferUsages::VERTEX };
+        let extra = match name {
+            "world" => wgpu::BufferUsages::UNIFORM,
+            _ if self.telling.contains(name) => wgpu::BufferUsages::INDIRECT,
+            _ => wgpu::BufferUsages::VERTEX,
+        };
         let descriptor =
             wgpu::BufferDescriptor { label: Some(name), size, usage: usage | extra, mapped_at_creation: false };
         let buffer = fault::scoped(&self.device, || self.device.create_buffer(&descriptor))

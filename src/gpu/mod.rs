@@ -157,6 +157,9 @@ impl Backend for Gpu {
         self.machine
     }
     fn compile(&mut self, plan: &Plan) -> Result<Program, Error> {
+        for (name, _) in plan.kernels.iter().flat_map(|k| &k.passes).filter_map(|pass| pass.told.as_ref()) {
+            self.buffers.tells(name);
+        }
         for (name, bytes) in plan.fields(self.count) {
             if name != "world"
                 && self.buffers.require(&name, bytes)?

@@ -17,8 +17,16 @@ pub struct Program {
 pub(super) struct Dispatch {
     pipeline: wgpu::ComputePipeline,
     groups: Vec<(u32, wgpu::BindGroup)>,
-    grid: [u32; 3],
+    grid: Grid,
     pub work: u64,
+}
+
+/// How many workgroups there are.
+#[derive(Clone)]
+enum Grid {
+    Known([u32; 3]),
+    /// By three words of a field, from this byte on.
+    Told(wgpu::Buffer, u64),
 }
 
 impl Dispatch {
@@ -27,7 +35,10 @@ impl Dispatch {
         for (index, group) in &self.groups {
             pass.set_bind_group(*index, group, &[]);
         }
-        pass.dispatch_workgroups(self.grid[0], self.grid[1], self.grid[2]);
+        match &self.grid {
+            Grid::Known([x, y, z]) => pass.dispatch_workgroups(*x, *y, *z),
+            Grid::Told(buffer, from) => pass.dispatch_workgroups_indirect(buffer, *from),
+        }
     }
 }
 
@@ -52,24 +63,14 @@ impl Program {
 fn dispatch(queue: &mut Queue, pipelines: &mut Pipelines, buffers: &Buffers, pass: &Pass) -> Result<Dispatch, Error> {
     let pipeline = pipelines.get(pass)?;
     let device = queue.device().clone();
-    let grid = grid(&device, pass)?;
+    let grid = match &pass.told {
+        None => Grid::Known(pass.workgroups(device.limits().max_compute_workgroups_per_dimension)?),
+        Some((field, word)) => {
+            Grid::Told(buffers.get(field).ok_or_else(|| missing(field))?.clone(), 4 * u64::from(*word))
+        }
+    };
     let groups = fault::scoped(&device, || groups(queue, buffers, pass, &pipeline))??;
     Ok(Dispatch { pipeline: pipeline.pipeline, groups, grid, work: pass.work })
-}
-
-/// Workgroups, folded over two dimensions where one is too short.
-fn grid(device: &wgpu::Device, pass: &Pass) -> Result<[u32; 3], Error> {
-    let limit = device.limits().max_compute_workgroups_per_dimension;
-    let workgroups = pass.threads.count.div_ceil(pass.shader.reflection().workgroup).max(1);
-    let rows = workgroups.div_ceil(limit);
-    if rows > limit || pass.threads.layers > limit {
-        let text = format!(
-            "{} invocations need {workgroups} workgroups; this device dispatches {limit} × {limit}",
-            pass.threads.count
-        );
-        return Err(Error::Limit(text));
-    }
-    Ok([workgroups.div_ceil(rows), rows, pass.threads.layers.max(1)])
 }
 
 fn groups(

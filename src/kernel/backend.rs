@@ -12,6 +12,15 @@ pub struct Machine {
     pub subgroup: u32,
     /// Invocations that keep the device busy.
     pub invocations: u32,
+    /// Bytes of a field that one binding holds, at most; 0 where nothing is bound.
+    pub binding: u64,
+    /// Workgroups that it dispatches in one dimension, at most.
+    pub workgroups: u32,
+}
+
+impl Machine {
+    /// The host, which runs the twins.
+    pub const HOST: Self = Self { software: true, subgroup: 0, invocations: 1, binding: 0, workgroups: 65_535 };
 }
 
 /// Runs plans. The two backends are the GPU and the twins.

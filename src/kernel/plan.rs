@@ -48,6 +48,9 @@ pub struct Pass {
     pub fields: Vec<(&'static str, Name)>,
     /// How wide.
     pub threads: Threads,
+    /// How many workgroups there are, where a field says so as it goes: three words of it, from this one on. What there is
+    /// nothing to do for then costs next to nothing.
+    pub told: Option<(Name, u32)>,
     /// About how much it does: meetings of two particles, or one per particle. Submissions are cut by it.
     pub work: u64,
 }
@@ -57,7 +60,8 @@ impl Pass {
     #[must_use]
     pub fn new(shader: Arc<Shader>, count: u32) -> Self {
         let (constants, uniforms, fields) = (Vec::new(), Vec::new(), Vec::new());
-        Self { shader, constants, uniforms, fields, threads: Threads::new(count), work: u64::from(count) }
+        let (threads, work) = (Threads::new(count), u64::from(count));
+        Self { shader, constants, uniforms, fields, threads, told: None, work }
     }
     /// The same with fields in place of names of the shader.
     #[must_use]
@@ -69,6 +73,22 @@ impl Pass {
     #[must_use]
     pub fn field<'a>(&'a self, name: &'a str) -> &'a str {
         self.fields.iter().find(|(inside, _)| *inside == name).map_or(name, |(_, field)| field)
+    }
+    /// Its workgroups, folded over two dimensions where one is too short.
+    ///
+    /// # Errors
+    /// [`Error::Limit`] when a device dispatches `limit` in one dimension, and that is too few.
+    pub fn workgroups(&self, limit: u32) -> Result<[u32; 3], Error> {
+        let workgroups = self.threads.count.div_ceil(self.shader.reflection().workgroup).max(1);
+        let rows = workgroups.div_ceil(limit);
+        if rows > limit || self.threads.layers > limit {
+            let text = format!(
+                "{} invocations need {workgroups} workgroups; this device dispatches {limit} × {limit}",
+                self.threads.count
+            );
+            return Err(Error::Limit(text));
+        }
+        Ok([workgroups.div_ceil(rows), rows, self.threads.layers.max(1)])
     }
     /// What is bound, with the field that each binding stands for.
     pub fn bindings(&self) -> impl Iterator<Item = (&str, &Binding)> {
@@ -142,7 +162,7 @@ impl Kernel {
     fn runs_as(&self, other: &Self) -> bool {
         let same = |(a, b): (&Pass, &Pass)| {
             let content = a.shader.text() == b.shader.text() && a.constants == b.constants && a.uniforms == b.uniforms;
-            content && a.threads == b.threads && a.fields == b.fields
+            content && a.threads == b.threads && a.fields == b.fields && a.told == b.told
         };
         self.passes.len() == other.passes.len() && self.passes.iter().zip(&other.passes).all(same)
     }
@@ -226,6 +246,10 @@ impl Plan {
                 let bytes = if binding.array { binding.stride * elements.max(1) } else { binding.stride };
                 let entry = fields.entry(field.to_owned()).or_insert(0);
                 *entry = bytes.max(*entry);
+            }
+            for (name, from) in kernel.passes.iter().filter_map(|pass| pass.told.as_ref()) {
+                let entry = fields.entry(name.to_string()).or_insert(0);
+                *entry = (4 * kernel.size(name).unwrap_or(u64::from(*from) + 3)).max(*entry);
             }
         }
         fields

@@ -26,7 +26,7 @@ impl Cells {
     pub fn new(positions: &[DVec3], bounds: Bounds, range: f64) -> Result<Self, Error> {
         let count = u32::try_from(positions.len())
             .map_err(|_| Error::Scene(format!("{} particles are more than there are ids", positions.len())))?;
-        let machine = Machine { software: true, subgroup: 0, invocations: 1 };
+        let machine = Machine::HOST;
         let grid = Grid::new(range, None, &Problem::new(count, machine).at(positions, bounds))?;
         Ok(Self::sort(&grid, bounds, positions.iter().copied(), |_| true, |_| false))
     }

@@ -173,6 +173,11 @@ impl Grid {
     pub fn layers(&self) -> u32 {
         1 + u32::from(self.apart)
     }
+    /// The same, where searches find those ahead alone.
+    #[must_use]
+    pub fn of_those_ahead(&self) -> Self {
+        Self { apart: false, ..self.clone() }
+    }
     /// Who stands before all who are held, at most.
     #[must_use]
     pub fn ahead(&self, problem: &Problem) -> u32 {

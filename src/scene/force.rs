@@ -173,7 +173,7 @@ pub(super) fn paced(forces: &[Box<dyn Force>], (pace, place): (Pace, &Place), re
     if let Some(why) = forces.iter().find_map(|force| force.keeps_to_even_steps()) {
         report.push(Fault::at(place, "steps cannot be adaptive").label(format!("{why}: leave this out")));
     }
-    let machine = Machine { software: true, subgroup: 0, invocations: 1 };
+    let machine = Machine::HOST;
     let problem = Problem::new(1, machine).paced(Some(pace));
     // What is wrong with a force by itself is told where it is built.
     let offers = |force: &dyn Force| force.paces(&mut Plan::default(), &problem).map_or(true, |limit| limit.is_some());

@@ -123,7 +123,7 @@ impl Setup {
     /// When the setup makes no sense, something of the fluid weighs nothing, or the start would blow it apart:
     /// [`Error::Scene`] names the particles and the cause.
     pub fn start(&self) -> Result<Option<Start>, Error> {
-        let problem = self.problem(Machine { software: true, subgroup: 0, invocations: 1 })?;
+        let problem = self.problem(Machine::HOST)?;
         let mut media = self.forces.iter().map(|force| force.fluid(&problem));
         let Some(fluid) = media.find_map(Result::transpose).transpose()? else { return Ok(None) };
         // Who waits or is dead is in nobody's way; a scene has the ids of those last.
@@ -144,7 +144,7 @@ impl Setup {
     }
     /// Refuses two fluids: each would take everybody for its own.
     fn fluids(&self) -> Result<(), Error> {
-        let problem = Problem::new(1, Machine { software: true, subgroup: 0, invocations: 1 }).at(&[], self.bounds);
+        let problem = Problem::new(1, Machine::HOST).at(&[], self.bounds);
         let fluids = self.forces.iter().map(|force| force.fluid(&problem)).filter_map(Result::transpose);
         let count = fluids.collect::<Result<Vec<_>, _>>()?.len();
         if count > 1 {

@@ -118,8 +118,8 @@ mod tests {
 
     #[test]
     fn every_source_is_met_once_and_no_invocation_loops_too_long() {
-        let gpu = Machine { software: false, subgroup: 0, invocations: 1 << 18 };
-        let cpu = Machine { software: true, subgroup: 8, invocations: 1 };
+        let gpu = Machine { software: false, subgroup: 0, invocations: 1 << 18, ..Machine::HOST };
+        let cpu = Machine { software: true, subgroup: 8, invocations: 1, ..Machine::HOST };
         for machine in [gpu, cpu] {
             for count in [1, 2, 127, 128, 129, 1000, 4096, 65_537, 1 << 20, 8_388_608, 134_217_728] {
                 let cut = Cut::new(count, 4, 128, &machine);

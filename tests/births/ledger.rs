@@ -139,7 +139,7 @@ fn batches_make_no_difference() {
 
 #[test]
 fn without_births_nothing_is_added() {
-    let machine = motes::kernel::Machine { software: true, subgroup: 0, invocations: 1 };
+    let machine = motes::kernel::Machine::HOST;
     let mut setup = pool(Vec::new());
     setup.particles = {
         let mut p = jet(0.1);

@@ -35,7 +35,7 @@ fn anywhere(shared: &Shared, count: usize, bounds: Bounds, name: &str) -> Simula
 /// What brings particles back.
 fn enclose(count: usize, bounds: &Bounds) -> Plan {
     let mut plan = Plan::default();
-    let machine = Machine { software: true, subgroup: 0, invocations: 1 };
+    let machine = Machine::HOST;
     let problem = Problem::new(u32::try_from(count).expect("few"), machine).at(&[], *bounds);
     let kernels = motes::boundary::kernels(&problem).expect("kernels");
     for kernel in kernels {

@@ -48,7 +48,7 @@ fn refused(force: Box<dyn Force>) -> String {
     let mut particles = Particles::default();
     particles.push(DVec3::ZERO, DVec3::ZERO, 1.0, 0.0);
     let setup: Setup = setup(&particles, Bounds::default(), vec![force], 0.004);
-    let machine = Machine { software: true, subgroup: 0, invocations: 1 };
+    let machine = Machine::HOST;
     setup.plans(machine).err().map(|error| error.to_string()).unwrap_or_default()
 }
 

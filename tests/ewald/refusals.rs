@@ -9,7 +9,7 @@ use motes::{Bounds, Side};
 use crate::support::states::{force, word};
 use crate::{cube, gravity};
 
-const MACHINE: Machine = Machine { software: true, subgroup: 8, invocations: 1 };
+const MACHINE: Machine = Machine { software: true, subgroup: 8, invocations: 1, ..Machine::HOST };
 
 fn refused(force: &dyn Force, bounds: Bounds) -> Option<String> {
     let problem = Problem::new(100, MACHINE).at(&[], bounds);

@@ -58,7 +58,7 @@ fn stages_that_are_thrown_away_are_refused() {
     let particles = cloud(20, true, false);
     let refusal = |name: &str, more: &[(&'static str, Value)]| {
         let setup: Setup = setup(&particles, vec![fluid(more)], name, 0.01, bounds(20, true, Side::Open));
-        let machine = motes::kernel::Machine { software: true, subgroup: 0, invocations: 1 };
+        let machine = motes::kernel::Machine::HOST;
         setup.plans(machine).err().map(|error| error.to_string())
     };
     let continuity = [("density_by", word("continuity"))];

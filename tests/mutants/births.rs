@@ -20,8 +20,8 @@ use crate::support::machines::{alone, subgroups_of_eight};
 use crate::support::states::force;
 use crate::support::{Random, Shared};
 
-const MACHINE: Machine = Machine { software: true, subgroup: 0, invocations: 1 };
-const EIGHT: Machine = Machine { software: true, subgroup: 8, invocations: 256 };
+const MACHINE: Machine = Machine::HOST;
+const EIGHT: Machine = Machine { software: true, subgroup: 8, invocations: 256, ..Machine::HOST };
 /// Mutants that do the same.
 pub const EQUIVALENT: &[Equivalent] = &[
     same("life/drain.wgsl", "if i < world.count", "<", "<=", "behind the last word of life stands none that says 1"),

@@ -50,7 +50,7 @@ fn in_a_box(device: &Device, bounds: Bounds) -> Simulation<Gpu> {
 
 /// Every kind of side at every axis, and the nearest image along one axis and along all.
 pub fn boundary(device: &Device, stages: &mut Vec<Stage>) {
-    let machine = Machine { software: true, subgroup: 0, invocations: 1 };
+    let machine = Machine::HOST;
     for sides in [[Periodic, Reflecting, Open], [Reflecting, Open, Periodic], [Open, Periodic, Reflecting]] {
         let bounds = box_of(sides);
         let kernels =

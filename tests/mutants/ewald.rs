@@ -45,7 +45,7 @@ fn spread(device: &Device, count: usize, machine: Machine) -> Simulation<Gpu> {
 }
 
 pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
-    let machine = Machine { software: true, subgroup: 0, invocations: 1 };
+    let machine = Machine::HOST;
     let problem = |machine, count: usize| Problem::new(u32::try_from(count).expect("few"), machine).at(&[], cube());
     let mut plan = Plan::default();
     gravity("pairs")[0].evaluate(&mut plan, 0, &problem(machine, FEW)).expect("a plan");

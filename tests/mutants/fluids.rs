@@ -37,8 +37,8 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("fluids/wall_state", "if k < world.count", "<", "<=", "behind the last slot stands no wall"),
 ];
 
-const LANES: Machine = Machine { software: false, subgroup: 0, invocations: 1 << 18 };
-const EIGHT: Machine = Machine { software: true, subgroup: 8, invocations: 256 };
+const LANES: Machine = Machine { software: false, subgroup: 0, invocations: 1 << 18, ..Machine::HOST };
+const EIGHT: Machine = Machine { software: true, subgroup: 8, invocations: 256, ..Machine::HOST };
 
 struct Case {
     name: &'static str,

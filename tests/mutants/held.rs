@@ -13,7 +13,7 @@ use crate::support::machines::{alone, kernel_in};
 use crate::support::states::{force, integrator, vector, word};
 use crate::support::{Random, choices};
 
-const MACHINE: Machine = Machine { software: true, subgroup: 0, invocations: 1 };
+const MACHINE: Machine = Machine::HOST;
 /// As in [`moving`]: after three steps it is 1.11, and the next one ends at 1.48.
 const DT: f64 = 0.37;
 

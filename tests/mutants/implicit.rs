@@ -100,7 +100,7 @@ pub fn all(device: &Device, stages: &mut Vec<Stage>) {
     let machines = [(true, 256), (false, 1 << 18)];
     for (place, (case, name, forces, solver, stiffness)) in cases.into_iter().enumerate() {
         let (software, invocations) = machines[place % 2];
-        let machine = Machine { software, subgroup: 0, invocations };
+        let machine = Machine { software, subgroup: 0, invocations, ..Machine::HOST };
         let mut gpu = Gpu::new(&device.0, &device.1, u32::try_from(COUNT).expect("few")).expect("a GPU");
         gpu.pad(5);
         gpu.pretend(machine);

@@ -15,7 +15,7 @@ use crate::support::{self, choices};
 
 /// Every law alone, in all its variants; those over pairs by the visit that compiles fastest.
 pub fn all(device: &Device, stages: &mut Vec<Stage>) {
-    let machine = Machine { software: true, subgroup: 0, invocations: 1 };
+    let machine = Machine::HOST;
     for entry in choices::entries() {
         for settings in choices::variants(entry.keys) {
             // Vectors that are none, or short, may go another way.
@@ -44,7 +44,7 @@ pub fn all(device: &Device, stages: &mut Vec<Stage>) {
 
 /// The first law of a step, which sets what was felt; and links of four kinds at most, which have a visit of their own.
 pub fn firsts(device: &Device, stages: &mut Vec<Stage>) {
-    let machine = Machine { software: true, subgroup: 0, invocations: 1 };
+    let machine = Machine::HOST;
     let mut alike = support::links(FEW);
     for (place, spring) in alike.springs.iter_mut().enumerate() {
         // None at rest, ropes, and with a length at rest; not all ends of them have all kinds.
@@ -78,7 +78,7 @@ pub fn firsts(device: &Device, stages: &mut Vec<Stage>) {
 
 /// A joint that is almost straight, and a triangle that goes with the air.
 pub fn corners(device: &Device, stages: &mut Vec<Stage>) {
-    let machine = Machine { software: true, subgroup: 0, invocations: 1 };
+    let machine = Machine::HOST;
     for name in ["joint", "air"] {
         let mut simulation = resting(device, machine, Bounds::default());
         let mut places = pollster::block_on(simulation.read(POSITION)).expect("places");
@@ -125,7 +125,7 @@ pub fn resting(device: &Device, machine: Machine, bounds: Bounds) -> Simulation<
 
 /// Laws that ask how many dimensions there are, in the plane.
 pub fn planes(device: &Device, stages: &mut Vec<Stage>) {
-    let machine = Machine { software: true, subgroup: 0, invocations: 1 };
+    let machine = Machine::HOST;
     let flat = Bounds { dimensions: 2, ..Bounds::default() };
     for entry in choices::entries() {
         for settings in choices::variants(entry.keys) {

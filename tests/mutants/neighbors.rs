@@ -14,8 +14,8 @@ use crate::support::{Random, Shared};
 
 use Side::{Open, Periodic};
 
-const LANES: Machine = Machine { software: false, subgroup: 0, invocations: 1 << 18 };
-const EIGHT: Machine = Machine { software: true, subgroup: 8, invocations: 256 };
+const LANES: Machine = Machine { software: false, subgroup: 0, invocations: 1 << 18, ..Machine::HOST };
+const EIGHT: Machine = Machine { software: true, subgroup: 8, invocations: 256, ..Machine::HOST };
 /// The grid of a law, and the law.
 fn plan(law: Law, problem: &Problem) -> Plan {
     let (grid, moving) = law.grid(problem).expect("a range").expect("a grid");
@@ -139,7 +139,7 @@ fn open(device: &Device, machines: &[Machine], stages: &mut Vec<Stage>) {
         stages.push(here.stage("near, lattice", law(STILL, near(2.0)), *machine, nothing));
         stages.push(here.stage("near, one species", law(CHOOSY, one), *machine, nothing));
     }
-    let machine = Machine { software: true, subgroup: 0, invocations: 1 };
+    let machine = Machine::HOST;
     let kernel = law(TOUCHING, Over::Within { range: 2.0 }).kernel(&here.problem(machine)).expect("a search");
     stages.push(here.run("within", alone(kernel), machine));
 

@@ -91,8 +91,8 @@ fn motions(device: &Device, stages: &mut Vec<Stage>) {
 
 /// What fluids want, with sound and without.
 fn wants(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
-    let lanes = Machine { software: false, subgroup: 0, invocations: 1 << 18 };
-    let eight = Machine { software: true, subgroup: 8, invocations: 256 };
+    let lanes = Machine { software: false, subgroup: 0, invocations: 1 << 18, ..Machine::HOST };
+    let eight = Machine { software: true, subgroup: 8, invocations: 256, ..Machine::HOST };
     let machines = if subgroups_of_eight(shared) { vec![lanes, eight] } else { vec![lanes] };
     for machine in machines {
         for silent in [false, true] {

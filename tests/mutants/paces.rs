@@ -30,7 +30,7 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("integrators/pace.wgsl", "} else if whole < 3u {", "3u", "4u", FAR),
 ];
 
-pub const MACHINE: Machine = Machine { software: true, subgroup: 0, invocations: 1 };
+pub const MACHINE: Machine = Machine::HOST;
 /// As in [`moving`].
 pub const DT: f64 = 0.37;
 const TICKS: u32 = 1 << 24;

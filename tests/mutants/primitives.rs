@@ -8,8 +8,8 @@ use motes::primitives::{Items, Operation, counting_sort, fill, histogram, radix_
 use crate::stages::{Device, Stage, moving};
 use crate::support::machines::alone;
 
-const GPU: Machine = Machine { software: false, subgroup: 0, invocations: 1 << 18 };
-const SOFTWARE: Machine = Machine { software: true, subgroup: 0, invocations: 256 };
+const GPU: Machine = Machine { software: false, subgroup: 0, invocations: 1 << 18, ..Machine::HOST };
+const SOFTWARE: Machine = Machine { software: true, subgroup: 0, invocations: 256, ..Machine::HOST };
 /// Fields of other names than the shaders give them.
 const CELLS: Name = Name::Borrowed("cells");
 const IDS: Name = Name::Borrowed("ids");

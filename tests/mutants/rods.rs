@@ -50,7 +50,7 @@ fn tied(device: &Device, back: f64) -> (Simulation<Gpu>, Links, Vec<Held>) {
 }
 
 fn kernel(links: &Links, held: &[Held], write: impl Fn(&mut Plan, &Problem)) -> Kernel {
-    let machine = Machine { software: true, subgroup: 0, invocations: 1 };
+    let machine = Machine::HOST;
     let problem = Problem::new(u32::try_from(FEW).expect("few"), machine).tied(links, held);
     let mut plan = Plan::default();
     write(&mut plan, &problem);

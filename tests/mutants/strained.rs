@@ -12,7 +12,7 @@ use crate::support::states::force;
 
 /// A sweep over springs of which some lack stiffness, or damping, or both, between ends of which one or both are held.
 pub fn all(device: &Device, stages: &mut Vec<Stage>) {
-    let machine = Machine { software: true, subgroup: 0, invocations: 1 };
+    let machine = Machine::HOST;
     let mut links = support::links(FEW);
     for (place, spring) in links.springs.iter_mut().enumerate() {
         [spring.stiffness, spring.damping] = [[0.7, 0.0], [0.0, 0.3], [0.0, 0.0], [2.5, 1.5]][place % 13 % 4];

@@ -14,7 +14,7 @@ use crate::support::equivalents::{Equivalent, same};
 use crate::support::machines::alone;
 use crate::support::{Random, Shared};
 
-const MACHINE: Machine = Machine { software: true, subgroup: 0, invocations: 256 };
+const MACHINE: Machine = Machine { software: true, subgroup: 0, invocations: 256, ..Machine::HOST };
 
 const EDGE: &str = "no cube is just so wide";
 

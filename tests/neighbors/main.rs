@@ -42,9 +42,9 @@ impl Force for Curious {
 
 /// The machines whose files differ.
 fn variants(shared: &Shared) -> Vec<(&'static str, Machine)> {
-    let mut all = vec![("lanes", Machine { software: false, subgroup: 0, invocations: 1 << 18 })];
+    let mut all = vec![("lanes", Machine { software: false, subgroup: 0, invocations: 1 << 18, ..Machine::HOST })];
     if machines::subgroups_of_eight(shared) {
-        all.push(("subgroup", Machine { software: true, subgroup: 8, invocations: 256 }));
+        all.push(("subgroup", Machine { software: true, subgroup: 8, invocations: 256, ..Machine::HOST }));
     }
     all
 }

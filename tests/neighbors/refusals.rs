@@ -16,7 +16,7 @@ fn cloud(count: usize) -> Vec<DVec3> {
 }
 
 fn refusal(over: Over) -> String {
-    let machine = Machine { software: true, subgroup: 0, invocations: 1 };
+    let machine = Machine::HOST;
     let forces: [Box<dyn Force>; 1] = [Box::new(Whole(over))];
     let mut step = Step::new(&forces, Problem::new(10, machine));
     step.evaluate();
@@ -67,7 +67,7 @@ impl Force for Half {
 
 #[test]
 fn a_law_that_meets_nobody_is_refused() {
-    let machine = Machine { software: true, subgroup: 0, invocations: 1 };
+    let machine = Machine::HOST;
     for over in [Over::Near { range: 1.0, of: None }, Over::Nearest { count: 3 }] {
         let forces: [Box<dyn Force>; 1] = [Box::new(Half(over))];
         let mut step = Step::new(&forces, Problem::new(10, machine));

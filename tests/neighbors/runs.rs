@@ -60,7 +60,7 @@ fn the_same_bits_in_any_batches() {
 
 #[test]
 fn a_grid_is_built_once_for_all_who_search_it() {
-    let machine = Machine { software: false, subgroup: 0, invocations: 1 << 18 };
+    let machine = Machine { software: false, subgroup: 0, invocations: 1 << 18, ..Machine::HOST };
     let near = |range, of| Over::Near { range, of };
     let overs = [near(0.4, None), near(0.25, None), near(0.4, None), Over::Nearest { count: 7 }, near(0.4, Some(1))];
     let setup = setup(&overs, periodic(), "rk4", 1e-3);

@@ -14,7 +14,7 @@ const COUNTS: [u32; 9] = [1, 2, 31, 33, 1000, 1 << 20, (1 << 23) + 1, u32::MAX /
 const LENGTHS: [f64; 7] = [0.0, 1e-30, 1e-10, 1.0, 1e10, 1e30, 3e38];
 
 fn problems() -> impl Iterator<Item = Problem> {
-    let machine = Machine { software: false, subgroup: 0, invocations: 1 << 18 };
+    let machine = Machine { software: false, subgroup: 0, invocations: 1 << 18, ..Machine::HOST };
     let shapes = LENGTHS.into_iter().flat_map(|a| LENGTHS.map(|b| DVec3::new(a, b, 1.0)));
     shapes.flat_map(move |size| {
         SIDES.into_iter().flat_map(move |side| {
@@ -59,7 +59,7 @@ fn every_grid_can_be_indexed_and_bound() {
 
 #[test]
 fn every_target_is_in_one_dispatch() {
-    let machine = Machine { software: false, subgroup: 0, invocations: 1 << 18 };
+    let machine = Machine { software: false, subgroup: 0, invocations: 1 << 18, ..Machine::HOST };
     for count in [1, 1 << 20, (1 << 20) + 1, (1 << 23) + 77, u32::MAX / 2, u32::MAX] {
         let law = Whole(Over::Near { range: 0.1, of: None }).laws().remove(0);
         let kernel = law.kernel(&Problem::new(count, machine)).expect("a kernel");

@@ -25,7 +25,7 @@ fn its_numbers_are_direct_sums() {
     simulation.step(2).expect("steps");
     let mut snapshot = pollster::block_on(simulation.snapshot()).expect("a snapshot");
     let density = pollster::block_on(simulation.read(DENSITY)).expect("densities");
-    let problem = setup.problem(Machine { software: true, subgroup: 0, invocations: 1 }).expect("a problem");
+    let problem = setup.problem(Machine::HOST).expect("a problem");
     let medium = setup.forces[1].fluid(&problem).expect("a fluid").expect("a medium").medium;
     let ledger = |snapshot: &motes::Snapshot, density: &[f32]| {
         Ledger::of(snapshot, density, &medium, &setup.bounds, |id| problem.is_held(id))

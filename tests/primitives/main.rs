@@ -16,8 +16,8 @@ use support::machines::{alone, gpu};
 
 /// The variants: for GPUs, and for processors that play one.
 const MACHINES: [(&str, Machine); 2] = [
-    ("gpu", Machine { software: false, subgroup: 0, invocations: 1 << 18 }),
-    ("software", Machine { software: true, subgroup: 0, invocations: 256 }),
+    ("gpu", Machine { software: false, subgroup: 0, invocations: 1 << 18, ..Machine::HOST }),
+    ("software", Machine { software: true, subgroup: 0, invocations: 256, ..Machine::HOST }),
 ];
 
 /// A device of its own for every kernel, since a field has one length for good.

@@ -98,6 +98,6 @@ fn plans_for_the_most_stay_within_the_limits() {
             assert!(matches!(&error, Some(Error::Limit(text)) if text.contains("134217729")), "{error:?}");
         }
     }
-    let unused = Machine { software: false, subgroup: 8, invocations: 1 };
+    let unused = Machine { software: false, subgroup: 8, invocations: 1, ..Machine::HOST };
     assert_eq!(scan::blocks(MOST, &unused), 65_536);
 }

@@ -8,7 +8,7 @@ use super::Shared;
 
 /// Machines that bring about each file of `pairs`, in one layer and in many. Subgroups only where the device has them.
 pub fn machines(shared: &Shared) -> Vec<(&'static str, Machine)> {
-    let machine = |software, subgroup, invocations| Machine { software, subgroup, invocations };
+    let machine = |software, subgroup, invocations| Machine { software, subgroup, invocations, ..Machine::HOST };
     let mut all = vec![
         ("tile", machine(false, 0, 1)),
         ("tile in layers", machine(false, 0, 1 << 18)),

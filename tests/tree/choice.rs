@@ -11,7 +11,7 @@ use crate::walks::{Settings, USUAL, Walk, gravity, walks};
 #[test]
 fn auto_is_whichever_is_faster() {
     for software in [false, true] {
-        let machine = Machine { software, subgroup: 0, invocations: 1 << 18 };
+        let machine = Machine { software, subgroup: 0, invocations: 1 << 18, ..Machine::HOST };
         let at = crossing(&machine);
         for (count, tree) in [(1, false), (at - 1, false), (at, true), (at + 1, true)] {
             let problem = Problem::new(count, machine);
@@ -28,7 +28,7 @@ fn auto_is_whichever_is_faster() {
 
 #[test]
 fn an_opening_angle_is_above_0_and_1_at_most() {
-    let problem = Problem::new(100, Machine { software: false, subgroup: 0, invocations: 1 });
+    let problem = Problem::new(100, Machine { software: false, subgroup: 0, invocations: 1, ..Machine::HOST });
     for alpha in [0.0, 0.005] {
         for theta in [1.001, 2.0, 0.0, -0.5, 1e-300, f64::NAN, 1e-6, 0.01, 1.0] {
             let law = gravity("tree", Settings { theta, alpha, ..USUAL }).laws().swap_remove(0);
@@ -46,7 +46,7 @@ fn an_opening_angle_is_above_0_and_1_at_most() {
 /// What no device here holds can still be planned; of nobody there is nothing to walk.
 #[test]
 fn plans_for_none_and_for_the_most() {
-    for machine in [true, false].map(|software| Machine { software, subgroup: 8, invocations: 1 }) {
+    for machine in [true, false].map(|software| Machine { software, subgroup: 8, invocations: 1, ..Machine::HOST }) {
         for (count, least) in [(0, 0), (1, 1), (33, 1), ((1 << 18) + 1, 2), (1 << 27, 512)] {
             let law = gravity("tree", USUAL).laws().swap_remove(0);
             let kernel = law.kernel(&Problem::new(count, machine)).expect("a kernel");

@@ -9,8 +9,8 @@ use crate::support::{Random, Shared, machines};
 
 /// The variants of the sort and of reductions: for GPUs, and for processors that play one.
 pub const MACHINES: [Machine; 2] = [
-    Machine { software: true, subgroup: 0, invocations: 256 },
-    Machine { software: false, subgroup: 0, invocations: 1 << 18 },
+    Machine { software: true, subgroup: 0, invocations: 256, ..Machine::HOST },
+    Machine { software: false, subgroup: 0, invocations: 1 << 18, ..Machine::HOST },
 ];
 pub const GEOMETRIC: Opening = Opening::Geometric { theta: 0.7 };
 pub const RELATIVE: Opening = Opening::Relative { alpha: 0.005, g: 1.3, theta: 0.6 };

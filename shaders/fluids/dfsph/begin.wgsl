@@ -8,6 +8,8 @@
 @group(3) @binding(7) var<storage, read_write> dfsph_state: array<State>;
 @group(3) @binding(9) var<storage, read> kept_stiffness: array<Stiffness>;
 
+// The cells of the fluid: behind the last of them stand walls, and nobody.
+override CELLS: u32 = 1u;
 override FEWEST: f32 = 0.0;
 override WARM: f32 = 0.0;
 override RELAXATION: f32 = 0.0;
@@ -22,7 +24,7 @@ fn begin(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: v
     if k == 0u { dfsph_state[0] = State(); }
     let id = sorted_id[k];
     errors[k] = 0.0;
-    if is_held(id) {
+    if k >= starts[CELLS] {
         unknowns[k] = Unknown(WALL, 0.0, 0.0, 0.0);
         pushes[k] = vec4f();
         return;

@@ -15,9 +15,9 @@ fn collect(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups:
     if k >= world.count { return; }
     if k == 0u { dfsph_state[1] = State(); }
     let id = sorted_id[k];
-    stiffness[id].divergence = max(unknowns[k].stiffness, 0.0);
     // Walls move as they are led.
     if unknowns[k].stiffness >= 0.0 {
+        stiffness[id].divergence = unknowns[k].stiffness;
         acceleration[id] += vec4f(pushes[k].xyz, 0.0);
         pushes[k] = vec4f(acceleration[id].xyz, 1.0);
     }

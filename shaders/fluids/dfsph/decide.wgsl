@@ -4,9 +4,14 @@ struct Extent { elements: u32, chunk: u32 }
 @group(3) @binding(6) var<storage, read> errors: array<f32>;
 @group(3) @binding(7) var<storage, read_write> dfsph_state: array<State>;
 @group(3) @binding(11) var<uniform> extent: Extent;
+@group(3) @binding(15) var<storage, read_write> dfsph_go: array<u32>;
+
+// Two kernels' workgroups in three dimensions.
+const EACH: u32 = 6u;
 
 override SOLVE: u32 = 0u;
-override SHARE: f32 = 1.0;
+// The cells of the fluid, behind which it ends.
+override CELLS: u32 = 1u;
 override TOLERANCE: f32 = 0.0;
 override LEAST: f32 = 0.0;
 override MOST: f32 = 0.0;
@@ -20,7 +25,7 @@ fn decide(@builtin(local_invocation_index) lane: u32) {
     for (var k = lane; k < end; k += WORKGROUP) { sum += errors[k]; }
     sum = total(lane, vec4f(sum)).x;
     if lane == 0u && goes {
-        state.error = sum * SHARE;
+        state.error = sum / max(f32(starts[CELLS]), 1.0);
         state.iterations += 1.0;
         if broken(vec4f(sum)) {
             state.code = 2.0;
@@ -30,5 +35,8 @@ fn decide(@builtin(local_invocation_index) lane: u32) {
             state.code = 3.0;
         }
         dfsph_state[SOLVE] = state;
+        if state.code != 0.0 {
+            for (var n = 0u; n < EACH; n += 1u) { dfsph_go[SOLVE * EACH + n] = 0u; }
+        }
     }
 }

@@ -13,9 +13,10 @@ fn finish(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: 
     let k = folded(group, groups) * WORKGROUP + lane;
     if k >= world.count { return; }
     let id = sorted_id[k];
-    let unknown = unknowns[k];
-    let mine = max(unknown.stiffness, 0.0);
-    stiffness[id].density = mine;
-    pressure[id] = medium.density * (stiffness[id].divergence + mine);
-    if unknown.stiffness >= 0.0 { acceleration[id] += vec4f(pushes[k].xyz, 0.0); }
+    let mine = unknowns[k].stiffness;
+    if mine >= 0.0 {
+        stiffness[id].density = mine;
+        pressure[id] = medium.density * (stiffness[id].divergence + mine);
+        acceleration[id] += vec4f(pushes[k].xyz, 0.0);
+    }
 }

@@ -9,9 +9,9 @@ override SOLVE: u32 = 0u;
 // A solve that is done stays done.
 fn acts_on(me: Particle) -> bool { return me.stiffness >= 0.0 && dfsph_state[SOLVE].code == 0.0; }
 
-fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
+fn meet(me: Particle, you: Particle, slope: vec3f, sum: ptr<function, Sum>) {
     let yours = select(you.stiffness, me.stiffness, you.stiffness < 0.0);
-    (*sum).acceleration += (you.mass / medium.density * (me.stiffness + yours) * gradient(r)) * r;
+    (*sum).acceleration += (me.stiffness + yours) * slope;
 }
 
 fn deliver(k: u32, me: Particle, sum: Sum) { pushes[k] = vec4f(sum.acceleration, 1.0); }

@@ -19,8 +19,8 @@ pub fn collect(of: &Dfsph<'_>) -> Result<Kernel, Error> {
         let mut kappa = host.writing::<f32>(KAPPA)?;
         host.writing::<f32>(STATES)?[STATE..].fill(0.0);
         for (k, id) in slots(host)?.into_iter().enumerate() {
-            kappa[STIFFNESS * id] = unknowns[UNKNOWN * k].max(0.0);
             if unknowns[UNKNOWN * k] >= 0.0 {
+                kappa[STIFFNESS * id] = unknowns[UNKNOWN * k];
                 acceleration[id] += pushes[k].truncate().extend(0.0);
                 pushes[k] = acceleration[id].truncate().extend(1.0);
             }
@@ -42,7 +42,7 @@ pub fn predict(of: &Dfsph<'_>) -> Result<Kernel, Error> {
         let (responses, kept) = (host.reading::<f32>(&responses)?, host.reading::<f32>(KEPT)?);
         let mut unknowns = host.writing::<f32>(&unknowns)?;
         for (k, id) in ids.into_iter().enumerate() {
-            let Some(change) = changes[id] else { continue };
+            let Some(change) = changes[k] else { continue };
             let response = &responses[RESPONSE * k..];
             let relaxation = relaxes * response[1] / (dt * dt);
             let source = -(response[0] + dt * (response[2] + dt * change));

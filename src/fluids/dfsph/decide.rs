@@ -2,9 +2,11 @@
 
 use std::sync::Arc;
 
+use super::go::{self, GO, Told, sized, told};
 use super::{Dfsph, ERRORS, STATE, STATES, Solve, with};
 use crate::error::Error;
 use crate::kernel::{Host, Kernel, Scalar};
+use crate::neighbors::STARTS;
 
 const PARTS: &str = "parts";
 /// Invocations of a workgroup, as in solve_total.wgsl.
@@ -16,7 +18,7 @@ const CHUNK: u32 = 1 << 11;
 
 /// The kernels: one where there are few particles, else two.
 pub fn kernels(of: &Dfsph<'_>, solve: Solve) -> Result<Vec<Kernel>, Error> {
-    let count = of.problem.count;
+    let count = of.grid.ahead(of.problem).max(1);
     if count <= ALONE {
         return Ok(vec![decide(of, solve, ERRORS, count)?]);
     }
@@ -28,13 +30,13 @@ fn extent(elements: u32) -> [(&'static str, Scalar); 2] {
 }
 
 fn tally(of: &Dfsph<'_>, solve: Solve) -> Result<Kernel, Error> {
-    let (count, errors, parts) = (of.problem.count, of.name(ERRORS), of.name(PARTS));
+    let (count, errors, parts) = (of.grid.ahead(of.problem).max(1), of.name(ERRORS), of.name(PARTS));
     let groups = count.div_ceil(CHUNK);
     let (from, to) = (errors.clone(), parts.clone());
     let twin = move |host: &Host| {
         if Dfsph::goes(host, solve)? {
             let errors = host.reading::<f32>(&from)?;
-            let sums = errors.chunks(CHUNK as usize).map(|run| run.iter().sum());
+            let sums = errors[..errors.len().min(count as usize)].chunks(CHUNK as usize).map(|run| run.iter().sum());
             host.writing::<f32>(&to)?.iter_mut().zip(sums).for_each(|(part, sum): (_, f64)| *part = sum);
         }
         Ok(())
@@ -44,22 +46,22 @@ fn tally(of: &Dfsph<'_>, solve: Solve) -> Result<Kernel, Error> {
     let mut kernel = of.plain(&name, &files, &extent(count), groups * WORKGROUP, Arc::new(twin))?;
     kernel.passes[0].fields.push((PARTS, parts.clone()));
     kernel.sizes.push((parts, u64::from(groups)));
-    Ok(with(kernel, &[("SOLVE", f64::from(solve as u32))]))
+    Ok(told(with(kernel, &[("SOLVE", f64::from(solve as u32))]), solve, Told::Tally))
 }
 
 fn decide(of: &Dfsph<'_>, solve: Solve, what: &'static str, elements: u32) -> Result<Kernel, Error> {
     let asked = of.asked;
     let tolerance = if solve == Solve::Density { asked.density } else { asked.divergence };
-    let held = u32::try_from(of.problem.held.len()).unwrap_or(u32::MAX);
-    let share = 1.0 / f64::from(of.problem.count.saturating_sub(held).max(1));
+    let (starts, cells) = (of.name(STARTS), of.grid.count() as usize);
     let field = of.name(what);
     let from = field.clone();
     let twin = move |host: &Host| {
         let sum: f64 = host.reading::<f32>(&from)?.iter().take(elements as usize).sum();
+        let fluid = host.reading::<u32>(&starts)?.get(cells).map_or(1, |n| (*n).max(1));
         let mut states = host.writing::<f32>(STATES)?;
         let state = &mut states[STATE * solve as usize..STATE * (solve as usize + 1)];
         if state[1] == 0.0 {
-            state[2] = sum * share;
+            state[2] = sum / f64::from(fluid);
             state[0] += 1.0;
             state[1] = if !sum.is_finite() {
                 2.0
@@ -70,6 +72,10 @@ fn decide(of: &Dfsph<'_>, solve: Solve, what: &'static str, elements: u32) -> Re
             } else {
                 0.0
             };
+            if state[1] != 0.0 {
+                let from = go::SOLVE * solve as usize;
+                host.writing::<u32>(GO)?[from..from + go::SOLVE].fill(0);
+            }
         }
         Ok(())
     };
@@ -85,12 +91,6 @@ fn decide(of: &Dfsph<'_>, solve: Solve, what: &'static str, elements: u32) -> Re
     fields.push((ERRORS, field.clone()));
     kernel.sizes.push((field, u64::from(elements)));
     let (least, most) = (f64::from(asked.least), f64::from(asked.most));
-    let constants = [
-        ("SOLVE", f64::from(solve as u32)),
-        ("SHARE", share),
-        ("TOLERANCE", tolerance),
-        ("LEAST", least),
-        ("MOST", most),
-    ];
-    Ok(with(kernel, &constants))
+    let constants = [("SOLVE", f64::from(solve as u32)), ("TOLERANCE", tolerance), ("LEAST", least), ("MOST", most)];
+    Ok(sized(with(kernel, &constants)))
 }

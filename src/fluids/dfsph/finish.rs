@@ -18,10 +18,10 @@ pub fn kernel(of: &Dfsph<'_>) -> Result<Kernel, Error> {
         let (mut kappa, mut pressure) = (host.writing::<f32>(KAPPA)?, host.write(PRESSURE)?);
         let mut acceleration = host.write(ACCELERATION)?;
         for (k, id) in slots(host)?.into_iter().enumerate() {
-            let mine = unknowns[UNKNOWN * k].max(0.0);
-            kappa[STIFFNESS * id + 1] = mine;
-            pressure[id] = medium.density * (kappa[STIFFNESS * id] + mine);
-            if unknowns[UNKNOWN * k] >= 0.0 {
+            let mine = unknowns[UNKNOWN * k];
+            if mine >= 0.0 {
+                kappa[STIFFNESS * id + 1] = mine;
+                pressure[id] = medium.density * (kappa[STIFFNESS * id] + mine);
                 acceleration[id] += pushes[k].truncate().extend(0.0);
             }
         }

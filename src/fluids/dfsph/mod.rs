@@ -9,15 +9,19 @@ mod begin;
 mod collect;
 mod decide;
 mod finish;
+mod go;
 mod keep;
+mod pairs;
 mod push;
 mod response;
 
 use super::Medium;
 use crate::error::Error;
 use crate::kernel::{Host, Kernel, Name, Pass, Plan, Problem, Scalar, Shader, Source, Twin};
-use crate::neighbors::{Grid, SORTED_ID};
+use crate::neighbors::{Grid, SORTED_ID, SORTED_POSITION, SORTED_VELOCITY, STARTS};
 use crate::visit::{Sweep, blocks};
+
+use pairs::Pairs;
 
 pub use keep::{ERRORS as DFSPH_ERRORS, REPORT as DFSPH_REPORT, WORDS as DFSPH_WORDS};
 
@@ -45,6 +49,9 @@ enum Solve {
 /// of it that column does not come to rest.
 const WARM: f64 = 0.5;
 
+/// The κ of walls.
+const WALL: f64 = -1.0;
+
 /// The members of the shaders' structs, in their order.
 const RESPONSE: usize = 4;
 const UNKNOWN: usize = 4;
@@ -55,6 +62,7 @@ const RESPONSES: &str = "responses";
 const UNKNOWNS: &str = "unknowns";
 const PUSHES: &str = "pushes";
 const ERRORS: &str = "errors";
+const PAIRS: &str = "pairs";
 const STATES: &str = "dfsph_state";
 const KAPPA: &str = "stiffness";
 const KEPT: &str = "kept_stiffness";
@@ -65,6 +73,7 @@ pub struct Dfsph<'a> {
     asked: Asked,
     problem: &'a Problem,
     grid: Grid,
+    pairs: Option<Pairs>,
 }
 
 impl<'a> Dfsph<'a> {
@@ -74,19 +83,23 @@ impl<'a> Dfsph<'a> {
     /// [`Error::Scene`] when that cannot be had.
     pub fn new(medium: Medium, asked: Asked, problem: &'a Problem) -> Result<Self, Error> {
         asked.check()?;
-        Ok(Self { medium, asked, problem, grid: medium.grid(problem)? })
+        let grid = medium.grid(problem)?;
+        let pairs = Pairs::fitting(&medium, &grid, problem);
+        Ok(Self { medium, asked, problem, grid, pairs })
     }
     /// Adds both solves to a plan in which all else that accelerates has been felt.
     ///
     /// # Errors
     /// When a shader does not compile.
     pub fn evaluate(&self, plan: &mut Plan) -> Result<(), Error> {
+        let iterations = [self.iteration(Solve::Divergence)?, self.iteration(Solve::Density)?];
         plan.add(response::kernel(self)?);
         plan.add(begin::kernel(self)?);
-        self.iterate(plan, Solve::Divergence)?;
+        plan.add(go::kernel(self, &iterations)?);
+        self.iterate(plan, &iterations[0]);
         plan.add(collect::collect(self)?);
         plan.add(collect::predict(self)?);
-        self.iterate(plan, Solve::Density)?;
+        self.iterate(plan, &iterations[1]);
         plan.add(finish::kernel(self)?);
         Ok(())
     }
@@ -98,15 +111,15 @@ impl<'a> Dfsph<'a> {
         plan.add(keep::kernel(self)?);
         Ok(())
     }
-    fn iterate(&self, plan: &mut Plan, solve: Solve) -> Result<(), Error> {
+    fn iteration(&self, solve: Solve) -> Result<Vec<Kernel>, Error> {
         let mut kernels = vec![push::push(self, solve)?, push::correct(self, solve)?];
         kernels.extend(decide::kernels(self, solve)?);
+        Ok(kernels)
+    }
+    fn iterate(&self, plan: &mut Plan, iteration: &[Kernel]) {
         for _ in 0..self.asked.most {
-            for kernel in &kernels {
-                plan.add(kernel.clone());
-            }
+            iteration.iter().for_each(|kernel| plan.add(kernel.clone()));
         }
-        Ok(())
     }
     /// ω of Jacobi's method. With Nesterov's it may be up to 4/3 over the largest eigenvalue of the matrix over its diagonal; that is
     /// found by the power method in jittered blocks to be 2.7 in two dimensions and 3.5 in three where the support is two
@@ -123,18 +136,46 @@ impl<'a> Dfsph<'a> {
     fn name(&self, field: &'static str) -> Name {
         self.grid.field(field).1
     }
-    /// The ids in the order of the grid.
+    /// The ids in the order of the grid: of the fluid, which stands before all others, where it is known how many that are. Else
+    /// some stand there too who are of walls, or not at all; what is known of slots says so.
     fn slots(&self) -> impl Fn(&Host) -> Result<Vec<usize>, Error> + Send + Sync + use<> {
-        let sorted = self.name(SORTED_ID);
-        move |host| Ok(host.reading::<u32>(&sorted)?.iter().map(|id| *id as usize).collect())
+        let fluid = self.grid.of_those_ahead();
+        move |host| {
+            let (ids, starts) = (fluid.occupants(host)?, fluid.field(STARTS).1);
+            let all = ids.len();
+            let starts = if host.contains(&starts) { host.reading::<u32>(&starts)?.to_vec() } else { Vec::new() };
+            let end = starts.get(fluid.count() as usize).map_or(all, |n| *n as usize);
+            Ok(ids.iter().take(end).map(|id| *id as usize).collect())
+        }
     }
-    /// A search, of files that know what `state.wgsl` says.
-    fn sweep(&self, name: String, files: Vec<Source>, twin: Twin) -> Result<Kernel, Error> {
+    /// What a search is made of, of files that know what `state.wgsl` says.
+    fn files(&self, own: Vec<Source>) -> Vec<Source> {
         let mut all = vec![crate::shader!("fluids/dfsph/state.wgsl"), self.medium.smoothing.source()];
         all.push(crate::shader!("fluids/medium.wgsl"));
-        all.extend(files);
-        let sweep = Sweep { name, grid: self.grid.clone(), files: all, blocks: vec![self.medium.block()], twin };
-        Ok(self.bound(sweep.kernel(self.problem)?))
+        all.extend(own);
+        all
+    }
+    /// A search of all pairs, before these are known, with a `gather` of where they are.
+    fn search(&self, name: &str, files: Vec<Source>, twin: Twin) -> Result<Kernel, Error> {
+        let all = self.files(files);
+        let kernel = match self.pairs {
+            Some(pairs) => pairs.find(self, name, all, twin)?,
+            None => self.walk(name.to_owned(), all, twin)?,
+        };
+        Ok(self.bound(kernel))
+    }
+    /// A sweep over all pairs: each `meet`s the other with its V g r.
+    fn sweep(&self, name: String, files: Vec<Source>, twin: Twin) -> Result<Kernel, Error> {
+        let mut all = self.files(files);
+        if let Some(pairs) = self.pairs {
+            return Ok(self.bound(pairs.sweep(self, name, all, twin)?));
+        }
+        all.push(crate::shader!("fluids/dfsph/walked.wgsl"));
+        Ok(self.bound(self.walk(name, all, twin)?))
+    }
+    fn walk(&self, name: String, files: Vec<Source>, twin: Twin) -> Result<Kernel, Error> {
+        let sweep = Sweep { name, grid: self.grid.clone(), files, blocks: vec![self.medium.block()], twin };
+        sweep.kernel(self.problem)
     }
     /// A kernel over slots or particles, or of so many invocations.
     fn plain(
@@ -146,22 +187,28 @@ impl<'a> Dfsph<'a> {
         twin: Twin,
     ) -> Result<Kernel, Error> {
         let mut all = vec![crate::shader!("world.wgsl"), crate::shader!("fields.wgsl")];
-        all.extend([crate::shader!("fluids/dfsph/state.wgsl"), self.medium.smoothing.source()]);
-        all.push(crate::shader!("fluids/medium.wgsl"));
-        all.extend_from_slice(files);
+        all.push(crate::shader!("neighbors/starts.wgsl"));
+        all.extend(self.files(files.to_vec()));
         let shader = Shader::join(&all)?;
         let uniforms = blocks(name, &shader, &[self.medium.block(), ("extent", extent.to_vec())])?;
-        let pass = Pass { uniforms, ..Pass::new(shader.clone(), threads) };
+        let fluid = self.grid.of_those_ahead();
+        let pass = Pass { constants: fluid.constants(&shader), uniforms, ..Pass::new(shader.clone(), threads) };
         let kernel = Kernel { passes: vec![pass], ..Kernel::new(name, shader, Vec::new(), threads, twin) };
         Ok(self.bound(kernel))
     }
     /// The same with the fields of the grid, and the sizes of what does not have one element for each particle.
     fn bound(&self, mut kernel: Kernel) -> Kernel {
-        let fields = [SORTED_ID, RESPONSES, UNKNOWNS, PUSHES, ERRORS].map(|name| self.grid.field(name));
+        let sorted = [STARTS, SORTED_ID, SORTED_POSITION, SORTED_VELOCITY];
+        let own = [RESPONSES, UNKNOWNS, PUSHES, ERRORS];
+        let fields: Vec<_> = sorted.iter().chain(&own).map(|name| self.grid.field(name)).collect();
         for pass in &mut kernel.passes {
             let bound = |name: &str| pass.fields.iter().any(|(inside, _)| *inside == name);
             let new: Vec<_> = fields.iter().filter(|(name, _)| !bound(name)).cloned().collect();
             pass.fields.extend(new);
+        }
+        let (starts, bins) = (self.name(STARTS), u64::from(self.grid.count() * self.grid.layers()) + 1);
+        if kernel.size(&starts).is_none() {
+            kernel.sizes.push((starts, bins));
         }
         kernel.sizes.extend([(STATES.into(), 2), (keep::REPORT.into(), keep::WORDS as u64), (keep::ERRORS.into(), 2)]);
         kernel

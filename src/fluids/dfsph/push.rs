@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use glam::{DVec3, Vec4};
 
-use super::{Dfsph, ERRORS, PUSHES, STATE, STATES, Solve, UNKNOWN, UNKNOWNS, with};
+use super::go::{Told, told};
+use super::{Dfsph, ERRORS, PUSHES, STATE, STATES, Solve, UNKNOWN, UNKNOWNS, WALL, with};
 use crate::error::Error;
 use crate::fluids::Medium;
 use crate::kernel::{Host, Kernel, Name};
@@ -19,10 +20,10 @@ pub fn push(of: &Dfsph<'_>, solve: Solve) -> Result<Kernel, Error> {
             return Ok(());
         }
         let (ids, unknowns) = (slots(host)?, host.reading::<f32>(&unknowns)?);
-        let (mut kappa, mut solved) = (vec![0.0; ids.len()], vec![false; ids.len()]);
-        for (id, unknown) in ids.iter().zip(unknowns.chunks_exact(UNKNOWN)) {
-            (kappa[*id], solved[*id]) = (unknown[0], unknown[0] >= 0.0);
-        }
+        let count = host.world().count as usize;
+        let (mut kappa, mut solved) = (vec![WALL; count], vec![false; count]);
+        let all = || ids.iter().zip(unknowns.chunks_exact(UNKNOWN)).filter(|(_, unknown)| unknown[0] >= 0.0);
+        all().for_each(|(id, unknown)| (kappa[*id], solved[*id]) = (unknown[0], true));
         let sums = gathered(
             host,
             medium.range(),
@@ -33,8 +34,8 @@ pub fn push(of: &Dfsph<'_>, solve: Solve) -> Result<Kernel, Error> {
             },
         )?;
         let mut pushes = host.writing::<Vec4>(&pushes)?;
-        for (push, id) in pushes.iter_mut().zip(ids) {
-            if let Some(sum) = sums[id] {
+        for ((push, id), unknown) in pushes.iter_mut().zip(&ids).zip(unknowns.chunks_exact(UNKNOWN)) {
+            if let Some(sum) = sums[*id].filter(|_| unknown[0] >= 0.0) {
                 *push = sum.extend(1.0);
             }
         }
@@ -42,15 +43,16 @@ pub fn push(of: &Dfsph<'_>, solve: Solve) -> Result<Kernel, Error> {
     };
     let files = vec![crate::shader!("fluids/dfsph/stiff.wgsl"), crate::shader!("fluids/dfsph/push.wgsl")];
     let kernel = of.sweep(format!("fluid {} push", solve.name()), files, Arc::new(twin))?;
-    Ok(with(kernel, &[("SOLVE", f64::from(solve as u32))]))
+    Ok(told(with(kernel, &[("SOLVE", f64::from(solve as u32))]), solve, Told::Sweep))
 }
 
-/// How fast accelerations make the density grow, as a part of that at rest, by id; of those that are solved for.
+/// How fast accelerations make the density grow, as a part of that at rest, by slot; of those that are solved for.
 pub fn changes(host: &Host, medium: &Medium, ids: &[usize], pushes: &Name) -> Result<Vec<Option<f64>>, Error> {
-    let mut felt = vec![glam::DVec4::ZERO; ids.len()];
+    let mut felt = vec![glam::DVec4::ZERO; host.world().count as usize];
     let pushes = host.reading::<Vec4>(pushes)?;
-    ids.iter().zip(pushes.iter()).for_each(|(id, push)| felt[*id] = *push);
-    gathered(
+    let solved = ids.iter().zip(pushes.iter()).filter(|(_, push)| push.w > 0.0);
+    solved.for_each(|(id, push)| felt[*id] = *push);
+    let changes = gathered(
         host,
         medium.range(),
         |me| felt[me.index].w > 0.0,
@@ -58,7 +60,8 @@ pub fn changes(host: &Host, medium: &Medium, ids: &[usize], pushes: &Name) -> Re
             let way = (felt[you.index] - felt[me.index]).truncate();
             *sum += you.mass / medium.density * medium.gradient(r) * way.dot(r);
         },
-    )
+    )?;
+    Ok(ids.iter().zip(pushes.iter()).map(|(id, push)| changes[*id].filter(|_| push.w > 0.0)).collect())
 }
 
 /// Pressure by what they compress.
@@ -74,8 +77,8 @@ pub fn correct(of: &Dfsph<'_>, solve: Solve) -> Result<Kernel, Error> {
         let onward = turn / (turn + 3.0);
         let changes = changes(host, &medium, &ids, &pushes)?;
         let (mut unknowns, mut errors) = (host.writing::<f32>(&unknowns)?, host.writing::<f32>(&errors)?);
-        for ((unknown, error), id) in unknowns.chunks_exact_mut(UNKNOWN).zip(errors.iter_mut()).zip(ids) {
-            if let Some(change) = changes[id] {
+        for ((unknown, error), change) in unknowns.chunks_exact_mut(UNKNOWN).zip(errors.iter_mut()).zip(changes) {
+            if let Some(change) = change {
                 let [before, reached, relaxation, source] = [0, 1, 2, 3].map(|member| unknown[member]);
                 let residual = source - dt * dt * change;
                 let next = (before - relaxation * residual).max(0.0);
@@ -95,5 +98,5 @@ pub fn correct(of: &Dfsph<'_>, solve: Solve) -> Result<Kernel, Error> {
         crate::shader!("fluids/dfsph/correct.wgsl"),
     ];
     let kernel = of.sweep(format!("fluid {} correct", solve.name()), files, Arc::new(twin))?;
-    Ok(with(kernel, &[("SOLVE", f64::from(solve as u32))]))
+    Ok(told(with(kernel, &[("SOLVE", f64::from(solve as u32))]), solve, Told::Sweep))
 }

@@ -66,6 +66,6 @@ pub fn kernel(of: &Dfsph<'_>) -> Result<Kernel, Error> {
         crate::shader!("visit/near_told.wgsl"),
         crate::shader!("fluids/dfsph/response.wgsl"),
     ];
-    let kernel = of.sweep("fluid response".to_owned(), files, Arc::new(twin))?;
+    let kernel = of.search("fluid response", files, Arc::new(twin))?;
     Ok(Kernel { tables, ..kernel })
 }

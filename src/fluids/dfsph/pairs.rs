@@ -1,0 +1,84 @@
+//! Who is in range of whom, kept for all sweeps of a step, where there is room for it: one search serves some twenty of them.
+
+use super::{Dfsph, PAIRS};
+use crate::error::Error;
+use crate::fluids::Medium;
+use crate::kernel::{Kernel, Name, Pass, Problem, Shader, Source, Twin};
+use crate::neighbors::Grid;
+use crate::visit::Sweep;
+
+/// How many more neighbours there is room for than a fluid at rest has: somebody with more is told, and ends the run.
+const ROOM: f64 = 2.0;
+/// Rows, in whole lots of these.
+const LOT: u32 = 8;
+/// Bytes of a pair.
+const PAIR: u64 = 16;
+/// Slots that single precision tells apart.
+const SLOTS: u32 = 1 << 24;
+
+const NEIGHBORS: &str = "neighbors";
+
+/// Rows of pairs: the n-th neighbour of each slot.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Pairs {
+    rows: u32,
+    stride: u32,
+}
+
+impl Pairs {
+    /// Where a binding holds them.
+    pub fn fitting(medium: &Medium, grid: &Grid, problem: &Problem) -> Option<Self> {
+        let ball =
+            if medium.dimensions == 2 { 1.0 } else { 4.0 / 3.0 * medium.support } * medium.support * medium.support;
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 6 spacings: below 2000")]
+        let rows = (ROOM * std::f64::consts::PI * ball).ceil() as u32;
+        let pairs = Self { rows: rows.next_multiple_of(LOT), stride: grid.ahead(problem).max(1) };
+        let fits = PAIR * pairs.elements() <= problem.machine.binding && problem.count <= SLOTS;
+        fits.then_some(pairs)
+    }
+    fn elements(self) -> u64 {
+        u64::from(self.rows) * u64::from(self.stride)
+    }
+    fn constants(self) -> [(&'static str, f64); 2] {
+        [("STRIDE", f64::from(self.stride)), ("ROOM", f64::from(self.rows))]
+    }
+    /// The kernel that finds them, and meets everybody once.
+    pub fn find(self, of: &Dfsph<'_>, name: &str, files: Vec<Source>, twin: Twin) -> Result<Kernel, Error> {
+        let own = vec![crate::shader!("fluids/dfsph/neighbors.wgsl")];
+        let (grid, blocks) = (of.grid.clone(), Vec::new());
+        let search = Sweep { name: name.to_owned(), grid, files: own, blocks, twin };
+        let mut kernel = search.kernel(of.problem)?;
+        let mut all = files;
+        all.push(crate::shader!("fluids/dfsph/listed.wgsl"));
+        kernel.passes.push(self.pass(of, &all)?);
+        let (pairs, neighbors) = (of.name(PAIRS), of.name(NEIGHBORS));
+        kernel.scratch.extend([pairs, neighbors]);
+        Ok(self.bound(of, kernel))
+    }
+    /// A kernel of everybody who meets whom it is paired with.
+    pub fn sweep(self, of: &Dfsph<'_>, name: String, files: Vec<Source>, twin: Twin) -> Result<Kernel, Error> {
+        let mut all = files;
+        all.push(crate::shader!("fluids/dfsph/paired.wgsl"));
+        let passes = vec![self.pass(of, &all)?];
+        let (sizes, scratch, tables) = (Vec::new(), Vec::new(), Vec::new());
+        Ok(self.bound(of, Kernel { name, passes, twin: Some(twin), sizes, scratch, tables }))
+    }
+    fn pass(self, of: &Dfsph<'_>, files: &[Source]) -> Result<Pass, Error> {
+        let mut all =
+            vec![crate::shader!("world.wgsl"), crate::shader!("fields.wgsl"), crate::shader!("neighbors/cell.wgsl")];
+        all.extend_from_slice(files);
+        let shader = Shader::join(&all)?;
+        let uniforms = crate::visit::blocks("pairs of a fluid", &shader, &[of.medium.block()])?;
+        let pass = Pass { constants: of.problem.constants(&shader), uniforms, ..Pass::new(shader, self.stride) };
+        let work = self.elements() / ROOM as u64;
+        Ok(Pass { work, ..pass })
+    }
+    fn bound(self, of: &Dfsph<'_>, kernel: Kernel) -> Kernel {
+        let (pairs, neighbors): (Name, Name) = (of.name(PAIRS), of.name(NEIGHBORS));
+        let mut kernel = super::with(kernel, &self.constants());
+        let fields = [of.grid.field(PAIRS), of.grid.field(NEIGHBORS)];
+        kernel.passes.iter_mut().for_each(|pass| pass.fields.extend_from_slice(&fields));
+        kernel.sizes.extend([(pairs, self.elements()), (neighbors, u64::from(self.stride))]);
+        kernel
+    }
+}
