@@ -19,13 +19,7 @@ const WALL_PRESSURE: &str = "wall_pressure";
 /// When the range is none, or a shader does not compile.
 pub fn wall_pressure(medium: &Medium, weight: DVec3, problem: &Problem) -> Result<[Kernel; 2], Error> {
     let grid = medium.grid(problem)?;
-    let files = vec![
-        crate::shader!("fluids/flowing.wgsl"),
-        crate::shader!("fluids/flowing_told.wgsl"),
-        medium.smoothing.source(),
-        crate::shader!("fluids/medium.wgsl"),
-        crate::shader!("fluids/wall_pressure.wgsl"),
-    ];
+    let files = medium.flow(crate::shader!("fluids/wall_pressure.wgsl"));
     let (me, slots, who) = (*medium, grid.clone(), problem.clone());
     let twin = move |host: &Host| {
         let states = states(host, &slots)?;
@@ -53,9 +47,9 @@ pub fn wall_pressure(medium: &Medium, weight: DVec3, problem: &Problem) -> Resul
     };
     let blocks = vec![medium.block(), ("params", vec![("weight", Scalar::Vector(weight))])];
     let name = "fluid wall pressure".to_owned();
-    let mut find = flowing(Sweep { name, files, blocks, twin: Arc::new(twin), grid: grid.clone() }, problem)?;
+    let sweep = Sweep { name, files, blocks, twin: Arc::new(twin), grid: grid.clone() };
+    let find = flowing(sweep, &[WALL_PRESSURE], problem)?;
     let fields = [WALL_PRESSURE, FLOW].map(|name| grid.field(name));
-    find.passes.iter_mut().for_each(|pass| pass.fields.push(fields[0].clone()));
     let shader = Shader::join(&[
         crate::shader!("world.wgsl"),
         crate::shader!("fields.wgsl"),
