@@ -3,6 +3,7 @@
 mod files;
 mod ledger;
 mod lockstep;
+mod paced;
 mod refusals;
 mod schedule;
 #[path = "../support/mod.rs"]
@@ -66,7 +67,8 @@ fn fluid() -> Box<dyn Force> {
 
 /// The same, and some more.
 fn fluid_with(more: &[(&'static str, Value)]) -> Box<dyn Force> {
-    let known = [("spacing", 0.1), ("sound_speed", 2.0), ("alpha", 0.1)].map(|(key, value)| (key, Value::Number(value)));
+    let known =
+        [("spacing", 0.1), ("sound_speed", 2.0), ("alpha", 0.1)].map(|(key, value)| (key, Value::Number(value)));
     force("fluid", &[&known, more].concat())
 }
 
