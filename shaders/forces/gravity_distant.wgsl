@@ -3,9 +3,7 @@
 fn distant(me: Particle, you: Group, r: vec3f, sum: ptr<function, Sum>) {
     let inverse = inverseSqrt(dot(r, r) + smoothing());
     let square = inverse * inverse;
-    let q = you.diagonal * r + vec3f(you.mixed.x * r.y + you.mixed.y * r.z,
-                                     you.mixed.x * r.x + you.mixed.z * r.z,
-                                     you.mixed.y * r.x + you.mixed.z * r.y);
+    let q = moments(you, r);
     let trace = 0.5 * (you.diagonal.x + you.diagonal.y + you.diagonal.z);
     let twist = 1.5 * square * dot(r, q);
     let cube = inverse * square;

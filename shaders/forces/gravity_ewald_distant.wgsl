@@ -15,9 +15,7 @@ fn distant(me: Particle, you: Group, r: vec3f, sum: ptr<function, Sum>) {
     let first = inverse * over * -0.5 + rate * square * slope;
     let second = inverse * over * over * 0.75 - rate * square * square * curve;
     let third = inverse * over * over * over * -1.875 + rate * square * square * square * twist;
-    let q = you.diagonal * r + vec3f(you.mixed.x * r.y + you.mixed.y * r.z,
-                                     you.mixed.x * r.x + you.mixed.z * r.z,
-                                     you.mixed.y * r.x + you.mixed.z * r.y);
+    let q = moments(you, r);
     let trace = you.diagonal.x + you.diagonal.y + you.diagonal.z;
     let along = 2.0 * dot(r, q);
     if v > 0.0 {

@@ -1,4 +1,5 @@
-// The pixels of a ball's disc. Each layer of the dispatch has rows of its own, so that no invocation loops too long.
+// The pixels of every ball's disc: what is done with each, fn mark(i: u32, p: vec4f, x: i32, y: i32) says. Each layer of the dispatch
+// has rows of its own, so that no invocation loops too long.
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(2) var<storage, read> projected: array<vec4f>; // pixels right and down, depth of its front, radius
 
@@ -14,3 +15,19 @@ fn band(p: vec4f, layer: u32) -> Box {
 
 // Half a pixel beyond the edge a pixel is still touched.
 fn touches(p: vec4f, x: i32, y: i32) -> bool { return distance(middle(x, y), p.xy) < p.w + 0.5; }
+
+@compute @workgroup_size(WORKGROUP)
+fn discs(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let i = folded(group, groups) * WORKGROUP + lane;
+    if i < world.count {
+        let p = projected[i];
+        if p.w > 0.0 {
+            let rows = band(p, group.z);
+            for (var y = rows.low.y; y < rows.high.y; y += 1) {
+                for (var x = rows.low.x; x < rows.high.x; x += 1) {
+                    if touches(p, x, y) { mark(i, p, x, y); }
+                }
+            }
+        }
+    }
+}

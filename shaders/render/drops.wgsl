@@ -5,26 +5,14 @@
 @group(3) @binding(17) var<storage, read_write> volume: array<atomic<u32>>;
 @group(3) @binding(18) var<storage, read_write> rim: array<atomic<u32>>;
 
-@compute @workgroup_size(WORKGROUP)
-fn drops(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let i = folded(group, groups) * WORKGROUP + lane;
-    if i < world.count {
-        let p = projected[i];
-        if p.w > 0.0 {
-            let rows = band(p, group.z);
-            for (var y = rows.low.y; y < rows.high.y; y += 1) {
-                for (var x = rows.low.x; x < rows.high.x; x += 1) {
-                    let at = pixel(x, y);
-                    let half = bulge(p, x, y);
-                    let depth = key(depth_at(p, half));
-                    if touches(p, x, y) && depth < front[at] {
-                        let cover = clamp(p.w + 0.5 - distance(middle(x, y), p.xy), 0.0, 1.0);
-                        atomicMin(&crest[at], depth);
-                        atomicAdd(&volume[at], u32(frame.grain * half + 0.5));
-                        atomicMax(&rim[at], u32(255.0 * cover + 0.5));
-                    }
-                }
-            }
-        }
+fn mark(i: u32, p: vec4f, x: i32, y: i32) {
+    let at = pixel(x, y);
+    let half = bulge(p, x, y);
+    let depth = key(depth_at(p, half));
+    if depth < front[at] {
+        let cover = clamp(p.w + 0.5 - distance(middle(x, y), p.xy), 0.0, 1.0);
+        atomicMin(&crest[at], depth);
+        atomicAdd(&volume[at], u32(frame.grain * half + 0.5));
+        atomicMax(&rim[at], u32(255.0 * cover + 0.5));
     }
 }

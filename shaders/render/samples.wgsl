@@ -1,4 +1,5 @@
-// The samples of the picture that a facet may touch, some rows in each layer of a dispatch.
+// The samples of the picture that each facet touches, some rows in each layer of a dispatch: what is done with each,
+// fn mark(i: u32, at: u32, depth: u32) says.
 @group(1) @binding(7) var<storage, read> torn: array<u32>;
 
 override FIRST: u32 = 0u;
@@ -30,4 +31,22 @@ fn span(f: Facet, rows: Box, y: i32) -> vec2i {
     let half = frame.thread * length(way) / abs(way.y);
     let low = clamp(floor((at - half) * f32(frame.fine)), f32(rows.low.x), f32(rows.high.x));
     return vec2i(vec2f(low, clamp(ceil((at + half) * f32(frame.fine)), low, f32(rows.high.x))));
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn samples(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let i = folded(group, groups) * WORKGROUP + lane + FIRST;
+    if i < END {
+        let f = facet_of(i);
+        if drawn(i, f) {
+            let rows = band(f, group.z);
+            for (var y = rows.low.y; y < rows.high.y; y += 1) {
+                let ends = span(f, rows, y);
+                for (var x = ends.x; x < ends.y; x += 1) {
+                    let w = parts(f, sample(x, y));
+                    if w.w >= 0.0 { mark(i, u32(y * columns() + x), key(depth_of(f, w))); }
+                }
+            }
+        }
+    }
 }

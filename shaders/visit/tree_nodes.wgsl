@@ -23,6 +23,13 @@ override MOST: u32;
 // A far group of particles: its mass, and its second moments Σ m y yᵀ about the centre of mass.
 struct Group { mass: f32, diagonal: vec3f, mixed: vec3f }
 
+// Its second moments times a vector.
+fn moments(group: Group, r: vec3f) -> vec3f {
+    return group.diagonal * r + vec3f(group.mixed.x * r.y + group.mixed.y * r.z,
+                                      group.mixed.x * r.x + group.mixed.z * r.z,
+                                      group.mixed.y * r.x + group.mixed.z * r.y);
+}
+
 // Where a group of targets is: the middle of its box, half the sides, and how far apart its nodes must be.
 struct Place { middle: vec3f, half_side: vec3f, demand: f32 }
 

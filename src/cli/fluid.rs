@@ -1,7 +1,7 @@
 //! What `check` says of a fluid before it runs.
 
 use glam::DVec3;
-use motes::fluids::Start;
+use motes::fluids::{COURANT, Start};
 use motes::forces::{Over, Problem};
 use motes::kernel::{Machine, World};
 use motes::{Error, Setup};
@@ -36,7 +36,20 @@ pub fn told(setup: &Setup, start: &Start) -> Result<(Vec<String>, Vec<String>), 
     } else {
         "as it starts".to_owned()
     };
-    if fastest > 0.0 {
+    let solved = medium.sound == 0.0;
+    if solved {
+        let bears = COURANT * medium.spacing / setup.dt;
+        lines.push(format!(
+            "  solved       for pressure; the fastest flow expected {fastest:.4}, and dt is for {bears:.4}: {how}"
+        ));
+        if fastest > bears {
+            notes.push(format!(
+                "the fastest flow expected is {fastest:.4} ({how}), and dt = {} is for speeds up to {bears:.4}: choose {:.3e}",
+                setup.dt,
+                COURANT * medium.spacing / fastest
+            ));
+        }
+    } else if fastest > 0.0 {
         let ratio = medium.sound / fastest;
         lines.push(format!("  sound        {}, {ratio:.1} times the fastest flow expected: {how}", medium.sound));
         if ratio * MACH < 0.8 {
@@ -68,12 +81,15 @@ pub fn told(setup: &Setup, start: &Start) -> Result<(Vec<String>, Vec<String>), 
         column if column > 0.0 => format!("{:.3} ρ g H", start.pressure() / column),
         _ => format!("{:.3e}", start.pressure()),
     };
-    lines.push(format!(
-        "  at the start the densest at {densest:.4} of rest (particle {dense}), a pressure of {pressure}"
-    ));
+    let asks = if solved {
+        format!("and somebody goes {:.3} spacings in the first step, at least", start.thrust)
+    } else {
+        format!("a pressure of {pressure}")
+    };
+    lines.push(format!("  at the start the densest at {densest:.4} of rest (particle {dense}), {asks}"));
     lines.push(format!("               the thinnest at {thinnest:.4} of rest (particle {thin})"));
     let burst = start.burst();
-    if burst > MACH * medium.sound {
+    if !solved && burst > MACH * medium.sound {
         notes.push(format!(
             "the densest of the fluid, particle {dense}, is at {densest:.3} times the density at rest: that bursts at {burst:.3e}, which is \
              more than the fastest flow that the speed of sound is made for"

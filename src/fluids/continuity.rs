@@ -39,14 +39,8 @@ pub fn rest(medium: &Medium, problem: &Problem) -> Result<Kernel, Error> {
 /// When the range is none, or a shader does not compile.
 pub fn rate(medium: &Medium, continuity: Continuity, factor: f64, problem: &Problem) -> Result<Kernel, Error> {
     let (holding, tables) = problem.holding();
-    let files = vec![
-        holding,
-        crate::shader!("fluids/dense.wgsl"),
-        crate::shader!("fluids/flowing_told.wgsl"),
-        medium.smoothing.source(),
-        crate::shader!("fluids/medium.wgsl"),
-        crate::shader!("fluids/density_rate.wgsl"),
-    ];
+    let asked = [holding, crate::shader!("fluids/dense.wgsl"), crate::shader!("fluids/flowing_told.wgsl")];
+    let files = medium.asking(&asked, crate::shader!("fluids/density_rate.wgsl"));
     let diffusion = 2.0 * continuity.diffusion * 0.5 * medium.range() * medium.sound;
     let params = vec![
         ("factor", Scalar::Float(factor)),

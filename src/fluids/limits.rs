@@ -11,6 +11,10 @@ use crate::error::Error;
 use crate::kernel::{ACCELERATION, Field, Host, Kernel, Pass, Plan, Problem, Scalar, Shader, URGES, VELOCITY};
 use crate::visit::{Sweep, blocks, gathered};
 
+/// How far a particle may go in a step, in spacings, where no speed of sound limits it (Courant, Friedrichs & Lewy 1928; 0.4 as
+/// Bender & Koschier 2015 have it).
+pub const COURANT: f64 = 0.4;
+
 /// How fast neighbours come or go, at most \[length / time\].
 const CLOSING: Field<f32> = Field::new("closing");
 
@@ -46,7 +50,7 @@ pub fn limits(medium: &Medium, limits: Limits, plan: &mut Plan, problem: &Proble
         acceleration: longest / length.sqrt(),
         signal: limits.sound.map_or(0.0, |_| longest / length),
         sound: limits.sound.unwrap_or(0.0),
-        speed: if limits.sound.is_some() { 0.0 } else { longest / (0.4 * medium.spacing) },
+        speed: if limits.sound.is_some() { 0.0 } else { longest / (COURANT * medium.spacing) },
     };
     plan.add(urge(&shares, problem)?);
     Ok(Some(longest * 8.0 * limits.viscosity / (length * length)))

@@ -95,14 +95,15 @@ impl Medium {
     }
     /// What a search is made of whose neighbours are asked for their places and masses, and whether they are held.
     pub(super) fn search(&self, holding: Source, own: Source) -> Vec<Source> {
-        vec![
-            holding,
-            crate::shader!("visit/near_still.wgsl"),
-            crate::shader!("visit/near_told.wgsl"),
-            self.smoothing.source(),
-            crate::shader!("fluids/medium.wgsl"),
-            own,
-        ]
+        self.asking(&[holding, crate::shader!("visit/near_still.wgsl"), crate::shader!("visit/near_told.wgsl")], own)
+    }
+    /// The same where they are asked for their velocities, densities and pressures.
+    pub(super) fn flow(&self, own: Source) -> Vec<Source> {
+        self.asking(&[crate::shader!("fluids/flowing.wgsl"), crate::shader!("fluids/flowing_told.wgsl")], own)
+    }
+    /// The same where these files say what they are asked for.
+    pub(super) fn asking(&self, asked: &[Source], own: Source) -> Vec<Source> {
+        [asked, &[self.smoothing.source(), crate::shader!("fluids/medium.wgsl"), own]].concat()
     }
     /// The block `medium` of shaders.
     #[must_use]

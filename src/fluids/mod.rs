@@ -3,6 +3,7 @@
 
 mod company;
 mod continuity;
+mod crowd;
 mod density;
 mod dfsph;
 mod gap;
@@ -21,7 +22,7 @@ pub use continuity::{Continuity, advance, rate, rest};
 pub use density::density;
 pub use dfsph::{Asked, DFSPH_ERRORS, DFSPH_REPORT, DFSPH_WORDS, Dfsph};
 pub use gap::gap;
-pub use limits::{Limits, limits};
+pub use limits::{COURANT, Limits, limits};
 pub use medium::Medium;
 pub use pressure::{Friction, Walls, pressure};
 pub use smoothing::Smoothing;

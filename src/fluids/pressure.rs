@@ -39,13 +39,7 @@ pub enum Walls {
 /// When the range is none, or a shader does not compile.
 pub fn pressure(medium: &Medium, friction: Friction, walls: Walls, problem: &Problem) -> Result<Kernel, Error> {
     let grid = medium.grid(problem)?;
-    let files = vec![
-        crate::shader!("fluids/flowing.wgsl"),
-        crate::shader!("fluids/flowing_told.wgsl"),
-        medium.smoothing.source(),
-        crate::shader!("fluids/medium.wgsl"),
-        crate::shader!("fluids/pressure.wgsl"),
-    ];
+    let files = medium.flow(crate::shader!("fluids/pressure.wgsl"));
     let params = vec![
         ("alpha", Scalar::Float(friction.alpha)),
         ("viscosity", Scalar::Float(friction.viscosity)),
@@ -69,23 +63,28 @@ pub fn pressure(medium: &Medium, friction: Friction, walls: Walls, problem: &Pro
     };
     let blocks = vec![medium.block(), ("params", params)];
     let sweep = Sweep { name: "fluid pressure".to_owned(), files, blocks, twin: Arc::new(twin), grid };
-    flowing(sweep, problem)
+    flowing(sweep, &[], problem)
 }
 
-/// The kernel of a search that asks for what flows.
-pub(super) fn flowing(sweep: Sweep, problem: &Problem) -> Result<Kernel, Error> {
-    let flow = sweep.grid.field(FLOW);
+/// The kernel of a search that asks for what flows, and for more that is in the order of the grid.
+pub(super) fn flowing(sweep: Sweep, more: &[&'static str], problem: &Problem) -> Result<Kernel, Error> {
+    let fields = [&[FLOW], more].concat().into_iter().map(|name| sweep.grid.field(name)).collect::<Vec<_>>();
     let mut kernel = sweep.kernel(problem)?;
-    kernel.passes.iter_mut().for_each(|pass| pass.fields.push(flow.clone()));
+    kernel.passes.iter_mut().for_each(|pass| pass.fields.extend_from_slice(&fields));
     Ok(kernel)
 }
 
 /// What flows, by id: density, p / ρ² and energy.
 pub(super) fn states(host: &Host, grid: &Grid) -> Result<Vec<DVec3>, Error> {
-    let (ids, flow) = (grid.occupants(host)?, host.reading::<Vec4>(&grid.field(FLOW).1)?);
-    let mut states = vec![DVec3::ZERO; host.world().count as usize];
-    ids.iter().zip(flow.iter()).for_each(|(id, flow)| states[*id as usize] = flow.truncate());
-    Ok(states)
+    by_id(host, grid, FLOW)
+}
+
+/// What is in the order of the grid, by id; 0 of who is not in it, such as those who do not live.
+pub(super) fn by_id(host: &Host, grid: &Grid, field: &'static str) -> Result<Vec<DVec3>, Error> {
+    let (ids, slots) = (grid.occupants(host)?, host.reading::<Vec4>(&grid.field(field).1)?);
+    let mut all = vec![DVec3::ZERO; host.world().count as usize];
+    ids.iter().zip(slots.iter()).for_each(|(id, slot)| all[*id as usize] = slot.truncate());
+    Ok(all)
 }
 
 /// What one does to another, with r from the latter to the former; states are density, p / ρ² and energy.

@@ -6,7 +6,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::company::Company;
-use super::{Medium, WallMass, gap};
+use super::{COURANT, Medium, WallMass, crowd, gap};
 use crate::error::Error;
 use crate::kernel::Bounds;
 
@@ -67,6 +67,9 @@ pub struct Start {
     pub same: Option<(u32, u32, f64)>,
     /// How many are too dense.
     pub dense: u32,
+    /// How far somebody must go in the first step, at least, where pressure is solved for: that takes away at once all that is too
+    /// dense; else 0 \[spacings\].
+    pub thrust: f64,
     /// What makes the densest so dense.
     cause: String,
 }
@@ -111,6 +114,8 @@ impl Start {
                 same = same.or(Some((id32(*id), id32(other), r)));
             }
         }
+        let crowd: Vec<_> =
+            ids.iter().zip(&densities).map(|(id, (density, _))| (still.position[*id], mass[*id], *density)).collect();
         let low = ids.iter().map(|id| still.position[*id]).reduce(DVec3::min).unwrap_or_default();
         let high = ids.iter().map(|id| still.position[*id]).reduce(DVec3::max).unwrap_or_default();
         Ok(Self {
@@ -125,6 +130,7 @@ impl Start {
             thinnest: (id32(thinnest.0), thinnest.1),
             same,
             dense,
+            thrust: if medium.sound > 0.0 { 0.0 } else { crowd::thrust(medium, &crowd) },
             cause: cause(fluid, still, &company, &mass, densest.0),
         })
     }
@@ -155,6 +161,14 @@ impl Start {
                 self.pressure(),
                 self.burst() / self.medium.sound,
                 self.cause
+            )));
+        }
+        if self.thrust > COURANT {
+            return Err(Error::Scene(format!(
+                "this start would explode: particle {id} of the fluid, the densest, is at {ratio:.3} times the density at rest, and a pressure \
+                 that is solved for takes away in the first step all that is too dense: somebody would have to go {:.2} spacings in \
+                 it at least, whatever dt ({COURANT} is the most): {}",
+                self.thrust, self.cause
             )));
         }
         if let Some((a, b, r)) = self.same {

@@ -3,12 +3,12 @@
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-use glam::{DVec3, DVec4, Vec4};
+use glam::{DVec3, Vec4};
 
-use super::{FLOW, Medium, NORMAL};
+use super::pressure::{by_id, flowing, states};
+use super::{Medium, NORMAL};
 use crate::error::Error;
-use crate::kernel::{ACCELERATION, Host, Kernel, Name, Problem, Scalar, Source};
-use crate::neighbors::Grid;
+use crate::kernel::{ACCELERATION, Host, Kernel, Problem, Scalar};
 use crate::visit::{Body, Sweep, gathered};
 
 /// How a surface pulls.
@@ -28,79 +28,52 @@ pub fn tension(medium: &Medium, tension: Tension, problem: &Problem) -> Result<[
     Ok([normals(medium, problem)?, pull(medium, tension, problem)?])
 }
 
-/// A sweep over what flows, with the grid's fields that it binds.
-fn sweep(name: &str, medium: &Medium, files: &[Source], problem: &Problem) -> Result<(Sweep, Grid), Error> {
-    let grid = medium.grid(problem)?;
-    let mut all = vec![medium.smoothing.source(), crate::shader!("fluids/medium.wgsl")];
-    all.extend_from_slice(files);
-    let twin = Arc::new(|_: &Host| Ok(()));
-    let (name, blocks) = (name.to_owned(), vec![medium.block()]);
-    Ok((Sweep { name, grid: grid.clone(), files: all, blocks, twin }, grid))
-}
-
-fn bound(mut kernel: Kernel, fields: &[(&'static str, Name)]) -> Kernel {
-    kernel.passes.iter_mut().for_each(|pass| pass.fields.extend_from_slice(fields));
-    kernel
-}
-
 fn normals(medium: &Medium, problem: &Problem) -> Result<Kernel, Error> {
-    let files = [
-        crate::shader!("fluids/flowing.wgsl"),
-        crate::shader!("fluids/flowing_told.wgsl"),
-        crate::shader!("fluids/normal.wgsl"),
-    ];
-    let (sweep, grid) = sweep("fluid normals", medium, &files, problem)?;
+    let grid = medium.grid(problem)?;
+    let files = medium.flow(crate::shader!("fluids/normal.wgsl"));
     let (me, slots) = (*medium, grid.clone());
     let twin = move |host: &Host| {
-        let (ids, density) = densities(host, &slots)?;
-        let flows = |body: &Body| density[body.index] > 0.0;
+        let states = states(host, &slots)?;
+        let flows = |body: &Body| states[body.index].x > 0.0;
         let normals = gathered(host, me.range(), flows, |_, you, r, sum: &mut DVec3| {
             if flows(you) {
-                *sum -= you.mass / density[you.index] * me.gradient(r) * me.range() * r;
+                *sum -= you.mass / states[you.index].x * me.gradient(r) * me.range() * r;
             }
         })?;
         let mut normal = host.writing::<Vec4>(&slots.field(NORMAL).1)?;
-        for (slot, id) in ids.iter().enumerate() {
-            if let Some(sum) = normals[*id as usize] {
-                normal[slot] = sum.extend(0.0);
+        for (normal, id) in normal.iter_mut().zip(slots.occupants(host)?) {
+            if let Some(sum) = normals[id as usize] {
+                *normal = sum.extend(0.0);
             }
         }
         Ok(())
     };
-    let kernel = Sweep { twin: Arc::new(twin), ..sweep }.kernel(problem)?;
-    Ok(bound(kernel, &[FLOW, NORMAL].map(|name| grid.field(name))))
+    let blocks = vec![medium.block()];
+    let sweep = Sweep { name: "fluid normals".to_owned(), files, blocks, twin: Arc::new(twin), grid };
+    flowing(sweep, &[NORMAL], problem)
 }
 
 fn pull(medium: &Medium, tension: Tension, problem: &Problem) -> Result<Kernel, Error> {
-    let files = [
-        crate::shader!("fluids/bent.wgsl"),
-        crate::shader!("fluids/bent_told.wgsl"),
-        crate::shader!("fluids/tension.wgsl"),
-    ];
-    let (mut sweep, grid) = sweep("fluid tension", medium, &files, problem)?;
+    let grid = medium.grid(problem)?;
+    let asked = [crate::shader!("fluids/bent.wgsl"), crate::shader!("fluids/bent_told.wgsl")];
+    let files = medium.asking(&asked, crate::shader!("fluids/tension.wgsl"));
     let volume = medium.range().powi(if medium.dimensions == 2 { 2 } else { 3 });
     let [cohesion, curvature, adhesion] =
         [32.0 / PI * tension.tension / volume, tension.tension, 0.007 * tension.adhesion / volume];
-    sweep.blocks.push((
-        "params",
-        vec![
-            ("cohesion", Scalar::Float(cohesion)),
-            ("curvature", Scalar::Float(curvature)),
-            ("adhesion", Scalar::Float(adhesion)),
-        ],
-    ));
+    let params = vec![
+        ("cohesion", Scalar::Float(cohesion)),
+        ("curvature", Scalar::Float(curvature)),
+        ("adhesion", Scalar::Float(adhesion)),
+    ];
     let (me, slots) = (*medium, grid.clone());
     let twin = move |host: &Host| {
-        let (ids, density) = densities(host, &slots)?;
-        let mut normals = vec![DVec4::ZERO; ids.len()];
-        let normal = host.reading::<Vec4>(&slots.field(NORMAL).1)?;
-        ids.iter().zip(normal.iter()).for_each(|(id, normal)| normals[*id as usize] = *normal);
-        let flows = |body: &Body| density[body.index] > 0.0;
+        let (states, normals) = (states(host, &slots)?, by_id(host, &slots, NORMAL)?);
+        let flows = |body: &Body| states[body.index].x > 0.0;
         let felt = gathered(host, me.range(), flows, |a, b, r, sum: &mut DVec3| {
             let (q, way) = (r.length() / me.range(), r.try_normalize().unwrap_or_default());
             if flows(b) {
-                let share = 2.0 * me.density / (density[a.index] + density[b.index]);
-                let bend = (normals[a.index] - normals[b.index]).truncate();
+                let share = 2.0 * me.density / (states[a.index].x + states[b.index].x);
+                let bend = normals[a.index] - normals[b.index];
                 *sum += share * (cohesion * b.mass * hump(q) * way - curvature * bend);
             } else {
                 *sum += adhesion * b.mass * (6.0 * q - 4.0 * q * q - 2.0).max(0.0).powf(0.25) * way;
@@ -110,17 +83,9 @@ fn pull(medium: &Medium, tension: Tension, problem: &Problem) -> Result<Kernel, 
         felt.iter().zip(acceleration.iter_mut()).for_each(|(felt, a)| *a += felt.unwrap_or_default().extend(0.0));
         Ok(())
     };
-    let kernel = Sweep { twin: Arc::new(twin), ..sweep }.kernel(problem)?;
-    Ok(bound(kernel, &[FLOW, NORMAL].map(|name| grid.field(name))))
-}
-
-/// Who stands in each slot, and densities by id: 0 for walls.
-fn densities(host: &Host, grid: &Grid) -> Result<(Vec<u32>, Vec<f64>), Error> {
-    let ids = grid.occupants(host)?;
-    let flow = host.reading::<Vec4>(&grid.field(FLOW).1)?;
-    let mut density = vec![0.0; host.world().count as usize];
-    ids.iter().zip(flow.iter()).for_each(|(id, flow)| density[*id as usize] = flow.x);
-    Ok((ids, density))
+    let blocks = vec![medium.block(), ("params", params)];
+    let sweep = Sweep { name: "fluid tension".to_owned(), files, blocks, twin: Arc::new(twin), grid };
+    flowing(sweep, &[NORMAL], problem)
 }
 
 /// π h^D C / 32, of q = r / h.

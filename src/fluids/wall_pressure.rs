@@ -19,13 +19,7 @@ const WALL_PRESSURE: &str = "wall_pressure";
 /// When the range is none, or a shader does not compile.
 pub fn wall_pressure(medium: &Medium, weight: DVec3, problem: &Problem) -> Result<[Kernel; 2], Error> {
     let grid = medium.grid(problem)?;
-    let files = vec![
-        crate::shader!("fluids/flowing.wgsl"),
-        crate::shader!("fluids/flowing_told.wgsl"),
-        medium.smoothing.source(),
-        crate::shader!("fluids/medium.wgsl"),
-        crate::shader!("fluids/wall_pressure.wgsl"),
-    ];
+    let files = medium.flow(crate::shader!("fluids/wall_pressure.wgsl"));
     let (me, slots, who) = (*medium, grid.clone(), problem.clone());
     let twin = move |host: &Host| {
         let states = states(host, &slots)?;

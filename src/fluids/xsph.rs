@@ -16,13 +16,7 @@ use crate::visit::{Sweep, gathered};
 /// When the range is none, or a shader does not compile.
 pub fn xsph(medium: &Medium, strength: f64, problem: &Problem) -> Result<Kernel, Error> {
     let grid = medium.grid(problem)?;
-    let files = vec![
-        crate::shader!("fluids/flowing.wgsl"),
-        crate::shader!("fluids/flowing_told.wgsl"),
-        medium.smoothing.source(),
-        crate::shader!("fluids/medium.wgsl"),
-        crate::shader!("fluids/xsph.wgsl"),
-    ];
+    let files = medium.flow(crate::shader!("fluids/xsph.wgsl"));
     let (me, slots) = (*medium, grid.clone());
     let twin = move |host: &Host| {
         let states = states(host, &slots)?;
@@ -44,5 +38,5 @@ pub fn xsph(medium: &Medium, strength: f64, problem: &Problem) -> Result<Kernel,
         Ok(())
     };
     let blocks = vec![medium.block(), ("params", vec![("xsph", Scalar::Float(strength))])];
-    flowing(Sweep { name: "fluid xsph".to_owned(), files, blocks, twin: Arc::new(twin), grid }, problem)
+    flowing(Sweep { name: "fluid xsph".to_owned(), files, blocks, twin: Arc::new(twin), grid }, &[], problem)
 }

@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::{Force, Law, Problem};
 use crate::error::Error;
 use crate::fluids::{
-    self, Asked, Continuity, Continuum, Dfsph, Friction, Limits, Medium, Smoothing, Tension, WallMass, Walls,
+    self, Asked, COURANT, Continuity, Continuum, Dfsph, Friction, Limits, Medium, Smoothing, Tension, WallMass, Walls,
 };
 use crate::kernel::Plan;
 use crate::neighbors::Grid;
@@ -43,10 +43,6 @@ pub const KEYS: &[Key] = &[
 const WALLS: &[&str] = &["mirror", "extrapolate"];
 const WALL_MASS: &[&str] = &["sampled", "lattice"];
 const DENSITY_BY: &[&str] = &["summation", "continuity"];
-
-/// How far a particle may go in a step where pressure is solved for, in spacings (Courant, Friedrichs & Lewy 1928; 0.4 as Bender &
-/// Koschier 2015 have it).
-const COURANT: f64 = 0.4;
 
 /// `fluid`: smoothed particle hydrodynamics with density by summation or continuity and Tait's equation of state (Monaghan 1994; Becker &
 /// Teschner 2007). Everybody is of the fluid but who is held: those are walls (Akinci et al. 2012).

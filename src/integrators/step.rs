@@ -111,6 +111,7 @@ impl<'a> Step<'a> {
     }
     /// Who is due is born, and who is in a drain dies.
     pub fn populate(&mut self) {
+        self.moved |= self.problem.mortal;
         self.add_all(life::kernels(&self.problem));
     }
     /// What forces do once, before the first step.
@@ -195,9 +196,10 @@ impl<'a> Step<'a> {
     /// The first thing that went wrong while the step was written.
     pub fn done(mut self) -> Result<Plan, Error> {
         self.each_force(|force, plan, problem| force.conclude(plan, problem));
-        self.urge();
         self.add(if self.problem.pace.is_some() { pace::tick(&self.problem) } else { tick::kernel() });
         self.populate();
+        // Who has just been born has a say in the length of its first step.
+        self.urge();
         self.add(watch::kernel(self.problem.count));
         self.finished()
     }

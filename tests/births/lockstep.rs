@@ -2,19 +2,24 @@
 
 use std::collections::BTreeSet;
 
-use motes::Simulation;
+use motes::fluids::DENSITY;
 use motes::kernel::Backend;
 use motes::lockstep::compare;
+use motes::settings::Value;
+use motes::{LIFE, Simulation};
 
 use crate::ledger::drains;
-use crate::pool;
+use crate::support::states::word;
 use crate::support::{self, machines};
+use crate::{fluid_with, pool};
 
 #[test]
 fn kernels_agree_with_their_twins() {
     let shared = support::device();
     for (name, machine) in machines::machines(&shared).into_iter().filter(|(name, _)| !name.contains("layers")) {
-        let setup = pool(drains());
+        let mut setup = pool(drains());
+        // Those who live are fewer than their ids: who is dead came first.
+        setup.forces[1] = fluid_with(&[("tension", Value::Number(0.3)), ("adhesion", Value::Number(0.2))]);
         let count = u32::try_from(setup.particles.len()).expect("few");
         let mut gpu = machines::gpu(&shared, setup.particles.len());
         gpu.pretend(machine);
@@ -34,8 +39,46 @@ fn kernels_agree_with_their_twins() {
                 }
             }
         }
-        for kernel in ["bear", "guide", "drain 1", "fluid state", "fluid density", "fluid pressure", "solid"] {
+        for kernel in [
+            "bear",
+            "guide",
+            "drain 1",
+            "fluid state",
+            "fluid density",
+            "fluid pressure",
+            "fluid normals",
+            "fluid tension",
+            "solid",
+        ] {
             assert!(changed.contains(kernel), "{name}: {kernel} of {changed:?}");
         }
     }
+}
+
+/// Where density is a state, those who wait keep it, and those who are dead are in nobody's sum.
+#[test]
+fn states_of_density_agree_with_their_twins() {
+    let shared = support::device();
+    let mut setup = pool(drains());
+    let (continuity, diffusion) = (("density_by", word("continuity")), ("diffusion", Value::Number(0.1)));
+    setup.forces[1] = fluid_with(&[continuity, diffusion]);
+    let count = u32::try_from(setup.particles.len()).expect("few");
+    let mut simulation = Simulation::on(machines::gpu(&shared, setup.particles.len()), &setup).expect("a run");
+    let plans = setup.plans(simulation.backend().machine()).expect("plans");
+    for _ in 0..4 {
+        simulation.step(13).expect("steps");
+        let gpu = simulation.backend();
+        gpu.compile(&plans.step).expect("a plan");
+        for verdict in pollster::block_on(compare(gpu, &plans.step, count)).expect("verdicts") {
+            assert!(verdict.sound(), "{verdict:?}");
+        }
+        let density = pollster::block_on(simulation.read(DENSITY)).expect("densities");
+        let life = pollster::block_on(simulation.read(LIFE)).expect("lives");
+        let of = |word: u32| density.iter().zip(&life).filter(move |(_, life)| **life == word).map(|(rho, _)| *rho);
+        // As at rest, until they are born; then they are pressed.
+        assert!(of(0).all(|rho| rho.to_bits() == 1000.0f32.to_bits()));
+        assert!(of(1).any(|rho| (rho - 1000.0).abs() > 1.0));
+    }
+    let of = pollster::block_on(simulation.population()).expect("a count");
+    assert!(of.waiting > 0 && of.dead > 0, "{of:?}");
 }

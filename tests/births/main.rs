@@ -3,6 +3,7 @@
 mod files;
 mod ledger;
 mod lockstep;
+mod paced;
 mod refusals;
 mod schedule;
 #[path = "../support/mod.rs"]
@@ -61,10 +62,14 @@ fn setup(particles: Particles, forces: Vec<Box<dyn Force>>, bounds: Bounds) -> S
 
 /// A fluid of that spacing in the plane, slow enough for [`DT`].
 fn fluid() -> Box<dyn Force> {
-    force(
-        "fluid",
-        &[("spacing", Value::Number(0.1)), ("sound_speed", Value::Number(2.0)), ("alpha", Value::Number(0.1))],
-    )
+    fluid_with(&[])
+}
+
+/// The same, and some more.
+fn fluid_with(more: &[(&'static str, Value)]) -> Box<dyn Force> {
+    let known =
+        [("spacing", 0.1), ("sound_speed", 2.0), ("alpha", 0.1)].map(|(key, value)| (key, Value::Number(value)));
+    force("fluid", &[&known, more].concat())
 }
 
 /// A pool in the plane, a jet into it, and a drain in which some of both die; mirrors around.

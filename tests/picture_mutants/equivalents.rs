@@ -4,7 +4,6 @@ use crate::support::equivalents::{Equivalent, same};
 
 const ANY_SIZE: &str = "the host reads it by reflection, and any size will do";
 const ALWAYS_SET: &str = "the host sets every override";
-const NOT_IN_FRONT: &str = "what `cover` has not drawn is at the front of no pixel";
 const TIE: &str = "no place is known so well that it is exactly there";
 const WIDER: &str = "it looks at more pixels, which the line does not touch";
 const LONGER: &str = "pixels of other layers are drawn again, and the brightest wins as before";
@@ -22,9 +21,6 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("blur.wgsl", "weights += weight;", "+=", "-=", "along rows it turns the sign, and along columns again"),
     same("blur.wgsl", "spread[i] = vec4f(sum / weights, 0.0);", "0.0", "1.0", UNREAD),
     same("shrink.wgsl", "halo[i] = vec4f(", "0.0", "1.0", UNREAD),
-    same("claim.wgsl", "if i < world.count {", "<", "<=", NOT_IN_FRONT),
-    same("claim.wgsl", "y < rows.high.y", "<", "<=", NOT_IN_FRONT),
-    same("claim.wgsl", "x < rows.high.x", "<", "<=", NOT_IN_FRONT),
     same(
         "disc.wgsl",
         "let all = box(p.xy, p.w + 0.5);",
@@ -122,10 +118,7 @@ pub const EQUIVALENT: &[Equivalent] = &[
         "two depths are much further apart, or much nearer",
     ),
     same("facet_claim.wgsl", "nearest[at] <= SAME", "<=", "<", "two depths are much further apart, or much nearer"),
-    same("facet_claim.wgsl", "if i < END {", "<", "<=", NOT_IN_FRONT),
-    same("facet_claim.wgsl", "x < ends.y", "<", "<=", NOT_IN_FRONT),
-    same("facet_claim.wgsl", "if w.w >= 0.0 &&", ">=", ">", TIE),
-    same("facet_cover.wgsl", "if w.w >= 0.0 {", ">=", ">", TIE),
+    same("samples.wgsl", "if w.w >= 0.0 {", ">=", ">", TIE),
     same("samples.wgsl", "override FIRST: u32 = 0u;", "0u", "1u", ALWAYS_SET),
     same("samples.wgsl", "override END: u32 = 1u;", "1u", "2u", ALWAYS_SET),
     same("samples.wgsl", "override ROWS: i32 = 64;", "64", "65", ALWAYS_SET),
@@ -182,8 +175,6 @@ pub const EQUIVALENT: &[Equivalent] = &[
         "behind the end it puts back what it has found there",
     ),
     same("water.wgsl", "if abs(a - z) < abs(b - z)", "<", "<=", TIE),
-    same("drops.wgsl", "if p.w > 0.0 {", ">", ">=", "a drop has a radius"),
-    same("source.wgsl", "if p.w > 0.0 {", ">", ">=", "a drop has a radius"),
     same("drops.wgsl", "depth < front[at] {", "<", "<=", TIE),
     same("water.wgsl", "let facing = clamp(", "1.0", "1.5", "a cosine is 1 at most"),
     same("sky.wgsl", "if frame.sky > 1.0 {", "1.0", "1.5", "it is 2 by day, and 1 at most else"),
@@ -191,7 +182,6 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("level.wgsl", "fn unkey(", "0x80000000u", "0x80000001u", TIE),
     same("source.wgsl", "const SAME: u32 = 64u;", "64u", "65u", "two depths are much further apart, or much nearer"),
     same("source.wgsl", "depth <= crest[at] + SAME", "<=", "<", "two depths are much further apart, or much nearer"),
-    same("source.wgsl", "if i < world.count {", "<", "<=", "who has a lower id has the pixel"),
     same("edge.wgsl", "let s = clamp(", "1e-6", "1.5e-6", "a line is much longer, or of no length"),
     same("edge.wgsl", "if key(there) < hidden {", "<", "<=", TIE),
     same("water.wgsl", "if z < NEVER { c =", "<", "<=", "what is not there covers nothing"),

@@ -133,3 +133,44 @@ fn the_bound_is_where_it_says() {
     // Who is led is of a wall, whatever it weighs.
     assert_eq!((start.fluid, start.walls), (216, 0));
 }
+
+/// A cube of 8³ in a box that it fills, of masses e more than at rest, is everywhere at 1 + e: what fills 512 d³ wants 512 (1 + e) d³ at
+/// rest, and leaves by faces of 6 · 64 d², so that somebody goes 4/3 e spacings: 0.4 of them where e is 0.3.
+#[test]
+fn where_pressure_is_solved_for_nobody_may_have_to_go_too_far() {
+    let dense = |ratio: f64, flat: bool| {
+        let (size, box_size) = if flat { ("0.8, 0.8, 0", "0.8, 0.8, 0") } else { ("0.8, 0.8, 0.8", "0.8, 0.8, 0.8") };
+        let density = 1000.0 * ratio;
+        setup(&format!(
+            "[simulation]\ndt = 1e-3\nsteps = 1\nintegrator = \"symplectic_euler\"\n[box]\nsize = [{box_size}]\nboundary = \"periodic\"\n\
+             [[particles]]\nshape = \"block\"\nsize = [{size}]\ndensity = {density}\n\
+             [[force]]\nkind = \"fluid\"\nspacing = 0.1\nsolver = \"dfsph\"\n"
+        ))
+    };
+    let start = dense(1.29, false).start().expect("just below").expect("a fluid");
+    assert!((start.thrust - 4.0 / 3.0 * 0.29).abs() < 1e-6, "{start:?}");
+    let error = refused(&dense(1.31, false));
+    for words in ["would explode", "of the fluid, the densest", "1.310 times", "0.41 spacings", "density × spacing^3 ="]
+    {
+        assert!(error.contains(words), "{error}");
+    }
+    // In the plane 64 e d² and 32 d.
+    let start = dense(1.19, true).start().expect("just below").expect("a fluid");
+    assert!((start.thrust - 2.0 * 0.19).abs() < 1e-6, "{start:?}");
+    assert!(refused(&dense(1.21, true)).contains("0.42 spacings"));
+    let start = dense(1.0, false).start().expect("at rest").expect("a fluid");
+    assert!(start.thrust.abs() < 1e-6 && start.pressure() == 0.0, "{start:?}");
+}
+
+/// What is too dense in one corner of much that is not: the whole has room enough, that part has not.
+#[test]
+fn a_part_of_a_fluid_may_be_too_dense() {
+    let solved = "[simulation]\ndt = 1e-3\nsteps = 1\nintegrator = \"symplectic_euler\"\n";
+    let force = "[[force]]\nkind = \"fluid\"\nspacing = 0.1\nsolver = \"dfsph\"\n";
+    let pool = block("size = [3.2, 0.8, 0.8]");
+    let second = |x: f64| block(&format!("size = [0.8, 0.8, 0.8]\ncenter = [{x:?}, 0.05, 0.05]"));
+    let error = refused(&setup(&format!("{solved}{pool}{}{force}", second(1.25))));
+    assert!(error.contains("would explode") && error.contains("two blocks overlap"), "{error}");
+    let start = setup(&format!("{solved}{pool}{}{force}", second(2.05))).start().expect("beside it").expect("a fluid");
+    assert!(start.thrust < 0.1, "{start:?}");
+}

@@ -36,6 +36,26 @@ fn check_tells_of_a_fluid() {
     assert!(out.contains("more than the fastest flow that the speed of sound is made for"), "{out}");
 }
 
+const SOLVED: [&str; 4] = ["--set", "force.1.solver=\"dfsph\"", "--set", "simulation.integrator=\"symplectic_euler\""];
+
+#[test]
+fn check_tells_of_a_fluid_that_is_solved_for() {
+    // 0.4 of 0.2 in 0.001, and in 0.02.
+    for (dt, bears, told) in [("0.001", "80.0000", false), ("0.02", "4.0000", true)] {
+        let few = ["--backend", "cpu", "--set", "force.1.spacing=0.2", "--set", &format!("simulation.dt={dt}")];
+        let (code, out, err) = motes(&[&["check", "dam_break_2d"][..], &few, &SOLVED].concat());
+        assert_eq!(code, 0, "{out}{err}");
+        for words in [
+            &format!("the fastest flow expected 6.2642, and dt is for {bears}: √(2 g H)"),
+            "the densest at 1.0035 of rest (particle 0), and somebody goes 0.001 spacings in the first step, at least",
+        ] {
+            assert!(out.contains(words), "no `{words}` in\n{out}");
+        }
+        // 0.4 of 0.2 at √(2 · 9.81 · 2).
+        assert!(out.contains("choose 1.277e-2") == told && !out.contains("speed of sound is"), "{out}");
+    }
+}
+
 #[test]
 fn check_and_run_refuse_what_would_explode() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -46,6 +66,9 @@ fn check_and_run_refuse_what_would_explode() {
         let (code, _, err) = motes(&[&arguments[..], &bad].concat());
         assert_eq!(code, 3, "{err}");
         assert!(err.contains("this start would explode") && err.contains("it weighs 8.000000e1"), "{err}");
+        let (code, _, err) = motes(&[&arguments[..], &bad, &SOLVED].concat());
+        assert_eq!(code, 3, "{err}");
+        assert!(err.contains("this start would explode") && err.contains("spacings in it at least"), "{err}");
     }
     assert!(!folder.path().join("out").exists(), "refused before anything is written");
 }
