@@ -6,6 +6,9 @@ struct Grid { low: vec3f, range: f32, per_cell: vec3f, first: u32, cells: vec3u,
 
 @group(2) @binding(0) var<uniform> grid: Grid;
 
+// In how many lists of all cells particles are kept, one behind the other: 2 where who is held stands behind all others.
+override LAYERS: u32 = 1u;
+
 // Beyond so many cells all are one: there, f32 holds no two places that are a cell apart.
 const FARTHEST: f32 = 536870912.0; // 2²⁹
 

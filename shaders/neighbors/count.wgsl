@@ -13,6 +13,8 @@ fn count(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: v
         var k = NOWHERE;
         if chosen(i) && lives(i) {
             k = key(cell(home(position[i].xyz)));
+            // Who is held stands behind all others, where the grid keeps them apart.
+            if is_held(i) { k += grid.cells.x * grid.cells.y * grid.cells.z; }
             arrivals[i] = atomicAdd(&starts[k], 1u);
         }
         keys[i] = k;

@@ -12,7 +12,7 @@ override MOST: u32 = 240000u;
 @compute @workgroup_size(WORKGROUP)
 fn order(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let slot = folded(group, groups) * WORKGROUP + lane;
-    if slot < starts[grid.cells.x * grid.cells.y * grid.cells.z] {
+    if slot < starts[grid.cells.x * grid.cells.y * grid.cells.z * LAYERS] {
         let i = slots[slot];
         let start = starts[keys[i]];
         let next = starts[keys[i] + 1u];

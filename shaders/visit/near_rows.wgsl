@@ -27,12 +27,17 @@ fn cube(cell: vec3u, reach: vec3u) -> Around {
     return Around(cell, r, min(2u * r + 1u, grid.cells));
 }
 
+// Rows along z of all lists of cells.
+fn deep(a: Around) -> u32 { return a.span.z * LAYERS; }
+
 // Part 0, 1 or 2 of the row y, z among those around me, for who stands in a cell from `low` to `high`, which is mine or close to it.
+// Rows from z = span.z on are those of the second list.
 fn stretch(a: Around, low: u32, high: u32, z: u32, y: u32, part: u32) -> Stretch {
     let n = vec3i(grid.cells);
     let r = vec3i(a.reach);
-    let c = vec3i(i32(low), i32(a.cell.y + y), i32(a.cell.z + z)) - r;
-    let row = n.x * (wrap(c.y, n.y) + n.y * wrap(c.z, n.z));
+    let second = z >= a.span.z;
+    let c = vec3i(i32(low), i32(a.cell.y + y), i32(a.cell.z + z - select(0u, a.span.z, second))) - r;
+    let row = n.x * (wrap(c.y, n.y) + n.y * (wrap(c.z, n.z) + select(0, n.z, second)));
     // Where the whole row is looked at there is one part.
     let whole = a.span.x == grid.cells.x && 2 * r.x >= n.x;
     let top = i32(high) + r.x + 1;

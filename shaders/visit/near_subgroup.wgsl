@@ -46,7 +46,7 @@ fn near(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
         let high = subgroupMax(select(0u, a.cell.x, with_me));
         let led = Around(subgroupShuffle(a.cell, leader), subgroupShuffle(a.reach, leader), subgroupShuffle(a.span, leader));
         let parts = select(1u, 3u, subgroupAny(with_me && seam(a)));
-        let rows = led.span.y * led.span.z * parts;
+        let rows = led.span.y * deep(led) * parts;
         // Every lane looks up one stretch; then all walk the eight. One loop over them all: on these adapters a loop costs
         // one turn more than it has, and a branch is never skipped.
         for (var base = 0u; base < rows; base += LANES) {

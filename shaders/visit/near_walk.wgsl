@@ -9,7 +9,7 @@ fn walk(k: u32, me: Particle, sum: ptr<function, Sum>) {
     let a = around(me.position);
     let parts = select(vec2u(1u, 2u), vec2u(0u, 3u), seam(a));
     var seen = 0u;
-    for (var z = 0u; z < a.span.z; z += 1u) {
+    for (var z = 0u; z < deep(a); z += 1u) {
         for (var y = 0u; y < a.span.y; y += 1u) {
             for (var part = parts.x; part < parts.y; part += 1u) {
                 let s = stretch(a, a.cell.x, a.cell.x, z, y, part);

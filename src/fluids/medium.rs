@@ -91,7 +91,7 @@ impl Medium {
     /// # Errors
     /// [`Error::Scene`] when the range is none.
     pub fn grid(&self, problem: &Problem) -> Result<Grid, Error> {
-        Grid::new(self.range(), None, problem)
+        Grid::apart(self.range(), problem)
     }
     /// What a search is made of whose neighbours are asked for their places and masses, and whether they are held.
     pub(super) fn search(&self, holding: Source, own: Source) -> Vec<Source> {

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DVec3, Vec4};
 
-use super::pressure::{flowing, states};
+use super::pressure::states;
 use super::{FLOW, Medium};
 use crate::error::Error;
 use crate::kernel::{Host, Kernel, Pass, Problem, Scalar, Shader};
@@ -53,9 +53,10 @@ pub fn wall_pressure(medium: &Medium, weight: DVec3, problem: &Problem) -> Resul
     };
     let blocks = vec![medium.block(), ("params", vec![("weight", Scalar::Vector(weight))])];
     let name = "fluid wall pressure".to_owned();
-    let mut find = flowing(Sweep { name, files, blocks, twin: Arc::new(twin), grid: grid.clone() }, problem)?;
+    let sweep = Sweep { name, files, blocks, twin: Arc::new(twin), grid: grid.clone() };
+    let mut find = sweep.kernel_of_all(problem)?;
     let fields = [WALL_PRESSURE, FLOW].map(|name| grid.field(name));
-    find.passes.iter_mut().for_each(|pass| pass.fields.push(fields[0].clone()));
+    find.passes.iter_mut().for_each(|pass| pass.fields.extend_from_slice(&fields));
     let shader = Shader::join(&[
         crate::shader!("world.wgsl"),
         crate::shader!("fields.wgsl"),

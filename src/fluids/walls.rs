@@ -55,7 +55,7 @@ pub fn walls(medium: &Medium, weighs: WallMass, problem: &Problem) -> Result<Ker
         blocks: vec![medium.block(), ("params", vec![("mass", Scalar::Float(mass))])],
         twin: Arc::new(twin),
     };
-    let mut kernel = sweep.kernel(problem)?;
+    let mut kernel = sweep.kernel_of_all(problem)?;
     kernel.passes.iter_mut().for_each(|pass| pass.fields.push(("weighed", POSITION.name.into())));
     Ok(Kernel { tables, ..kernel })
 }

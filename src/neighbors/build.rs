@@ -22,7 +22,7 @@ impl Grid {
     /// # Errors
     /// When a shader does not compile, or a field does not fit.
     pub fn kernel(&self, problem: &Problem, moving: bool) -> Result<Kernel, Error> {
-        let (bins, machine) = (self.count() + 1, &problem.machine);
+        let (bins, machine) = (self.count() * self.layers() + 1, &problem.machine);
         let (_, starts) = self.field(STARTS);
         let sums = scan::scratch(&starts);
         let chosen = if self.of.is_some() {
@@ -36,12 +36,14 @@ impl Grid {
             crate::shader!("neighbors/carry_still.wgsl")
         };
         let mut passes = fill::passes(&starts, bins, 0)?;
-        passes.push(self.pass(problem, &[chosen, problem.living(), crate::shader!("neighbors/count.wgsl")])?);
+        let (holding, tables) =
+            if self.apart { problem.holding() } else { (crate::shader!("motion/free.wgsl"), Vec::new()) };
+        passes.push(self.pass(problem, &[chosen, problem.living(), holding, crate::shader!("neighbors/count.wgsl")])?);
         passes.extend(scan::passes(&starts, &sums, bins, machine)?);
         passes.push(self.pass(problem, &[crate::shader!("neighbors/scatter.wgsl")])?);
         passes.push(self.pass(problem, &[carry, crate::shader!("neighbors/order.wgsl")])?);
-        let grid = self.clone();
-        let twin = move |host: &Host| grid.sort(host, moving);
+        let (grid, who) = (self.clone(), problem.clone());
+        let twin = move |host: &Host| grid.sort(host, &who, moving);
         let scratch: Vec<Name> = vec![KEYS.name.into(), ARRIVALS.name.into(), SLOTS.name.into(), sums.clone()];
         Ok(Kernel {
             name: self.title(),
@@ -49,7 +51,7 @@ impl Grid {
             twin: Some(Arc::new(twin)),
             sizes: vec![(starts, u64::from(bins)), (sums, scan::blocks(bins, machine))],
             scratch,
-            tables: Vec::new(),
+            tables,
         })
     }
 
@@ -61,12 +63,13 @@ impl Grid {
         let block = shader.reflection().binding("grid").map(|b| self.uniform(b, 0, problem.count)).transpose()?;
         let fields = [STARTS, SORTED_ID, SORTED_POSITION, SORTED_VELOCITY].map(|name| self.field(name));
         let uniforms = block.into_iter().map(|bytes| ("grid", bytes)).collect();
-        let constants = problem.constants(&shader);
+        let mut constants = problem.constants(&shader);
+        constants.extend(self.constants(&shader));
         Ok(Pass { constants, uniforms, ..Pass::new(shader, problem.count) }.on(&fields))
     }
 
     /// The file with `fn present() -> u32`, how many stand in its slots; whoever joins it says `neighbors/starts.wgsl` too,
-    /// and gives it [`Grid::cells_of`].
+    /// and gives it [`Grid::constants`].
     #[must_use]
     pub fn present(&self, problem: &Problem) -> Source {
         // Where only one species is in it, everybody looks around by id.
@@ -75,10 +78,14 @@ impl Grid {
         }
         crate::shader!("neighbors/present.wgsl")
     }
-    /// The `override` by which a shader finds that number.
+    /// The `override`s of a shader that the grid decides: its cells, of those who live in it, and how many lists it keeps.
     #[must_use]
-    pub fn cells_of(&self, shader: &Shader) -> Option<(&'static str, f64)> {
-        shader.reflection().overrides.contains_key("CELLS").then(|| ("CELLS", f64::from(self.count())))
+    pub fn constants(&self, shader: &Shader) -> Vec<(&'static str, f64)> {
+        let (cells, layers) = (self.count() * self.layers(), self.layers());
+        let known =
+            |name: &str, usual: u32, value: u32| value != usual && shader.reflection().overrides.contains_key(name);
+        let all = [("CELLS", 0, cells), ("LAYERS", 1, layers)];
+        all.into_iter().filter(|(n, usual, v)| known(n, *usual, *v)).map(|(n, _, v)| (n, f64::from(v))).collect()
     }
     /// Who stands in its slots, slot by slot.
     ///
@@ -94,14 +101,14 @@ impl Grid {
         Ok(ids[..end.min(all)].to_vec())
     }
     /// The twin.
-    fn sort(&self, host: &Host, moving: bool) -> Result<(), Error> {
+    fn sort(&self, host: &Host, problem: &Problem, moving: bool) -> Result<(), Error> {
         let (position, velocity) = (host.read(POSITION)?, host.read(VELOCITY)?);
         let count = (host.world().count as usize).min(position.len());
         let species = if self.of.is_some() { host.read(SPECIES)?.to_vec() } else { Vec::new() };
         let lives = host.lives()?;
         let chosen = |i: usize| lives(i) && self.of.is_none_or(|of| species.get(i) == Some(&of));
         let places = position[..count].iter().map(|x| x.truncate());
-        let cells = Cells::sort(self, host.world().bounds, places, chosen);
+        let cells = Cells::sort(self, host.world().bounds, places, chosen, |i| self.apart && problem.is_held(i));
 
         host.writing::<u32>(&self.field(STARTS).1)?.copy_from_slice(&cells.starts);
         let mut ids = host.writing::<u32>(&self.field(SORTED_ID).1)?;

@@ -28,19 +28,22 @@ impl Cells {
             .map_err(|_| Error::Scene(format!("{} particles are more than there are ids", positions.len())))?;
         let machine = Machine { software: true, subgroup: 0, invocations: 1 };
         let grid = Grid::new(range, None, &Problem::new(count, machine).at(positions, bounds))?;
-        Ok(Self::sort(&grid, bounds, positions.iter().copied(), |_| true))
+        Ok(Self::sort(&grid, bounds, positions.iter().copied(), |_| true, |_| false))
     }
-    /// Sorts those who are chosen by their ids. A cell is found by the device's own arithmetic, so that who stands at
+    /// Sorts those who are chosen by their ids, with some behind all others. A cell is found by the device's own arithmetic, so that who stands at
     /// its edge is on one side for both.
     pub(super) fn sort(
         grid: &Grid,
         bounds: Bounds,
         positions: impl Iterator<Item = DVec3>,
         chosen: impl Fn(usize) -> bool,
+        last: impl Fn(usize) -> bool,
     ) -> Self {
         let homes: Vec<Vec3> = positions.map(|x| bounds.home(x)).collect();
-        let keys: Vec<usize> = homes.iter().map(|x| key(grid, &bounds, *x)).collect();
-        let mut starts = vec![0_u32; grid.count() as usize + 1];
+        let cells = grid.count() as usize;
+        let layer = |i: usize| if last(i) { cells } else { 0 };
+        let keys: Vec<usize> = homes.iter().enumerate().map(|(i, x)| key(grid, &bounds, *x) + layer(i)).collect();
+        let mut starts = vec![0_u32; cells * grid.layers() as usize + 1];
         let those = || (0..keys.len()).filter(|i| chosen(*i));
         those().for_each(|i| starts[keys[i] + 1] += 1);
         for c in 1..starts.len() {

@@ -44,6 +44,8 @@ pub struct Grid {
     pub cells: [u32; 3],
     /// Cells that make up a range along each axis.
     pub fine: [u32; 3],
+    /// Whether who is held stands behind all others: these are then side by side, and nobody who stands still looks around with them.
+    pub apart: bool,
     /// Particles of a cell at the start, when they are spread evenly.
     pub occupancy: f64,
     /// How the cells that the range and the place of the particles ask for were brought down to what there is room for.
@@ -61,11 +63,27 @@ impl Grid {
         if let Some(species) = of {
             name = format!("{name} species {species}");
         }
-        // As fine as there is room for.
+        Ok(Self::finest(&name, range, of, 1.0, problem))
+    }
+
+    /// The same for everybody, with whoever is held behind all others.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] when the range is not a positive number.
+    pub fn apart(range: f64, problem: &Problem) -> Result<Self, Error> {
+        if problem.held.is_empty() {
+            return Self::new(range, None, problem);
+        }
+        checked(range)?;
+        Ok(Self { apart: true, ..Self::finest(&format!("{range:?}, held last,"), range, None, 2.0, problem) })
+    }
+
+    /// As fine as there is room for, so many times over.
+    fn finest(name: &str, range: f64, of: Option<u32>, times: f64, problem: &Problem) -> Self {
         let width = range * (1.0 + SLACK);
-        let make = |fine: [u32; 3]| Self::of_cells(name.clone(), range, of, width, fine, problem);
+        let make = |fine: [u32; 3]| Self::of_cells(name.to_owned(), range, of, (width, fine, times), problem);
         let mut grids = FINE.iter().map(|fine| make(*fine)).filter(|grid| grid.fine[1] == 1 || grid.is_crowded());
-        Ok(grids.find(|grid| grid.fitted.is_empty()).unwrap_or_else(|| make([1; 3])))
+        grids.find(|grid| grid.fitted.is_empty()).unwrap_or_else(|| make([1; 3]))
     }
 
     /// For searches of the nearest, who may be anywhere: cells that hold about `occupancy` particles each.
@@ -79,10 +97,16 @@ impl Grid {
         let width = (volume * occupancy / f64::from(problem.count)).powf(1.0 / f64::from(axes.max(1)));
         // One over it is to be a number too.
         let width = if width.is_finite() && width > 0.0 { width.clamp(1e-37, 1e37) } else { 1.0 };
-        Self::of_cells(format!("cells of {occupancy:?}"), width, None, width, [1; 3], problem)
+        Self::of_cells(format!("cells of {occupancy:?}"), width, None, (width, [1; 3], 1.0), problem)
     }
 
-    fn of_cells(name: String, range: f64, of: Option<u32>, width: f64, fine: [u32; 3], problem: &Problem) -> Self {
+    fn of_cells(
+        name: String,
+        range: f64,
+        of: Option<u32>,
+        (width, fine, times): (f64, [u32; 3], f64),
+        problem: &Problem,
+    ) -> Self {
         let periodic = problem.bounds.axes(Side::Periodic);
         let size = size(problem);
         let parts = DVec3::from_array(fine.map(f64::from));
@@ -90,7 +114,7 @@ impl Grid {
         // A period is cut into whole cells; elsewhere the last cell may stick out.
         let wish = DVec3::select(periodic.cmpgt(DVec3::ZERO), whole_cells.floor(), whole_cells.ceil()).max(DVec3::ONE);
         let flat = problem.bounds.dimensions == 2;
-        let room = (CELLS_PER_PARTICLE * f64::from(problem.count_of(of))).clamp(64.0, MOST);
+        let room = (CELLS_PER_PARTICLE * f64::from(problem.count_of(of))).clamp(64.0, MOST / times);
         // A few of one species are looked at one and all.
         let few = of.is_some() && problem.count_of(of) <= FEW;
         let wish = if few { DVec3::ONE } else { wish };
@@ -129,6 +153,7 @@ impl Grid {
             per_cell: DVec3::new(per_cell(0), per_cell(1), per_cell(2)),
             cells: [count(0), count(1), count(2)],
             fine,
+            apart: false,
             occupancy: f64::from(problem.count_of(of)) / wish.element_product(),
             fitted,
         }
@@ -142,6 +167,17 @@ impl Grid {
     #[must_use]
     pub fn count(&self) -> u32 {
         self.cells.iter().product()
+    }
+    /// In how many lists who is in them is kept, one behind the other.
+    #[must_use]
+    pub fn layers(&self) -> u32 {
+        1 + u32::from(self.apart)
+    }
+    /// Who stands before all who are held, at most.
+    #[must_use]
+    pub fn ahead(&self, problem: &Problem) -> u32 {
+        let held = if self.apart { u32::try_from(problem.held.len()).unwrap_or(u32::MAX) } else { 0 };
+        problem.count.saturating_sub(held)
     }
     /// Whether a period has so few cells that those on both sides of me are the same.
     #[must_use]

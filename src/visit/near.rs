@@ -78,24 +78,24 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
     if let Over::Nearest { count } = law.over {
         constants.push(("COUNT", f64::from(count)));
     }
-    let passes = passes(&grid, &Pass { constants, uniforms: params, ..Pass::new(shader, 0) }, problem)?;
+    let passes = passes(&grid, &Pass { constants, uniforms: params, ..Pass::new(shader, 0) }, problem.count, problem)?;
     let (twin, sizes) = (law.twin, sizes(&grid));
     Ok(Kernel { name: law.name, passes, twin, sizes, scratch: Vec::new(), tables: Vec::new() })
 }
 
-/// The dispatches of a search, each of some of the targets.
-pub fn passes(grid: &Grid, all: &Pass, problem: &Problem) -> Result<Vec<Pass>, Error> {
+/// The dispatches of a search, each of some of the targets, which are the first so many.
+pub fn passes(grid: &Grid, all: &Pass, targets: u32, problem: &Problem) -> Result<Vec<Pass>, Error> {
     let fields = [STARTS, SORTED_ID, SORTED_POSITION, SORTED_VELOCITY].map(|name| grid.field(name));
     let narrow = all.shader.reflection().overrides.contains_key("NARROW") && grid.narrow(problem);
     let mut passes = Vec::new();
     let mut first = 0;
-    while first < problem.count {
-        let end = problem.count.min(first.saturating_add(TARGETS));
+    while first < targets {
+        let end = targets.min(first.saturating_add(TARGETS));
         let mut pass = all.clone().on(&fields);
         if let Some(binding) = all.shader.reflection().binding("grid") {
             pass.uniforms.push(("grid", grid.uniform(binding, first, end)?));
         }
-        pass.constants.extend(grid.cells_of(&all.shader));
+        pass.constants.extend(grid.constants(&all.shader));
         if narrow {
             pass.constants.push(("NARROW", 1.0));
         }
@@ -109,5 +109,5 @@ pub fn passes(grid: &Grid, all: &Pass, problem: &Problem) -> Result<Vec<Pass>, E
 
 /// A search does not make these, but it binds them: they are as long as the grid makes them.
 pub fn sizes(grid: &Grid) -> Vec<(Name, u64)> {
-    vec![(grid.field(STARTS).1, u64::from(grid.count()) + 1), (ALARM.name.into(), ALARM_WORDS as u64)]
+    vec![(grid.field(STARTS).1, u64::from(grid.count() * grid.layers()) + 1), (ALARM.name.into(), ALARM_WORDS as u64)]
 }

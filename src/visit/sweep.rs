@@ -27,11 +27,22 @@ pub struct Sweep {
 }
 
 impl Sweep {
-    /// The kernel for such a problem.
+    /// The kernel for such a problem. Where the grid keeps those apart who are held, they do not look around.
     ///
     /// # Errors
     /// [`Error::Shader`] when a file does not compile, [`Error::Scene`] when a block has other members.
     pub fn kernel(self, problem: &Problem) -> Result<Kernel, Error> {
+        let ahead = self.grid.ahead(problem);
+        self.from(ahead, problem)
+    }
+    /// The same where everybody looks around, whoever is held too.
+    ///
+    /// # Errors
+    /// As [`Sweep::kernel`].
+    pub fn kernel_of_all(self, problem: &Problem) -> Result<Kernel, Error> {
+        self.from(problem.count, problem)
+    }
+    fn from(self, targets: u32, problem: &Problem) -> Result<Kernel, Error> {
         let mut sources = near::ground();
         sources.push(self.grid.present(problem));
         sources.extend(near::search(&self.grid, &problem.machine));
@@ -41,7 +52,7 @@ impl Sweep {
         let pass = Pass { constants: problem.constants(&shader), uniforms, ..Pass::new(shader, 0) };
         Ok(Kernel {
             name: self.name,
-            passes: near::passes(&self.grid, &pass, problem)?,
+            passes: near::passes(&self.grid, &pass, targets, problem)?,
             twin: Some(self.twin),
             sizes: near::sizes(&self.grid),
             scratch: Vec::new(),
