@@ -32,7 +32,7 @@ pub const KEYS: &[Key] = &[
     Key::new("density_by", Kind::Choice(DENSITY_BY), Value::Text(Cow::Borrowed("summation")), "where density comes from: masses around, or the continuity equation (Monaghan 1994), which knows of no surface"),
     Key::new("diffusion", Kind::NotNegative, Value::Number(0.0), "δ of the diffusion of density by continuity, 0.1 say (Molteni & Colagrossi 2009)"),
     Key::new("weight", Kind::Vector, Value::Vector(DVec3::ZERO), "the acceleration of weight that a force gives, so that diffusion (Fourtakas et al. 2019) and walls leave a fluid at rest alone [length / time²]"),
-    Key::new("tension", Kind::NotNegative, Value::Number(0.0), "surface tension γ (Akinci, Akinci & Teschner 2013); what it is in N/m depends on spacing and support"),
+    Key::new("tension", Kind::NotNegative, Value::Number(0.0), "surface tension γ (Akinci, Akinci & Teschner 2013), which is not σ: with water's 1000 for density, in space, σ is about 25 000, 55 000 or 75 000 γ spacing² where support is 2, 2.5 or 3"),
     Key::new("adhesion", Kind::NotNegative, Value::Number(0.0), "how walls pull the fluid, β (as above)"),
     Key::new("tolerance", Kind::Positive, Value::Number(1e-4), "dfsph: the mean error of the density that is left [parts of the density]"),
     Key::new("divergence_tolerance", Kind::Positive, Value::Number(1e-3), "dfsph: what the velocity may compress by in a step, in the mean [parts of the density]"),

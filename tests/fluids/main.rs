@@ -12,6 +12,7 @@ mod drops;
 mod friction;
 mod invariants;
 mod keys;
+mod laplace;
 mod lockstep;
 mod smoothing;
 mod tension;

@@ -134,6 +134,6 @@ fn scenes_name_meshes() {
     assert!(faults.to_string().contains("did you mean \"pyramid.obj\"?") && faults.exit_code() == 4, "{faults}");
     let faults = load(&SCENE.replace("NAME", "../mutants/main.rs")).err().expect("another folder");
     assert!(faults.to_string().contains("leads outside of the scene's folder"), "{faults}");
-    let faults = load(&SCENE.replace("NAME", "koshizuka_oka_1996.csv")).err().expect("no mesh");
+    let faults = load(&SCENE.replace("NAME", "dam_break_front.csv")).err().expect("no mesh");
     assert!(faults.to_string().contains("mesh: it has no faces"), "{faults}");
 }
