@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use glam::Vec4;
-use motes::kernel::Backend;
+use motes::kernel::{Backend, Machine};
 use motes::lockstep::compare;
 use motes::settings::Value;
 use motes::{Simulation, VELOCITY};
@@ -15,10 +15,15 @@ use crate::{SPACING, Tank};
 #[test]
 fn device_and_twins_solve_alike() {
     let shared = support::device();
-    for flat in [true, false] {
+    // Pairs are kept where there is room for them.
+    for (flat, walks) in [(true, false), (false, false), (false, true)] {
         let tank = Tank::new(if flat { [9, 11] } else { [5, 6] }, flat, 0.2);
         let count = tank.particles.len();
-        let gpu = gpu(&shared, count);
+        let mut gpu = gpu(&shared, count);
+        if walks {
+            let machine = gpu.machine();
+            gpu.pretend(Machine { binding: 0, ..machine });
+        }
         let settings = [("viscosity", Value::Number(0.003)), ("max_iterations", Value::Number(6.0))];
         let setup = tank.setup(&settings, 0.004);
         let plans = setup.plans(gpu.machine()).expect("plans");
@@ -34,7 +39,7 @@ fn device_and_twins_solve_alike() {
             }
             let verdicts = pollster::block_on(compare(simulation.backend(), plan, count as u32)).expect("a run");
             for verdict in verdicts.iter().filter(|v| v.kernel.starts_with("fluid")) {
-                assert!(verdict.sound(), "{flat} {pass}: {verdict:?}");
+                assert!(verdict.sound(), "{flat} {walks} {pass}: {verdict:?}");
                 *seen.entry(format!("{} of {}", verdict.field, verdict.kernel)).or_default() |= verdict.changed;
             }
         }

@@ -7,7 +7,7 @@ use std::rc::Rc;
 
 use glam::{DVec3, Vec4};
 use motes::fluids::DFSPH_REPORT;
-use motes::kernel::{Backend, Kernel, Plan, World};
+use motes::kernel::{Backend, Kernel, Machine, Plan, World};
 use motes::motion::{Held, Hold};
 use motes::settings::Value;
 use motes::{Bounds, Gpu, Particles, Setup, Side, Simulation, VELOCITY};
@@ -60,7 +60,8 @@ fn block(flat: bool) -> (Particles, Bounds) {
     (particles, bounds)
 }
 
-fn simulation(device: &Device, flat: bool) -> (Simulation<Gpu>, Plan) {
+/// `walks`: as on a device that has no room for pairs.
+fn simulation(device: &Device, flat: bool, walks: bool) -> (Simulation<Gpu>, Plan) {
     let (particles, bounds) = block(flat);
     let number = |key, x| (key, Value::Number(x));
     let settings = [
@@ -75,6 +76,10 @@ fn simulation(device: &Device, flat: bool) -> (Simulation<Gpu>, Plan) {
     let forces = vec![force("fluid", &settings), force("uniform", &[])];
     let mut gpu = Gpu::new(&device.0, &device.1, particles.len() as u32).expect("a GPU");
     gpu.pad(5);
+    if walks {
+        let machine = gpu.machine();
+        gpu.pretend(Machine { binding: 0, ..machine });
+    }
     let setup = Setup {
         particles,
         forces,
@@ -98,20 +103,26 @@ fn simulation(device: &Device, flat: bool) -> (Simulation<Gpu>, Plan) {
 
 /// A stage of each kernel of a step, and of how solves go on and end.
 pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
-    for flat in [false, true] {
-        let (simulation, plan) = simulation(device, flat);
+    for (flat, walks) in [(false, false), (true, false), (false, true)] {
+        let (simulation, plan) = simulation(device, flat, walks);
         let simulation = Rc::new(RefCell::new(simulation));
         let mut met = BTreeMap::<String, u32>::new();
         for kernel in plan.steps() {
             let times = met.entry(kernel.name.clone()).or_default();
             *times += 1;
             let iterates = kernel.name.contains("push") || kernel.name.contains("correct");
-            if kernel.name.starts_with("fluid") && (*times == SECOND || !iterates && *times == 1) {
+            let searches = iterates || kernel.name.contains("response") || kernel.name.contains("predict");
+            let shown = kernel.name.starts_with("fluid") && (searches || !walks);
+            if shown && (*times == SECOND || !iterates && *times == 1) {
                 stages.push(
-                    Stage::amid(&format!("{}, flat {flat}", kernel.name), &simulation, alone(kernel.clone()))
-                        .slack(4.0),
+                    Stage::amid(
+                        &format!("{}, flat {flat}, walks {walks}", kernel.name),
+                        &simulation,
+                        alone(kernel.clone()),
+                    )
+                    .slack(4.0),
                 );
-                if ANY.iter().any(|end| kernel.name.ends_with(end)) {
+                if !walks && ANY.iter().any(|end| kernel.name.ends_with(end)) {
                     let name = format!("{} of any, flat {flat}", kernel.name);
                     stages.push(anything(&simulation, kernel, &name, ANYTIME));
                 }
@@ -121,7 +132,7 @@ pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
             let program = gpu.compile(&alone(kernel.clone())).expect("a kernel");
             gpu.run(&program, 1).expect("a run");
         }
-        if !flat {
+        if !flat && !walks {
             let named = |end: &str| plan.steps().find(|kernel| kernel.name.ends_with(end)).expect("a kernel").clone();
             for which in ["divergence", "density"] {
                 ends(&simulation, &named(&format!("{which} decide")), stages);

@@ -118,7 +118,9 @@ impl<'a> Dfsph<'a> {
     }
     fn iterate(&self, plan: &mut Plan, iteration: &[Kernel]) {
         for _ in 0..self.asked.most {
-            iteration.iter().for_each(|kernel| plan.add(kernel.clone()));
+            for kernel in iteration {
+                plan.add(kernel.clone());
+            }
         }
     }
     /// ω of Jacobi's method. With Nesterov's it may be up to 4/3 over the largest eigenvalue of the matrix over its diagonal; that is

@@ -8,7 +8,7 @@ use crate::neighbors::Grid;
 use crate::visit::Sweep;
 
 /// How many more neighbours there is room for than a fluid at rest has: somebody with more is told, and ends the run.
-const ROOM: f64 = 2.0;
+const ROOM: u32 = 2;
 /// Rows, in whole lots of these.
 const LOT: u32 = 8;
 /// Bytes of a pair.
@@ -31,7 +31,7 @@ impl Pairs {
         let ball =
             if medium.dimensions == 2 { 1.0 } else { 4.0 / 3.0 * medium.support } * medium.support * medium.support;
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 6 spacings: below 2000")]
-        let rows = (ROOM * std::f64::consts::PI * ball).ceil() as u32;
+        let rows = (std::f64::consts::PI * ball).ceil() as u32 * ROOM;
         let pairs = Self { rows: rows.next_multiple_of(LOT), stride: grid.ahead(problem).max(1) };
         let fits = PAIR * pairs.elements() <= problem.machine.binding && problem.count <= SLOTS;
         fits.then_some(pairs)
@@ -70,7 +70,7 @@ impl Pairs {
         let shader = Shader::join(&all)?;
         let uniforms = crate::visit::blocks("pairs of a fluid", &shader, &[of.medium.block()])?;
         let pass = Pass { constants: of.problem.constants(&shader), uniforms, ..Pass::new(shader, self.stride) };
-        let work = self.elements() / ROOM as u64;
+        let work = self.elements() / u64::from(ROOM);
         Ok(Pass { work, ..pass })
     }
     fn bound(self, of: &Dfsph<'_>, kernel: Kernel) -> Kernel {
