@@ -96,8 +96,10 @@ impl Book {
         } else {
             format!("UP TO {} OUT OF THE BOX AND {} BROKEN", worst.outside, worst.broken)
         };
+        // Walls weigh something too, and the energy of a run counts them.
+        let whose = if self.held.contains(&true) { " without walls" } else { "" };
         Some(format!(
-            "fluid: mass {:.6e} ({lost:+.1e}), energy {:.4e} → {:.4e}, too dense by {:.2} % at most (particle {} at {:.4}), {:.3} % in \
+            "fluid: mass {:.6e} ({lost:+.1e}), energy{whose} {:.4e} → {:.4e}, too dense by {:.2} % at most (particle {} at {:.4}), {:.3} % in \
              the mean; {counts}",
             last.mass,
             first.total(),

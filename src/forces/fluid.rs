@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use glam::DVec3;
 
-use super::{Force, Law, Problem};
+use super::{Force, Law, Problem, Takes};
 use crate::error::Error;
 use crate::fluids::{
     self, Asked, Continuity, Continuum, Dfsph, Friction, Limits, Medium, Smoothing, Tension, WallMass, Walls,
@@ -245,6 +245,21 @@ impl Force for Fluid {
     }
     fn answers(&self) -> bool {
         self.solves()
+    }
+    /// Pressure by summation is the slope of the internal energy, and the equation of continuity goes along with it; nothing else
+    /// is. Friction along the difference of two velocities, and the curvature of a surface, turn a fluid.
+    fn takes(&self, held: bool) -> Takes {
+        let on = |name| self.0.number(name) > 0.0;
+        let rubs = on("viscosity") || on("xsph");
+        let all = [
+            (rubs || on("alpha") && !self.solves(), "viscosity"),
+            (self.tension().is_some(), "surface tension, which is not counted"),
+            (on("diffusion"), "diffusion"),
+            (self.solves(), "pressure that is solved for"),
+            (held, "walls"),
+        ];
+        let energy = all.into_iter().filter(|(is, _)| *is).map(|(_, what)| what).collect();
+        Takes { energy, angular_momentum: rubs || self.tension().is_some() }
     }
     fn integrators(&self) -> &'static [&'static str] {
         if self.solves() { &["symplectic_euler"] } else { &[] }
