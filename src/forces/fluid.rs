@@ -172,7 +172,8 @@ impl Force for Fluid {
     }
     fn paces(&self, plan: &mut Plan, problem: &Problem) -> Result<Option<f64>, Error> {
         let medium = self.medium(problem)?;
-        let limits = Limits { sound: (!self.solves()).then_some(medium.sound), viscosity: self.0.number("viscosity") };
+        let Friction { alpha, viscosity, .. } = self.friction();
+        let limits = Limits { sound: (!self.solves()).then_some(medium.sound), alpha, viscosity };
         fluids::limits(&medium, limits, plan, problem)
     }
     fn evaluate(&self, plan: &mut Plan, _: usize, problem: &Problem) -> Result<(), Error> {
