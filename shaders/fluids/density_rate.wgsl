@@ -2,7 +2,8 @@
 // gradient of W at you, and all of it taken in the middle of that drift, at r − v dt / 2:
 //   dρ/dt = Σ m g r·v
 // Diffusion (Molteni & Colagrossi 2009) of what is not the density of a fluid at rest (Fourtakas et al. 2019), s the smoothing length:
-//   dρ/dt −= 2 δ s c Σ m/ρ' (ρ' − ρ − ρ₀ w·r / c²) g r² / (r² + 0.01 s²)
+//   dρ/dt −= 2 δ s c Σ m/ρ' (ρ' − ρ − (1 − (γ − 2) e) ρ₀ w·r / c²) g r² / (r² + 0.01 s²),  e = (ρ + ρ') / 2 ρ₀ − 1
+// By Tait's equation sound is faster where a fluid is denser, and weight does less to it there: dρ = ρ w·dr / c(ρ)², to first order in e.
 struct Params { factor: f32, diffusion: f32, weight: vec3f }
 struct Sum { rate: f32 }
 
@@ -19,7 +20,9 @@ fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
     if you.density > 0.0 {
         let d2 = r.x * r.x + r.y * r.y + r.z * r.z;
         let weighs = params.weight.x * r.x + params.weight.y * r.y + params.weight.z * r.z;
-        let excess = you.density - me.density - medium.density * weighs / (medium.sound * medium.sound);
+        let denser = 0.5 * (me.density + you.density) - medium.density;
+        let give = medium.density - f32(medium.exponent - 2u) * denser;
+        let excess = you.density - me.density - give * weighs / (medium.sound * medium.sound);
         let near = d2 / (d2 + 0.01 * medium.smoothing * medium.smoothing);
         (*sum).rate -= params.diffusion * (you.mass / you.density) * excess * gradient(r) * near;
     }

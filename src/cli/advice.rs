@@ -85,10 +85,12 @@ fn strangers(kernel: &Kernel) -> Result<(), Error> {
 }
 
 /// What should stay as it is.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct Conserved {
     /// The total energy.
     pub energy: bool,
+    /// What takes or gives it, where a force says so.
+    pub takers: Vec<&'static str>,
     /// The momentum.
     pub momentum: bool,
     /// The angular momentum.
@@ -117,7 +119,12 @@ fn idle(links: &Links, laws: &[Law]) -> Vec<String> {
 /// side and come in at the other, momentum stays, and the angular momentum is about nothing.
 pub fn conserved(setup: &Setup) -> Result<Conserved, Error> {
     let (periodic, reflecting) = (setup.bounds.has(Side::Periodic), setup.bounds.has(Side::Reflecting));
-    let mut conserved = Conserved { energy: true, momentum: !reflecting, angular_momentum: !reflecting && !periodic };
+    let mut conserved = Conserved {
+        energy: true,
+        takers: Vec::new(),
+        momentum: !reflecting,
+        angular_momentum: !reflecting && !periodic,
+    };
     for law in setup.forces.iter().flat_map(|force| force.laws()) {
         conserved.momentum &= law.reciprocal;
         conserved.angular_momentum &= law.reciprocal;
@@ -145,11 +152,18 @@ pub fn conserved(setup: &Setup) -> Result<Conserved, Error> {
     let mut limits = Plan::default();
     for force in &setup.forces {
         let problem = Problem::new(1, MACHINE).moved(&setup.particles.motions, setup.dt);
+        let takes = force.takes(!held.is_empty());
+        conserved.angular_momentum &= !takes.angular_momentum;
+        conserved.takers.extend(takes.energy);
         force.limit(&mut limits, &problem)?;
-        force.confine(&mut limits, &problem, 1.0)?;
+        // What follows a drift of a fluid is its density.
+        if force.fluid(&problem)?.is_none() {
+            force.confine(&mut limits, &problem, 1.0)?;
+        }
     }
+    conserved.energy &= conserved.takers.is_empty();
     if !limits.order.is_empty() || setup.particles.is_mortal() {
-        conserved = Conserved { energy: false, momentum: false, angular_momentum: false };
+        conserved = Conserved { energy: false, momentum: false, angular_momentum: false, ..conserved };
     }
     Ok(conserved)
 }

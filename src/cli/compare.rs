@@ -1,5 +1,7 @@
 //! `motes compare`
 
+use std::cmp::Ordering;
+
 use glam::DVec3;
 use motes::kernel::Backend;
 use motes::lockstep::{self, Verdict};
@@ -36,12 +38,26 @@ pub async fn compare(args: &CompareArgs) -> Result<(), Failure> {
     let median = forces.iter().map(|v| v.relative[0]).reduce(f64::min).unwrap_or(0.0);
     // Where inputs that are rounded leave forces open, they leave energies open too.
     let energy = over.energy <= ENERGY || !verdicts.iter().all(Verdict::good);
-    let good = verdicts.iter().all(Verdict::sound) && median <= MEDIAN && over.good() && energy;
+    let faults = [
+        (!verdicts.iter().all(Verdict::sound), "a kernel is WRONG".to_owned()),
+        // NaN is more than anything.
+        (
+            median.partial_cmp(&MEDIAN).is_none_or(Ordering::is_gt),
+            format!("in the median forces differ by {median:.1e}, and {MEDIAN:.0e} is allowed"),
+        ),
+        (
+            !over.good(),
+            format!("positions differ by {:.1e} (rms), and {:.1e} is allowed", over.position[0], over.allowed),
+        ),
+        (!energy, format!("total energies differ by {:.1e}, and {ENERGY:.0e} is allowed", over.energy)),
+    ];
+    let faults: Vec<String> = faults.into_iter().filter(|(is, _)| *is).map(|(_, what)| what).collect();
+    let good = faults.is_empty();
     if args.json {
         let rows: Vec<_> = verdicts.iter().map(row).collect();
         let value = json!({ "scene": scene.name, "particles": setup.particles.len(), "device": found.describe(),
             "tolerance": lockstep::TOLERANCE, "kernels": rows, "steps": args.steps, "position_error": over.position,
-            "position_scale": over.scale, "energy_error": over.energy, "far_groups": far::rows(&far), "good": good });
+            "position_scale": over.scale, "energy_error": over.energy, "far_groups": far::rows(&far), "faults": faults, "good": good });
         out!("{value:#}");
     } else {
         out!("{}: {} particles, {} against f64 twins\n", scene.name, setup.particles.len(), found.describe());
@@ -55,7 +71,7 @@ pub async fn compare(args: &CompareArgs) -> Result<(), Failure> {
             over.position[1]
         );
         out!("  total energies differ by {:.1e} of the kinetic and potential ones", over.energy);
-        out!("\n{}", if good { "they agree" } else { "THEY DISAGREE" });
+        out!("\n{}", if good { "they agree".to_owned() } else { format!("THEY DISAGREE: {}", faults.join("; ")) });
     }
     if good { Ok(()) } else { Err(Failure::Disagreement) }
 }

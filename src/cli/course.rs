@@ -1,6 +1,7 @@
 //! How far a run has come, in steps of dt. Where steps are adaptive, others come in between: then these are times that the
 //! run stops at when something is to be written there.
 
+use super::progress::plain;
 use motes::kernel::{Backend, Reason};
 use motes::scene::Scene;
 use motes::simulation::Clock;
@@ -10,8 +11,10 @@ use serde_json::{Value, json};
 /// `1000 steps of 0.001`, for people.
 pub fn words(scene: &Scene) -> String {
     match scene.pace {
-        Some(pace) => format!("{} of time in steps of {} to {}", scene.until, pace.least, scene.dt),
-        None => format!("{} steps of {}", scene.steps, scene.dt),
+        Some(pace) => {
+            format!("{} of time in steps of {} to {}", plain(scene.until), plain(pace.least), plain(scene.dt))
+        }
+        None => format!("{} steps of {}", scene.steps, plain(scene.dt)),
     }
 }
 

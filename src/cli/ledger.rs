@@ -8,6 +8,7 @@ use motes::measure::Ledger;
 use motes::simulation::Clock;
 use motes::{Bounds, Error, Setup, Simulation, Snapshot};
 
+use super::progress::plain;
 use super::table::Table;
 
 const HEADER: &str = "step,time,dt,dt_free,limit,limited_by,mass,momentum_x,momentum_y,momentum_z,kinetic,potential,internal,total,\
@@ -72,8 +73,10 @@ impl Book {
         }
         let loud = (row.outside > self.worst.outside || row.broken > self.worst.broken).then(|| {
             format!(
-                "{} particles of the fluid are out of the box and {} are broken at {:?}: both must stay 0",
-                row.outside, row.broken, row.time
+                "{} particles of the fluid are out of the box and {} are broken at {}: both must stay 0",
+                row.outside,
+                row.broken,
+                plain(row.time)
             )
         });
         if row.worst_density > self.worst.worst_density {
@@ -96,8 +99,10 @@ impl Book {
         } else {
             format!("UP TO {} OUT OF THE BOX AND {} BROKEN", worst.outside, worst.broken)
         };
+        // Walls weigh something too, and the energy of a run counts them.
+        let whose = if self.held.contains(&true) { " without walls" } else { "" };
         Some(format!(
-            "fluid: mass {:.6e} ({lost:+.1e}), energy {:.4e} → {:.4e}, too dense by {:.2} % at most (particle {} at {:.4}), {:.3} % in \
+            "fluid: mass {:.6e} ({lost:+.1e}), energy{whose} {:.4e} → {:.4e}, too dense by {:.2} % at most (particle {} at {:.4}), {:.3} % in \
              the mean; {counts}",
             last.mass,
             first.total(),

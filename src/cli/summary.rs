@@ -12,9 +12,13 @@ use super::progress::{duration, large};
 
 /// How the energy went. Where the total is next to nothing, as of a pendulum that starts at its pivot's height, changes are
 /// told by the largest kinetic energy there was.
-pub fn energy(rows: &[Measure], conserved: bool) -> String {
+pub fn energy(rows: &[Measure], conserved: &Conserved) -> String {
     let (first, last) = (rows.first().copied().unwrap_or_default(), rows.last().copied().unwrap_or_default());
-    let word = if conserved { "error" } else { "not conserved, change" };
+    let word = match conserved {
+        Conserved { energy: true, .. } => "error".to_owned(),
+        Conserved { takers, .. } if takers.is_empty() => "not conserved, change".to_owned(),
+        Conserved { takers, .. } => format!("not conserved ({}), change", takers.join("; ")),
+    };
     let largest = rows.iter().map(|row| row.kinetic).fold(0.0, f64::max);
     let ends = format!("energy {:.6e} → {:.6e}", first.total(), last.total());
     if first.total().abs() < 0.01 * largest {
@@ -25,7 +29,7 @@ pub fn energy(rows: &[Measure], conserved: bool) -> String {
 }
 
 /// How the momenta went, where they are kept.
-pub fn momentum(rows: &[Measure], conserved: Conserved) -> Option<String> {
+pub fn momentum(rows: &[Measure], conserved: &Conserved) -> Option<String> {
     let (first, last) = (rows.first()?, rows.last()?);
     let (p, l) = (last.momentum - first.momentum, last.angular_momentum - first.angular_momentum);
     let turning = format!(", angular momentum by {:.1e}", l.length());

@@ -62,7 +62,9 @@ pub fn rate(medium: &Medium, continuity: Continuity, factor: f64, problem: &Prob
                 *rate += b.mass * me.gradient(middle) * middle.dot(v);
                 if !who.is_held(b.index) {
                     let (mine, yours) = (density[a.index], density[b.index]);
-                    let excess = yours - mine - me.density * continuity.weight.dot(r) / (me.sound * me.sound);
+                    let denser = 0.5 * (mine + yours) - me.density;
+                    let give = me.density - f64::from(me.exponent - 2) * denser;
+                    let excess = yours - mine - give * continuity.weight.dot(r) / (me.sound * me.sound);
                     let near = r.length_squared() / (r.length_squared() + 0.01 * smoothing * smoothing);
                     *rate -= diffusion * b.mass / yours * excess * me.gradient(r) * near;
                 }

@@ -1,6 +1,6 @@
 //! How long a step of a fluid may be (Monaghan 1992; Morris, Fox & Zhu 1997; Ihmsen et al. 2014):
-//! dt = C min( √(s / |a|), s / (c + |μ|), s² / (8 ν), 0.4 d / |v| ), with s the smoothing length, which is half of the support, and
-//! d the spacing. Where the speed of sound is told, speeds themselves are no limit.
+//! dt = min( C √(s / |a|), C s / (c + |μ| + 0.6 α c), s² / (8 ν), 0.4 C d / |v| ), with s the smoothing length, which is half of the
+//! support, and d the spacing. Where the speed of sound is told, speeds themselves are no limit.
 
 use std::sync::Arc;
 
@@ -23,6 +23,8 @@ const CLOSING: Field<f32> = Field::new("closing");
 pub struct Limits {
     /// The speed of sound \[length / time\]; none where the fluid has none: then speeds are a limit.
     pub sound: Option<f64>,
+    /// α of the artificial viscosity, which goes with sound (Monaghan 1992).
+    pub alpha: f64,
     /// The kinematic viscosity, where it is explicit \[length² / time\].
     pub viscosity: f64,
 }
@@ -32,6 +34,7 @@ pub struct Limits {
 struct Shares {
     acceleration: f64,
     signal: f64,
+    /// With what artificial viscosity adds to it.
     sound: f64,
     speed: f64,
 }
@@ -49,11 +52,11 @@ pub fn limits(medium: &Medium, limits: Limits, plan: &mut Plan, problem: &Proble
     let shares = Shares {
         acceleration: longest / length.sqrt(),
         signal: limits.sound.map_or(0.0, |_| longest / length),
-        sound: limits.sound.unwrap_or(0.0),
+        sound: limits.sound.unwrap_or(0.0) * (1.0 + 0.6 * limits.alpha),
         speed: if limits.sound.is_some() { 0.0 } else { longest / (COURANT * medium.spacing) },
     };
     plan.add(urge(&shares, problem)?);
-    Ok(Some(longest * 8.0 * limits.viscosity / (length * length)))
+    Ok(Some(problem.dt * 8.0 * limits.viscosity / (length * length)))
 }
 
 fn closing(medium: &Medium, problem: &Problem) -> Result<Kernel, Error> {

@@ -13,7 +13,9 @@ use crate::visit::{Sweep, gathered};
 /// The pressure that walls find, over ρ₀², in the order of the grid.
 const WALL_PRESSURE: &str = "wall_pressure";
 
-/// The kernels that find the pressure of walls (Adami, Hu & Adams 2012), and write it down beside that of the fluid.
+/// The kernels that find the pressure of walls (Adami, Hu & Adams 2012, eq. 27), and write it down beside that of the fluid. That
+/// equation has g − a of the wall's own acceleration a, where this has g: a step knows a place and a velocity of who is led, and no
+/// more. What is left out is ρ a times the half of a support, at a wall that is led and speeds up.
 ///
 /// # Errors
 /// When the range is none, or a shader does not compile.

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use glam::DVec3;
 
-use super::{Force, Law, Problem};
+use super::{Force, Law, Problem, Takes};
 use crate::error::Error;
 use crate::fluids::{
     self, Asked, COURANT, Continuity, Continuum, Dfsph, Friction, Limits, Medium, Smoothing, Tension, WallMass, Walls,
@@ -27,7 +27,7 @@ pub const KEYS: &[Key] = &[
     Key::new("viscosity", Kind::NotNegative, Value::Number(0.0), "the kinematic viscosity ν (Morris, Fox & Zhu 1997) [length² / time]"),
     Key::new("xsph", Kind::NotNegative, Value::Number(0.0), "ε of XSPH: how much of the mean velocity around is taken on in each step (Schechter & Bridson 2012)"),
     Key::new("wall_friction", Kind::NotNegative, Value::Number(1.0), "how much of both viscosities walls have; 0 lets slip"),
-    Key::new("walls", Kind::Choice(WALLS), Value::Text(Cow::Borrowed("mirror")), "the pressure of walls: that of whoever asks (Akinci et al. 2012), or that of the fluid around them (Adami, Hu & Adams 2012)"),
+    Key::new("walls", Kind::Choice(WALLS), Value::Text(Cow::Borrowed("mirror")), "the pressure of walls: that of whoever asks (Akinci et al. 2012), or that of the fluid around them (Adami, Hu & Adams 2012, as if they were not accelerated)"),
     Key::new("wall_mass", Kind::Choice(WALL_MASS), Value::Text(Cow::Borrowed("sampled")), "what walls weigh: by how close they are, for one layer (Akinci et al. 2012), or each a share of the lattice, for several"),
     Key::new("density_by", Kind::Choice(DENSITY_BY), Value::Text(Cow::Borrowed("summation")), "where density comes from: masses around, or the continuity equation (Monaghan 1994), which knows of no surface"),
     Key::new("diffusion", Kind::NotNegative, Value::Number(0.0), "δ of the diffusion of density by continuity, 0.1 say (Molteni & Colagrossi 2009)"),
@@ -168,7 +168,8 @@ impl Force for Fluid {
     }
     fn paces(&self, plan: &mut Plan, problem: &Problem) -> Result<Option<f64>, Error> {
         let medium = self.medium(problem)?;
-        let limits = Limits { sound: (!self.solves()).then_some(medium.sound), viscosity: self.0.number("viscosity") };
+        let Friction { alpha, viscosity, .. } = self.friction();
+        let limits = Limits { sound: (!self.solves()).then_some(medium.sound), alpha, viscosity };
         fluids::limits(&medium, limits, plan, problem)
     }
     fn evaluate(&self, plan: &mut Plan, _: usize, problem: &Problem) -> Result<(), Error> {
@@ -241,6 +242,21 @@ impl Force for Fluid {
     }
     fn answers(&self) -> bool {
         self.solves()
+    }
+    /// Pressure by summation is the slope of the internal energy, and the equation of continuity goes along with it; nothing else
+    /// is. Friction along the difference of two velocities, and the curvature of a surface, turn a fluid.
+    fn takes(&self, held: bool) -> Takes {
+        let on = |name| self.0.number(name) > 0.0;
+        let rubs = on("viscosity") || on("xsph");
+        let all = [
+            (rubs || on("alpha") && !self.solves(), "viscosity"),
+            (self.tension().is_some(), "surface tension, which is not counted"),
+            (on("diffusion"), "diffusion"),
+            (self.solves(), "pressure that is solved for"),
+            (held, "walls"),
+        ];
+        let energy = all.into_iter().filter(|(is, _)| *is).map(|(_, what)| what).collect();
+        Takes { energy, angular_momentum: rubs || self.tension().is_some() }
     }
     fn integrators(&self) -> &'static [&'static str] {
         if self.solves() { &["symplectic_euler"] } else { &[] }

@@ -128,10 +128,23 @@ pub trait Force: Send + Sync {
     fn fluid(&self, _problem: &Problem) -> Result<Option<Continuum>, Error> {
         Ok(None)
     }
+    /// What it does not keep, beside what its laws tell; among the held, or where nobody is.
+    fn takes(&self, _held: bool) -> Takes {
+        Takes::default()
+    }
     /// The integrators under which it is what its paper says; none: under all.
     fn integrators(&self) -> &'static [&'static str] {
         &[]
     }
+}
+
+/// What a force takes, or gives, that none of its laws tells of.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Takes {
+    /// What of it changes the energy that is measured, in a word or two each.
+    pub energy: Vec<&'static str>,
+    /// Whether it changes the angular momentum.
+    pub angular_momentum: bool,
 }
 
 /// A line of the register.

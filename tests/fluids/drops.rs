@@ -134,8 +134,8 @@ fn a_drop_swings_with_its_period() {
     let [(first, least), _, (third, again)] = turns[..] else { panic!("it turns {} times: {turns:?}", turns.len()) };
     let period = 0.5 * (third - first);
     println!("the drop's period is {:.4} of what it should be; its least half axes are {turns:?}", period / PERIOD);
-    // Sound of the start, of a period of 0.3, rides on it: seen 0.5 %.
-    assert!((period / PERIOD - 1.0).abs() < 0.01, "{period}");
+    // Sound of the start, of a period of 0.3, rides on it: seen 0.4 %.
+    assert!((period / PERIOD - 1.0).abs() < 0.005, "{period}");
     // From 1/√2 on; friction takes what it takes.
     assert!((least - 0.5f64.sqrt()).abs() < 0.02 && again < least + 0.03, "{turns:?}");
 }

@@ -30,7 +30,7 @@ impl Force for Silent {
         let (density, spacing, support, smoothing) = (1.3, SPACING, 2.0, Smoothing::Cubic);
         let medium =
             Medium { density, spacing, support, smoothing, sound: 0.0, exponent: 7, negative: false, dimensions: 3 };
-        fluids::limits(&medium, Limits { sound: None, viscosity: 0.0 }, plan, problem)
+        fluids::limits(&medium, Limits { sound: None, alpha: 0.0, viscosity: 0.0 }, plan, problem)
     }
 }
 

@@ -32,8 +32,14 @@ fn a_step_is_as_long_as_its_formula_says() {
     // (forces, what limits, of whom, how long)
     let cases = [
         ("signal", vec![fluid(9.0, &[])], Some(1), c * LENGTH / (9.0 + mu)),
+        (
+            "signal",
+            vec![fluid(3.0, &[("alpha", Value::Number(5.0))])],
+            Some(1),
+            c * LENGTH / (3.0 + mu + 0.6 * 5.0 * 3.0),
+        ),
         ("acceleration", vec![weight(700.0), fluid(0.3, &[])], Some(0), c * (LENGTH / 700.0f64).sqrt()),
-        ("viscosity", vec![fluid(0.3, &[("viscosity", Value::Number(0.2))])], None, c * 0.125 * LENGTH * LENGTH / 0.2),
+        ("viscosity", vec![fluid(0.3, &[("viscosity", Value::Number(0.5))])], None, 0.125 * LENGTH * LENGTH / 0.5),
         ("speed", vec![weight(0.1), Box::new(Silent) as _], Some(1), c * 0.4 * SPACING / 1.5),
         ("longest", vec![Box::new(Free) as _], None, DT),
     ];
@@ -152,5 +158,45 @@ fn what_makes_no_sense_is_refused() {
     ] {
         let told = refused(free(), "leapfrog", pace);
         assert!(told.contains(says), "{told}");
+    }
+}
+
+/// The longest step that a viscosity allows is one that it bears: shear dies out, and at three times as long a step it does not.
+#[test]
+fn what_viscosity_bears_is_what_is_allowed() {
+    let side = 12;
+    let shear = |times: f64, support: f64, kernel: &'static str| {
+        let mut particles = Particles::default();
+        for i in 0..side * side {
+            let place = DVec3::new(f64::from(i % side) + 0.5, f64::from(i / side) + 0.5, 0.0);
+            // The shortest wave there is: a chequered one.
+            let v = if (i % side + i / side) % 2 == 0 { 0.01 } else { -0.01 };
+            particles.push(SPACING * place, DVec3::X * v, 1000.0 * SPACING * SPACING, 0.0);
+        }
+        let size = DVec3::new(1.0, 1.0, 0.0) * SPACING * f64::from(side);
+        let more = [
+            ("viscosity", Value::Number(0.5)),
+            ("support", Value::Number(support)),
+            ("kernel", crate::support::states::word(kernel)),
+            ("negative_pressure", Value::Flag(true)),
+        ];
+        let length = 0.5 * support * SPACING;
+        let setup = motes::Setup {
+            particles,
+            forces: vec![fluid(0.01, &more)],
+            integrator: crate::support::states::integrator("leapfrog"),
+            dt: times * 0.125 * length * length / 0.5,
+            bounds: motes::Bounds::new(DVec3::ZERO, size, motes::Side::Periodic),
+            solver: motes::Solver::default(),
+        };
+        let mut simulation = on_cpu(&setup);
+        simulation.step(40).expect("steps");
+        let state = pollster::block_on(simulation.snapshot()).expect("a snapshot");
+        state.particles.velocity.iter().map(|v| v.length()).fold(0.0, f64::max)
+    };
+    for (support, kernel) in [(2.0, "cubic"), (3.0, "wendland"), (2.0, "wendland"), (4.0, "wendland")] {
+        let (allowed, more) = (shear(1.0, support, kernel), shear(8.0, support, kernel));
+        println!("{kernel} {support}: {allowed:e} {more:e}");
+        assert!(allowed < 0.001 && more > 0.01, "{kernel}, {support} spacings: {allowed:e}, {more:e}");
     }
 }

@@ -59,7 +59,7 @@ impl Force for Silent {
         Ok(vec![(Self::medium(problem).grid(problem)?, true)])
     }
     fn paces(&self, plan: &mut Plan, problem: &Problem) -> Result<Option<f64>, Error> {
-        fluids::limits(&Self::medium(problem), Limits { sound: None, viscosity: 0.0 }, plan, problem)
+        fluids::limits(&Self::medium(problem), Limits { sound: None, alpha: 0.0, viscosity: 0.0 }, plan, problem)
     }
 }
 

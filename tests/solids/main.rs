@@ -3,6 +3,7 @@
 mod shapes;
 #[path = "../support/mod.rs"]
 mod support;
+mod touch;
 
 use glam::DVec3;
 use motes::forces::Force;

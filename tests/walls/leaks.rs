@@ -65,6 +65,27 @@ fn solids_leak_nothing() {
     }
 }
 
+/// Splash is faster than the flow, and goes where nobody thought it would: what we show ends with none out of its box.
+#[test]
+fn splash_stays_in_the_box_of_what_we_show() {
+    let readme = include_str!("../../README.md").split("# dam.toml\n").nth(1).expect("a dam in the README");
+    let coarse = ["force.1.spacing=0.1", "simulation.dt=0.001"];
+    let small = setup(readme.split("```").next().expect("a scene"));
+    for (setup, fluid, until, high) in
+        [(small, 1000, 1.0, DVec3::new(2.0, 1.0, 0.0)), (builtin("dam_break_2d", &coarse), 200, 1.6, DVec3::splat(4.0))]
+    {
+        let mut top = 0.0f64;
+        watched(&setup, 50, |time, places| {
+            let out = outside(places, fluid, DVec3::ZERO, high);
+            assert_eq!(out, 0, "{out} are out of {high} at {time}");
+            top = places[..fluid].iter().map(|x| x.y).fold(top, f64::max);
+            time < until
+        });
+        // Splash got there, or above the rim.
+        assert!(top > 0.8 * high.y, "{top} of {}", high.y);
+    }
+}
+
 /// The paddle of the wave tank goes where its motion says, the water goes along with it, and stays before it.
 #[test]
 fn a_paddle_makes_waves_and_lets_nobody_by() {

@@ -72,3 +72,39 @@ fn check_and_run_refuse_what_would_explode() {
     }
     assert!(!folder.path().join("out").exists(), "refused before anything is written");
 }
+
+/// A fluid keeps what its pressure keeps; who rubs, or has no energy for its surface, is not said to.
+#[test]
+fn what_a_fluid_keeps_is_claimed_and_nothing_else() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (scene, out) =
+        (folder.path().join("drop.toml").display().to_string(), folder.path().join("out").display().to_string());
+    let run = |set: &[&str]| {
+        let mut args = vec!["run", &scene, "-o", &out, "--backend", "cpu", "--set", "output.formats=[\"csv\"]"];
+        args.extend(set.iter().flat_map(|value| ["--set", *value]));
+        let (code, stdout, stderr) = motes(&args);
+        assert_eq!(code, 0, "{set:?}: {stderr}");
+        stdout
+    };
+    let drop = "[simulation]\ndt = 0.001\nsteps = 2\nintegrator = \"leapfrog\"\n[box]\nsize = [4, 4, 0]\nboundary = \"open\"\n\
+                [[particles]]\nshape = \"drop\"\nsize = [0.5, 0.5, 0]\ncenter = [2, 2, 0]\nvelocity = [1, 0, 0]\n\
+                [[force]]\nkind = \"fluid\"\nspacing = 0.1\nsound_speed = 9\n";
+    std::fs::write(&scene, drop).expect("written");
+    let ideal = run(&[]);
+    assert!(ideal.contains(", error ") && ideal.contains("angular momentum by"), "{ideal}");
+    let by_rate = run(&["force.0.density_by=continuity"]);
+    assert!(by_rate.contains(", error ") && by_rate.contains("angular momentum by"), "{by_rate}");
+    for (value, why, turns) in [
+        ("alpha=0.1", "not conserved (viscosity), change", false),
+        ("viscosity=0.1", "not conserved (viscosity), change", true),
+        ("tension=1", "not conserved (surface tension, which is not counted), change", true),
+    ] {
+        let rubs = run(&[&format!("force.0.{value}")]);
+        assert!(rubs.contains(why) && rubs.contains("angular momentum by") != turns, "{value}: {rubs}");
+        assert!(rubs.contains("momentum changed by"), "{rubs}");
+    }
+    let walled = format!("{drop}[[particles]]\nshape = \"tank\"\nsize = [4, 4, 0]\ncenter = [2, 2, 0]\n");
+    std::fs::write(&scene, walled).expect("written");
+    let walled = run(&["force.0.alpha=0.1"]);
+    assert!(walled.contains("(viscosity; walls), change") && walled.contains("energy without walls"), "{walled}");
+}

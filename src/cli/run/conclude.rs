@@ -52,9 +52,9 @@ impl Run {
         course.summary().into_iter().for_each(&say);
         // Birds are driven: what their energy does tells nobody anything.
         if self.conserved.energy || output.company().is_none() {
-            say(summary::energy(output.rows(), self.conserved.energy));
+            say(summary::energy(output.rows(), &self.conserved));
         }
-        summary::momentum(output.rows(), self.conserved).into_iter().for_each(&say);
+        summary::momentum(output.rows(), &self.conserved).into_iter().for_each(&say);
         output.company().map(|(first, last)| summary::company(first, last)).into_iter().for_each(&say);
         self.book.as_ref().and_then(Book::summary).into_iter().for_each(&say);
         self.torn.iter().cloned().chain(output.population().map(summary::population)).for_each(&say);
