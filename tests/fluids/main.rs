@@ -13,6 +13,7 @@ mod friction;
 mod invariants;
 mod keys;
 mod lockstep;
+mod rates;
 mod smoothing;
 mod tension;
 mod vortices;
