@@ -88,7 +88,7 @@ async fn judge(mut scene: Scene) -> Result<Loaded, Failure> {
         lines = told;
         scene.remarks.extend(notes);
     }
-    if let Some(flow) = Flow::of(&setup, scene.integrator.build, scene.steps).await? {
+    if let Some(flow) = Flow::of(&setup, scene.integrator.build).await? {
         lines.extend(flow::line(&flow, setup.dt));
         scene.remarks.extend(flow::warning(&flow, &scene)?);
     }

@@ -11,6 +11,8 @@ use crate::simulation::Setup;
 /// Above so many times the largest step that is safe a fluid is lost. In a dam that breaks (25 by 16 particles, 160 steps) sound, α,
 /// ν and ε above it made energies of 10⁴ to 10⁶ times the first; between, a surface that is no lattice may bear it.
 const LOST: f64 = 1.25;
+/// How long nothing may grow tenfold, in times of the quickest.
+const PERIODS: f64 = 1e4;
 
 /// What asks for the shortest step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -37,19 +39,20 @@ pub struct Flow {
 }
 
 impl Flow {
-    /// Of a setup that is to run for so many steps; `None` where there is no fluid. Steps that are adaptive keep to limits of
+    /// Of a setup; `None` where there is no fluid. Steps that are adaptive keep to limits of
     /// their own, and are asked for XSPH alone.
     ///
     /// # Errors
     /// When there is no such fluid, or what a simulation of one particle by the twins says.
-    pub async fn of(setup: &Setup, build: Build, steps: u64) -> Result<Option<Self>, Error> {
+    pub async fn of(setup: &Setup, build: Build) -> Result<Option<Self>, Error> {
         let problem = setup.problem(Machine { software: true, subgroup: 0, invocations: 1 })?;
         let Some(rates) = setup.forces.iter().find_map(|force| force.rates(&problem).transpose()).transpose()? else {
             return Ok(None);
         };
         // What is not solved for goes by the step of an explicit method.
         let build: Build = if build().is_implicit() { || Box::new(SymplecticEuler) } else { build };
-        let duration = setup.dt * steps as f64;
+        // The limit is sharp in so long a time, and few steps are no excuse.
+        let duration = PERIODS / rates.sound.max(rates.friction);
         let of = |stiffness: f64, damping: f64| limit(build, Mode { stiffness, damping }, duration);
         let swings = Oscillator::new(build(), 1.0, 0.0)?.growth(0.5).await? < 1.0 + 1e-9;
         // Who bears no swing lives by friction.
@@ -61,7 +64,7 @@ impl Flow {
         let paced = setup.integrator.pace().is_some();
         let mut flow = Self { safe, excess: if paced { 0.0 } else { setup.dt / safe }, asks, sure: swings };
         // In units of the step.
-        let drawn = rates.drawn / limit(build, Mode { stiffness: 0.0, damping: 1.0 }, duration / setup.dt).await?;
+        let drawn = rates.drawn / limit(build, Mode { stiffness: 0.0, damping: 1.0 }, PERIODS).await?;
         if drawn > flow.excess {
             flow = Self { excess: drawn, asks: Asks::Xsph, ..flow };
         }

@@ -92,13 +92,13 @@ fn faults_of_a_fluid_stand_where_they_are_mended() {
         assert!(code == 3 && said.contains(word) && said.contains(&format!("--set {set}")), "{said}");
     }
     let silent = DAM.replace("sound_speed = 40\n", "");
-    says(&silent, &[], 3, &["has no sound_speed", "dam.toml:23:1"]);
+    says(&silent, &[], 3, &["has no sound_speed", "dam.toml:21:1"]);
     let both = format!("{DAM}walls = \"extrapolate\"\nsolver = \"dfsph\"\n");
-    says(&both, &[], 3, &["dam.toml:28:9", "^"]);
+    says(&both, &[], 3, &["dam.toml:26:9", "^"]);
     let two = format!("{DAM}[[force]]\nkind = \"fluid\"\nspacing = 0.1\nsound_speed = 9\n");
-    says(&two, &[], 3, &["there are two forces that make a fluid", "dam.toml:28:1"]);
+    says(&two, &[], 3, &["there are two forces that make a fluid", "dam.toml:26:1"]);
     let walls = DAM.replace("shape = \"block\"", "shape = \"tank\"");
-    says(&walls, &[], 3, &["there is a fluid and nothing of it", "dam.toml:23:1"]);
+    says(&walls, &[], 3, &["there is a fluid and nothing of it", "dam.toml:21:1"]);
     let (_, said) = motes("check", DAM, &["force.1.spacing=0"]);
     assert_eq!(said.matches("`spacing` must be a number above zero").count(), 1, "{said}");
 }
@@ -149,7 +149,7 @@ fn parts_that_say_different_things_are_told() {
         0,
         &["has wall_mass = \"lattice\", and its fluid wall_mass = \"sampled\""],
     );
-    says(DAM, &["particles.0.center=[0.25,0.7,0]"], 0, &["particles of the fluid begin out of the box, particle 30 "]);
+    says(DAM, &["particles.0.center=[0.25,0.7,0]"], 0, &["particles of the fluid begin out of the box, particle 35 "]);
     let extrapolate = ["force.1.walls=extrapolate", "force.1.weight=[0,-1,0]"];
     says(DAM, &extrapolate, 0, &["the fluid has weight = [0, -1, 0], and forces pull everybody by [0, -9.81, 0]"]);
     let (_, said) = motes("check", DAM, &["force.1.walls=extrapolate", "force.1.weight=[0,-9.81,0]"]);

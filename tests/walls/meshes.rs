@@ -117,7 +117,7 @@ fn slivers_cost_what_they_have() {
     assert!((5000..6100).contains(&places.len()), "{}", places.len());
     assert!(start.elapsed().as_secs() < 10, "{:?}", start.elapsed());
     let error = mesh(sliver, &[("scale", number(1.0)), ("spacing", number(1e-5))]).expect_err("too fine").to_string();
-    assert!(error.contains("would be tried at 8.0e8 places, and 2e8 are the most"), "{error}");
+    assert!(error.contains("would be tried at 8.8e8 places, and 2e8 are the most"), "{error}");
 }
 
 const SCENE: &str = "[simulation]\ndt = 1\nsteps = 1\n[[particles]]\nshape = \"wall\"\nsurface = \"mesh\"\nmesh = \"NAME\"\nspacing = 0.25\n";

@@ -3,7 +3,7 @@
 use motes::Setup;
 use motes::scene::SCENES;
 
-use crate::{builtin, setup};
+use crate::{builtin, load, setup};
 
 /// A scene of a fluid in the plane or in space, of these particles.
 fn scene(flat: bool, force: &str, particles: &str) -> Setup {
@@ -89,10 +89,13 @@ fn what_is_no_fluid_is_refused() {
         error.contains("particle 216 is of the fluid and weighs nothing") && error.contains("give it the mass 1"),
         "{error}"
     );
-    let walls = refused(&scene(false, "", "[[particles]]\nshape = \"tank\"\nsize = [1, 1, 1]\n"));
+    let fluid = "[[force]]\nkind = \"fluid\"\nspacing = 0.1\nsound_speed = 20\n";
+    let head = "[simulation]\ndt = 1e-4\nsteps = 1\n[[particles]]\n";
+    let tank = format!("{head}shape = \"tank\"\nsize = [1, 1, 1]\n{fluid}");
+    let walls = load(&tank).err().expect("walls alone").to_string();
     assert!(walls.contains("nothing of it") && walls.contains("shape = \"block\""), "{walls}");
-    let two =
-        scene(false, "[[force]]\nkind = \"fluid\"\nspacing = 0.1\nsound_speed = 9\n", &block("size = [0.6, 0.6, 0.6]"));
+    let mut two = scene(false, "", &block("size = [0.6, 0.6, 0.6]"));
+    two.forces.extend(scene(false, "", &block("size = [0.6, 0.6, 0.6]")).forces);
     let error = two.check().expect_err("two fluids").to_string();
     assert!(error.contains("2 forces that make a fluid of everybody"), "{error}");
     let none = setup("[simulation]\ndt = 1\nsteps = 1\n[[particles]]\nbodies = [{ position = [0, 0, 0], mass = 0 }]\n");
