@@ -39,14 +39,15 @@ fn flow(setup: &Setup) -> Flow {
 /// By how much the fastest has become faster in so many steps.
 fn growth(setup: &Setup, steps: u32) -> f64 {
     let fastest = |state: &[(DVec3, DVec3)]| state.iter().map(|(_, v)| v.length()).fold(0.0, f64::max);
-    let mut simulation = gpu(device(), setup);
+    let shared = device();
+    let mut simulation = gpu(&shared, setup);
     let before = fastest(&state(&mut simulation));
     simulation.step(steps).expect("steps");
     fastest(&state(&mut simulation)) / before
 }
 
-/// A wave that is r times beyond the limit of leapfrog grows by |λ| = x² − 1 + x √(x² − 2)…, some 1.4² for x = 1.06: in 40 steps by
-/// far more than a hundred. Below it the fastest of 144 has some ten modes' worth at most.
+/// Leapfrog multiplies the quickest wave by x² / 2 − 1 + x √(x² / 4 − 1) in a step, x = ω dt = 2.12: by 2.0, e²⁷ in 40 steps. What is
+/// damped it multiplies by 1 − c dt = −1.2: e¹⁴ in 80, of which one sees a tenth, and a tenth of that was in this wave.
 #[test]
 fn what_is_just_too_long_grows() {
     let sound = [("sound_speed", Number(10.0))];
@@ -62,7 +63,8 @@ fn what_is_just_too_long_grows() {
     ] {
         let verdict = flow(&lattice(flat, more, 1e-3));
         assert_eq!(verdict.asks, asks);
-        let [below, above] = [0.93, 1.06].map(|part| growth(&lattice(flat, more, part * verdict.safe), 40));
+        let (beyond, steps) = if asks == Asks::Sound { (1.06, 40) } else { (1.1, 80) };
+        let [below, above] = [0.93, beyond].map(|part| growth(&lattice(flat, more, part * verdict.safe), steps));
         assert!(below < 5.0 && above > 100.0, "{more:?}: {below} {above}");
         assert!(!flow(&lattice(flat, more, 1.2 * verdict.safe)).is_lost());
         assert!(flow(&lattice(flat, more, 1.3 * verdict.safe)).is_lost());
@@ -75,7 +77,7 @@ fn xsph_has_a_limit_whatever_the_step() {
     let most = 1.0 / flow(&with(1.0, 1e-3)).excess;
     assert!((1.5..3.0).contains(&most), "{most}");
     for dt in [1e-3, 1e-5] {
-        let [below, above] = [0.95, 1.05].map(|part| growth(&with(part * most, dt), 60));
+        let [below, above] = [0.93, 1.1].map(|part| growth(&with(part * most, dt), 80));
         assert!(below < 2.0 && above > 100.0, "{below} {above}");
         assert!(flow(&with(1.3 * most, dt)).is_lost() && flow(&with(most, dt)).asks == Asks::Xsph);
     }
