@@ -47,7 +47,7 @@ pub fn warning(flow: &Flow, scene: &Scene) -> Result<Option<String>, Error> {
                  there is; 0.5 is much",
                 flow.excess
             );
-            return said(flow, text);
+            return said(flow, &text);
         }
     };
     let way = if flow.safe > 0.0 {
@@ -55,10 +55,10 @@ pub fn warning(flow: &Flow, scene: &Scene) -> Result<Option<String>, Error> {
     } else {
         "no dt is safe: choose leapfrog".to_owned()
     };
-    said(flow, format!("dt = {dt} is too long for {name} and {culprit}; {way}"))
+    said(flow, &format!("dt = {dt} is too long for {name} and {culprit}; {way}"))
 }
 
-fn said(flow: &Flow, text: String) -> Result<Option<String>, Error> {
+fn said(flow: &Flow, text: &str) -> Result<Option<String>, Error> {
     if flow.is_lost() {
         return Err(Error::Scene(format!("this run would explode: {text}")));
     }

@@ -63,8 +63,9 @@ pub fn remark(forces: &[Box<dyn Force>], integrator: &str) -> String {
         names[usize::from(solved)].extend(force.laws().into_iter().map(|law| format!("`{}`", law.name)));
     }
     let machine = Machine { software: true, subgroup: 0, invocations: 1 };
-    let flows = |force: &&Box<dyn Force>| force.rates(&Problem::new(1, machine)).is_ok_and(|rates| rates.is_some());
-    names[0].extend(forces.iter().find(flows).map(|_| "`fluid`".to_owned()));
+    let problem = Problem::new(1, machine);
+    let flows = forces.iter().any(|force| force.rates(&problem).is_ok_and(|rates| rates.is_some()));
+    names[0].extend(flows.then(|| "`fluid`".to_owned()));
     let [explicit, solved] = names.map(|names| if names.is_empty() { "none".to_owned() } else { names.join(", ") });
     format!("{integrator} solves for {solved}; explicit in the same step, with a limit on dt: {explicit}")
 }

@@ -9,23 +9,31 @@ use crate::forces::Problem;
 /// Who is nearer to where he belongs than this part of the size of his place is there: single precision tells no more.
 const ROUNDING: f64 = 1e-6;
 
-/// All places, and who has been put there, by how much.
-pub(super) fn kept(setup: &Setup, problem: &Problem) -> Result<(Vec<DVec3>, Vec<(usize, f64)>), Error> {
-    let mut places = setup.particles.position.clone();
+/// Where everybody is then.
+#[derive(Default)]
+pub(super) struct Kept {
+    /// All places, by id \[length\].
+    pub places: Vec<DVec3>,
+    /// Who has been put there, and how far from where he was \[length\].
+    pub moved: Vec<(usize, f64)>,
+}
+
+/// Asks all forces.
+pub(super) fn kept(setup: &Setup, problem: &Problem) -> Result<Kept, Error> {
+    let mut kept = Kept { places: setup.particles.position.clone(), moved: Vec::new() };
     let keepers = setup.forces.iter().filter_map(|force| force.keeper(problem).transpose());
     let keepers = keepers.collect::<Result<Vec<_>, _>>()?;
-    let mut moved = Vec::new();
     if keepers.is_empty() {
-        return Ok((places, moved));
+        return Ok(kept);
     }
-    for id in (0..places.len()).filter(|id| !problem.is_held(*id)) {
-        let (before, species) = (places[id], setup.particles.species[id]);
+    for id in (0..kept.places.len()).filter(|id| !problem.is_held(*id)) {
+        let (before, species) = (kept.places[id], setup.particles.species[id]);
         let after = keepers.iter().fold(before, |x, keeper| keeper(species, x));
         let way = (after - before).length();
         if way > ROUNDING * before.abs().max_element() {
-            places[id] = after;
-            moved.push((id, way));
+            kept.places[id] = after;
+            kept.moved.push((id, way));
         }
     }
-    Ok((places, moved))
+    Ok(kept)
 }

@@ -129,7 +129,7 @@ impl Setup {
         // Who waits or is dead is in nobody's way; a scene has the ids of those last.
         let living: Vec<usize> = (0..self.particles.len()).filter(|id| self.particles.lives(*id)).collect();
         let of = |list: &[DVec3]| -> Vec<DVec3> { living.iter().map(|id| list[*id]).collect() };
-        let (places, moved) = keepers::kept(self, &problem)?;
+        let keepers::Kept { places, moved } = keepers::kept(self, &problem)?;
         let (position, velocity) = (of(&places), of(&self.particles.velocity));
         let mass: Vec<f64> = living.iter().map(|id| self.particles.mass[*id]).collect();
         let walls: Vec<bool> = living.iter().map(|id| problem.is_held(*id)).collect();
@@ -156,7 +156,7 @@ impl Setup {
     /// # Errors
     /// When the setup makes no sense.
     pub fn put_out(&self) -> Result<Vec<(usize, f64)>, Error> {
-        Ok(keepers::kept(self, &self.problem(Machine { software: true, subgroup: 0, invocations: 1 })?)?.1)
+        Ok(keepers::kept(self, &self.problem(Machine { software: true, subgroup: 0, invocations: 1 })?)?.moved)
     }
     /// Refuses two fluids: each would take everybody for its own.
     fn fluids(&self) -> Result<(), Error> {
