@@ -32,7 +32,7 @@ pub enum Error {
     /// A number stopped being a number. Mended by a smaller step or more softening.
     #[error(
         "particle {particle} stopped being finite in step {step} (its position, velocity or acceleration is NaN or infinite): \
-         try a smaller dt, more softening, or look for particles that start at the same place"
+         try a smaller dt, more softening where particles attract each other, or look for some that start at the same place"
     )]
     NotFinite {
         /// The lowest id among the particles that failed first.

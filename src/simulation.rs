@@ -1,6 +1,7 @@
 //! A simulation: particles, forces and an integrator on a backend.
 
 mod alarm;
+mod keepers;
 mod mortals;
 mod pace;
 mod pictures;

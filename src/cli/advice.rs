@@ -1,7 +1,5 @@
 //! What one should know of a scene before it runs.
 
-use std::collections::BTreeSet;
-
 use glam::{DVec3, DVec4};
 use motes::forces::{Law, Over, Problem};
 use motes::kernel::{
@@ -170,24 +168,22 @@ pub fn conserved(setup: &Setup) -> Result<Conserved, Error> {
 
 const MACHINE: Machine = Machine::HOST;
 
-/// Who begins inside of a solid is thrown out of it in the first step.
-fn inside(setup: &Setup) -> Option<String> {
-    let particles = &setup.particles;
-    let held: BTreeSet<usize> = particles.held.iter().map(|one| one.id as usize).collect();
-    let solids: Vec<_> = setup.forces.iter().filter_map(|force| force.standing()).filter(|one| !one.inside).collect();
-    let within = |x: DVec3| solids.iter().any(|s| s.solid.distance(x - s.position, setup.bounds.dimensions).1 < 0.0);
-    let mut inner = (0..particles.len()).filter(|id| !held.contains(id) && within(particles.position[*id]));
-    let first = inner.next()?;
-    let count = 1 + inner.count();
-    Some(format!(
-        "{count} particles begin inside of a solid, particle {first} first of them: the first step throws them out, at any speed"
-    ))
+/// Who begins inside of a solid, or nearer to it than its thickness, is put out of it in the first step.
+fn inside(setup: &Setup) -> Result<Option<String>, Error> {
+    let moved = setup.put_out()?;
+    let Some((first, depth)) = moved.first() else { return Ok(None) };
+    let deepest = moved.iter().map(|(_, depth)| *depth).fold(0.0, f64::max);
+    Ok(Some(format!(
+        "{} particles begin inside of a solid, or nearer to it than its thickness, particle {first} first of them, by {depth:.3e}, and \
+         by {deepest:.3e} at most: the first step puts them out, wherever others are",
+        moved.len()
+    )))
 }
 
 /// Remarks of the scene itself, and of how its forces and its integrator go together.
 pub fn advice(scene: &Scene, setup: &Setup) -> Result<Vec<String>, Error> {
     let mut remarks = scene.remarks.clone();
-    remarks.extend(inside(setup));
+    remarks.extend(inside(setup)?);
     remarks.extend(births::early(setup, scene.steps as f64 * scene.dt));
     let laws: Vec<Law> = setup.forces.iter().flat_map(|force| force.laws()).collect();
     remarks.extend(idle(&setup.particles.links, &laws));
@@ -196,6 +192,19 @@ pub fn advice(scene: &Scene, setup: &Setup) -> Result<Vec<String>, Error> {
         remarks.push(solves::remark(&setup.forces, scene.integrator.name));
     }
     let (order, reduced) = (setup.integrator.order(), setup.integrator.order_with_velocity());
+    let loses = reduced < order || implicit && order > 1;
+    let depends = |name: &str| {
+        format!(
+            "`{name}` depends on velocity: {} is of order {order} for other forces, and of order {} with it; \
+             midpoint, heun and rk4 keep their order",
+            scene.integrator.name,
+            if implicit { 1 } else { reduced },
+        )
+    };
+    for force in &setup.forces {
+        let rates = force.rates(&Problem::new(1, MACHINE))?.unwrap_or_default();
+        remarks.extend((loses && rates.friction.max(rates.drawn) > 0.0).then(|| depends("fluid")));
+    }
     for law in laws {
         let name = law.name.clone();
         let (untwinned, over, offered) = (law.twin.is_none(), law.over, law.jacobian.is_some());
@@ -208,13 +217,8 @@ pub fn advice(scene: &Scene, setup: &Setup) -> Result<Vec<String>, Error> {
         let solved = implicit && offered;
         // Velocities count in the springs of the house where they are damped, and nowhere else.
         let calm = over == Over::Links && !untwinned && !damped(&setup.particles.links);
-        if kernel.names("velocity") && !calm && !solved && (reduced < order || implicit && order > 1) {
-            remarks.push(format!(
-                "`{name}` depends on velocity: {} is of order {order} for other forces, and of order {} with it; \
-                 midpoint, heun and rk4 keep their order",
-                scene.integrator.name,
-                if implicit { 1 } else { reduced },
-            ));
+        if kernel.names("velocity") && !calm && !solved && loses {
+            remarks.push(depends(&name));
         }
         if over == Over::Pairs && setup.bounds.has(Side::Periodic) && !all_images {
             remarks.push(format!(

@@ -3,7 +3,9 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
+use motes::forces::Problem;
 use motes::io::{Precision, atomically, csv, npz};
+use motes::kernel::Machine;
 use motes::scene::Format;
 use motes::{Error, Setup, Snapshot};
 
@@ -25,7 +27,7 @@ pub fn explain(
         return Failure::Error(error);
     };
     let mut words = neighbors(setup, particle);
-    if let Some(advice) = advice {
+    if let Some(advice) = advice.or_else(|| of_a_fluid(setup)) {
         let _ = write!(words, "\n{advice}");
     }
     if let Some(last) = last {
@@ -39,6 +41,16 @@ pub fn explain(
         }
     }
     Failure::Explained(error, words.trim_start().to_owned())
+}
+
+/// What loses the numbers of a fluid.
+fn of_a_fluid(setup: &Setup) -> Option<&'static str> {
+    let problem = Problem::new(1, Machine::HOST);
+    let flows = setup.forces.iter().any(|force| force.rates(&problem).is_ok_and(|rates| rates.is_some()));
+    flows.then_some(
+        "in a fluid that is a step too long for its sound or friction (`motes check` tells how far it is from that), a flow faster \
+         than sound, tension that is too strong, or somebody squeezed between walls, solids and what an emitter lets out",
+    )
 }
 
 /// Those whom links tie to a particle.

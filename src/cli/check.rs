@@ -1,11 +1,11 @@
 //! `motes check`
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::time::{Duration, Instant};
 
 use motes::kernel::{ACCELERATION, Backend};
 use motes::render::{Picture, Scenery, Trail};
-use motes::{Bounds, Cpu, Gpu, Simulation};
+use motes::{Bounds, Cpu, Gpu, Setup, Simulation};
 
 use super::advice::advice;
 use super::args::SceneArgs;
@@ -13,13 +13,13 @@ use super::births;
 use super::course;
 use super::engine::Engine;
 use super::failure::Failure;
-use super::fluid;
+use super::flow;
 use super::progress::duration;
 use super::substeps::{self, Loaded};
 
 /// Checks a scene: its faults, its memory, and the time that a run would take.
 pub async fn check(args: &SceneArgs) -> Result<(), Failure> {
-    let Loaded { scene, setup, start, .. } = substeps::load(args, None).await?;
+    let Loaded { scene, setup, start, lines, .. } = substeps::load(args, None).await?;
     let count = setup.check()?;
     Picture::with(&scene.picture, &setup.particles, &[], Trail::new(0), &Scenery::of(&setup.particles))?;
     let engine = Engine::choose(&args.device).await?;
@@ -29,11 +29,8 @@ pub async fn check(args: &SceneArgs) -> Result<(), Failure> {
         out!("box: {}", scene.bounds);
     }
 
-    let mut remarks = Vec::new();
-    if let Some(start) = &start {
-        let (lines, notes) = fluid::told(&setup, start)?;
+    if !lines.is_empty() {
         out!("\nfluid\n{}", lines.join("\n"));
-        remarks = notes;
     }
 
     let plans = setup.plans(engine.machine(count)?)?;
@@ -56,35 +53,42 @@ pub async fn check(args: &SceneArgs) -> Result<(), Failure> {
     out!("  {:wide$} {:>12}", "in all", size(fields.values().sum()));
     out!("\na step: {} dispatches\n  {}", plans.step.dispatches(), plans.step);
 
-    let per_step = match &engine {
+    let (per_step, most) = match &engine {
         Engine::Gpu(found) => {
             let gpu = Gpu::new(&found.device, &found.queue, count)?;
-            measure(Simulation::on(gpu, &setup)?, scene.steps).await?
+            measure(Simulation::on(gpu, &setup)?, &setup, scene.steps).await?
         }
-        Engine::Cpu(_) => measure(Simulation::on(Cpu::new(count)?, &setup)?, scene.steps).await?,
+        Engine::Cpu(_) => measure(Simulation::on(Cpu::new(count)?, &setup)?, &setup, scene.steps).await?,
     };
     let total = per_step.mul_f64(scene.steps as f64);
     out!("\ntime: {} per step, about {} in all, without writing files", duration(per_step), duration(total));
-    remarks.extend(advice(&scene, &setup)?);
-    for remark in engine.remarks(&setup)?.into_iter().chain(remarks) {
+    let hurry = start.and_then(|start| flow::hurry(&start.medium, scene.pace.map_or(setup.dt, |_| 0.0), most));
+    for remark in engine.remarks(&setup)?.into_iter().chain(advice(&scene, &setup)?).chain(hurry) {
         out!("note: {remark}");
     }
     out!("\nno faults");
     Ok(())
 }
 
-/// Runs some steps, for about a second at most, and gives the time of one.
-async fn measure<B: Backend>(mut simulation: Simulation<B>, steps: u64) -> Result<Duration, Failure> {
+/// Runs some steps, for about a second at most, and gives the time of one; and who is accelerated most in the first.
+async fn measure<B: Backend>(
+    mut simulation: Simulation<B>,
+    setup: &Setup,
+    steps: u64,
+) -> Result<(Duration, (usize, f64)), Failure> {
     // The first step pays for what later ones have ready.
     simulation.step(1)?;
-    simulation.read(ACCELERATION).await?;
+    let held: BTreeSet<usize> = setup.particles.held.iter().map(|one| one.id as usize).collect();
+    let all = simulation.read(ACCELERATION).await?.into_iter().map(|a| f64::from(a.truncate().length())).enumerate();
+    let most =
+        all.filter(|(id, _)| !held.contains(id)).fold((0, 0.0), |most, one| if one.1 > most.1 { one } else { most });
     let (start, mut batch, mut done) = (Instant::now(), 1, 0);
     loop {
         simulation.step(batch)?;
         simulation.read(ACCELERATION).await?;
         done += u64::from(batch);
         if start.elapsed() > Duration::from_millis(300) || done >= steps.max(2) {
-            return Ok(start.elapsed().div_f64(done as f64));
+            return Ok((start.elapsed().div_f64(done as f64), most));
         }
         batch *= 2;
     }

@@ -4,12 +4,15 @@ use glam::DVec3;
 use motes::fluids::{COURANT, Start};
 use motes::forces::{Over, Problem};
 use motes::kernel::{Machine, World};
-use motes::{Error, Setup};
+use motes::{Error, Setup, Side};
 
 use super::advice::felt;
+use super::contradictions;
 
 /// The Mach number of the fastest flow, where the density varies by 1 % (Monaghan 1994).
 const MACH: f64 = 0.1;
+/// By how much the density may vary before it is told.
+const VARIES: f64 = 0.02;
 
 /// The lines about a start, and what is worth to be told of it.
 pub fn told(setup: &Setup, start: &Start) -> Result<(Vec<String>, Vec<String>), Error> {
@@ -25,7 +28,10 @@ pub fn told(setup: &Setup, start: &Start) -> Result<(Vec<String>, Vec<String>), 
         ),
         format!("  particles    {} of the fluid, {} of walls", start.fluid, start.walls),
     ];
+    // Along an axis that is periodic nobody falls: a push there is a wind.
     let weight = weight(setup)?;
+    notes.extend(contradictions::all(setup, start, weight)?);
+    let weight = weight * (DVec3::ONE - setup.bounds.axes(Side::Periodic));
     let (g, extent) = (weight.length(), start.extent.1 - start.extent.0);
     // Half a spacing of fluid is beyond the first and the last.
     let height = extent.dot(weight.normalize_or_zero().abs()) + medium.spacing;
@@ -52,7 +58,7 @@ pub fn told(setup: &Setup, start: &Start) -> Result<(Vec<String>, Vec<String>), 
     } else if fastest > 0.0 {
         let ratio = medium.sound / fastest;
         lines.push(format!("  sound        {}, {ratio:.1} times the fastest flow expected: {how}", medium.sound));
-        if ratio * MACH < 0.8 {
+        if ratio * ratio * VARIES < 1.0 {
             notes.push(format!(
                 "the speed of sound is {ratio:.1} times the fastest flow expected ({how}): the density will vary by {:.0} %; \
                  sound_speed = {:.4} makes that 1 %",
@@ -73,7 +79,11 @@ pub fn told(setup: &Setup, start: &Start) -> Result<(Vec<String>, Vec<String>), 
         ));
     }
     if !start.summed {
-        lines.push("  at the start everybody at rest, for density comes by continuity".to_owned());
+        lines.push(format!(
+            "  at the start everybody at rest, for density comes by continuity; sums over masses are {:.4} of it (particle {}) at \
+             most, {:.4} (particle {}) at least",
+            start.densest.1, start.densest.0, start.thinnest.1, start.thinnest.0
+        ));
         return Ok((lines, notes));
     }
     let ((dense, densest), (thin, thinnest)) = (start.densest, start.thinnest);

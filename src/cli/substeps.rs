@@ -3,12 +3,13 @@
 use motes::fluids::Start;
 use motes::integrators::{Entry, INTEGRATORS};
 use motes::scene::Scene;
-use motes::stability::Verdict;
+use motes::stability::{Flow, Verdict};
 use motes::{Error, Setup};
 
 use super::args::SceneArgs;
 use super::engine;
 use super::failure::Failure;
+use super::{flow, fluid};
 
 /// A scene, ready to run.
 pub struct Loaded {
@@ -18,8 +19,9 @@ pub struct Loaded {
     pub setup: Setup,
     /// What springs ask of its steps, if there are any.
     pub verdict: Option<Verdict>,
-    /// How its fluid starts, if there is one.
+    /// How its fluid starts, if there is one, and the lines that tell of it; what is to be noted is among the scene's remarks.
     pub start: Option<Start>,
+    pub lines: Vec<String>,
 }
 
 /// Loads the scene of the arguments, with one more value set; with `--auto-substeps` in steps that its springs bear.
@@ -80,9 +82,18 @@ pub async fn load(args: &SceneArgs, set: Option<String>) -> Result<Loaded, Failu
 
 async fn judge(mut scene: Scene) -> Result<Loaded, Failure> {
     let setup = engine::setup(&mut scene);
-    let start = setup.start()?;
+    let (start, mut lines) = (setup.start()?, Vec::new());
+    if let Some(start) = &start {
+        let (told, notes) = fluid::told(&setup, start)?;
+        lines = told;
+        scene.remarks.extend(notes);
+    }
+    if let Some(flow) = Flow::of(&setup, scene.integrator.build).await? {
+        lines.extend(flow::line(&flow, setup.dt));
+        scene.remarks.extend(flow::warning(&flow, &scene)?);
+    }
     let verdict = Verdict::of(&setup, scene.integrator.build, scene.steps).await?;
-    Ok(Loaded { scene, setup, verdict, start })
+    Ok(Loaded { scene, setup, verdict, start, lines })
 }
 
 /// The spring that asks for the shortest step.
@@ -114,7 +125,7 @@ fn limit(verdict: &Verdict) -> String {
 }
 
 /// Three digits, rounded down: what is safe stays safe.
-fn digits(x: f64) -> String {
+pub fn digits(x: f64) -> String {
     let scale = 10f64.powf(2.0 - x.abs().log10().floor());
     let down = if x > 0.0 { (x * scale).floor() / scale } else { x };
     if down == 0.0 || (1e-3..1e5).contains(&down) {

@@ -27,6 +27,8 @@ pub struct Continuum {
     pub walls: WallMass,
     /// Whether its density is summed over masses around; else it begins at rest, whatever is around.
     pub summed: bool,
+    /// The weight that it goes by, if by any \[length / time²\].
+    pub weight: Option<DVec3>,
 }
 
 /// Particles as they stand before the first step.
@@ -152,10 +154,12 @@ impl Start {
     /// [`Error::Scene`] that names the particles, and the cause.
     pub fn check(&self) -> Result<(), Error> {
         let (id, ratio) = self.densest;
-        if self.summed && self.dense > 0 {
+        let hidden =
+            if self.summed { "" } else { " by the sum over masses, of which density by continuity would never know" };
+        if self.dense > 0 {
             return Err(Error::Scene(format!(
                 "this start would explode: {} of {} particles of the fluid are too dense; particle {id}, the densest, is at {ratio:.3} times \
-                 the density at rest, which is a pressure of {:.3e} and bursts at {:.2} of the speed of sound ({MACH} is the most): {}",
+                 the density at rest{hidden}, which is a pressure of {:.3e} and bursts at {:.2} of the speed of sound ({MACH} is the most): {}",
                 self.dense,
                 self.fluid,
                 self.pressure(),

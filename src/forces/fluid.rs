@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::{Force, Law, Problem, Takes};
 use crate::error::Error;
 use crate::fluids::{
-    self, Asked, COURANT, Continuity, Continuum, Dfsph, Friction, Limits, Medium, Smoothing, Tension, WallMass, Walls,
+    self, Asked, COURANT, Continuity, Continuum, Dfsph, Friction, Limits, Medium, Rates, Smoothing, Tension, WallMass, Walls,
 };
 use crate::kernel::Plan;
 use crate::neighbors::Grid;
@@ -78,7 +78,7 @@ impl Fluid {
                     .to_owned(),
             ));
         }
-        Ok(Medium {
+        let medium = Medium {
             density: number("density"),
             spacing: number("spacing"),
             support,
@@ -87,7 +87,9 @@ impl Fluid {
             exponent,
             negative: self.0.flag("negative_pressure"),
             dimensions: problem.bounds.dimensions,
-        })
+        };
+        medium.check()?;
+        Ok(medium)
     }
     /// Whether its pressure is solved for.
     fn solves(&self) -> bool {
@@ -152,8 +154,14 @@ impl Force for Fluid {
         Ok(vec![(self.medium(problem)?.grid(problem)?, true)])
     }
     fn fluid(&self, problem: &Problem) -> Result<Option<Continuum>, Error> {
-        let (medium, summed) = (self.medium(problem)?, self.continuity()?.is_none());
-        Ok(Some(Continuum { medium, walls: self.wall_mass(), summed }))
+        let (medium, continuity) = (self.medium(problem)?, self.continuity()?);
+        medium.fits(&problem.bounds)?;
+        let weighs = self.walls() != Walls::Mirror || continuity.is_some_and(|its| its.diffusion > 0.0);
+        let weight = weighs.then(|| self.0.vector("weight"));
+        Ok(Some(Continuum { medium, walls: self.wall_mass(), summed: continuity.is_none(), weight }))
+    }
+    fn rates(&self, problem: &Problem) -> Result<Option<Rates>, Error> {
+        Ok(Some(Rates::of(&self.medium(problem)?, self.friction(), self.0.number("xsph"))))
     }
     fn begin(&self, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
         let medium = self.medium(problem)?;

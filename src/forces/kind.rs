@@ -21,7 +21,11 @@ pub const SPECIES: Key = Key::new(
 impl Kind {
     /// Whether a particle is of it.
     pub fn has(self, body: &Body) -> bool {
-        self.0.is_none_or(|species| species == body.species)
+        self.is(body.species)
+    }
+    /// Whether a species is.
+    pub fn is(self, species: u32) -> bool {
+        self.0.is_none_or(|own| own == species)
     }
     /// As shaders know it: see `shaders/law/species.wgsl`.
     pub fn scalar(self) -> Scalar {

@@ -8,7 +8,7 @@ pub use custom::Custom;
 use kind::{Kind, SPECIES, species};
 
 use crate::error::Error;
-use crate::fluids::Continuum;
+use crate::fluids::{Continuum, Rates};
 pub use crate::kernel::Problem;
 use crate::kernel::{Plan, Scalar};
 use crate::neighbors::Grid;
@@ -132,6 +132,20 @@ pub trait Force: Send + Sync {
     fn takes(&self, _held: bool) -> Takes {
         Takes::default()
     }
+    /// How fast the fluid that it makes swings and creeps, at most, if it makes one.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] when there is no such fluid.
+    fn rates(&self, _problem: &Problem) -> Result<Option<Rates>, Error> {
+        Ok(None)
+    }
+    /// Where it puts one of a species who stands somewhere before the first step, if there are places where it lets nobody be.
+    ///
+    /// # Errors
+    /// When there is no such place.
+    fn keeper(&self, _problem: &Problem) -> Result<Option<Keeper>, Error> {
+        Ok(None)
+    }
     /// The integrators under which it is what its paper says; none: under all.
     fn integrators(&self) -> &'static [&'static str] {
         &[]
@@ -146,6 +160,9 @@ pub struct Takes {
     /// Whether it changes the angular momentum.
     pub angular_momentum: bool,
 }
+
+/// Where one of a species belongs who stands somewhere.
+pub type Keeper = Box<dyn Fn(u32, glam::DVec3) -> glam::DVec3 + Send + Sync>;
 
 /// A line of the register.
 pub struct Entry {

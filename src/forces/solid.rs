@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{EACH, Force, Kind as Who, Law, Problem, SPECIES, species};
+use super::{EACH, Force, Keeper, Kind as Who, Law, Problem, SPECIES, species};
 use crate::error::Error;
 use crate::kernel::{Host, Kernel, POSITION, Plan, Scalar, Shader, Source, VELOCITY, World, time};
 use crate::motion::{Motion, Pose};
@@ -117,6 +117,14 @@ impl Force for Solid {
         };
         let inside = self.0.flag("inside") && !matches!(solid, Shape::Plane(_));
         Some(Standing { solid, position, motion: self.0.text("motion").to_owned(), inside })
+    }
+    fn keeper(&self, problem: &Problem) -> Result<Option<Keeper>, Error> {
+        let wall = self.wall(problem)?;
+        let (frame, bounds) = (wall.frame(0.0), problem.bounds);
+        Ok(Some(Box::new(move |kind, x| {
+            let world = World { time: 0.0, dt: 0.0, step: 0, count: 1, bounds };
+            if wall.who.is(kind) { x + wall.meet(&frame, x, DVec3::ZERO, 0.0, &world).0 } else { x }
+        })))
     }
     fn confine(&self, plan: &mut Plan, problem: &Problem, factor: f64) -> Result<(), Error> {
         plan.add(kernel(self.wall(problem)?, problem, factor)?);

@@ -88,36 +88,48 @@ impl Mesh {
         let places = self.places.iter().zip(normals.iter().zip(&around)).map(moved).collect();
         Self { places, triangles: self.triangles.clone() }
     }
+    /// How many places [`Mesh::sampled`] would try at a spacing, about: as many as its edges and faces ask for.
+    pub fn tries(&self, spacing: f64) -> f64 {
+        let per = TRIES / spacing;
+        let of = |t: &[usize; 3]| {
+            let [a, b, c] = self.corners(t);
+            let around = (b - a).length() + (c - b).length() + (a - c).length();
+            3.0 + per * around + 0.5 * per * per * (b - a).cross(c - a).length()
+        };
+        self.triangles.iter().map(of).sum()
+    }
     /// Samples of its surface at a spacing: corners first, then edges, then faces, each place that is far enough from all taken
     /// before, so that nothing is there twice and no hole is larger than a spacing. The same mesh gives the same samples.
     pub fn sampled(&self, spacing: f64) -> Vec<DVec3> {
-        let apart = APART * spacing;
-        let mut taken = Taken { apart, cells: HashMap::new(), places: Vec::new() };
-        for inside in [3, 2, 1] {
-            for triangle in &self.triangles {
-                let [a, b, c] = self.corners(triangle);
-                let longest = (b - a).length().max((c - b).length()).max((a - c).length());
-                #[expect(
-                    clippy::cast_possible_truncation,
-                    clippy::cast_sign_loss,
-                    reason = "saturates; areas are checked before"
-                )]
-                let parts = (TRIES * longest / spacing).ceil().max(1.0) as u32;
-                for i in 0..=parts {
-                    for j in 0..=parts - i {
-                        let k = parts - i - j;
-                        // A corner has one weight, an edge two, the face three.
-                        let zeros = [i, j, k].into_iter().filter(|n| *n == 0).count();
-                        if zeros + 1 == inside {
-                            let [i, j, k] = [i, j, k].map(|n| f64::from(n) / f64::from(parts));
-                            taken.add(a * i + b * j + c * k);
-                        }
-                    }
-                }
+        let mut taken = Taken { apart: APART * spacing, cells: HashMap::new(), places: Vec::new() };
+        let all = || self.triangles.iter().map(|triangle| self.corners(triangle));
+        all().flatten().for_each(|corner| taken.add(corner));
+        for [a, b, c] in all() {
+            for (from, to) in [(a, b), (b, c), (c, a)] {
+                inner((to - from).length(), spacing).for_each(|part| taken.add(from.lerp(to, part)));
+            }
+        }
+        for [a, b, c] in all() {
+            // Rows along the longest edge, as far apart as places are: what is narrow has few.
+            let edges = [(a, b, c), (b, c, a), (c, a, b)];
+            let longest =
+                edges.into_iter().reduce(|x, y| if (y.1 - y.0).length() > (x.1 - x.0).length() { y } else { x });
+            let Some((from, to, top)) = longest.filter(|(from, to, _)| from != to) else { continue };
+            let height = (to - from).cross(top - from).length() / (to - from).length();
+            for up in inner(height, spacing) {
+                let (from, to) = (from.lerp(top, up), to.lerp(top, up));
+                inner((to - from).length(), spacing).for_each(|part| taken.add(from.lerp(to, part)));
             }
         }
         taken.places
     }
+}
+
+/// The parts of a length between its ends at which places are tried.
+fn inner(length: f64, spacing: f64) -> impl Iterator<Item = f64> {
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "tries are counted before")]
+    let parts = (TRIES * length / spacing).ceil().max(1.0) as u32;
+    (1..parts).map(move |part| f64::from(part) / f64::from(parts))
 }
 
 /// The angle between two ways, the same on every platform.

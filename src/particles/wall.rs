@@ -21,6 +21,9 @@ pub const WALL: Shape = Shape {
     parts: one_part,
 };
 
+/// So many places of a mesh are tried at most: a minute's work.
+const MOST_TRIES: f64 = 2e8;
+
 const SURFACES: &[&str] = &["plane", "box", "sphere", "mesh"];
 
 const KEYS: &[Key] = &[
@@ -179,6 +182,15 @@ fn mesh(reader: &Reader<'_>, skin: &Skin, side: f64) -> Result<Vec<DVec3>, Error
         return Err(reader.error("mesh: all its faces together have no area"));
     }
     reader.fits(area / (skin.spacing * skin.spacing) * f64::from(skin.layers))?;
+    // Depths move corners, by less than three spacings each.
+    let tries = mesh.tries(skin.spacing) * f64::from(skin.layers);
+    if tries > MOST_TRIES {
+        return Err(reader.error(&format!(
+            "mesh: with spacing = {} its edges and faces would be tried at {tries:.1e} places, and {MOST_TRIES:.0e} are the most: \
+             choose a larger spacing or a smaller scale, or look for triangles that are long and thin",
+            skin.spacing
+        )));
+    }
     // Faces look outwards, and what is within is on their other side.
     Ok(skin.depths().flat_map(|depth| mesh.behind(-side * depth).sampled(skin.spacing)).collect())
 }

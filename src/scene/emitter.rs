@@ -6,8 +6,10 @@ use crate::particles::{Particles, emitter};
 use crate::settings::{Key, Kind, Settings, Value};
 
 use super::color;
+use super::fluid;
 use super::report::{Fault, Report};
 use super::resolved::Writer;
+use super::tree::Entry;
 use super::walk::Table;
 
 pub(super) const OWN: &[&str] = &["color", "species", "first"];
@@ -28,12 +30,14 @@ pub(super) struct Emitted {
 /// and a `count`: who is born already is not born again.
 pub(super) fn read(
     table: &Table<'_>,
-    (dimensions, end, room): (u32, f64, u32),
+    (dimensions, end, room, said): (u32, f64, u32, &[Entry]),
     particles: &mut Particles,
     out: &mut Writer,
     report: &mut Report,
 ) -> Option<Emitted> {
     let faults = report.len();
+    let entries = fluid::completed(table, EMITTER_KEYS, said);
+    let table = &Table { entries: &entries, ..table.clone() };
     let settings = table.settings(EMITTER_KEYS, OWN, report);
     let color = table.get("color").and_then(|e| color::read(&e.node, "color", report));
     let own: Settings = [("species", SPECIES), ("first", Key::new("first", Kind::Whole, Value::Number(0.0), ""))]

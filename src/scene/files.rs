@@ -78,7 +78,14 @@ impl Located {
     }
     /// Its text, for a mesh.
     pub(super) fn mesh(&self, place: &Place) -> Result<String, Fault> {
-        self.text(place, "a mesh", LONGEST_MESH)
+        let text = self.text(place, "a mesh", LONGEST_MESH)?;
+        if text.trim().is_empty() {
+            let name = shorten(self.name());
+            return Err(
+                Fault::at(place, format!("{name} is empty: it has no faces, lines such as `f 1 2 3`")).in_input()
+            );
+        }
+        Ok(text)
     }
     fn text(&self, place: &Place, what: &str, longest: u64) -> Result<String, Fault> {
         match self {

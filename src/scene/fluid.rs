@@ -1,33 +1,110 @@
-//! What the force of a fluid says for the shapes that make it: one lattice for all.
+//! What the force of a fluid says for the shapes and emitters that make it: one lattice for all.
 
-use crate::forces;
-use crate::particles::Shape;
+use crate::error::Error;
+use crate::forces::{self, Force, Problem};
+use crate::kernel::{Bounds, Machine};
+use crate::particles::{Particles, SHAPES};
+use crate::settings::{Key, Value};
 
+use super::EMITTER_KEYS;
+use super::report::{Fault, Place, Report};
 use super::tree::{Data, Entry};
+use super::value;
 use super::walk::Table;
 
 /// What shapes and forces of fluids share.
 const SHARED: [&str; 5] = ["spacing", "density", "support", "kernel", "wall_mass"];
 
+fn kind<'a>(table: &Table<'_>, key: &str, of: impl Fn(&str) -> Option<&'a [Key]>) -> Option<&'a [Key]> {
+    let keys = table.get(key).and_then(|entry| match &entry.node.data {
+        Data::Text(kind) => of(kind),
+        _ => None,
+    });
+    keys.filter(|keys| has(keys, "spacing") && has(keys, "density"))
+}
+
+fn has(keys: &[Key], name: &str) -> bool {
+    keys.iter().any(|key| key.name == name)
+}
+
+fn force_keys(table: &Table<'_>) -> Option<&'static [Key]> {
+    kind(table, "kind", |kind| forces::entry(kind).map(|force| force.keys))
+}
+
 /// What the first force that makes a fluid says of it.
 pub(super) fn said<'a>(mut tables: impl Iterator<Item = &'a Table<'a>>) -> Vec<Entry> {
-    let is_fluid = |table: &&Table<'_>| {
-        let kind = table.get("kind").and_then(|entry| match &entry.node.data {
-            Data::Text(kind) => forces::entry(kind),
-            _ => None,
-        });
-        kind.is_some_and(|force| {
-            ["spacing", "density"].iter().all(|name| force.keys.iter().any(|key| key.name == *name))
-        })
-    };
-    let Some(table) = tables.find(is_fluid) else { return Vec::new() };
+    let Some(table) = tables.find(|table| force_keys(table).is_some()) else { return Vec::new() };
     SHARED.iter().filter_map(|key| table.get(key).cloned()).collect()
 }
 
-/// The entries of a shape's table, and what it leaves to the force.
-pub(super) fn completed(table: &Table<'_>, shape: &Shape, said: &[Entry]) -> Vec<Entry> {
-    let has = |name: &str| shape.keys.iter().any(|key| key.name == name);
-    let of_fluid = has("spacing") && has("density");
-    let missing = said.iter().filter(|entry| of_fluid && has(&entry.key) && table.get(&entry.key).is_none());
+/// The entries of the table of a shape or of an emitter of these keys, and what it leaves to the force.
+pub(super) fn completed(table: &Table<'_>, keys: &[Key], said: &[Entry]) -> Vec<Entry> {
+    // What has a rate is a spray.
+    let of_fluid = has(keys, "spacing") && has(keys, "density") && table.get("rate").is_none();
+    let missing = said.iter().filter(|entry| of_fluid && has(keys, &entry.key) && table.get(&entry.key).is_none());
     table.entries.iter().chain(missing).cloned().collect()
+}
+
+/// Where shapes and emitters say something else than the first force that makes a fluid.
+pub(super) fn contradictions<'a>(sections: &'a [(&'static str, Table<'a>)]) -> Vec<String> {
+    let all = |name: &'static str| sections.iter().filter(move |(n, _)| *n == name).map(|(_, table)| table);
+    let Some((force, keys)) = all("force").find_map(|table| Some((table, force_keys(table)?))) else {
+        return Vec::new();
+    };
+    let of_shape = |table| kind(table, "shape", |name| SHAPES.iter().find(|s| s.name == name).map(|s| s.keys));
+    let shapes = all("particles").filter_map(|table| Some((table, of_shape(table)?)));
+    let mut remarks = Vec::new();
+    for (table, own) in shapes.chain(all("emitter").map(|table| (table, EMITTER_KEYS))) {
+        for name in SHARED.into_iter().filter(|name| has(own, name)) {
+            let (Some(mine), theirs) = (given(table, own, name), given(force, keys, name)) else { continue };
+            let theirs = theirs.or_else(|| keys.iter().find(|key| key.name == name)?.default.clone());
+            let Some(theirs) = theirs.filter(|theirs| *theirs != mine) else { continue };
+            remarks.push(format!(
+                "{} has {name} = {}, and its fluid {name} = {}: leave it out, and it is that of the force",
+                table.name,
+                super::resolved::value(&mine),
+                super::resolved::value(&theirs)
+            ));
+        }
+    }
+    remarks
+}
+
+/// What a table itself says by a key; what is wrong with it is told where it is read.
+fn given(table: &Table<'_>, keys: &[Key], name: &str) -> Option<Value> {
+    let key = keys.iter().find(|key| key.name == name)?;
+    value::read(&table.get(name)?.node, key.name, key.kind, &mut Report::default())
+}
+
+/// Reports what is wrong with a force that makes a fluid, at the key that its message names first, or else at its table. `earlier`
+/// says whether there is one already.
+pub(super) fn check(
+    table: &Table<'_>,
+    force: &dyn Force,
+    (bounds, particles, earlier): (&Bounds, &Particles, bool),
+    report: &mut Report,
+) -> bool {
+    let machine = Machine::HOST;
+    let problem = Problem::new(1, machine).at(&[], *bounds);
+    let why = match force.fluid(&problem) {
+        Ok(None) => return false,
+        Ok(Some(_)) if earlier => "there are two forces that make a fluid of everybody: leave one of them".to_owned(),
+        Ok(Some(_)) if !particles.is_empty() && particles.held.len() == particles.len() => {
+            "there is a fluid and nothing of it: everybody is held, and who is held is of its walls; add a [[particles]] of \
+             shape = \"block\""
+                .to_owned()
+        }
+        Ok(Some(_)) => return true,
+        Err(Error::Scene(why)) => why,
+        Err(why) => why.to_string(),
+    };
+    report.push(Fault::at(place(table, &why), why));
+    true
+}
+
+/// Where the first of the keys stands that a message names as `key = `.
+fn place<'a>(table: &Table<'a>, why: &str) -> &'a Place {
+    let named = |entry: &&'a Entry| why.find(&format!("{} = ", entry.key));
+    let first = table.entries.iter().filter_map(|entry| Some((named(&entry)?, entry))).min_by_key(|(at, _)| *at);
+    first.map_or(table.place, |(_, entry)| &entry.node.place)
 }

@@ -200,7 +200,7 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
     for table in all("emitter") {
         let start = ids(&particles);
         let room = options.most_particles.saturating_sub(start);
-        let within = (bounds.dimensions, end, room);
+        let within = (bounds.dimensions, end, room, said.as_slice());
         if let Some(emitted) = emitter::read(table, within, &mut particles, &mut out, report) {
             groups.push(Group { ids: start..start + emitted.count, color: emitted.color });
         }
@@ -214,12 +214,15 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
     }
 
     let mut forces: Vec<Box<dyn Force>> = Vec::new();
+    let mut flows = false;
     for table in all("force") {
         let faults = report.len();
         let chosen = force::read(table, (files, &motions), report);
         if let Some(chosen) = chosen.filter(|_| report.len() == faults) {
             chosen.write(&mut out);
-            forces.push(chosen.build());
+            let force = chosen.build();
+            flows |= fluid::check(table, force.as_ref(), (&bounds, &particles, flows), report);
+            forces.push(force);
         }
     }
 
@@ -259,7 +262,7 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
         output,
         picture,
         resolved: out.0,
-        remarks: simulation.remark.into_iter().collect(),
+        remarks: simulation.remark.into_iter().chain(fluid::contradictions(sections)).collect(),
     }
 }
 

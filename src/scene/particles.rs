@@ -158,7 +158,7 @@ fn from_shape(
     let name = walk::choice(entry, "shape", &names, report)?;
     let shape = SHAPES.iter().find(|s| s.name == name)?;
     let faults = report.len();
-    let entries = fluid::completed(table, shape, said);
+    let entries = fluid::completed(table, shape.keys, said);
     let table = &Table { entries: &entries, ..table.named(format!("{} {name}", table.name)) };
     let mut settings = table.settings(shape.keys, &beside("shape"), report);
     let shown = located(table, shape, files, &mut settings, report);

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::mortals;
+use super::{keepers, mortals};
 use crate::boundary;
 use crate::error::Error;
 use crate::fluids::{Start, Still};
@@ -129,7 +129,8 @@ impl Setup {
         // Who waits or is dead is in nobody's way; a scene has the ids of those last.
         let living: Vec<usize> = (0..self.particles.len()).filter(|id| self.particles.lives(*id)).collect();
         let of = |list: &[DVec3]| -> Vec<DVec3> { living.iter().map(|id| list[*id]).collect() };
-        let (position, velocity) = (of(&self.particles.position), of(&self.particles.velocity));
+        let keepers::Kept { places, moved } = keepers::kept(self, &problem)?;
+        let (position, velocity) = (of(&places), of(&self.particles.velocity));
         let mass: Vec<f64> = living.iter().map(|id| self.particles.mass[*id]).collect();
         let walls: Vec<bool> = living.iter().map(|id| problem.is_held(*id)).collect();
         if problem.mortal && walls.iter().all(|wall| *wall) {
@@ -139,8 +140,23 @@ impl Setup {
         let mut start = Start::of(&fluid, &still)?;
         let speeds = velocity.iter().zip(&walls).filter(|(_, wall)| !**wall).map(|(v, _)| v.length());
         start.speed = speeds.fold(0.0, f64::max);
-        start.check()?;
+        let solids = |error: Error| match (error, moved.first()) {
+            (Error::Scene(why), Some((id, depth))) => Error::Scene(format!(
+                "{why}; {} particles stand within solids or nearer than their thickness, particle {id} first of them, by {depth:.3e}, \
+                 and count where these put them: leave them room",
+                moved.len()
+            )),
+            (error, _) => error,
+        };
+        start.check().map_err(solids)?;
         Ok(Some(start))
+    }
+    /// Who begins where a solid lets nobody be, by id, and how far it is put out of there \[length\].
+    ///
+    /// # Errors
+    /// When the setup makes no sense.
+    pub fn put_out(&self) -> Result<Vec<(usize, f64)>, Error> {
+        Ok(keepers::kept(self, &self.problem(Machine::HOST)?)?.moved)
     }
     /// Refuses two fluids: each would take everybody for its own.
     fn fluids(&self) -> Result<(), Error> {

@@ -1,13 +1,15 @@
 //! What steps bear: the largest dt of an integrator, measured from its own steps, and the frequencies of a network of
-//! springs, bounded from above and from below.
+//! springs, bounded from above and from below; and those of a fluid on its lattice.
 
 mod bound;
+mod flow;
 mod mode;
 mod oscillator;
 mod others;
 mod verdict;
 
 pub use bound::{Bound, Row};
+pub use flow::{Asks, Flow};
 pub use mode::{Mode, Network};
 pub use oscillator::{Oscillator, largest_step, oscillator, spectral_radius};
 pub use verdict::{Build, Verdict};

@@ -32,8 +32,12 @@ impl Sweep {
     /// # Errors
     /// [`Error::Shader`] when a file does not compile, [`Error::Scene`] when a block has other members.
     pub fn kernel(self, problem: &Problem) -> Result<Kernel, Error> {
-        let ahead = self.grid.ahead(problem);
-        self.from(ahead, problem)
+        let (ahead, cells) = (self.grid.ahead(problem), f64::from(self.grid.count()));
+        let mut kernel = self.from(ahead, problem)?;
+        // Of those who stand in slots, searches end at the last who is not held.
+        let ends = kernel.passes.iter_mut().flat_map(|pass| &mut pass.constants).filter(|(name, _)| *name == "CELLS");
+        ends.for_each(|(_, end)| *end = cells);
+        Ok(kernel)
     }
     /// The same where everybody looks around, whoever is held too.
     ///

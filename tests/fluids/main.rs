@@ -14,6 +14,7 @@ mod invariants;
 mod keys;
 mod laplace;
 mod lockstep;
+mod rates;
 mod smoothing;
 mod tension;
 mod vortices;

@@ -1,6 +1,8 @@
 //! What fluids stand in: walls of particles at the gap that leaves a fluid at rest, starts that are refused, nobody who leaks,
 //! and a dam that breaks as measured.
 
+mod calm;
+mod contradictions;
 mod dam;
 mod gaps;
 mod leaks;

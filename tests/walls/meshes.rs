@@ -108,6 +108,18 @@ fn what_is_wrong_is_told_with_its_line() {
     }
 }
 
+#[test]
+fn slivers_cost_what_they_have() {
+    // 1000 long, and a millionth high: two edges' worth of samples, in no time.
+    let sliver = "v 0 0 0\nv 1000 0 0\nv 0 1e-6 0\nf 1 2 3\n";
+    let start = std::time::Instant::now();
+    let places = mesh(sliver, &[("scale", number(1.0)), ("spacing", number(0.2))]).expect("a sliver");
+    assert!((5000..6100).contains(&places.len()), "{}", places.len());
+    assert!(start.elapsed().as_secs() < 10, "{:?}", start.elapsed());
+    let error = mesh(sliver, &[("scale", number(1.0)), ("spacing", number(1e-5))]).expect_err("too fine").to_string();
+    assert!(error.contains("would be tried at 8.8e8 places, and 2e8 are the most"), "{error}");
+}
+
 const SCENE: &str = "[simulation]\ndt = 1\nsteps = 1\n[[particles]]\nshape = \"wall\"\nsurface = \"mesh\"\nmesh = \"NAME\"\nspacing = 0.25\n";
 static EMBEDDED: Builtin = Builtin {
     name: "pyramid",
@@ -134,6 +146,12 @@ fn scenes_name_meshes() {
     assert!(faults.to_string().contains("did you mean \"pyramid.obj\"?") && faults.exit_code() == 4, "{faults}");
     let faults = load(&SCENE.replace("NAME", "../mutants/main.rs")).err().expect("another folder");
     assert!(faults.to_string().contains("leads outside of the scene's folder"), "{faults}");
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("empty.obj"), "\n").expect("a file");
+    let text = SCENE.replace("NAME", "empty.obj");
+    let empty = Source::Text { name: "a.toml".to_owned(), text, folder: folder.path().to_path_buf() };
+    let faults = Scene::load(&empty, &[], &Options::default()).err().expect("nothing in it");
+    assert!(faults.to_string().contains("empty.obj is empty: it has no faces"), "{faults}");
     let faults = load(&SCENE.replace("NAME", "dam_break_front.csv")).err().expect("no mesh");
     assert!(faults.to_string().contains("mesh: it has no faces"), "{faults}");
 }

@@ -1,0 +1,98 @@
+//! Where the parts of a scene of a fluid say different things.
+
+use glam::DVec3;
+use motes::fluids::{Medium, Start};
+use motes::kernel::Machine;
+use motes::{Error, Setup};
+
+/// Parts that differ by less are the same.
+const ALIKE: f64 = 0.01;
+
+/// All of them, with the acceleration that pulls everybody.
+pub fn all(setup: &Setup, start: &Start, weight: DVec3) -> Result<Vec<String>, Error> {
+    let mut notes = Vec::new();
+    notes.extend(births(setup, &start.medium));
+    notes.extend(mouths(setup, &start.medium));
+    notes.extend(weighed(setup, weight)?);
+    notes.extend(outside(setup));
+    Ok(notes)
+}
+
+/// Emitters whose particles are not those of the fluid.
+fn births(setup: &Setup, medium: &Medium) -> Option<String> {
+    let birth = setup.particles.births.iter().find(|birth| (birth.mass / medium.mass() - 1.0).abs() > ALIKE)?;
+    Some(format!(
+        "particles of emitter {} weigh {:.4e}, and density × spacing^{} of the force is {:.4e}: leave out its `spacing` and \
+         `density`, and it has those of the force",
+        birth.emitter + 1,
+        birth.mass,
+        medium.dimensions,
+        medium.mass()
+    ))
+}
+
+/// Emitters that let particles out where somebody is.
+fn mouths(setup: &Setup, medium: &Medium) -> Option<String> {
+    let particles = &setup.particles;
+    let mut sites: Vec<(u32, usize)> =
+        particles.births.iter().map(|birth| (birth.emitter, birth.id as usize)).collect();
+    let place = |id: usize| particles.position[id];
+    // Those who follow each other out of one place are one site.
+    sites.sort_by(|a, b| (a.0, place(a.1).to_array()).partial_cmp(&(b.0, place(b.1).to_array())).unwrap_or(a.cmp(b)));
+    sites.dedup_by(|a, b| a.0 == b.0 && place(a.1) == place(b.1));
+    let near = 0.9 * medium.spacing;
+    let low = sites.iter().map(|(_, id)| place(*id)).reduce(DVec3::min)? - near;
+    let high = sites.iter().map(|(_, id)| place(*id)).reduce(DVec3::max)? + near;
+    let around = |id: &usize| particles.lives(*id) && place(*id).cmpge(low).all() && place(*id).cmple(high).all();
+    let others: Vec<usize> = (0..particles.len()).filter(around).collect();
+    let meets = |(_, site): &&(u32, usize)| {
+        others.iter().any(|other| setup.bounds.shortest(place(*other) - place(*site)).length() < near)
+    };
+    let (emitter, site) = sites.iter().find(meets)?;
+    let nearest = |a: &&usize, b: &&usize| {
+        let way = |id: usize| setup.bounds.shortest(place(id) - place(*site)).length();
+        way(**a).total_cmp(&way(**b))
+    };
+    let other = others.iter().min_by(nearest)?;
+    Some(format!(
+        "emitter {} lets particles out where others are: particle {other} is {:.3e} from a place of its mouth, and the spacing is {}; \
+         move one of them",
+        emitter + 1,
+        setup.bounds.shortest(place(*other) - place(*site)).length(),
+        medium.spacing
+    ))
+}
+
+/// A weight that the fluid is told, and another that forces give.
+fn weighed(setup: &Setup, weight: DVec3) -> Result<Option<String>, Error> {
+    let problem = setup.problem(Machine::HOST)?;
+    let fluid = setup.forces.iter().find_map(|force| force.fluid(&problem).transpose()).transpose()?;
+    let Some(told) = fluid.and_then(|fluid| fluid.weight) else { return Ok(None) };
+    let off = (told - weight).length();
+    Ok((off > ALIKE * told.length().max(weight.length())).then(|| {
+        format!(
+            "the fluid has weight = [{}, {}, {}], and forces pull everybody by [{}, {}, {}]: a fluid at rest would not stay so; give \
+             both the same",
+            told.x, told.y, told.z, weight.x, weight.y, weight.z
+        )
+    }))
+}
+
+/// Who begins out of a box that is open.
+fn outside(setup: &Setup) -> Option<String> {
+    let (particles, bounds) = (&setup.particles, &setup.bounds);
+    let extent: Vec<usize> = (0..3).filter(|axis| bounds.high[*axis] > bounds.low[*axis]).collect();
+    let held: std::collections::BTreeSet<usize> = particles.held.iter().map(|one| one.id as usize).collect();
+    let out = |id: &usize| {
+        let x = particles.position[*id];
+        let beyond = |axis: &usize| x[*axis] < bounds.low[*axis] || x[*axis] > bounds.high[*axis];
+        particles.lives(*id) && !held.contains(id) && extent.iter().any(beyond)
+    };
+    let mut all = (0..particles.len()).filter(out);
+    let first = all.next()?;
+    Some(format!(
+        "{} particles of the fluid begin out of the box, particle {first} at {} first of them: open sides hold nobody",
+        1 + all.count(),
+        particles.position[first]
+    ))
+}

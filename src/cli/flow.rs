@@ -1,0 +1,84 @@
+//! Steps that a fluid bears: what is told of them, and the refusal of those that would end in an explosion.
+
+use motes::Error;
+use motes::fluids::Medium;
+use motes::scene::Scene;
+use motes::stability::{Asks, Flow};
+
+use super::substeps::digits;
+
+/// The part of the time in which an acceleration crosses a smoothing length that a step may have (Monaghan 1992).
+const COURANT: f64 = 0.25;
+/// What part of its density an acceleration may add to a fluid that is to vary by 1 %.
+const PRESSED: f64 = 0.05;
+
+/// A line of how far from its limit a step is.
+pub fn line(flow: &Flow, dt: f64) -> Option<String> {
+    let what = match flow.asks {
+        Asks::Sound => "sound",
+        Asks::Friction => "viscosity",
+        Asks::Xsph => return None,
+    };
+    let safe = flow.safe.is_finite() && flow.excess > 0.0;
+    safe.then(|| {
+        format!(
+            "  steps        dt = {dt} is {:.2} of the largest that {what} bears, {}",
+            flow.excess,
+            digits(flow.safe)
+        )
+    })
+}
+
+/// What is to be said of steps that are too long, and the way out; nothing where they are safe.
+///
+/// # Errors
+/// [`Error::Scene`] when they are so long that nothing would be left.
+pub fn warning(flow: &Flow, scene: &Scene) -> Result<Option<String>, Error> {
+    if flow.excess <= 1.0 {
+        return Ok(None);
+    }
+    let (dt, name) = (scene.dt, scene.integrator.name);
+    let culprit = match flow.asks {
+        Asks::Sound => "the fluid's speed of sound",
+        Asks::Friction => "the fluid's viscosity (alpha, viscosity)",
+        Asks::Xsph => {
+            let text = format!(
+                "the fluid's xsph is {:.2} times as strong as {name} bears, whatever dt is: in a step nobody can take on more than \
+                 there is; 0.5 is much",
+                flow.excess
+            );
+            return said(flow, &text);
+        }
+    };
+    let way = if flow.safe > 0.0 {
+        format!("the largest dt that is safe is {}: set it, or one that is shorter", digits(flow.safe))
+    } else {
+        "no dt is safe: choose leapfrog".to_owned()
+    };
+    said(flow, &format!("dt = {dt} is too long for {name} and {culprit}; {way}"))
+}
+
+fn said(flow: &Flow, text: &str) -> Result<Option<String>, Error> {
+    if flow.is_lost() {
+        return Err(Error::Scene(format!("this run would explode: {text}")));
+    }
+    Ok(Some(format!("this run may explode: {text}")))
+}
+
+/// What the largest acceleration of a start says: whether a step is too long for it, and sound too slow to carry it.
+pub fn hurry(medium: &Medium, dt: f64, (particle, most): (usize, f64)) -> Option<String> {
+    let length = 0.5 * medium.range();
+    let longest = COURANT * (length / most).sqrt();
+    let pressed = if medium.sound > 0.0 { most * length / (medium.sound * medium.sound) } else { 0.0 };
+    let whose = format!("particle {particle} of the fluid begins with an acceleration of {most:.3e}");
+    if dt > longest {
+        return Some(format!("{whose}, for which dt = {dt} is too long: {} would do", digits(longest)));
+    }
+    (pressed > PRESSED).then(|| {
+        format!(
+            "{whose}, which presses the fluid together by {:.0} % within a smoothing length: is its tension too strong for its speed of \
+             sound, or somebody too close?",
+            100.0 * pressed
+        )
+    })
+}

@@ -1,0 +1,58 @@
+//! What cannot be a fluid, and where one cannot be.
+
+use super::Medium;
+use crate::error::Error;
+use crate::kernel::Bounds;
+
+impl Medium {
+    /// Refuses what single precision does not hold.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] with the number.
+    pub fn check(&self) -> Result<(), Error> {
+        let (density, sound) = (self.density, self.sound);
+        // By Tait's equation at twice the density.
+        let pressure = self.stiffness() * 2f64.powi(i32::try_from(self.exponent).unwrap_or(15));
+        let mut numbers = vec![
+            ("the mass of a particle", self.mass()),
+            ("the square of the density", density * density),
+            ("the slope of the kernel", self.weight() / self.range().powi(2)),
+        ];
+        if sound > 0.0 {
+            numbers.extend([
+                ("the square of sound_speed", sound * sound),
+                ("the pressure at twice the density", pressure),
+                ("the same over the square of the density", pressure / (density * density)),
+            ]);
+        }
+        let single = f64::from(f32::MIN_POSITIVE)..=f64::from(f32::MAX);
+        match numbers.into_iter().find(|(_, x)| !single.contains(x)) {
+            Some((what, x)) => Err(Error::Scene(format!(
+                "a fluid has density = {density:e}, spacing = {:e}, sound_speed = {sound:e}: {what} would be {x:.1e}, and single \
+                 precision holds 1.2e-38 to 3.4e38: choose other numbers, or other units",
+                self.spacing
+            ))),
+            None => Ok(()),
+        }
+    }
+    /// Refuses a periodic box in which one would meet two images of another: the nearest is met alone.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] with the period.
+    pub fn fits(&self, bounds: &Bounds) -> Result<(), Error> {
+        let (period, range) = (bounds.period(), self.range());
+        // A box of as many spacings may be a rounding narrower.
+        let narrow = |axis: &usize| period[*axis] > 0.0 && period[*axis] < 2.0 * range * (1.0 - 1e-9);
+        match (0..3).find(narrow) {
+            Some(axis) => Err(Error::Scene(format!(
+                "the box is periodic along {} with a period of {}, and a fluid with support = {} reaches {range}: two images of one \
+                 would be in reach, of which one counts; make the box at least {} wide, or the reach shorter",
+                ["x", "y", "z"][axis],
+                period[axis],
+                self.support,
+                2.0 * range
+            ))),
+            None => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,39 @@
+//! Where everybody is whom solids have put out before the first step.
+
+use glam::DVec3;
+
+use super::Setup;
+use crate::error::Error;
+use crate::forces::Problem;
+
+/// Who is nearer to where he belongs than this part of the size of his place is there: single precision tells no more.
+const ROUNDING: f64 = 1e-6;
+
+/// Where everybody is then.
+#[derive(Default)]
+pub(super) struct Kept {
+    /// All places, by id \[length\].
+    pub places: Vec<DVec3>,
+    /// Who has been put there, and how far from where he was \[length\].
+    pub moved: Vec<(usize, f64)>,
+}
+
+/// Asks all forces.
+pub(super) fn kept(setup: &Setup, problem: &Problem) -> Result<Kept, Error> {
+    let mut kept = Kept { places: setup.particles.position.clone(), moved: Vec::new() };
+    let keepers = setup.forces.iter().filter_map(|force| force.keeper(problem).transpose());
+    let keepers = keepers.collect::<Result<Vec<_>, _>>()?;
+    if keepers.is_empty() {
+        return Ok(kept);
+    }
+    for id in (0..kept.places.len()).filter(|id| !problem.is_held(*id)) {
+        let (before, species) = (kept.places[id], setup.particles.species[id]);
+        let after = keepers.iter().fold(before, |x, keeper| keeper(species, x));
+        let way = (after - before).length();
+        if way > ROUNDING * before.abs().max_element() {
+            kept.places[id] = after;
+            kept.moved.push((id, way));
+        }
+    }
+    Ok(kept)
+}

@@ -1,0 +1,78 @@
+//! What a step is to a fluid: what its sound, its viscosities and XSPH ask of an integrator.
+
+use super::mode::Mode;
+use super::oscillator::Oscillator;
+use super::verdict::{Build, combined, limit};
+use crate::error::Error;
+use crate::integrators::SymplecticEuler;
+use crate::kernel::Machine;
+use crate::simulation::Setup;
+
+/// Above so many times the largest step that is safe a fluid is lost. In a dam that breaks (25 by 16 particles, 160 steps) sound, α,
+/// ν and ε above it made energies of 10⁴ to 10⁶ times the first; between, a surface that is no lattice may bear it.
+const LOST: f64 = 1.25;
+/// How long nothing may grow tenfold, in times of the quickest.
+const PERIODS: f64 = 1e4;
+
+/// What asks for the shortest step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Asks {
+    /// The speed of sound.
+    Sound,
+    /// Viscosity, artificial or laminar.
+    Friction,
+    /// XSPH, whatever the step.
+    Xsph,
+}
+
+/// What a fluid asks of the steps of a setup.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Flow {
+    /// The largest dt that is safe \[time\]: infinite for who bears any; whatever XSPH is.
+    pub safe: f64,
+    /// How many times too long steps are: 1 is just safe. Of XSPH, how many times too strong it is.
+    pub excess: f64,
+    /// What asks for that.
+    pub asks: Asks,
+    /// Whether the integrator bears swings at all, so that what is far too long is lost for certain.
+    pub sure: bool,
+}
+
+impl Flow {
+    /// Of a setup; `None` where there is no fluid. Steps that are adaptive keep to limits of
+    /// their own, and are asked for XSPH alone.
+    ///
+    /// # Errors
+    /// When there is no such fluid, or what a simulation of one particle by the twins says.
+    pub async fn of(setup: &Setup, build: Build) -> Result<Option<Self>, Error> {
+        let problem = setup.problem(Machine::HOST)?;
+        let Some(rates) = setup.forces.iter().find_map(|force| force.rates(&problem).transpose()).transpose()? else {
+            return Ok(None);
+        };
+        // What is not solved for goes by the step of an explicit method.
+        let build: Build = if build().is_implicit() { || Box::new(SymplecticEuler) } else { build };
+        // The limit is sharp in so long a time, and few steps are no excuse.
+        let duration = PERIODS / rates.sound.max(rates.friction);
+        let of = |stiffness: f64, damping: f64| limit(build, Mode { stiffness, damping }, duration);
+        let swings = Oscillator::new(build(), 1.0, 0.0)?.growth(0.5).await? < 1.0 + 1e-9;
+        // Who bears no swing lives by friction.
+        let sound = if swings { of(rates.sound * rates.sound, 0.0).await? } else { f64::INFINITY };
+        let friction = of(0.0, rates.friction).await?;
+        let highest = Mode { stiffness: rates.sound * rates.sound, damping: rates.friction };
+        let safe = combined(build, highest, duration).await?.min(sound).min(friction);
+        let asks = if sound < friction || rates.friction == 0.0 { Asks::Sound } else { Asks::Friction };
+        let paced = setup.integrator.pace().is_some();
+        let mut flow = Self { safe, excess: if paced { 0.0 } else { setup.dt / safe }, asks, sure: swings };
+        // In units of the step.
+        let drawn = rates.drawn / limit(build, Mode { stiffness: 0.0, damping: 1.0 }, PERIODS).await?;
+        if drawn > flow.excess {
+            flow = Self { excess: drawn, asks: Asks::Xsph, ..flow };
+        }
+        Ok(Some(flow))
+    }
+    /// Whether a run would be lost for certain.
+    #[must_use]
+    pub fn is_lost(&self) -> bool {
+        self.sure && self.excess > LOST
+    }
+}
