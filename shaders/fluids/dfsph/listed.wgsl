@@ -1,19 +1,20 @@
 // Everybody meets who is listed, and notes down how strongly they push each other, V g r.
 @group(3) @binding(16) var<storage, read_write> pairs: array<vec4f>;
-@group(3) @binding(17) var<storage, read> neighbors: array<u32>;
 
 override STRIDE: u32 = 1u;
+// The cells of the fluid: behind the last of them stand walls, and nobody.
+override CELLS: u32 = 1u;
 const WORKGROUP: u32 = 64u;
 
 @compute @workgroup_size(WORKGROUP)
 fn near(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let k = folded(group, groups) * WORKGROUP + lane;
-    if k < STRIDE {
+    if k < min(STRIDE, starts[CELLS]) {
         let me = candidate(k);
         if acts_on(me) {
             var sum = Sum();
-            let end = neighbors[k];
-            for (var n = 0u; n < end; n += 1u) {
+            let end = u32(pairs[k].w);
+            for (var n = 1u; n <= end; n += 1u) {
                 let place = n * STRIDE + k;
                 let slot = pairs[place].w;
                 let you = candidate(u32(slot));

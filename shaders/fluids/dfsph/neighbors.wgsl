@@ -1,14 +1,13 @@
-// Who is in range of whom, slot by slot: the n-th neighbour of slot k stands in row n, so that invocations side by side read side
-// by side.
+// Who is in range of whom, slot by slot: row 0 says of slot k how many are, and the n-th stands in row n, so that invocations side
+// by side read side by side.
 struct Particle { index: u32, position: vec3f, slot: u32 }
 struct Sum { number: u32 }
 
 @group(2) @binding(5) var<storage, read> sorted_id: array<u32>;
 @group(2) @binding(6) var<storage, read> sorted_position: array<vec4f>;
 @group(3) @binding(2) var<storage, read_write> pairs: array<vec4f>; // V g r, and the neighbour's slot
-@group(3) @binding(3) var<storage, read_write> neighbors: array<u32>;
 
-// Slots of a row, and rows.
+// Slots of a row, and rows of neighbours.
 override STRIDE: u32 = 1u;
 override ROOM: u32 = 1u;
 
@@ -27,12 +26,12 @@ fn acts_on(me: Particle) -> bool { return true; }
 
 fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
     // A whole number below 2²⁴ is exact.
-    if (*sum).number < ROOM { pairs[(*sum).number * STRIDE + me.slot].w = f32(you.slot); }
     (*sum).number += 1u;
+    if (*sum).number <= ROOM { pairs[(*sum).number * STRIDE + me.slot].w = f32(you.slot); }
 }
 
 fn deliver(k: u32, me: Particle, sum: Sum) {
-    neighbors[k] = min(sum.number, ROOM);
+    pairs[k].w = f32(min(sum.number, ROOM));
     // There is room for twice as many as at rest.
     if sum.number > ROOM { atomicMin(&alarm[2], me.index); }
 }

@@ -1,6 +1,5 @@
 // Everybody meets whom it is paired with, whose push is known.
 @group(3) @binding(16) var<storage, read> pairs: array<vec4f>;
-@group(3) @binding(17) var<storage, read> neighbors: array<u32>;
 
 override STRIDE: u32 = 1u;
 const WORKGROUP: u32 = 64u;
@@ -12,8 +11,8 @@ fn near(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
         let me = candidate(k);
         if acts_on(me) {
             var sum = Sum();
-            let end = neighbors[k];
-            for (var n = 0u; n < end; n += 1u) {
+            let end = u32(pairs[k].w);
+            for (var n = 1u; n <= end; n += 1u) {
                 let pair = pairs[n * STRIDE + k];
                 meet(me, candidate(u32(pair.w)), pair.xyz, &sum);
             }

@@ -3,7 +3,7 @@
 use super::{Dfsph, PAIRS};
 use crate::error::Error;
 use crate::fluids::Medium;
-use crate::kernel::{Kernel, Name, Pass, Problem, Shader, Source, Twin};
+use crate::kernel::{Kernel, Pass, Problem, Shader, Source, Twin};
 use crate::neighbors::Grid;
 use crate::visit::Sweep;
 
@@ -16,9 +16,7 @@ const PAIR: u64 = 16;
 /// Slots that single precision tells apart.
 const SLOTS: u32 = 1 << 24;
 
-const NEIGHBORS: &str = "neighbors";
-
-/// Rows of pairs: the n-th neighbour of each slot.
+/// Rows of pairs: how many neighbours each slot has, and the n-th of them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Pairs {
     rows: u32,
@@ -37,7 +35,7 @@ impl Pairs {
         fits.then_some(pairs)
     }
     fn elements(self) -> u64 {
-        u64::from(self.rows) * u64::from(self.stride)
+        u64::from(1 + self.rows) * u64::from(self.stride)
     }
     fn constants(self) -> [(&'static str, f64); 2] {
         [("STRIDE", f64::from(self.stride)), ("ROOM", f64::from(self.rows))]
@@ -51,8 +49,7 @@ impl Pairs {
         let mut all = files;
         all.push(crate::shader!("fluids/dfsph/listed.wgsl"));
         kernel.passes.push(self.pass(of, &all)?);
-        let (pairs, neighbors) = (of.name(PAIRS), of.name(NEIGHBORS));
-        kernel.scratch.extend([pairs, neighbors]);
+        kernel.scratch.push(of.name(PAIRS));
         Ok(self.bound(of, kernel))
     }
     /// A kernel of everybody who meets whom it is paired with.
@@ -66,19 +63,21 @@ impl Pairs {
     fn pass(self, of: &Dfsph<'_>, files: &[Source]) -> Result<Pass, Error> {
         let mut all =
             vec![crate::shader!("world.wgsl"), crate::shader!("fields.wgsl"), crate::shader!("neighbors/cell.wgsl")];
+        all.push(crate::shader!("neighbors/starts.wgsl"));
         all.extend_from_slice(files);
         let shader = Shader::join(&all)?;
         let uniforms = crate::visit::blocks("pairs of a fluid", &shader, &[of.medium.block()])?;
-        let pass = Pass { constants: of.problem.constants(&shader), uniforms, ..Pass::new(shader, self.stride) };
+        let mut constants = of.problem.constants(&shader);
+        constants.extend(of.grid.of_those_ahead().constants(&shader));
+        let pass = Pass { constants, uniforms, ..Pass::new(shader, self.stride) };
         let work = self.elements() / u64::from(ROOM);
         Ok(Pass { work, ..pass })
     }
     fn bound(self, of: &Dfsph<'_>, kernel: Kernel) -> Kernel {
-        let (pairs, neighbors): (Name, Name) = (of.name(PAIRS), of.name(NEIGHBORS));
         let mut kernel = super::with(kernel, &self.constants());
-        let fields = [of.grid.field(PAIRS), of.grid.field(NEIGHBORS)];
-        kernel.passes.iter_mut().for_each(|pass| pass.fields.extend_from_slice(&fields));
-        kernel.sizes.extend([(pairs, self.elements()), (neighbors, u64::from(self.stride))]);
+        let (inside, pairs) = of.grid.field(PAIRS);
+        kernel.passes.iter_mut().for_each(|pass| pass.fields.push((inside, pairs.clone())));
+        kernel.sizes.push((pairs, self.elements()));
         kernel
     }
 }
