@@ -5,11 +5,11 @@ use std::cell::RefCell;
 use std::rc::Rc;
 
 use glam::DVec3;
-use motes::kernel::{Backend, Kernel, Plan};
+use motes::kernel::{ALARM, Backend, Kernel, Plan, QUIET};
 use motes::settings::Value;
-use motes::{Bounds, Gpu, Particles, Setup, Simulation};
+use motes::{Bounds, Gpu, POSITION, Particles, Setup, Simulation};
 
-use crate::dfsph::{ANYTIME, SPACING, anything, state, words};
+use crate::dfsph::{ANYTIME, SPACING, anything, go, state, words};
 use crate::stages::{Device, Stage};
 use crate::support::machines::alone;
 use crate::support::states::{force, integrator, word};
@@ -21,6 +21,7 @@ pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
         pairs(device, flat, stages);
     }
     lone(device, stages);
+    crowded(device, stages);
     // More than the smaller device takes in one dispatch.
     many(&(shared.found.device.clone(), shared.found.queue.clone()), stages);
 }
@@ -72,7 +73,30 @@ fn pairs(device: &Device, flat: bool, stages: &mut Vec<Stage>) {
 fn lone(device: &Device, stages: &mut Vec<Stage>) {
     let (simulation, plan) = resting(device, &[DVec3::ZERO], false);
     for name in ["fluid begin", "fluid collect"] {
-        stages.push(anything(&simulation, &named(&plan, name), &format!("{name}, alone"), ANYTIME));
+        stages.push(anything(&simulation, (&named(&plan, name), 1), &format!("{name}, alone"), ANYTIME));
+    }
+}
+
+/// As many within reach of each other as there is room for, and more: the first of those is told.
+fn crowded(device: &Device, stages: &mut Vec<Stage>) {
+    /// Neighbours in space, of a support of two spacings.
+    const ROOM: usize = 72;
+    for more in [1, 3] {
+        let mut random = Random::new(31);
+        let one = |_| (random.vector() * 0.4 * SPACING).as_vec3().as_dvec3();
+        let places: Vec<DVec3> = (0..ROOM + more).map(one).collect();
+        let (simulation, plan) = resting(device, &places, false);
+        words(&simulation, ALARM.name, &QUIET.map(f32::from_bits));
+        // Where they were before they burst.
+        let back: Vec<f32> =
+            places.iter().flat_map(|x| x.as_vec3().extend(SPACING.powi(3) as f32).to_array()).collect();
+        words(&simulation, POSITION.name, &back);
+        let grid = plan.steps().find(|kernel| kernel.name.starts_with("grid")).expect("a grid").clone();
+        let both = Plan { kernels: vec![grid, named(&plan, "fluid response")], order: vec![0, 1] };
+        let stage = Stage::amid(&format!("a crowd and {more}"), &simulation, both).slack(4.0);
+        let first = [u32::MAX, u32::MAX, 0, u32::MAX, u32::MAX, 0, 0, 0];
+        let told = || first.map(f32::from_bits).to_vec();
+        stages.push(if more == 1 { stage } else { stage.told(ALARM.name, told()) });
     }
 }
 
@@ -92,6 +116,7 @@ fn many(device: &Device, stages: &mut Vec<Stage>) {
         Setup { particles, forces, integrator, dt: 0.007, bounds: Bounds::default(), solver: motes::Solver::default() };
     let plan = setup.plans(gpu.machine()).expect("plans").step;
     let simulation = Rc::new(RefCell::new(Simulation::on(gpu, &setup).expect("a simulation")));
+    go(&simulation, &plan);
     let errors: Vec<f32> = (0..MANY).map(|_| 1.3 + random.narrow()).collect();
     for which in ["divergence", "density"] {
         let [tally, decide] = ["tally", "decide"].map(|end| named(&plan, &format!("fluid {which} {end}")));

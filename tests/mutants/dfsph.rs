@@ -61,7 +61,7 @@ fn block(flat: bool) -> (Particles, Bounds) {
 }
 
 /// `walks`: as on a device that has no room for pairs.
-fn simulation(device: &Device, flat: bool, walks: bool) -> (Simulation<Gpu>, Plan) {
+fn simulation(device: &Device, flat: bool, walks: bool) -> (Simulation<Gpu>, Plan, usize) {
     let (particles, bounds) = block(flat);
     let number = |key, x| (key, Value::Number(x));
     let settings = [
@@ -88,6 +88,7 @@ fn simulation(device: &Device, flat: bool, walks: bool) -> (Simulation<Gpu>, Pla
         bounds,
         solver: motes::Solver::default(),
     };
+    let fluid = setup.particles.len() - setup.particles.held.len();
     let plan = setup.plans(gpu.machine()).expect("plans").step;
     let mut simulation = Simulation::on(gpu, &setup).expect("a simulation");
     simulation.step(2).expect("two steps");
@@ -98,13 +99,13 @@ fn simulation(device: &Device, flat: bool, walks: bool) -> (Simulation<Gpu>, Pla
         (if flat { v.with_z(0.0) } else { v }).as_vec3().extend(0.0)
     });
     simulation.write(VELOCITY, &velocity.collect::<Vec<Vec4>>()).expect("velocities");
-    (simulation, plan)
+    (simulation, plan, fluid)
 }
 
 /// A stage of each kernel of a step, and of how solves go on and end.
 pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
     for (flat, walks) in [(false, false), (true, false), (false, true)] {
-        let (simulation, plan) = simulation(device, flat, walks);
+        let (simulation, plan, fluid) = simulation(device, flat, walks);
         let simulation = Rc::new(RefCell::new(simulation));
         let mut met = BTreeMap::<String, u32>::new();
         for kernel in plan.steps() {
@@ -124,8 +125,17 @@ pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
                 );
                 if !walks && ANY.iter().any(|end| kernel.name.ends_with(end)) {
                     let name = format!("{} of any, flat {flat}", kernel.name);
-                    stages.push(anything(&simulation, kernel, &name, ANYTIME));
+                    stages.push(anything(&simulation, (kernel, fluid), &name, ANYTIME));
                 }
+            }
+            let named = |name: &str| plan.steps().find(|kernel| kernel.name == name).expect("a kernel").clone();
+            if kernel.name.starts_with("grid") && !walks {
+                stages.push(Stage::amid(&format!("{}, flat {flat}", kernel.name), &simulation, alone(kernel.clone())));
+            }
+            if kernel.name == "fluid response" && !walks {
+                // Pairs are what whoever meets them makes of them.
+                let both = Plan { kernels: vec![kernel.clone(), named("fluid predict")], order: vec![0, 1] };
+                stages.push(Stage::amid(&format!("pairs, flat {flat}"), &simulation, both).slack(4.0));
             }
             let mut simulation = simulation.borrow_mut();
             let gpu = simulation.backend();
@@ -134,6 +144,7 @@ pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
         }
         if !flat && !walks {
             let named = |end: &str| plan.steps().find(|kernel| kernel.name.ends_with(end)).expect("a kernel").clone();
+            go(&simulation, &plan);
             for which in ["divergence", "density"] {
                 ends(&simulation, &named(&format!("{which} decide")), stages);
                 // Nothing moves where a solve is done.
@@ -156,8 +167,13 @@ pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
     crate::crowds::all(shared, device, stages);
 }
 
-/// A kernel where what solves know is any number, in steps of such a length; what was there is put back.
-pub fn anything(simulation: &Rc<RefCell<Simulation<Gpu>>>, kernel: &Kernel, name: &str, dt: f64) -> Stage {
+/// A kernel where what solves know of so many of the fluid is any number, in steps of such a length; what was there is put back.
+pub fn anything(
+    simulation: &Rc<RefCell<Simulation<Gpu>>>,
+    (kernel, fluid): (&Kernel, usize),
+    name: &str,
+    dt: f64,
+) -> Stage {
     let plan = alone(kernel.clone());
     let mut random = Random::new(29);
     let mut before = Vec::new();
@@ -168,7 +184,10 @@ pub fn anything(simulation: &Rc<RefCell<Simulation<Gpu>>>, kernel: &Kernel, name
         let elements = gpu.size(&field) as usize / 4;
         let mut any = |element: usize| {
             let x = random.narrow();
+            let wall = element / 4 >= fluid;
             match (field.split(' ').next().unwrap_or_default(), element % 4) {
+                ("unknowns", 0) if wall => Some(-1.0),
+                ("pushes", 3) if wall => Some(0.0),
                 ("unknowns", 2) if element.is_multiple_of(3) => Some(0.0),
                 ("unknowns", 2) | ("stiffness" | "kept_stiffness", _) => Some(x.abs()),
                 ("pushes", 3) => Some(if x > -0.5 { 1.0 } else { 0.0 }),
@@ -197,6 +216,15 @@ pub fn anything(simulation: &Rc<RefCell<Simulation<Gpu>>>, kernel: &Kernel, name
 pub fn words(simulation: &Rc<RefCell<Simulation<Gpu>>>, field: &str, words: &[f32]) {
     let mut simulation = simulation.borrow_mut();
     simulation.backend().write_bytes(field, 0, bytemuck::cast_slice(words)).expect("a field");
+}
+
+/// Lets all iterations go.
+pub fn go(simulation: &Rc<RefCell<Simulation<Gpu>>>, plan: &Plan) {
+    let kernel = plan.steps().find(|kernel| kernel.name == "fluid go").expect("a kernel").clone();
+    let mut simulation = simulation.borrow_mut();
+    let gpu = simulation.backend();
+    let program = gpu.compile(&alone(kernel)).expect("a kernel");
+    gpu.run(&program, 1).expect("a run");
 }
 
 /// Iterations, codes and errors of the two solves.

@@ -4,6 +4,7 @@ use crate::support::equivalents::{Equivalent, same};
 
 const ALWAYS_SET: &str = "the host sets every override";
 const ALL_KNOW: &str = "all know the same, and whoever says it says the same";
+const HELD: &str = "behind the fluid stands who is held, and does not look around";
 const EDGE: &str = "nobody stands at the very edge";
 
 pub const EQUIVALENT: &[Equivalent] = &[
@@ -11,7 +12,10 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("fluids/dfsph/", "override WARM: f32 = 0.0;", "0.0", "1.0", ALWAYS_SET),
     same("fluids/dfsph/", "override RELAXATION: f32 = 0.0;", "0.0", "1.0", ALWAYS_SET),
     same("dfsph/begin.wgsl", "override FEWEST: f32 = 0.0;", "0.0", "1.0", ALWAYS_SET),
-    same("dfsph/decide.wgsl", "override SHARE: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
+    same("fluids/dfsph/", "override STRIDE: u32 = 1u;", "1u", "2u", ALWAYS_SET),
+    same("fluids/dfsph/", "override ROOM: u32 = 1u;", "1u", "2u", ALWAYS_SET),
+    same("fluids/dfsph/", "override CELLS: u32 = 1u;", "1u", "2u", ALWAYS_SET),
+    same("dfsph/paired.wgsl", "if k < STRIDE {", "<", "<=", HELD),
     same("dfsph/decide.wgsl", "override TOLERANCE: f32 = 0.0;", "0.0", "1.0", ALWAYS_SET),
     same("dfsph/decide.wgsl", "override LEAST: f32 = 0.0;", "0.0", "1.0", ALWAYS_SET),
     same("dfsph/decide.wgsl", "override MOST: f32 = 0.0;", "0.0", "1.0", ALWAYS_SET),

@@ -26,6 +26,7 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("fluids/tension", "const NOTHING", "1e-30", "1.5000000000000001e-30", "nobody is as near as that"),
     same("fluids/tension", "let pull = ", "<=", "<", "both halves have one value where they meet"),
     same("fluids/cubic", "return select(-6.0", "<=", "<", "both halves have one value where they meet"),
+    same("fluids/", "return me.density > 0.0; }", ">", ">=", "who is held stands behind all who are asked"),
     same("fluids/dense.wgsl", "return Particle(", "0.0", "1.0", "nobody asks for its pressure"),
     same(
         "fluids/wall_pressure",
@@ -182,7 +183,7 @@ fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
 fn deliver(k: u32, me: Particle, sum: Sum) { acceleration[me.index] += vec4f(sum.acceleration, sum.told); }";
 
 fn curious(problem: &Problem) -> Kernel {
-    let grid = Grid::new(2.0 * SPACING, None, problem).expect("a grid");
+    let grid = Grid::apart(2.0 * SPACING, problem).expect("a grid");
     let slots = grid.clone();
     let twin = move |host: &Host| {
         let (ids, flow) =
@@ -211,7 +212,7 @@ fn curious(problem: &Problem) -> Kernel {
     ];
     let flow = grid.field("flow");
     let sweep = Sweep { name: "told".to_owned(), grid, files, blocks: Vec::new(), twin: Arc::new(twin) };
-    let mut kernel = sweep.kernel(problem).expect("a search");
+    let mut kernel = sweep.kernel_of_all(problem).expect("a search");
     kernel.passes.iter_mut().for_each(|pass| pass.fields.push(flow.clone()));
     kernel
 }

@@ -1,8 +1,8 @@
 //! The dam break of motes in salva (DFSPH, all cores): reads where the fluid and its walls are, takes some steps, and says how
 //! long they took.
 //!
-//! `salva-dam-break FLUID.csv WALLS.csv SPACING DT STEPS [MAX_DENSITY_ERROR]`, where the files have columns x, y and z under a
-//! line of names.
+//! `salva-dam-break FLUID.csv WALLS.csv SPACING DT STEPS MAX_DENSITY_ERROR OUT.csv`, where the files have columns x, y and z under a
+//! line of names; where the fluid is in the end goes into the last. `compare.py` runs it beside motes.
 
 use std::process::ExitCode;
 use std::time::Instant;
@@ -33,20 +33,18 @@ fn main() -> ExitCode {
 }
 
 fn run(arguments: &[String]) -> Result<String, String> {
-    let [fluid, walls, numbers @ ..] = arguments else {
-        return Err("say FLUID.csv WALLS.csv SPACING DT STEPS [MAX_DENSITY_ERROR]".to_owned());
+    let [fluid, walls, numbers @ .., out] = arguments else {
+        return Err("say FLUID.csv WALLS.csv SPACING DT STEPS MAX_DENSITY_ERROR OUT.csv".to_owned());
     };
     let numbers: Vec<f32> = numbers
         .iter()
         .map(|text| text.parse().map_err(|_| format!("{text} is no number")))
         .collect::<Result<_, String>>()?;
-    let [spacing, dt, steps, rest @ ..] = &numbers[..] else {
-        return Err("say SPACING, DT and STEPS, too".to_owned());
+    let [spacing, dt, steps, error] = &numbers[..] else {
+        return Err("say SPACING, DT, STEPS and MAX_DENSITY_ERROR, too".to_owned());
     };
     let mut solver: DFSPHSolver = DFSPHSolver::new();
-    if let Some(error) = rest.first() {
-        solver.set_parameters(DfsphParameters { max_density_error: *error, ..solver.parameters() });
-    }
+    solver.set_parameters(DfsphParameters { max_density_error: *error, ..solver.parameters() });
     // The kernel reaches 2 radius factor, and the radius is half of the spacing.
     let mut world = LiquidWorld::new(solver, 0.5 * spacing, SUPPORT, 1.0);
     let groups = InteractionGroups::default();
@@ -70,6 +68,11 @@ fn run(arguments: &[String]) -> Result<String, String> {
     let fluid = world.fluids().get(handle).ok_or("the fluid is gone")?;
     let tip = fluid.positions.iter().map(|x| x.x).fold(f32::NEG_INFINITY, f32::max);
     let fastest = fluid.velocities.iter().map(|v| (v.x * v.x + v.y * v.y + v.z * v.z).sqrt()).fold(0.0, f32::max);
+    let mut text = String::from("x,y,z\n");
+    for x in &fluid.positions {
+        text.push_str(&format!("{},{},{}\n", x.x, x.y, x.z));
+    }
+    std::fs::write(out, text).map_err(|e| format!("{out}: {e}"))?;
     Ok(format!(
         "{{\"program\": \"salva 0.11.0\", \"particles\": {count}, \"walls\": {held}, \"dt\": {dt}, \"steps_timed\": {}, \
          \"seconds\": {seconds}, \"tip\": {tip}, \"fastest\": {fastest}}}",

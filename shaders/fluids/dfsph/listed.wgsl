@@ -9,7 +9,7 @@ const WORKGROUP: u32 = 64u;
 @compute @workgroup_size(WORKGROUP)
 fn near(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let k = folded(group, groups) * WORKGROUP + lane;
-    if k < min(STRIDE, starts[CELLS]) {
+    if k < starts[CELLS] {
         let me = candidate(k);
         if acts_on(me) {
             var sum = Sum();

@@ -50,8 +50,12 @@ pub fn push(of: &Dfsph<'_>, solve: Solve) -> Result<Kernel, Error> {
 pub fn changes(host: &Host, medium: &Medium, ids: &[usize], pushes: &Name) -> Result<Vec<Option<f64>>, Error> {
     let mut felt = vec![glam::DVec4::ZERO; host.world().count as usize];
     let pushes = host.reading::<Vec4>(pushes)?;
-    let solved = ids.iter().zip(pushes.iter()).filter(|(_, push)| push.w > 0.0);
-    solved.for_each(|(id, push)| felt[*id] = *push);
+    for (id, push) in ids.iter().zip(pushes.iter()) {
+        // Who stands nowhere any more says nothing of who stands elsewhere.
+        if push.w > 0.0 || felt[*id].w <= 0.0 {
+            felt[*id] = *push;
+        }
+    }
     let changes = gathered(
         host,
         medium.range(),
