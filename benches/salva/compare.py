@@ -68,7 +68,7 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         motes(folder / "start", [], 1)
-        start = (folder / "start/snapshot_0000.csv").read_text().splitlines()
+        start = min((folder / "start").glob("snapshot_*.csv")).read_text().splitlines()
         (folder / "fluid.csv").write_text("\n".join(start[: FLUID + 1]) + "\n")
         (folder / "walls.csv").write_text("\n".join([start[0], *start[FLUID + 1 :]]) + "\n")
         solve = [f"simulation.dt={DT}", "simulation.integrator=symplectic_euler", "force.1.solver=dfsph"]

@@ -45,7 +45,7 @@ impl Found {
     #[must_use]
     pub fn facts(&self) -> Vec<(&'static str, String)> {
         let (limits, info) = (self.device.limits(), self.adapter.get_info());
-        let largest = binding(&limits);
+        let largest = bindable(&limits);
         let offered = |feature| if self.device.features().contains(feature) { "yes" } else { "no" }.to_owned();
         vec![
             ("largest field", format!("{} MiB, {} particles", largest >> 20, largest / 16)),
@@ -165,7 +165,7 @@ pub(super) fn describe(info: &wgpu::AdapterInfo) -> String {
 }
 
 /// Bytes of a field, at most.
-pub(super) fn binding(limits: &wgpu::Limits) -> u64 {
+pub(super) fn bindable(limits: &wgpu::Limits) -> u64 {
     limits.max_buffer_size.min(limits.max_storage_buffer_binding_size)
 }
 
@@ -180,5 +180,5 @@ pub(super) fn machine(device: &wgpu::Device) -> Machine {
     let invocations = if software { 256 } else { 1 << 18 };
     let limits = device.limits();
     let workgroups = limits.max_compute_workgroups_per_dimension;
-    Machine { software, subgroup, invocations, binding: binding(&limits), workgroups }
+    Machine { software, subgroup, invocations, bindable: bindable(&limits), workgroups }
 }

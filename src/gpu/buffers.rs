@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::adapter::binding;
+use super::adapter::bindable;
 use super::fault;
 use crate::error::Error;
 
@@ -42,7 +42,7 @@ impl Buffers {
             }
             return Ok(false);
         }
-        let limit = binding(&self.device.limits());
+        let limit = bindable(&self.device.limits());
         if bytes > limit {
             return Err(too_large(name, bytes, limit, self.count));
         }

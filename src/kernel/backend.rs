@@ -13,14 +13,14 @@ pub struct Machine {
     /// Invocations that keep the device busy.
     pub invocations: u32,
     /// Bytes of a field that one binding holds, at most; 0 where nothing is bound.
-    pub binding: u64,
+    pub bindable: u64,
     /// Workgroups that it dispatches in one dimension, at most.
     pub workgroups: u32,
 }
 
 impl Machine {
     /// The host, which runs the twins.
-    pub const HOST: Self = Self { software: true, subgroup: 0, invocations: 1, binding: 0, workgroups: 65_535 };
+    pub const HOST: Self = Self { software: true, subgroup: 0, invocations: 1, bindable: 0, workgroups: 65_535 };
 }
 
 /// Runs plans. The two backends are the GPU and the twins.

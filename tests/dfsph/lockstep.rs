@@ -22,7 +22,7 @@ fn device_and_twins_solve_alike() {
         let mut gpu = gpu(&shared, count);
         if walks {
             let machine = gpu.machine();
-            gpu.pretend(Machine { binding: 0, ..machine });
+            gpu.pretend(Machine { bindable: 0, ..machine });
         }
         let settings = [("viscosity", Value::Number(0.003)), ("max_iterations", Value::Number(6.0))];
         let setup = tank.setup(&settings, 0.004);

@@ -78,7 +78,7 @@ fn simulation(device: &Device, flat: bool, walks: bool) -> (Simulation<Gpu>, Pla
     gpu.pad(5);
     if walks {
         let machine = gpu.machine();
-        gpu.pretend(Machine { binding: 0, ..machine });
+        gpu.pretend(Machine { bindable: 0, ..machine });
     }
     let setup = Setup {
         particles,
