@@ -3,13 +3,13 @@
 use std::collections::BTreeSet;
 
 use motes::fluids::DENSITY;
-use motes::kernel::Backend;
+use motes::kernel::{Backend, Machine};
 use motes::lockstep::compare;
 use motes::settings::Value;
 use motes::{LIFE, Simulation};
 
 use crate::ledger::drains;
-use crate::support::states::word;
+use crate::support::states::{integrator, word};
 use crate::support::{self, machines};
 use crate::{fluid_with, pool};
 
@@ -81,4 +81,40 @@ fn states_of_density_agree_with_their_twins() {
     }
     let of = pollster::block_on(simulation.population()).expect("a count");
     assert!(of.waiting > 0 && of.dead > 0, "{of:?}");
+}
+
+/// Where pressure is solved for, only those who live are: pairs are kept, or found anew.
+#[test]
+fn solves_for_pressure_agree_with_their_twins() {
+    let shared = support::device();
+    for walks in [false, true] {
+        let mut setup = pool(drains());
+        setup.forces[1] = fluid_with(&[("solver", word("dfsph")), ("max_iterations", Value::Number(4.0))]);
+        setup.integrator = integrator("symplectic_euler");
+        let count = u32::try_from(setup.particles.len()).expect("few");
+        let mut gpu = machines::gpu(&shared, setup.particles.len());
+        if walks {
+            let machine = gpu.machine();
+            gpu.pretend(Machine { bindable: 0, ..machine });
+        }
+        let plans = setup.plans(gpu.machine()).expect("plans");
+        let mut simulation = Simulation::on(gpu, &setup).expect("a run");
+        let mut changed = BTreeSet::new();
+        for _ in 0..4 {
+            simulation.step(13).expect("steps");
+            let gpu = simulation.backend();
+            gpu.compile(&plans.step).expect("a plan");
+            for verdict in pollster::block_on(compare(gpu, &plans.step, count)).expect("verdicts") {
+                assert!(verdict.sound(), "{walks}: {verdict:?}");
+                if verdict.changed {
+                    changed.insert(verdict.kernel);
+                }
+            }
+        }
+        for kernel in ["fluid response", "fluid begin", "fluid predict", "fluid density push", "fluid finish"] {
+            assert!(changed.contains(kernel), "{walks}: {kernel} of {changed:?}");
+        }
+        let of = pollster::block_on(simulation.population()).expect("a count");
+        assert!(of.waiting > 0 && of.dead > 0, "{of:?}");
+    }
 }
