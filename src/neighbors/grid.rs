@@ -75,7 +75,7 @@ impl Grid {
             return Self::new(range, None, problem);
         }
         checked(range)?;
-        Ok(Self { apart: true, ..Self::finest(&format!("{range:?}, held last,"), range, None, 2.0, problem) })
+        Ok(Self { apart: true, ..Self::finest(&format!("{range:?} held last"), range, None, 2.0, problem) })
     }
 
     /// As fine as there is room for, so many times over.
