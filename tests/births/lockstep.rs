@@ -3,15 +3,28 @@
 use std::collections::BTreeSet;
 
 use motes::fluids::DENSITY;
-use motes::kernel::{Backend, Machine};
+use motes::kernel::{Backend, Machine, Plan};
 use motes::lockstep::compare;
 use motes::settings::Value;
-use motes::{LIFE, Simulation};
+use motes::{Gpu, LIFE, Simulation};
 
 use crate::ledger::drains;
 use crate::support::states::{integrator, word};
 use crate::support::{self, machines};
 use crate::{fluid_with, pool};
+
+/// So many steps, and one of the plan, kernel by kernel; the clock goes on. The kernels that change something.
+fn agreed(simulation: &mut Simulation<Gpu>, steps: u32, plan: &Plan, name: &str) -> BTreeSet<String> {
+    simulation.step(steps).expect("steps");
+    let count = simulation.count();
+    let gpu = simulation.backend();
+    gpu.compile(plan).expect("a plan");
+    let verdicts = pollster::block_on(compare(gpu, plan, count)).expect("verdicts");
+    for verdict in &verdicts {
+        assert!(verdict.sound(), "{name}: {verdict:?}");
+    }
+    verdicts.into_iter().filter(|verdict| verdict.changed).map(|verdict| verdict.kernel).collect()
+}
 
 #[test]
 fn kernels_agree_with_their_twins() {
@@ -20,7 +33,6 @@ fn kernels_agree_with_their_twins() {
         let mut setup = pool(drains());
         // Those who live are fewer than their ids: who is dead came first.
         setup.forces[1] = fluid_with(&[("tension", Value::Number(0.3)), ("adhesion", Value::Number(0.2))]);
-        let count = u32::try_from(setup.particles.len()).expect("few");
         let mut gpu = machines::gpu(&shared, setup.particles.len());
         gpu.pretend(machine);
         let plans = setup.plans(machine).expect("plans");
@@ -28,16 +40,7 @@ fn kernels_agree_with_their_twins() {
         let mut changed = BTreeSet::new();
         // A row leaves every 6.6 steps: some of these ends see one.
         for _ in 0..9 {
-            simulation.step(6).expect("steps");
-            let gpu = simulation.backend();
-            gpu.compile(&plans.step).expect("a plan");
-            // A step of the plan, kernel by kernel; the clock goes on.
-            for verdict in pollster::block_on(compare(gpu, &plans.step, count)).expect("verdicts") {
-                assert!(verdict.sound(), "{name}: {verdict:?}");
-                if verdict.changed {
-                    changed.insert(verdict.kernel);
-                }
-            }
+            changed.extend(agreed(&mut simulation, 6, &plans.step, name));
         }
         for kernel in [
             "bear",
@@ -62,16 +65,10 @@ fn states_of_density_agree_with_their_twins() {
     let mut setup = pool(drains());
     let (continuity, diffusion) = (("density_by", word("continuity")), ("diffusion", Value::Number(0.1)));
     setup.forces[1] = fluid_with(&[continuity, diffusion]);
-    let count = u32::try_from(setup.particles.len()).expect("few");
     let mut simulation = Simulation::on(machines::gpu(&shared, setup.particles.len()), &setup).expect("a run");
     let plans = setup.plans(simulation.backend().machine()).expect("plans");
     for _ in 0..4 {
-        simulation.step(13).expect("steps");
-        let gpu = simulation.backend();
-        gpu.compile(&plans.step).expect("a plan");
-        for verdict in pollster::block_on(compare(gpu, &plans.step, count)).expect("verdicts") {
-            assert!(verdict.sound(), "{verdict:?}");
-        }
+        agreed(&mut simulation, 13, &plans.step, "continuity");
         let density = pollster::block_on(simulation.read(DENSITY)).expect("densities");
         let life = pollster::block_on(simulation.read(LIFE)).expect("lives");
         let of = |word: u32| density.iter().zip(&life).filter(move |(_, life)| **life == word).map(|(rho, _)| *rho);
@@ -91,7 +88,6 @@ fn solves_for_pressure_agree_with_their_twins() {
         let mut setup = pool(drains());
         setup.forces[1] = fluid_with(&[("solver", word("dfsph")), ("max_iterations", Value::Number(4.0))]);
         setup.integrator = integrator("symplectic_euler");
-        let count = u32::try_from(setup.particles.len()).expect("few");
         let mut gpu = machines::gpu(&shared, setup.particles.len());
         if walks {
             let machine = gpu.machine();
@@ -101,15 +97,7 @@ fn solves_for_pressure_agree_with_their_twins() {
         let mut simulation = Simulation::on(gpu, &setup).expect("a run");
         let mut changed = BTreeSet::new();
         for _ in 0..4 {
-            simulation.step(13).expect("steps");
-            let gpu = simulation.backend();
-            gpu.compile(&plans.step).expect("a plan");
-            for verdict in pollster::block_on(compare(gpu, &plans.step, count)).expect("verdicts") {
-                assert!(verdict.sound(), "{walks}: {verdict:?}");
-                if verdict.changed {
-                    changed.insert(verdict.kernel);
-                }
-            }
+            changed.extend(agreed(&mut simulation, 13, &plans.step, if walks { "walks" } else { "pairs" }));
         }
         for kernel in ["fluid response", "fluid begin", "fluid predict", "fluid density push", "fluid finish"] {
             assert!(changed.contains(kernel), "{walks}: {kernel} of {changed:?}");
