@@ -31,7 +31,7 @@ pub fn state(medium: &Medium, problem: &Problem) -> Result<Kernel, Error> {
     let constants = grid.constants(&shader);
     let fields = [SORTED_ID, FLOW, STARTS].map(|name| grid.field(name));
     let pass = Pass { constants, uniforms, ..Pass::new(shader, problem.count) }.on(&fields);
-    let (starts, cells) = (grid.field(STARTS).1, u64::from(grid.count() * grid.layers()) + 1);
+    let (starts, cells) = (grid.field(STARTS).1, u64::from(grid.bins()));
     let (me, who) = (*medium, problem.clone());
     let twin = move |host: &Host| {
         let (ids, density) = (grid.occupants(host)?, host.read(DENSITY)?);

@@ -22,7 +22,7 @@ impl Grid {
     /// # Errors
     /// When a shader does not compile, or a field does not fit.
     pub fn kernel(&self, problem: &Problem, moving: bool) -> Result<Kernel, Error> {
-        let (bins, machine) = (self.count() * self.layers() + 1, &problem.machine);
+        let (bins, machine) = (self.bins(), &problem.machine);
         let (_, starts) = self.field(STARTS);
         let sums = scan::scratch(&starts);
         let chosen = if self.of.is_some() {
@@ -81,7 +81,7 @@ impl Grid {
     /// The `override`s of a shader that the grid decides: its cells, of those who live in it, and how many lists it keeps.
     #[must_use]
     pub fn constants(&self, shader: &Shader) -> Vec<(&'static str, f64)> {
-        let (cells, layers) = (self.count() * self.layers(), self.layers());
+        let (cells, layers) = (self.bins() - 1, self.layers());
         let known =
             |name: &str, usual: u32, value: u32| value != usual && shader.reflection().overrides.contains_key(name);
         let all = [("CELLS", 0, cells), ("LAYERS", 1, layers)];

@@ -43,7 +43,7 @@ impl Cells {
         let cells = grid.count() as usize;
         let layer = |i: usize| if last(i) { cells } else { 0 };
         let keys: Vec<usize> = homes.iter().enumerate().map(|(i, x)| key(grid, &bounds, *x) + layer(i)).collect();
-        let mut starts = vec![0_u32; cells * grid.layers() as usize + 1];
+        let mut starts = vec![0_u32; grid.bins() as usize];
         let those = || (0..keys.len()).filter(|i| chosen(*i));
         those().for_each(|i| starts[keys[i] + 1] += 1);
         for c in 1..starts.len() {

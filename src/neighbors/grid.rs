@@ -178,6 +178,11 @@ impl Grid {
     pub fn of_those_ahead(&self) -> Self {
         Self { apart: false, ..self.clone() }
     }
+    /// Where cells begin, of all lists, and where the last ends.
+    #[must_use]
+    pub fn bins(&self) -> u32 {
+        self.count() * self.layers() + 1
+    }
     /// Who stands before all who are held, at most.
     #[must_use]
     pub fn ahead(&self, problem: &Problem) -> u32 {

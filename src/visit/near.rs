@@ -109,5 +109,5 @@ pub fn passes(grid: &Grid, all: &Pass, targets: u32, problem: &Problem) -> Resul
 
 /// A search does not make these, but it binds them: they are as long as the grid makes them.
 pub fn sizes(grid: &Grid) -> Vec<(Name, u64)> {
-    vec![(grid.field(STARTS).1, u64::from(grid.count() * grid.layers()) + 1), (ALARM.name.into(), ALARM_WORDS as u64)]
+    vec![(grid.field(STARTS).1, u64::from(grid.bins())), (ALARM.name.into(), ALARM_WORDS as u64)]
 }

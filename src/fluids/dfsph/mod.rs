@@ -208,7 +208,7 @@ impl<'a> Dfsph<'a> {
             let new: Vec<_> = fields.iter().filter(|(name, _)| !bound(name)).cloned().collect();
             pass.fields.extend(new);
         }
-        let (starts, bins) = (self.name(STARTS), u64::from(self.grid.count() * self.grid.layers()) + 1);
+        let (starts, bins) = (self.name(STARTS), u64::from(self.grid.bins()));
         if kernel.size(&starts).is_none() {
             kernel.sizes.push((starts, bins));
         }
