@@ -3,13 +3,12 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use motes::forces::Problem;
 use motes::io::{Precision, atomically, csv, npz};
-use motes::kernel::Machine;
 use motes::scene::Format;
 use motes::{Error, Setup, Snapshot};
 
 use super::failure::Failure;
+use super::flow;
 
 /// So many neighbours are named.
 const NAMED: usize = 8;
@@ -45,9 +44,7 @@ pub fn explain(
 
 /// What loses the numbers of a fluid.
 fn of_a_fluid(setup: &Setup) -> Option<&'static str> {
-    let problem = Problem::new(1, Machine::HOST);
-    let flows = setup.forces.iter().any(|force| force.rates(&problem).is_ok_and(|rates| rates.is_some()));
-    flows.then_some(
+    flow::flows(&setup.forces).then_some(
         "in a fluid that is a step too long for its sound or friction (`motes check` tells how far it is from that), a flow faster \
          than sound, tension that is too strong, or somebody squeezed between walls, solids and what an emitter lets out",
     )

@@ -2,6 +2,8 @@
 
 use motes::Error;
 use motes::fluids::Medium;
+use motes::forces::{Force, Problem};
+use motes::kernel::Machine;
 use motes::scene::Scene;
 use motes::stability::{Asks, Flow};
 
@@ -11,6 +13,12 @@ use super::substeps::digits;
 const COURANT: f64 = 0.25;
 /// What part of its density an acceleration may add to a fluid that is to vary by 1 %.
 const PRESSED: f64 = 0.05;
+
+/// Whether one of these forces makes a fluid.
+pub fn flows(forces: &[Box<dyn Force>]) -> bool {
+    let problem = Problem::new(1, Machine::HOST);
+    forces.iter().any(|force| force.rates(&problem).is_ok_and(|rates| rates.is_some()))
+}
 
 /// A line of how far from its limit a step is.
 pub fn line(flow: &Flow, dt: f64) -> Option<String> {

@@ -1,11 +1,11 @@
 //! What a run says of its implicit solves, and which laws are solved for.
 
-use motes::forces::{Force, Problem};
+use motes::forces::Force;
 use motes::integrators::implicit;
-use motes::kernel::Machine;
 use motes::simulation::{Outcome, PressureSolves, Solves};
 use serde_json::json;
 
+use super::flow;
 use super::progress::Progress;
 
 /// Tells what became of the solves, and the way out where some did not converge.
@@ -62,10 +62,7 @@ pub fn remark(forces: &[Box<dyn Force>], integrator: &str) -> String {
     for (force, solved) in forces.iter().zip(implicit(forces)) {
         names[usize::from(solved)].extend(force.laws().into_iter().map(|law| format!("`{}`", law.name)));
     }
-    let machine = Machine::HOST;
-    let problem = Problem::new(1, machine);
-    let flows = forces.iter().any(|force| force.rates(&problem).is_ok_and(|rates| rates.is_some()));
-    names[0].extend(flows.then(|| "`fluid`".to_owned()));
+    names[0].extend(flow::flows(forces).then(|| "`fluid`".to_owned()));
     let [explicit, solved] = names.map(|names| if names.is_empty() { "none".to_owned() } else { names.join(", ") });
     format!("{integrator} solves for {solved}; explicit in the same step, with a limit on dt: {explicit}")
 }
