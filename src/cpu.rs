@@ -83,6 +83,7 @@ impl Backend for Cpu {
         match &mut array {
             Array::Vec4(a) => a.truncate(len),
             Array::Float(a) => a.truncate(len),
+            Array::Vec3(a) => a.truncate(len),
             Array::Uint(a) => a.truncate(len),
         }
         if std::mem::discriminant(&array) == std::mem::discriminant(like) { Ok(array) } else { Err(missing()) }

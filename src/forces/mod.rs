@@ -10,7 +10,7 @@ use kind::{Kind, SPECIES, species};
 use crate::error::Error;
 use crate::fluids::{Continuum, Rates};
 pub use crate::kernel::Problem;
-use crate::kernel::{Plan, Scalar};
+use crate::kernel::{Column, Plan, Scalar};
 use crate::neighbors::Grid;
 use crate::settings::{Key, Settings, Value};
 use crate::solids::Standing;
@@ -22,6 +22,10 @@ pub trait Force: Send + Sync {
     /// measured for order and clusters.
     fn company(&self) -> Option<(f64, Option<u32>)> {
         None
+    }
+    /// The columns that it reads or writes beside those of all simulations.
+    fn columns(&self) -> Vec<Column> {
+        Vec::new()
     }
     /// Its laws, in the order in which they are visited; a later one may read what an earlier one wrote.
     fn laws(&self) -> Vec<Law>;

@@ -2,7 +2,7 @@
 
 use std::marker::PhantomData;
 
-use glam::{DVec4, Vec4};
+use glam::{DVec3, DVec4, Vec4};
 
 /// Where particles are, and how heavy: `xyz` position \[length\], `w` mass \[mass\].
 pub const POSITION: Field<Vec4> = Field::new("position");
@@ -63,6 +63,8 @@ impl<T> Copy for Field<T> {}
 pub enum Array {
     /// `array<vec4f>`
     Vec4(Vec<DVec4>),
+    /// `array<vec4f>` whose fourth numbers are 0
+    Vec3(Vec<DVec3>),
     /// `array<f32>`
     Float(Vec<f64>),
     /// `array<u32>`, atomic or not
@@ -75,6 +77,7 @@ impl Array {
     pub fn len(&self) -> usize {
         match self {
             Self::Vec4(a) => a.len(),
+            Self::Vec3(a) => a.len(),
             Self::Float(a) => a.len(),
             Self::Uint(a) => a.len(),
         }
@@ -89,6 +92,9 @@ impl Array {
     pub fn to_bytes(&self) -> Vec<u8> {
         match self {
             Self::Vec4(a) => bytemuck::cast_slice(&a.iter().map(|v| v.as_vec4()).collect::<Vec<_>>()).to_vec(),
+            Self::Vec3(a) => {
+                bytemuck::cast_slice(&a.iter().map(|v| v.as_vec3().extend(0.0)).collect::<Vec<_>>()).to_vec()
+            }
             Self::Float(a) => bytemuck::cast_slice(&a.iter().map(|x| narrow(*x)).collect::<Vec<_>>()).to_vec(),
             Self::Uint(a) => bytemuck::cast_slice(a).to_vec(),
         }
@@ -98,6 +104,7 @@ impl Array {
     pub fn like(&self, bytes: &[u8]) -> Self {
         match self {
             Self::Vec4(_) => Vec4::array(words::<Vec4>(bytes).into_iter().map(Vec4::widen).collect()),
+            Self::Vec3(_) => Self::Vec3(words::<Vec4>(bytes).into_iter().map(|v| v.as_dvec4().truncate()).collect()),
             Self::Float(_) => f32::array(words::<f32>(bytes).into_iter().map(f32::widen).collect()),
             Self::Uint(_) => Self::Uint(words(bytes)),
         }
@@ -107,6 +114,7 @@ impl Array {
     pub fn zeros(&self, len: usize) -> Self {
         match self {
             Self::Vec4(_) => Self::Vec4(vec![DVec4::ZERO; len]),
+            Self::Vec3(_) => Self::Vec3(vec![DVec3::ZERO; len]),
             Self::Float(_) => Self::Float(vec![0.0; len]),
             Self::Uint(_) => Self::Uint(vec![0; len]),
         }

@@ -64,6 +64,10 @@ impl Host {
         }
         match (array, values) {
             (Array::Vec4(to), Array::Vec4(from)) => to[..from.len()].copy_from_slice(from),
+            (Array::Vec3(to), Array::Vec3(from)) => to[..from.len()].copy_from_slice(from),
+            (Array::Vec4(to), Array::Vec3(from)) => {
+                to.iter_mut().zip(from).for_each(|(to, from)| *to = from.extend(0.0));
+            }
             (Array::Float(to), Array::Float(from)) => to[..from.len()].copy_from_slice(from),
             (Array::Uint(to), Array::Uint(from)) => to[..from.len()].copy_from_slice(from),
             _ => return Err(missing(name)),

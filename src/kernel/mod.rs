@@ -2,6 +2,8 @@
 
 mod backend;
 mod bounds;
+mod column;
+mod columns;
 mod field;
 mod host;
 mod message;
@@ -16,6 +18,8 @@ mod world;
 
 pub use backend::{Backend, Machine};
 pub use bounds::{Bounds, Side};
+pub use column::{Column, Kind, Place, Role, Shape};
+pub use columns::{Columns, base};
 pub use field::{
     ACCELERATION, ALARM, ALARM_WORDS, Array, Element, Field, HOME, LIFE, POSITION, QUIET, SPECIES, TARGET, VELOCITY,
 };

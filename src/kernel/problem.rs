@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{Bounds, Machine, Pace, Shader, Side, Solver, Source, Table};
+use super::{Bounds, Columns, Machine, Pace, Shader, Side, Solver, Source, Table};
 use crate::life::{Birth, Drain};
 use crate::links::{Links, Network};
 use crate::motion::{self, Held, Motion};
@@ -47,6 +47,8 @@ pub struct Problem {
     pub solver: Solver,
     /// How long steps are, where they are not all alike.
     pub pace: Option<Pace>,
+    /// The columns of the simulation.
+    pub columns: Arc<Columns>,
 }
 
 impl Problem {
@@ -72,7 +74,13 @@ impl Problem {
             reached: 1.0,
             solver: Solver::default(),
             pace: None,
+            columns: Arc::default(),
         }
+    }
+    /// The same with these columns.
+    #[must_use]
+    pub fn of_columns(self, columns: Columns) -> Self {
+        Self { columns: Arc::new(columns), ..self }
     }
     /// The same with particles at these places, in this box.
     #[must_use]

@@ -70,6 +70,7 @@ fn sway(twin: &Twin, inputs: &[(&str, Option<&Array>)], world: World) -> Result<
     let nudged = |_: &str, array: &Array| match array {
         Array::Vec4(all) => Array::Vec4(all.iter().map(|v| v.to_array().map(&mut off).into()).collect()),
         Array::Float(all) => Array::Float(all.iter().map(|x| off(*x)).collect()),
+        Array::Vec3(all) => Array::Vec3(all.iter().map(|v| v.to_array().map(&mut off).into()).collect()),
         Array::Uint(all) => Array::Uint(all.clone()),
     };
     ask(twin, inputs, world, nudged)

@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::fluids::{Start, Still};
 use crate::forces::{Force, Problem};
 use crate::integrators::{Integrator, Step};
-use crate::kernel::{Bounds, Machine, Plan, Solver};
+use crate::kernel::{Bounds, Columns, Machine, Plan, Solver};
 use crate::life;
 use crate::motion::{self, Hold};
 use crate::particles::Particles;
@@ -108,7 +108,15 @@ impl Setup {
             .mortal(&self.particles.births, &self.particles.drains, self.particles.is_mortal())
             .breaking(self.breaks())
             .solved(self.solver)
-            .paced(self.integrator.pace()))
+            .paced(self.integrator.pace())
+            .of_columns(self.columns()?))
+    }
+    /// The columns that all simulations have, and those that components declare.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] when two declarations of one name differ, or one makes no sense.
+    pub fn columns(&self) -> Result<Columns, Error> {
+        Columns::with(self.forces.iter().flat_map(|force| force.columns()))
     }
     /// Whether forces do something once, before the first step.
     pub(super) fn begins(&self, machine: Machine) -> Result<bool, Error> {

@@ -1,0 +1,196 @@
+//! Columns: one declaration of a quantity, from which its buffer, its reference array, its cells in files, its place in a
+//! state and its line in the documentation follow.
+
+use std::borrow::Cow;
+
+use super::{Array, Name};
+
+/// One quantity of every particle, of every slot of a particle, or of the whole system.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Column {
+    /// Its name in Rust, in WGSL, in scenes and in files.
+    pub name: Name,
+    /// What one value is.
+    pub kind: Kind,
+    /// How many values there are.
+    pub shape: Shape,
+    /// Its unit, such as `length / time`; empty for a plain number.
+    pub unit: Cow<'static, str>,
+    /// One line that says what it is.
+    pub about: Cow<'static, str>,
+    /// Who writes it.
+    pub role: Role,
+    /// The column that is its rate of change, if integrators advance it.
+    pub rate: Option<Name>,
+    /// The value of a particle that is given none; `None`: it must be given.
+    pub initial: Option<[f64; 4]>,
+    /// Where it lies.
+    pub place: Place,
+}
+
+/// What one value is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// A real number: `f32` on the device, f64 on the host.
+    Scalar,
+    /// Three real numbers: `vec4f` on the device, whose `w` is free.
+    Vector,
+    /// Four real numbers: a unit quaternion (x, y, z | w), `vec4f` on the device.
+    Quaternion,
+    /// A whole number from 0 on: `u32`.
+    Whole,
+}
+
+/// How many values a column has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Shape {
+    /// One for each particle.
+    Particle,
+    /// So many for each particle.
+    Slots(u32),
+    /// So many for the whole system.
+    System(u32),
+}
+
+/// Who writes a column, and what a state keeps of it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Role {
+    /// It is advanced by the steps: saved, restored and given back.
+    State,
+    /// One law computes it anew in each evaluation.
+    Derived,
+    /// It is zero at the start of each evaluation, and laws add to it.
+    Sum,
+}
+
+/// Where a column lies: a buffer and the first component of its elements.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Place {
+    /// The buffer, by its name in WGSL.
+    pub buffer: Name,
+    /// The component of each element at which it begins.
+    pub component: u8,
+}
+
+impl Kind {
+    /// Real numbers, or words, of one value.
+    #[must_use]
+    pub fn components(self) -> usize {
+        match self {
+            Self::Scalar | Self::Whole => 1,
+            Self::Vector => 3,
+            Self::Quaternion => 4,
+        }
+    }
+    /// What files append to the name of a column for each component.
+    #[must_use]
+    pub fn suffixes(self) -> &'static [&'static str] {
+        match self {
+            Self::Scalar | Self::Whole => &[""],
+            Self::Vector => &["_x", "_y", "_z"],
+            Self::Quaternion => &["_x", "_y", "_z", "_w"],
+        }
+    }
+    /// So many values of a kind on the host, all the same.
+    #[must_use]
+    pub fn filled(self, value: [f64; 4], count: usize) -> Array {
+        let [x, y, z, w] = value;
+        match self {
+            Self::Scalar => Array::Float(vec![x; count]),
+            Self::Vector => Array::Vec3(vec![glam::DVec3::new(x, y, z); count]),
+            Self::Quaternion => Array::Vec4(vec![glam::DVec4::new(x, y, z, w); count]),
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "declared as a whole number")]
+            Self::Whole => Array::Uint(vec![x as u32; count]),
+        }
+    }
+    /// The word of scenes and messages.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Scalar => "scalar",
+            Self::Vector => "vector",
+            Self::Quaternion => "quaternion",
+            Self::Whole => "whole",
+        }
+    }
+    /// The element of its buffer in WGSL, where it has one of its own.
+    #[must_use]
+    pub fn wgsl(self) -> &'static str {
+        match self {
+            Self::Scalar => "f32",
+            Self::Vector | Self::Quaternion => "vec4f",
+            Self::Whole => "u32",
+        }
+    }
+    /// Every kind.
+    pub const ALL: [Self; 4] = [Self::Scalar, Self::Vector, Self::Quaternion, Self::Whole];
+}
+
+impl Shape {
+    /// Values of so many particles.
+    #[must_use]
+    pub fn len(self, particles: usize) -> usize {
+        match self {
+            Self::Particle => particles,
+            Self::Slots(k) => particles.saturating_mul(k as usize),
+            Self::System(k) => k as usize,
+        }
+    }
+}
+
+impl Column {
+    /// A column of its own buffer, one value for each particle, kept as state, 0 where nothing is given.
+    #[must_use]
+    pub fn new(name: impl Into<Name>, kind: Kind, unit: &'static str, about: &'static str) -> Self {
+        let name = name.into();
+        let place = Place { buffer: name.clone(), component: 0 };
+        let initial = Some(if kind == Kind::Quaternion { [0.0, 0.0, 0.0, 1.0] } else { [0.0; 4] });
+        let (unit, about, shape, role) = (unit.into(), about.into(), Shape::Particle, Role::State);
+        Self { name, kind, shape, unit, about, role, rate: None, initial, place }
+    }
+    /// The same, computed anew in each evaluation by one law.
+    #[must_use]
+    pub fn derived(self) -> Self {
+        Self { role: Role::Derived, ..self }
+    }
+    /// The same, zero at the start of each evaluation, to which laws add.
+    #[must_use]
+    pub fn summed(self) -> Self {
+        Self { role: Role::Sum, ..self }
+    }
+    /// The same, advanced by integrators with this rate.
+    #[must_use]
+    pub fn with_rate(self, rate: impl Into<Name>) -> Self {
+        Self { rate: Some(rate.into()), ..self }
+    }
+    /// The same, of the whole system or of slots.
+    #[must_use]
+    pub fn shaped(self, shape: Shape) -> Self {
+        Self { shape, ..self }
+    }
+    /// The same with this value for particles that are given none.
+    #[must_use]
+    pub fn starting(self, value: [f64; 4]) -> Self {
+        Self { initial: Some(value), ..self }
+    }
+    /// The same, which every particle must be given.
+    #[must_use]
+    pub fn required(self) -> Self {
+        Self { initial: None, ..self }
+    }
+    /// The same within the elements of another column's buffer.
+    #[must_use]
+    pub fn within(self, buffer: impl Into<Name>, component: u8) -> Self {
+        Self { place: Place { buffer: buffer.into(), component }, ..self }
+    }
+    /// Whether it shares the elements of a buffer with another column.
+    #[must_use]
+    pub fn is_packed(&self) -> bool {
+        self.place.buffer != self.name
+    }
+    /// An array of so many particles that are given nothing.
+    #[must_use]
+    pub fn array(&self, particles: usize) -> Array {
+        self.kind.filled(self.initial.unwrap_or_default(), self.shape.len(particles))
+    }
+}

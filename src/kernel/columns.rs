@@ -1,0 +1,137 @@
+//! The columns of a simulation: those that all have, and those that components and scenes declare.
+
+use super::column::{Column, Kind, Role, Shape};
+use crate::error::Error;
+
+/// Buffers of the engine; a column of such a name would be another thing under the same name.
+const RESERVED: [&str; 4] = ["world", "alarm", "params", "grid"];
+
+/// The columns of a simulation, in the order of their declaration; every name once.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Columns(Vec<Column>);
+
+impl Default for Columns {
+    fn default() -> Self {
+        Self(base())
+    }
+}
+
+/// What every simulation has.
+#[must_use]
+pub fn base() -> Vec<Column> {
+    vec![
+        Column::new("position", Kind::Vector, "length", "where the particle is").with_rate("velocity").required(),
+        Column::new("mass", Kind::Scalar, "mass", "how heavy it is; 0 is a test particle")
+            .within("position", 3)
+            .starting([1.0, 0.0, 0.0, 0.0]),
+        Column::new("velocity", Kind::Vector, "length / time", "how it moves").with_rate("acceleration"),
+        Column::new("size", Kind::Scalar, "length", "the radius that pictures draw; 0 lets them choose")
+            .within("velocity", 3),
+        Column::new("acceleration", Kind::Vector, "length / time²", "the sum of all laws").summed(),
+        Column::new("potential", Kind::Scalar, "length² / time²", "its share of the potential energy, per unit mass")
+            .within("acceleration", 3)
+            .summed(),
+        Column::new("species", Kind::Whole, "", "of which kind it is, as a number that laws tell apart"),
+    ]
+}
+
+impl Columns {
+    /// Those of all simulations, and these. A column may be declared by several components, in the same words.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] when two declarations of one name differ, a name is the engine's or no name in WGSL, a rate is not
+    /// declared or of another kind, or a column lies in a buffer that does not hold it.
+    pub fn with(declared: impl IntoIterator<Item = Column>) -> Result<Self, Error> {
+        let mut columns = Self::default();
+        for column in declared {
+            columns.add(column)?;
+        }
+        columns.check()?;
+        Ok(columns)
+    }
+    fn add(&mut self, column: Column) -> Result<(), Error> {
+        if let Some(known) = self.get(&column.name) {
+            if *known == column {
+                return Ok(());
+            }
+            return Err(Error::Scene(format!(
+                "the column `{}` is declared twice, as {} [{}] and as {} [{}]: give one of them another name",
+                column.name,
+                known.kind.name(),
+                known.unit,
+                column.kind.name(),
+                column.unit
+            )));
+        }
+        let mut letters = column.name.chars();
+        let good = letters.next().is_some_and(|c| c.is_ascii_alphabetic())
+            && letters.all(|c| c.is_ascii_alphanumeric() || c == '_');
+        if !good || column.name.len() > 64 {
+            return Err(Error::Scene(format!(
+                "a column is called `{}`: use letters, digits and `_`, a letter first, 64 of them at most",
+                column.name
+            )));
+        }
+        if RESERVED.contains(&column.name.as_ref()) {
+            return Err(Error::Scene(format!(
+                "a column is called `{}`, which is a buffer of the engine: choose another name",
+                column.name
+            )));
+        }
+        self.0.push(column);
+        Ok(())
+    }
+    fn check(&self) -> Result<(), Error> {
+        for column in &self.0 {
+            let Some(rate) = &column.rate else { continue };
+            let Some(other) = self.get(rate) else {
+                return Err(Error::Scene(format!(
+                    "the column `{}` is advanced by `{rate}`, which no component declares: declare it too",
+                    column.name
+                )));
+            };
+            let fits = other.kind == column.kind || column.kind == Kind::Quaternion && other.kind == Kind::Vector;
+            if !fits || other.shape != column.shape || column.role != Role::State {
+                return Err(Error::Scene(format!(
+                    "the column `{}` ({}) cannot be advanced by `{rate}` ({}): both must be of one kind and shape, and the first a state",
+                    column.name,
+                    column.kind.name(),
+                    other.kind.name()
+                )));
+            }
+        }
+        Ok(())
+    }
+    /// The column of a name.
+    #[must_use]
+    pub fn get(&self, name: &str) -> Option<&Column> {
+        self.0.iter().find(|column| column.name == name)
+    }
+    /// All of them.
+    pub fn iter(&self) -> impl Iterator<Item = &Column> {
+        self.0.iter()
+    }
+    /// Those that lie in a buffer.
+    pub fn of_buffer<'a>(&'a self, buffer: &'a str) -> impl Iterator<Item = &'a Column> {
+        self.0.iter().filter(move |column| column.place.buffer == buffer)
+    }
+    /// Those that a state keeps.
+    pub fn state(&self) -> impl Iterator<Item = &Column> {
+        self.0.iter().filter(|column| column.role == Role::State)
+    }
+    /// What integrators advance beside positions and velocities: a column and its rate.
+    pub fn pairs(&self) -> impl Iterator<Item = (&Column, &Column)> {
+        let own = |column: &&Column| !["position", "velocity"].contains(&column.name.as_ref());
+        self.0.iter().filter(own).filter_map(|column| Some((column, self.get(column.rate.as_ref()?)?)))
+    }
+    /// Elements of a buffer of columns, of so many particles; `None` where no column lies there.
+    #[must_use]
+    pub fn len_of(&self, buffer: &str, particles: usize) -> Option<usize> {
+        self.of_buffer(buffer).map(|column| column.shape.len(particles)).max()
+    }
+    /// Whether every particle has one value in this buffer.
+    #[must_use]
+    pub fn is_per_particle(&self, buffer: &str) -> bool {
+        self.of_buffer(buffer).all(|column| column.shape == Shape::Particle)
+    }
+}
