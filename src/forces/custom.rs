@@ -35,6 +35,7 @@ impl Force for Custom {
             reciprocal: false,
             jacobian: None,
             distant: Distant::default(),
+            tied: None,
         }]
     }
 }

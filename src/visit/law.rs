@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use glam::{DVec3, DVec4};
 
-use super::twin::Sample;
-use super::{Body, Group, Jacobian, Over, each, links, near, pairs, tree, twin, walk};
+use super::twin::{ByTables, Sample};
+use super::{Body, Group, Jacobian, Over, Tables, each, links, near, pairs, tree, twin, walk};
 use crate::error::Error;
 use crate::kernel::{Kernel, Problem, Scalar, Shader, Side, Source, Twin, World};
 use crate::links::{Corner, Half};
@@ -32,6 +32,8 @@ pub struct Law {
     pub jacobian: Option<Jacobian>,
     /// What it makes of a far group, over `tree`.
     pub distant: Distant,
+    /// Over `links`: its reference by the tables that a problem has.
+    pub tied: Option<ByTables>,
 }
 
 /// What a law makes of a far group.
@@ -68,6 +70,7 @@ impl Law {
             reciprocal: false,
             jacobian: None,
             distant: Distant::default(),
+            tied: None,
         }
     }
     /// A law of each particle alone; `rule(me, world)` gives acceleration and potential per unit mass.
@@ -149,8 +152,9 @@ impl Law {
         gather: impl Fn(&Body, &Body, DVec3, &Half, &mut S) + Send + Sync + 'static,
         finish: impl Fn(&Body, &S) -> DVec4 + Send + Sync + 'static,
     ) -> Self {
-        let twin = twin::links(gather, finish);
-        Self { reciprocal: true, ..Self::plain(name, Over::Links, wgsl, params, twin) }
+        let tied = twin::links(gather, finish);
+        let twin = tied(Tables::None);
+        Self { reciprocal: true, tied: Some(tied), ..Self::plain(name, Over::Links, wgsl, params, twin) }
     }
     /// A law of joints or triangles; `rule(corners, place, stiffness, world)` gives the force on the corner of that
     /// place, and the energy of the whole, of which each corner holds a third.

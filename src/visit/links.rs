@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{Law, Over};
+use super::{Law, Over, Tables};
 use crate::error::Error;
 use crate::kernel::{Kernel, Name, Pass, Problem, Shader};
 use crate::links::Network;
@@ -58,11 +58,11 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
     };
     law.requires(&[("gather", gather), ("finish", "fn finish(me: Particle, sum: Sum) -> vec4f")])?;
     let mut files = vec![crate::shader!("world.wgsl"), crate::shader!("fields.wgsl"), crate::shader!("particle.wgsl")];
-    let alike = !problem.breaks && problem.network.alike();
-    match (corners, alike) {
+    let tables = Tables::of(problem);
+    match (corners, tables) {
         (true, _) => files.push(crate::shader!("visit/corners.wgsl")),
-        (false, true) => files.push(crate::shader!("visit/links_alike.wgsl")),
-        (false, false) => {
+        (false, Tables::Alike) => files.push(crate::shader!("visit/links_alike.wgsl")),
+        (false, _) => {
             files.extend([crate::shader!("visit/link_table.wgsl"), crate::shader!("visit/links.wgsl")]);
         }
     }
@@ -81,7 +81,11 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
     };
     let work = u64::from(problem.count) + u64::from(elements.copied().unwrap_or(0));
     let pass = Pass { constants, uniforms, work, ..Pass::new(shader, problem.count) };
-    let (name, twin, over) = (law.name, law.twin, law.over);
+    let twin = match &law.tied {
+        Some(reference) => Some(reference(tables)),
+        None => law.twin,
+    };
+    let (name, over) = (law.name, law.over);
     let (sizes, scratch, tables) = (Vec::new(), Vec::new(), Vec::new());
     Ok(bind(Kernel { name, passes: vec![pass], twin, sizes, scratch, tables }, over, problem))
 }

@@ -1,30 +1,53 @@
 //! The tables of links as a twin reads them.
 
+use super::{LINK, LINK_START};
 use crate::error::Error;
-use crate::kernel::{Host, Reading};
+use crate::kernel::{Host, Problem, Reading};
 use crate::links::{Half, WORDS};
 
-/// The tables of links, whichever there are.
+/// Which tables of links a kernel binds, and its reference reads. A problem decides it: the host also has what pictures and
+/// solvers bind.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Tables {
+    /// None: a law is asked about a few particles, apart from any problem.
+    None,
+    /// One row for each link.
+    Each,
+    /// Partners, kind by kind, where there are few kinds of springs and none of them breaks.
+    Alike,
+}
+
+impl Tables {
+    /// Those of a visit over links.
+    pub fn of(problem: &Problem) -> Self {
+        if !problem.breaks && problem.network.alike() { Self::Alike } else { Self::Each }
+    }
+}
+
+/// The tables of links as they stand on a host.
 pub(crate) enum Tied<'a> {
+    /// No links.
+    None,
     /// Every link with all that it is.
     Each { start: Reading<'a, u32>, link: Reading<'a, u32> },
-    /// Nobody is tied: a host of a few particles that somebody asks about.
-    None,
     /// Partners, kind by kind.
     Alike { start: Reading<'a, u32>, partner: Reading<'a, u32>, kinds: Vec<Half> },
 }
 
 impl<'a> Tied<'a> {
     /// Those of a host.
-    pub fn of(host: &'a Host) -> Result<Self, Error> {
-        if host.contains("link") {
-            return Ok(Self::Each { start: host.reading("link_start")?, link: host.reading("link")? });
-        }
-        if !host.contains("link_kind") {
-            return Ok(Self::None);
-        }
-        let kinds = host.reading::<u32>("link_kind")?.chunks_exact(WORDS).map(Half::new).collect();
-        Ok(Self::Alike { start: host.reading("partner_start")?, partner: host.reading("partner")?, kinds })
+    ///
+    /// # Errors
+    /// When the host does not have them.
+    pub fn of(host: &'a Host, tables: Tables) -> Result<Self, Error> {
+        Ok(match tables {
+            Tables::None => Self::None,
+            Tables::Each => Self::Each { start: host.reading(LINK_START)?, link: host.reading(LINK)? },
+            Tables::Alike => {
+                let kinds = host.reading::<u32>("link_kind")?.chunks_exact(WORDS).map(Half::new).collect();
+                Self::Alike { start: host.reading("partner_start")?, partner: host.reading("partner")?, kinds }
+            }
+        })
     }
     /// The links of a particle.
     pub fn halves(&self, id: usize) -> Vec<Half> {

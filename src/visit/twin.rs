@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::Over;
 use super::body::{Body, bodies};
-use super::tied::{Tied, row};
+use super::tied::{Tables, Tied, row};
 use crate::error::Error;
 use crate::kernel::{ACCELERATION, Bounds, Host, Twin, World};
 use crate::links::{Corner, Half};
@@ -75,14 +75,28 @@ pub fn sample(rule: Arc<impl Fn(&Body, &Body, DVec3, &World) -> DVec4 + Send + S
     })
 }
 
-/// Those that are linked, in the order of the table.
+/// The reference of a law over links that reads such tables.
+pub type ByTables = Arc<dyn Fn(Tables) -> Twin + Send + Sync>;
+
+/// Those that are linked, in the order of the tables.
 pub fn links<S: Default>(
     gather: impl Fn(&Body, &Body, DVec3, &Half, &mut S) + Send + Sync + 'static,
     finish: impl Fn(&Body, &S) -> DVec4 + Send + Sync + 'static,
+) -> ByTables {
+    let rule = Arc::new((gather, finish));
+    Arc::new(move |tables| linked(tables, rule.clone()))
+}
+
+fn linked<S: Default>(
+    tables: Tables,
+    rule: Arc<(
+        impl Fn(&Body, &Body, DVec3, &Half, &mut S) + Send + Sync + 'static,
+        impl Fn(&Body, &S) -> DVec4 + Send + Sync + 'static,
+    )>,
 ) -> Twin {
     Arc::new(move |host| {
         let (bodies, bounds) = (bodies(host)?, host.world().bounds);
-        let tied = Tied::of(host)?;
+        let (tied, (gather, finish)) = (Tied::of(host, tables)?, &*rule);
         let mut acceleration = host.write(ACCELERATION)?;
         acceleration.par_iter_mut().zip(&bodies).for_each(|(a, me)| {
             let mut sum = S::default();

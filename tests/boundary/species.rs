@@ -33,6 +33,7 @@ impl Force for Sorting {
             reciprocal: false,
             jacobian: None,
             distant: Distant::default(),
+            tied: None,
         }]
     }
 }
