@@ -2,6 +2,7 @@
 // their box. `sides` has a byte for each axis: 0 open, 1 periodic, 2 reflecting. `period` is 0 along axes that have none,
 // and so is `frequency`, one over it.
 struct World {
+    unused_word: u32,
     time: f32, dt: f32, step: u32, count: u32,
     low: vec3f, dimensions: u32,
     high: vec3f, sides: u32,

@@ -174,6 +174,9 @@ fn a_users_shader_is_told_what_is_wrong_and_where() {
     in_shader(each, &SWIRL.replace("me.position", "you.position"), &["my/swirl.wgsl:5:", "^^^", "you"]);
     // The type of what the function returns is wrong: found by the validator, not the parser.
     in_shader(each, &SWIRL.replace(", 0.0);\n}", ", 0.0).xyz;\n}"), &["my/swirl.wgsl:"]);
+    // In the line of the struct, where a word is put in: the column is that of the file, and so is what is shown.
+    let twice = SWIRL.replace("center: vec3f", "center: vec3");
+    in_shader(each, &twice, &["my/swirl.wgsl:1:40", "1 | struct Params { strength: f32, center: vec3 }\n", "^^^^"]);
     // No function, or only in a comment.
     in_shader(each, &SWIRL.replace("fn force", "fn push"), &["my/swirl.wgsl", "fn force(me: Particle) -> vec4f"]);
     in_shader(each, &SWIRL.replace("fn force", "// fn force(\nfn push"), &["my/swirl.wgsl", "fn force("]);

@@ -1,5 +1,5 @@
 // Density as a state, after a drift:  ρ ← ρ + c dρ/dt dt.
-struct Params { factor: f32 }
+struct Params { unused_word: u32, factor: f32 }
 
 @group(3) @binding(0) var<uniform> params: Params;
 @group(3) @binding(2) var<storage, read_write> density: array<f32>;

@@ -1,5 +1,6 @@
 // A fluid at rest, and how it is smoothed: see `src/fluids/medium.rs`.
 struct Medium {
+    unused_word: u32,
     per_support: f32, // 1 / h
     weight: f32, // W(r) = weight bell(r / h)
     slope: f32, // W'(r) / r = slope decline(r / h)

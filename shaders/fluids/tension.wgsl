@@ -1,7 +1,7 @@
 // Surface tension (Akinci, Akinci & Teschner 2013), with r from me to you and q = |r| / h:
 //   a = γ Σ 2 ρ₀ / (ρ + ρ') [m' C(q) r / |r| − (n − n')],  C = 32 / (π h^D) · { 2 (1 − q)³ q³ − 1/64,  q ≤ 1/2;  (1 − q)³ q³ }
 // and towards walls  a = β Σ m' A(q) r / |r|,  A = 0.007 / h^D · (6 q − 4 q² − 2)^(1/4) for q > 1/2.
-struct Params { cohesion: f32, curvature: f32, adhesion: f32 }
+struct Params { unused_word: u32, cohesion: f32, curvature: f32, adhesion: f32 }
 struct Sum { acceleration: vec3f }
 
 @group(3) @binding(0) var<uniform> params: Params;

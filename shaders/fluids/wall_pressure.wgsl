@@ -1,6 +1,6 @@
 // Walls have the pressure of the fluid around them, and what weighs between (Adami, Hu & Adams 2012), with r from me to you:
 //   p = (Σ p' W − w·Σ ρ' r W) / Σ W
-struct Params { weight: vec3f }
+struct Params { unused_word: u32, weight: vec3f }
 struct Sum { pressure: f32, number: f32 }
 
 @group(3) @binding(0) var<uniform> params: Params;

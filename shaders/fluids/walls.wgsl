@@ -1,6 +1,6 @@
 // Walls weigh as much as the fluid whose place their particles take:  m = ρ₀ / Σ W, over the walls (Akinci et al. 2012),
 // or what they are told to weigh.
-struct Params { mass: f32 }
+struct Params { unused_word: u32, mass: f32 }
 struct Sum { number: f32 }
 
 @group(3) @binding(0) var<uniform> params: Params;

@@ -1,6 +1,6 @@
 // Air on a triangle of cloth that moves through it with w = v − wind, by its face normal n, area A and cos α = ŵ · n:
 // drag  −½ ρ |w| A C_D |cos α| w,  lift  −½ ρ |w|² A C_L cos α ( n − cos α ŵ ),  a third on each corner.
-struct Params { wind: vec3f, density: f32, drag: f32, lift: f32, gust: f32, period: f32, wavelength: f32 }
+struct Params { unused_word: u32, wind: vec3f, density: f32, drag: f32, lift: f32, gust: f32, period: f32, wavelength: f32 }
 struct Sum { force: vec3f }
 
 @group(3) @binding(0) var<uniform> params: Params;

@@ -1,5 +1,5 @@
 // A centre that attracts:  point φ = −k / √(d² + ε²),  harmonic φ = k d² / 2,  logarithmic φ = k ln(d² + ε²) / 2
-struct Params { position: vec3f, velocity: vec3f, strength: f32, softening: f32, profile: u32 }
+struct Params { unused_word: u32, position: vec3f, velocity: vec3f, strength: f32, softening: f32, profile: u32 }
 
 @group(3) @binding(0) var<uniform> params: Params;
 

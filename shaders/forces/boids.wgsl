@@ -3,6 +3,7 @@
 //   alignment   u = Σ v / n, a velocity by itself
 //   a = truncate(Σ w truncate(u − v, f_max), f_max)
 struct Params {
+    unused_word: u32,
     separation_range: f32, separation: f32, alignment: f32, cohesion: f32,
     cosine: f32, max_speed: f32, max_force: f32, species: u32,
 }

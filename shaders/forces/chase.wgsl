@@ -1,5 +1,5 @@
 // Chasing (seek; Reynolds 1999):  a = truncate(u − v, f_max),  u = v_max unit(Σ r), towards the middle of the prey in range.
-struct Params { max_speed: f32, max_force: f32, species: u32, prey: u32 }
+struct Params { unused_word: u32, max_speed: f32, max_force: f32, species: u32, prey: u32 }
 struct Sum { displacement: vec3f }
 
 @group(3) @binding(0) var<uniform> params: Params;

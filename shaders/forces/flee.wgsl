@@ -1,5 +1,5 @@
 // Fleeing:  a = −w Σ unit(r) (1 − |r| / R), over the predators within R.
-struct Params { range: f32, strength: f32, species: u32, predators: u32 }
+struct Params { unused_word: u32, range: f32, strength: f32, species: u32, predators: u32 }
 
 @group(3) @binding(0) var<uniform> params: Params;
 

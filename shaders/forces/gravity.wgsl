@@ -1,5 +1,5 @@
 // Newton's law of gravity, softened (Plummer 1911):  a = G m r / (r² + ε²)^(3/2),  φ = −G m / (r² + ε²)^(1/2)
-struct Params { g: f32, softening: f32 }
+struct Params { unused_word: u32, g: f32, softening: f32 }
 
 @group(3) @binding(0) var<uniform> params: Params;
 

@@ -1,6 +1,6 @@
 // Newton's law of gravity, softened by a cubic spline of support h = 2.8 ε, exact beyond it
 // (Monaghan & Lattanzio 1985; Springel, Yoshida & White 2001, appendix A): GADGET's, and PKDGRAV's, whose own ε is h / 2.
-struct Params { g: f32, softening: f32 }
+struct Params { unused_word: u32, g: f32, softening: f32 }
 
 @group(3) @binding(0) var<uniform> params: Params;
 

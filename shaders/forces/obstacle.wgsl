@@ -2,6 +2,7 @@
 // heading, L = τ |v| how far one looks ahead, s how far one gets before a bird of radius c touches, ∇φ as it is there.
 // Who touches already, or is inside, is pushed straight out:  a = f_max ∇φ.
 struct Params {
+    unused_word: u32,
     position: vec3f, radius: f32, size: vec3f, shape: u32, normal: vec3f,
     look_ahead: f32, clearance: f32, max_force: f32, species: u32,
 }

@@ -1,5 +1,5 @@
 // A soft wall: within a margin of the sides of a box a constant acceleration turns back;  φ = a · depth, axis by axis.
-struct Params { low: vec3f, high: vec3f, margin: f32, acceleration: f32, species: u32 }
+struct Params { unused_word: u32, low: vec3f, high: vec3f, margin: f32, acceleration: f32, species: u32 }
 
 @group(3) @binding(0) var<uniform> params: Params;
 

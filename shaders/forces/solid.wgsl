@@ -3,6 +3,7 @@
 // What that changes, it changes from the touch on: x gets it times the part of the drift behind the surface, so that who
 // rests does not creep.
 struct Params {
+    unused_word: u32,
     position: vec3f, radius: f32, size: vec3f, shape: u32, axis: vec3f, margin: f32,
     side: f32, restitution: f32, friction: f32, species: u32, motion: u32,
 }

@@ -1,5 +1,5 @@
 // A speed within limits:  v ← v clamp(|v|, least, most) / |v|;  who rests and may not sets off along x.
-struct Params { least: f32, most: f32, species: u32 }
+struct Params { unused_word: u32, least: f32, most: f32, species: u32 }
 
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read_write> velocity: array<vec4f>; // xyz, radius

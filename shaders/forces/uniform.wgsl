@@ -1,5 +1,5 @@
 // The same acceleration everywhere:  a = g,  φ = −g · x
-struct Params { acceleration: vec3f }
+struct Params { unused_word: u32, acceleration: vec3f }
 
 @group(3) @binding(0) var<uniform> params: Params;
 

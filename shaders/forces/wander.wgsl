@@ -1,6 +1,6 @@
 // Wandering:  a = σ n / √dt, with n a random direction, another one for every particle and step. So in the time t a velocity
 // walks σ² t in the mean square, whatever the step.
-struct Params { strength: f32, seed_low: u32, seed_high: u32, species: u32 }
+struct Params { unused_word: u32, strength: f32, seed_low: u32, seed_high: u32, species: u32 }
 
 @group(3) @binding(0) var<uniform> params: Params;
 

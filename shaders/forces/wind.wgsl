@@ -1,5 +1,5 @@
 // A wind in gusts that travel downwind, and carry particles along:  a = γ (u − v),  u = (1 + s sin 2π (t/T − d/λ)) U
-struct Params { velocity: vec3f, rate: f32, gust: f32, period: f32, wavelength: f32 }
+struct Params { unused_word: u32, velocity: vec3f, rate: f32, gust: f32, period: f32, wavelength: f32 }
 
 @group(3) @binding(0) var<uniform> params: Params;
 

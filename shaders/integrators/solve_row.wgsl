@@ -27,4 +27,4 @@ struct State {
     iterations: f32, total: f32, code: f32, settled: f32, broken: f32,
 }
 
-struct Extent { chunk: u32, groups: u32 }
+struct Extent { unused_word: u32, chunk: u32, groups: u32 }

@@ -1,5 +1,5 @@
 // Who lives and is inside of a solid, or outside of it, dies: it stays there at rest, without mass.
-struct Params { position: vec3f, radius: f32, size: vec3f, shape: u32, axis: vec3f, side: f32, species: u32 }
+struct Params { unused_word: u32, position: vec3f, radius: f32, size: vec3f, shape: u32, axis: vec3f, side: f32, species: u32 }
 
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read_write> position: array<vec4f>;     // xyz, mass

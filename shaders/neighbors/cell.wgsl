@@ -2,7 +2,9 @@
 // axis. Along a periodic axis that is the period itself; elsewhere far cells share a place, and who is met there fails
 // the test of distance. So there is no edge, and nobody is outside.
 // A range is `fine` cells, more of them along x, where cells are contiguous: so rows are cut closer to who looks.
-struct Grid { low: vec3f, range: f32, per_cell: vec3f, first: u32, cells: vec3u, end: u32, only: u32, fine: vec3u }
+struct Grid {
+    unused_word: u32, low: vec3f, range: f32, per_cell: vec3f, first: u32, cells: vec3u, end: u32, only: u32, fine: vec3u,
+}
 
 @group(2) @binding(0) var<uniform> grid: Grid;
 

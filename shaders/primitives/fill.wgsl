@@ -1,5 +1,5 @@
 // items[i] = value, for i < elements.
-struct Extent { elements: u32, value: u32 }
+struct Extent { unused_word: u32, elements: u32, value: u32 }
 
 @group(1) @binding(0) var<storage, read_write> items: array<u32>;
 @group(2) @binding(0) var<uniform> extent: Extent;

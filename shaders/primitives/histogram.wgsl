@@ -1,5 +1,5 @@
 // counts[key] += 1 for each key; keys beyond the last bin are counted behind it.
-struct Extent { elements: u32, bins: u32 }
+struct Extent { unused_word: u32, elements: u32, bins: u32 }
 
 @group(1) @binding(0) var<storage, read> keys: array<u32>;
 @group(1) @binding(1) var<storage, read_write> counts: array<atomic<u32>>;

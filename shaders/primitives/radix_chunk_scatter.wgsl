@@ -1,5 +1,5 @@
 // Each invocation takes its chunk to where it belongs, key by key.
-struct Extent { elements: u32, block: u32, blocks: u32, shift: u32, mask: u32 }
+struct Extent { unused_word: u32, elements: u32, block: u32, blocks: u32, shift: u32, mask: u32 }
 
 @group(1) @binding(0) var<storage, read> keys: array<u32>;
 @group(1) @binding(1) var<storage, read> values: array<u32>;

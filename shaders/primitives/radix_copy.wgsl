@@ -1,5 +1,5 @@
 // Pairs as they are: before an odd number of moves to and fro.
-struct Extent { elements: u32 }
+struct Extent { unused_word: u32, elements: u32 }
 
 @group(1) @binding(0) var<storage, read> keys: array<u32>;
 @group(1) @binding(1) var<storage, read> values: array<u32>;

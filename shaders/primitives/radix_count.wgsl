@@ -1,5 +1,5 @@
 // How often each digit occurs in each block, digit by digit: the scan of that says where each block's keys go.
-struct Extent { elements: u32, block: u32, blocks: u32, shift: u32, mask: u32 }
+struct Extent { unused_word: u32, elements: u32, block: u32, blocks: u32, shift: u32, mask: u32 }
 
 @group(1) @binding(0) var<storage, read> keys: array<u32>;
 @group(2) @binding(0) var<uniform> extent: Extent;

@@ -1,6 +1,6 @@
 // Each workgroup takes its block to where it belongs, tile by tile: sorted by the digit in its own memory first, so that
 // neighbours write to neighbours.
-struct Extent { elements: u32, block: u32, blocks: u32, shift: u32, mask: u32 }
+struct Extent { unused_word: u32, elements: u32, block: u32, blocks: u32, shift: u32, mask: u32 }
 
 @group(1) @binding(0) var<storage, read> keys: array<u32>;
 @group(1) @binding(1) var<storage, read> values: array<u32>;

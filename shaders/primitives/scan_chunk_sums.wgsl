@@ -1,5 +1,5 @@
 // The sum of each chunk, by one invocation: no barriers, which cost a processor that plays a GPU much.
-struct Extent { elements: u32, chunk: u32 }
+struct Extent { unused_word: u32, elements: u32, chunk: u32 }
 
 @group(1) @binding(0) var<storage, read> items: array<u32>;
 @group(2) @binding(0) var<uniform> extent: Extent;

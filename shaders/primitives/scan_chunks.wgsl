@@ -1,5 +1,5 @@
 // Each invocation scans a chunk, from the sum of all chunks before it on.
-struct Extent { elements: u32, chunk: u32 }
+struct Extent { unused_word: u32, elements: u32, chunk: u32 }
 
 @group(1) @binding(0) var<storage, read_write> items: array<u32>;
 @group(2) @binding(0) var<uniform> extent: Extent;

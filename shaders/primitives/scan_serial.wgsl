@@ -1,5 +1,5 @@
 // One invocation scans all items: items[i] = sum of items[j] over j < i. For a processor that plays a GPU.
-struct Extent { elements: u32 }
+struct Extent { unused_word: u32, elements: u32 }
 
 @group(1) @binding(0) var<storage, read_write> items: array<u32>;
 @group(2) @binding(0) var<uniform> extent: Extent;

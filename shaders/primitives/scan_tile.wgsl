@@ -1,6 +1,6 @@
 // A workgroup scans what fits its memory, for `scan_line` and `scan_blocks`: serially in each invocation, then over the
 // invocations' totals (Hillis, Steele 1986).
-struct Extent { elements: u32 }
+struct Extent { unused_word: u32, elements: u32 }
 
 @group(1) @binding(0) var<storage, read_write> items: array<u32>;
 @group(2) @binding(0) var<uniform> extent: Extent;

@@ -1,6 +1,6 @@
 // Counts the keys of each bin, and notes who came as which: ranks[i] = how many of its bin were there before i. Keys beyond
 // the last bin share the one behind it.
-struct Extent { elements: u32, bins: u32 }
+struct Extent { unused_word: u32, elements: u32, bins: u32 }
 
 @group(1) @binding(0) var<storage, read> keys: array<u32>;
 @group(1) @binding(1) var<storage, read_write> starts: array<atomic<u32>>;

@@ -1,5 +1,5 @@
 // Everybody goes to its bin, in the order in which they were counted.
-struct Extent { elements: u32, bins: u32 }
+struct Extent { unused_word: u32, elements: u32, bins: u32 }
 
 @group(1) @binding(0) var<storage, read> keys: array<u32>;
 @group(1) @binding(1) var<storage, read> starts: array<u32>;

@@ -1,5 +1,6 @@
 // A picture's frame. A pinhole camera at distance d from the centre:  X = s x d / (d − z);  with d = 0 a parallel one:  X = s x
 struct Frame {
+    unused_word: u32,
     center: vec3f,
     distance: f32, // of the eye from the centre; 0 for parallel rays
     right: vec3f,

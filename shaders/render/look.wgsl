@@ -1,6 +1,6 @@
 // From light to looks:  t = log(1 + L / knee) / log(1 + white / knee)  (Drago et al. 2003, with a fixed base)
 // In canvas units; 1 / log2(1 + white / knee); how much darker ink is than light would be light.
-struct Exposure { knee: f32, slope: f32, body: f32 }
+struct Exposure { unused_word: u32, knee: f32, slope: f32, body: f32 }
 
 @group(1) @binding(2) var<storage, read> projected: array<vec4f>; // pixels right and down, depth, radius
 @group(1) @binding(3) var<storage, read> color: array<u32>;

@@ -4,7 +4,7 @@
 // Sources are met in blocks, each with a sum of its own, so that rounding grows with √(number of blocks), not √(sources).
 // One dispatch sees the sources first ≤ j < end; its layer l those from first + l · slice on. Sums over what a dispatch
 // does not see are kept in `parts`, and a later dispatch takes them up again to the bit.
-struct Span { first: u32, end: u32, slice: u32 }
+struct Span { unused_word: u32, first: u32, end: u32, slice: u32 }
 
 @group(2) @binding(0) var<uniform> span: Span;
 @group(2) @binding(1) var<storage, read_write> parts: array<Sum>;

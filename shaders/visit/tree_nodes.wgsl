@@ -3,7 +3,7 @@
 // and it may say fn distant(me, you: Group, r: vec3f, sum: ptr<function, Sum>), with r from me to the centre of mass.
 //
 // Nodes have a heap's numbers: 1 is the root, 2 n and 2 n + 1 are below n, and leaves stand `height` levels below the root.
-struct Tree { first: u32, end: u32, count: u32, leaves: u32, height: u32, widened: f32 }
+struct Tree { unused_word: u32, first: u32, end: u32, count: u32, leaves: u32, height: u32, widened: f32 }
 
 @group(2) @binding(0) var<uniform> tree: Tree;
 @group(2) @binding(1) var<storage, read> tree_id: array<u32>;

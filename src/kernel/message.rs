@@ -10,11 +10,11 @@ use super::Source;
 use crate::error::Error;
 
 /// A parse error as `message` · `--> file:line:column` · the line · a caret.
-pub fn parse(sources: &[Source], text: &str, error: &ParseError) -> Error {
+pub fn parse(sources: &[Source], error: &ParseError) -> Error {
     let mut message = error.message().to_owned();
     let mut labels = error.labels();
     if let Some((span, label)) = labels.next() {
-        message = with_place(&message, sources, text, span, label);
+        message = with_place(&message, sources, span, label);
     }
     for note in error.notes() {
         message.push_str("\n   = note: ");
@@ -24,7 +24,7 @@ pub fn parse(sources: &[Source], text: &str, error: &ParseError) -> Error {
 }
 
 /// A validation error in the same form.
-pub fn validation(sources: &[Source], text: &str, error: &WithSpan<ValidationError>) -> Error {
+pub fn validation(sources: &[Source], error: &WithSpan<ValidationError>) -> Error {
     let mut message = error.as_inner().to_string();
     let mut cause = error.as_inner().source();
     while let Some(inner) = cause {
@@ -34,34 +34,38 @@ pub fn validation(sources: &[Source], text: &str, error: &WithSpan<ValidationErr
     }
     // The last span is the narrowest; a span in the user's own file says more than one in ours.
     let spans: Vec<_> = error.spans().collect();
-    let theirs = spans.iter().rev().find(|(span, _)| place(sources, *span).is_some_and(|(source, _)| !source.ours));
+    let theirs = spans.iter().rev().find(|(span, _)| span.to_range().and_then(|r| place(sources, r.start)).is_some_and(|(source, _)| !source.ours));
     if let Some((span, label)) = theirs.or(spans.last()) {
-        message = with_place(&message, sources, text, *span, label);
+        message = with_place(&message, sources, *span, label);
     }
     Error::Shader { message }
 }
 
-fn place(sources: &[Source], span: Span) -> Option<(&Source, usize)> {
-    let mut start = span.to_range()?.start;
+/// The file, and the place in it, of a place in the joined text.
+fn place(sources: &[Source], mut at: usize) -> Option<(&Source, usize)> {
     for source in sources {
-        if start <= source.text.len() {
-            return Some((source, start));
+        let length = source.compiled().len();
+        if at <= length {
+            return Some((source, source.written(at)));
         }
-        start -= source.text.len() + 1;
+        at -= length + 1;
     }
     None
 }
 
-fn with_place(message: &str, sources: &[Source], text: &str, span: Span, label: &str) -> String {
-    let (Some((source, start)), Some(range)) = (place(sources, span), span.to_range()) else {
-        return message.to_owned();
+fn with_place(message: &str, sources: &[Source], span: Span, label: &str) -> String {
+    let Some(range) = span.to_range() else { return message.to_owned() };
+    let Some((source, start)) = place(sources, range.start) else { return message.to_owned() };
+    let end = match place(sources, range.end) {
+        Some((last, end)) if std::ptr::eq(last, source) => end,
+        _ => source.text.len(),
     };
     let before = source.text.get(..start).unwrap_or_default();
     let line_start = before.rfind('\n').map_or(0, |i| i + 1);
     let line_number = before.matches('\n').count() + 1;
     let column = source.text.get(line_start..start).map_or(0, |s| s.chars().count());
     let line = source.text.get(line_start..).and_then(|s| s.lines().next()).unwrap_or_default();
-    let marked = text.get(range).and_then(|s| s.lines().next()).map_or(1, |s| s.chars().count().max(1));
+    let marked = source.text.get(start..end).and_then(|s| s.lines().next()).map_or(1, |s| s.chars().count().max(1));
     let gutter = " ".repeat(line_number.to_string().len());
     format!(
         "{message}\n{gutter}--> {}:{line_number}:{}\n{gutter} |\n{line_number} | {line}\n{gutter} | {}{} {label}",

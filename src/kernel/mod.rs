@@ -14,6 +14,7 @@ mod problem;
 mod reflect;
 mod shader;
 mod solver;
+mod unused_word;
 mod world;
 
 pub use backend::{Backend, Machine};

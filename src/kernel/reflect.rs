@@ -8,6 +8,7 @@ use naga::{AddressSpace, Expression, Literal, Module, StorageAccess, TypeInner};
 
 use super::Array;
 use super::pack::{Member, Packed};
+use super::unused_word::UNUSED_WORD;
 
 /// How a shader uses a name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -37,7 +38,7 @@ pub struct Binding {
     pub array: bool,
     /// Whether its numbers are `f32`; else they are `u32`, atomic or not.
     pub float: bool,
-    /// The members, when it is a struct.
+    /// The members, when it is a struct, without the word that nothing reads.
     pub packed: Packed,
     /// Vectors or numbers in one element: those of a struct of nothing but `vec4f`, or of nothing but `f32`; else 1.
     pub parts: usize,
@@ -187,8 +188,9 @@ fn member(module: &Module, member: &naga::StructMember) -> Option<Member> {
         TypeInner::Vector { size, scalar } => (size as usize, scalar.kind),
         _ => (0, naga::ScalarKind::Bool),
     };
+    let name = member.name.clone().filter(|name| name != UNUSED_WORD)?;
     Some(Member {
-        name: member.name.clone()?,
+        name,
         offset: member.offset as usize,
         components,
         float: kind == naga::ScalarKind::Float,

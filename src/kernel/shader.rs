@@ -7,6 +7,7 @@ use naga::valid::{Capabilities, ValidationFlags, Validator};
 
 use super::message;
 use super::reflect::Reflection;
+use super::unused_word::{with_unused_word, written};
 use crate::error::Error;
 
 /// One file of WGSL.
@@ -30,6 +31,16 @@ impl Source {
     #[must_use]
     pub fn theirs(file: String, text: String) -> Self {
         Self { file: Cow::Owned(file), text: Cow::Owned(text), ours: false }
+    }
+    /// The text that is compiled: in a user's file `params` begins with a word that nothing reads.
+    #[must_use]
+    pub(super) fn compiled(&self) -> Cow<'_, str> {
+        if self.ours { Cow::Borrowed(&self.text) } else { with_unused_word(&self.text) }
+    }
+    /// The place in the file that a place in the compiled text stands for.
+    #[must_use]
+    pub(super) fn written(&self, compiled: usize) -> usize {
+        if self.ours { compiled } else { written(&self.text, compiled) }
     }
     /// Whether the text, comments left out, contains these words in this order with only white space between.
     #[must_use]
@@ -71,13 +82,13 @@ impl Shader {
     pub fn join(sources: &[Source]) -> Result<Arc<Self>, Error> {
         let mut text = String::new();
         for source in sources {
-            text.push_str(&source.text);
+            text.push_str(&source.compiled());
             text.push('\n');
         }
-        let module = naga::front::wgsl::parse_str(&text).map_err(|e| message::parse(sources, &text, &e))?;
+        let module = naga::front::wgsl::parse_str(&text).map_err(|e| message::parse(sources, &e))?;
         let info = Validator::new(ValidationFlags::all(), Capabilities::all())
             .validate(&module)
-            .map_err(|e| message::validation(sources, &text, &e))?;
+            .map_err(|e| message::validation(sources, &e))?;
         let reflection = Reflection::of(&module, &info);
         Ok(Arc::new(Self { sources: sources.to_vec(), text, reflection }))
     }

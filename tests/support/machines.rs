@@ -105,13 +105,14 @@ pub fn cut(kernel: &Kernel, finish: &Pass, count: usize, layers: u32, slice: u32
 
 /// A walk of a tree in dispatches of so many targets, which are whole groups of 32.
 pub fn parts(whole: &Pass, count: u32, targets: u32) -> Vec<Pass> {
+    let members = &whole.shader.reflection().binding("tree").expect("a tree").packed.members;
     let part = |first: u32| {
         let mut pass = whole.clone();
         let end = (first + targets).min(count);
         let block = &mut pass.uniforms.iter_mut().find(|(name, _)| *name == "tree").expect("a tree").1;
-        // The first two members of the block.
-        for (place, n) in [first, end].into_iter().enumerate() {
-            block[4 * place..4 * place + 4].copy_from_slice(&n.to_le_bytes());
+        for (name, n) in [("first", first), ("end", end)] {
+            let at = members.iter().find(|member| member.name == name).expect("a member").offset;
+            block[at..at + 4].copy_from_slice(&n.to_le_bytes());
         }
         pass.threads.count = whole.threads.count / count.div_ceil(32) * (end - first).div_ceil(32);
         pass

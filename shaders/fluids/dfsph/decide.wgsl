@@ -1,5 +1,5 @@
 // Whether the solve goes on, by the mean error of the fluid's particles.
-struct Extent { elements: u32, chunk: u32 }
+struct Extent { unused_word: u32, elements: u32, chunk: u32 }
 
 @group(3) @binding(6) var<storage, read> errors: array<f32>;
 @group(3) @binding(7) var<storage, read_write> dfsph_state: array<State>;

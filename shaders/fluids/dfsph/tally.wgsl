@@ -1,5 +1,5 @@
 // Many errors become a few: each workgroup adds a run of them.
-struct Extent { elements: u32, chunk: u32 }
+struct Extent { unused_word: u32, elements: u32, chunk: u32 }
 
 @group(3) @binding(6) var<storage, read> errors: array<f32>;
 @group(3) @binding(7) var<storage, read> dfsph_state: array<State>;

@@ -1,0 +1,121 @@
+//! The first word of every uniform block, which nothing reads.
+//!
+//! lavapipe of Mesa 22.2 to 23.0 takes branches that depend on a uniform block for worth compiling with the block's values
+//! in them: it compiles such a shader anew at every dispatch, and frees none of them. It always takes the word at offset 0
+//! of the block. Where no branch depends on that word nothing is gained, and it compiles once.
+
+use std::borrow::Cow;
+
+/// The name of the word. Reflection leaves it out of a block's members, so that no value is asked for.
+pub const UNUSED_WORD: &str = "unused_word";
+/// What is put into a user's struct, in the line of its brace.
+const MEMBER: &str = " unused_word: u32,";
+
+/// A user's text with the word in front of the members of `params`.
+pub fn with_unused_word(text: &str) -> Cow<'_, str> {
+    match place(text) {
+        Some(at) => Cow::Owned([&text[..at], MEMBER, &text[at..]].concat()),
+        None => Cow::Borrowed(text),
+    }
+}
+
+/// The place in a user's text that a place in the compiled text stands for.
+pub fn written(text: &str, compiled: usize) -> usize {
+    match place(text) {
+        Some(at) if compiled > at => compiled.saturating_sub(MEMBER.len()).max(at),
+        _ => compiled,
+    }
+}
+
+/// Just behind the brace of the struct that `params` is of. None where there is no such struct, where it has the word
+/// already, and where values of the struct are written down member by member.
+fn place(text: &str) -> Option<usize> {
+    let tokens = tokens(text);
+    let find = |wanted: &[&str]| {
+        tokens.windows(wanted.len()).position(|w| w.iter().zip(wanted).all(|((_, token), wanted)| token == wanted))
+    };
+    let variable = ["var", "<", "uniform", ">", "params", ":"];
+    let (_, block) = tokens.get(find(&variable)? + variable.len())?;
+    let brace = find(&["struct", block, "{"])? + 2;
+    let (_, first) = tokens.get(brace + 1)?;
+    let complete = *first == UNUSED_WORD || *first == "}" || find(&[block, "("]).is_some();
+    (!complete).then(|| tokens[brace].0 + 1)
+}
+
+/// Words and signs with the places where they begin, without white space and comments.
+fn tokens(text: &str) -> Vec<(usize, &str)> {
+    let word = |c: char| c.is_alphanumeric() || c == '_';
+    let (mut tokens, mut at) = (Vec::new(), 0);
+    while let Some(c) = text[at..].chars().next() {
+        let rest = &text[at..];
+        if rest.starts_with("//") {
+            at += rest.find('\n').unwrap_or(rest.len());
+        } else if rest.starts_with("/*") {
+            at += comment(rest);
+        } else if c.is_whitespace() {
+            at += c.len_utf8();
+        } else {
+            let end = if word(c) { rest.find(|c| !word(c)).unwrap_or(rest.len()) } else { c.len_utf8() };
+            tokens.push((at, &rest[..end]));
+            at += end;
+        }
+    }
+    tokens
+}
+
+/// The length of a block comment, which may hold others.
+fn comment(text: &str) -> usize {
+    let (mut depth, mut at) = (0usize, 0);
+    loop {
+        match (text[at..].find("/*"), text[at..].find("*/")) {
+            (Some(open), Some(close)) if open < close => (depth, at) = (depth + 1, at + open + 2),
+            (_, Some(close)) => (depth, at) = (depth.saturating_sub(1), at + close + 2),
+            (_, None) => return text.len(),
+        }
+        if depth == 0 {
+            return at;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{MEMBER, with_unused_word, written};
+
+    const VARIABLE: &str = "var<uniform> params: Params;\n";
+
+    #[test]
+    fn the_word_stands_behind_the_brace() {
+        for (before, after) in [
+            ("struct Params", " n: u32 }\n"),
+            ("struct /* a /* { */ b */ Params // {\n", "\n    n: u32,\n}\n"),
+            ("/* struct Params { x: f32 } */ struct Params", "x: vec3f}\n"),
+        ] {
+            let text = format!("{before}{{{after}{VARIABLE}");
+            let compiled = with_unused_word(&text);
+            assert_eq!(compiled, format!("{before}{{{MEMBER}{after}{VARIABLE}"));
+            assert_eq!(compiled.lines().count(), text.lines().count(), "lines keep their numbers");
+            let brace = before.len() + 1;
+            for (place, _) in text.char_indices() {
+                let there = if place <= brace { place } else { place + MEMBER.len() };
+                assert_eq!(written(&text, there), place);
+            }
+            assert!((0..=MEMBER.len()).all(|k| written(&text, brace + k) == brace), "what is put in has one place");
+        }
+    }
+
+    #[test]
+    fn nothing_is_put_where_nothing_belongs() {
+        for text in [
+            "fn force(me: Particle) -> vec4f { return vec4f(); }".to_owned(),
+            "struct Params { n: u32 }".to_owned(),
+            format!("struct Params {{ unused_word: u32, n: u32 }}\n{VARIABLE}"),
+            format!("struct Params {{ }}\n{VARIABLE}"),
+            format!("struct Params {{ n: u32 }}\n{VARIABLE}const P = Params(3u);"),
+            format!("struct Other {{ n: u32 }}\n{VARIABLE}/* struct Params {{ n: u32 }}"),
+            format!("// {VARIABLE}struct Params {{ n: u32 }}"),
+        ] {
+            assert_eq!(with_unused_word(&text), text);
+        }
+    }
+}

@@ -1,0 +1,29 @@
+//! Uniform blocks as lavapipe of Mesa 22.2 to 23.0 needs them; see `src/kernel/unused_word.rs`.
+
+use std::collections::BTreeSet;
+
+use motes::kernel::{Access, Kernel};
+
+use crate::kernels::{every, machines};
+
+/// What is wrong with any kernel of any machine.
+fn faults(wrong: impl Fn(&Kernel) -> Option<String>) -> BTreeSet<String> {
+    let mut faults = BTreeSet::new();
+    for (name, machine) in machines() {
+        for (of, kernel) in every(machine) {
+            faults.extend(wrong(&kernel).map(|fault| format!("{of}, {name}: `{}`: {fault}", kernel.name)));
+        }
+    }
+    faults
+}
+
+#[test]
+fn uniform_blocks_begin_with_the_unused_word() {
+    let faults = faults(|kernel| {
+        let blocks = || kernel.bindings().map(|(_, binding)| binding).filter(|b| b.access == Access::Uniform);
+        let members = |b: &motes::kernel::Binding| b.packed.members.clone();
+        let bad = blocks().find(|b| members(b).is_empty() || members(b).iter().any(|member| member.offset < 4))?;
+        Some(format!("the block `{}` has a member at offset 0", bad.name))
+    });
+    assert!(faults.is_empty(), "{faults:#?}");
+}

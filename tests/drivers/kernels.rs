@@ -1,0 +1,107 @@
+//! Every kernel of the built-in scenes, of their pictures, of every force and of every integrator.
+
+use motes::forces::Problem;
+use motes::integrators::{INTEGRATORS, Paced};
+use motes::kernel::{Kernel, Machine};
+use motes::render::{Exposure, Picture, Scenery, Trail};
+use motes::scene::{Options, SCENES, Scene, Source};
+use motes::{Bounds, Setup, Solver};
+
+use crate::support::{self, choices, machines, states};
+
+/// Particles of a shape, where a scene is made small.
+const FEW: usize = 200;
+
+/// Machines that bring about every variant, with and without subgroups.
+pub fn machines() -> Vec<(&'static str, Machine)> {
+    let machine = |software, subgroup, invocations| {
+        let (bindable, workgroups) = (128 << 20, 65_535);
+        Machine { software, subgroup, invocations, bindable, workgroups }
+    };
+    vec![
+        ("software with subgroups of eight", machine(true, 8, 256)),
+        ("software without subgroups", machine(true, 0, 256)),
+        ("a GPU with subgroups of 32", machine(false, 32, 1 << 18)),
+        ("a GPU without subgroups", machine(false, 0, 1 << 18)),
+    ]
+}
+
+/// A built-in scene with few particles of every shape that has a count.
+pub fn small(name: &str) -> Scene {
+    let source = Source::find(name).expect("a built-in scene");
+    let text = SCENES.iter().find(|scene| scene.name == name).expect("a built-in scene").text;
+    let mut overrides = Vec::new();
+    for (i, shape) in text.split("[[particles]]").skip(1).enumerate() {
+        let lines = || shape.lines().take_while(|line| !line.starts_with('['));
+        let has = |key: &str| lines().filter_map(|line| line.split_once('=')).any(|(k, _)| k.trim() == key);
+        let count = lines().filter_map(|line| line.split_once('=')).find(|(key, _)| key.trim() == "count");
+        let count = count.and_then(|(_, value)| value.split_whitespace().next()?.parse::<usize>().ok());
+        if count.is_some_and(|count| count > FEW) {
+            overrides.push(format!("particles.{i}.count={FEW}"));
+        }
+        if has("columns") {
+            overrides.extend([format!("particles.{i}.columns=12"), format!("particles.{i}.rows=9")]);
+        }
+    }
+    if name == "periodic_box" {
+        overrides.push("particles.0.size=[8, 8, 8]".to_owned());
+    }
+    Scene::load(&source, &overrides, &Options::default()).unwrap_or_else(|faults| panic!("{name}: {faults}"))
+}
+
+/// What a simulation of a scene is made of.
+pub fn setup(scene: Scene) -> Setup {
+    Setup {
+        integrator: match scene.pace {
+            Some(pace) => Box::new(Paced { integrator: (scene.integrator.build)(), pace }),
+            None => (scene.integrator.build)(),
+        },
+        particles: scene.particles,
+        forces: scene.forces,
+        dt: scene.dt,
+        bounds: scene.bounds,
+        solver: scene.solver,
+    }
+}
+
+/// Every kernel for a machine, with the name of what it belongs to.
+pub fn every(machine: Machine) -> Vec<(String, Kernel)> {
+    let mut all = Vec::new();
+    let mut add = |of: &str, kernels: Vec<Kernel>| all.extend(kernels.into_iter().map(|kernel| (of.to_owned(), kernel)));
+    for builtin in SCENES {
+        let scene = small(builtin.name);
+        let scenery = Scenery::of(&scene.particles);
+        let trail = Trail::new(scene.particles.len());
+        let picture = Picture::with(&scene.picture, &scene.particles, &[], trail, &scenery).expect("a picture");
+        let plans = setup(scene).plans(machine).unwrap_or_else(|error| panic!("{}: {error}", builtin.name));
+        add(builtin.name, plans.all().flat_map(|plan| plan.kernels.clone()).collect());
+        for plan in [picture.plan(), picture.development(Exposure { knee: 0.1, white: 1.3 })] {
+            add(&format!("the picture of {}", builtin.name), plan.expect("a plan").kernels);
+        }
+    }
+    let cloud = support::cloud(100, 7);
+    let problem = Problem::new(100, machine)
+        .at(&cloud.position, Bounds::default())
+        .of_species(&cloud.species)
+        .tied(&cloud.links, &cloud.held)
+        .moved(&[choices::swing()], 0.01);
+    for entry in choices::entries() {
+        for (name, force) in choices::forces(entry) {
+            add(&name, machines::kernels(force.as_ref(), &problem));
+        }
+    }
+    for entry in INTEGRATORS {
+        let setup = Setup {
+            particles: support::cloud(100, 7),
+            forces: vec![states::force("uniform", &[])],
+            integrator: (entry.build)(),
+            dt: 0.01,
+            bounds: Bounds::default(),
+            solver: Solver::default(),
+        };
+        let plans = setup.plans(machine).expect("plans");
+        add(entry.name, plans.all().flat_map(|plan| plan.kernels.clone()).collect());
+    }
+    assert!(all.len() > 500, "{} kernels are not all", all.len());
+    all
+}
