@@ -1,16 +1,14 @@
 //! Every kernel of the built-in scenes, of their pictures, of every force and of every integrator.
 
 use motes::forces::Problem;
-use motes::integrators::{INTEGRATORS, Paced};
+use motes::integrators::INTEGRATORS;
 use motes::kernel::{Kernel, Machine};
 use motes::render::{Exposure, Picture, Scenery, Trail};
-use motes::scene::{Options, SCENES, Scene, Source};
+use motes::scene::SCENES;
 use motes::{Bounds, Setup, Solver};
 
+use crate::support::scenes::{setup, small};
 use crate::support::{self, choices, machines, states};
-
-/// Particles of a shape, where a scene is made small.
-const FEW: usize = 200;
 
 /// Machines that bring about every variant, with and without subgroups.
 pub fn machines() -> Vec<(&'static str, Machine)> {
@@ -24,44 +22,6 @@ pub fn machines() -> Vec<(&'static str, Machine)> {
         ("a GPU with subgroups of 32", machine(false, 32, 1 << 18)),
         ("a GPU without subgroups", machine(false, 0, 1 << 18)),
     ]
-}
-
-/// A built-in scene with few particles of every shape that has a count.
-pub fn small(name: &str) -> Scene {
-    let source = Source::find(name).expect("a built-in scene");
-    let text = SCENES.iter().find(|scene| scene.name == name).expect("a built-in scene").text;
-    let mut overrides = Vec::new();
-    for (i, shape) in text.split("[[particles]]").skip(1).enumerate() {
-        let lines = || shape.lines().take_while(|line| !line.starts_with('['));
-        let has = |key: &str| lines().filter_map(|line| line.split_once('=')).any(|(k, _)| k.trim() == key);
-        let count = lines().filter_map(|line| line.split_once('=')).find(|(key, _)| key.trim() == "count");
-        let count = count.and_then(|(_, value)| value.split_whitespace().next()?.parse::<usize>().ok());
-        if count.is_some_and(|count| count > FEW) {
-            overrides.push(format!("particles.{i}.count={FEW}"));
-        }
-        if has("columns") {
-            overrides.extend([format!("particles.{i}.columns=12"), format!("particles.{i}.rows=9")]);
-        }
-    }
-    if name == "periodic_box" {
-        overrides.push("particles.0.size=[8, 8, 8]".to_owned());
-    }
-    Scene::load(&source, &overrides, &Options::default()).unwrap_or_else(|faults| panic!("{name}: {faults}"))
-}
-
-/// What a simulation of a scene is made of.
-pub fn setup(scene: Scene) -> Setup {
-    Setup {
-        integrator: match scene.pace {
-            Some(pace) => Box::new(Paced { integrator: (scene.integrator.build)(), pace }),
-            None => (scene.integrator.build)(),
-        },
-        particles: scene.particles,
-        forces: scene.forces,
-        dt: scene.dt,
-        bounds: scene.bounds,
-        solver: scene.solver,
-    }
 }
 
 /// Every kernel for a machine, with the name of what it belongs to.

@@ -7,6 +7,7 @@ pub mod equivalents;
 pub mod fluids;
 pub mod machines;
 pub mod mutants;
+pub mod scenes;
 pub mod states;
 
 use std::sync::{Mutex, MutexGuard, OnceLock};
