@@ -12,9 +12,8 @@ use support::scenes;
 
 /// Before the first look at memory: pools and caches are as large as they become.
 const FIRST: u32 = 300;
-/// A driver that compiles anew in every step keeps 0.22 MB or more of each (lavapipe of Mesa 22.3.6, measured).
-const KEPT_A_STEP: f64 = 0.22;
-/// What may come and go beside that \[MB\]: arenas of threads, pools of command buffers. The largest seen is 2.3.
+/// What may come and go \[MB\]: arenas of threads, pools of command buffers. The largest seen is 2.3. lavapipe of Mesa 22.3.6
+/// keeps what it compiles, some 0.2 MB a time: without the unused word of uniform blocks it takes 60 to 1580 in these steps.
 const NOISE: f64 = 16.0;
 
 /// Memory of this process that is in use \[MB\].
@@ -93,7 +92,6 @@ fn memory_does_not_grow_with_steps() {
         let start = std::time::Instant::now();
         let grown = growth(simulation, steps);
         println!("{name}, device: {grown:.1} MB in {steps} steps, {:.1} s", start.elapsed().as_secs_f64());
-        assert!(NOISE < 0.1 * KEPT_A_STEP * f64::from(steps), "noise hides what is kept");
         assert!(grown < NOISE, "{name}: the device has taken {grown} MB in {steps} steps");
     }
 }
