@@ -116,7 +116,7 @@ async fn dam(spacing: f64, friction: f64) -> Result<Dam, Box<dyn Error>> {
     ];
     let scene = Scene::load(&Source::find("dam_break_2d")?, &overrides, &Options::default())?;
     let setup = Setup {
-        particles: scene.particles,
+        state: scene.particles,
         forces: scene.forces,
         integrator: (scene.integrator.build)(),
         dt: scene.dt,

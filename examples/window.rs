@@ -224,7 +224,7 @@ fn setup(count: u32) -> Result<Setup, Error> {
     let gravity = forces::entry("gravity").ok_or_else(absent)?;
     let softened = Settings::defaults(gravity.keys).with("softening", Value::Number(0.15));
     Ok(Setup {
-        particles: (disk.build)(&settings)?,
+        state: (disk.build)(&settings)?,
         forces: vec![(gravity.build)(&softened)],
         integrator: Box::new(integrators::Leapfrog),
         dt: 0.05,

@@ -26,6 +26,7 @@ pub mod settings;
 pub mod simulation;
 pub mod solids;
 pub mod stability;
+pub mod state;
 pub mod tree;
 pub mod visit;
 
@@ -34,7 +35,7 @@ pub use error::Error;
 pub use gpu::Gpu;
 pub use kernel::{ACCELERATION, Bounds, LIFE, POSITION, SPECIES, Side, Solver, TARGET, VELOCITY};
 pub use measure::Measure;
-pub use particles::Particles;
-pub use simulation::{Setup, Simulation, Snapshot};
+pub use simulation::{Setup, Simulation};
+pub use state::State;
 /// The version of wgpu whose devices this crate takes.
 pub use wgpu;

@@ -30,20 +30,7 @@ use crate::kernel::{
 };
 use crate::links::Links;
 use crate::motion;
-use crate::particles::Particles;
-
-/// The state at the end of a step.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Snapshot {
-    /// Steps done.
-    pub step: u64,
-    /// The time: step × dt, where all steps are alike.
-    pub time: f64,
-    /// Positions, velocities, masses, radii and species, by id.
-    pub particles: Particles,
-    /// Each particle's share of the potential energy \[mass length² / time²\].
-    pub potential: Vec<f64>,
-}
+use crate::state::State;
 
 /// Particles that move.
 pub struct Simulation<B: Backend> {
@@ -87,16 +74,16 @@ impl<B: Backend> Simulation<B> {
         let step = backend.compile(&plans.step)?;
         let measure = (backend.compile(&plans.measure.0)?, backend.compile(&plans.measure.1)?);
         backend.set_world(World { time: 0.0, dt: setup.dt, step: 0, count, bounds: setup.bounds })?;
-        let particles = &setup.particles;
+        let state = &setup.state;
         // Who does not live has no mass, and no velocity.
-        let living = |id: usize| f64::from(u8::from(particles.lives(id)));
+        let living = |id: usize| f64::from(u8::from(state.lives(id)));
         let inside = |x| boundary::wrapped(&setup.bounds, x);
-        let position = particles.position.iter().zip(&particles.mass);
+        let position = state.position().iter().zip(state.mass());
         let position = position.enumerate().map(|(id, (x, m))| inside(*x).extend(living(id) * m)).collect();
-        let velocity = particles.velocity.iter().zip(&particles.radius).enumerate();
+        let velocity = state.velocity().iter().zip(state.size()).enumerate();
         let velocity = velocity.map(|(id, (v, r))| (living(id) * *v).extend(*r));
         let mut velocity: Vec<_> = velocity.collect();
-        let held = motion::sorted(&particles.held);
+        let held = motion::sorted(&state.held);
         for one in &held {
             let v = &mut velocity[one.id as usize];
             *v = DVec3::ZERO.extend(v.w);
@@ -105,27 +92,28 @@ impl<B: Backend> Simulation<B> {
         backend.write(VELOCITY.name, &Array::Vec4(velocity))?;
         backend.write(ACCELERATION.name, &Array::Vec4(Vec::new()).zeros(count as usize))?;
         backend.write(ALARM.name, &Array::Uint(QUIET.to_vec()))?;
-        let species = particles.species.clone();
+        let species = state.species().to_vec();
         if plans.all().any(|plan| plan.fields(count).contains_key(SPECIES.name)) {
             backend.write(SPECIES.name, &Array::Uint(species.clone()))?;
         }
-        let mortal = particles.is_mortal();
+        let mortal = state.is_mortal();
         if mortal {
-            let word = |id: usize| particles.life.get(id).copied().unwrap_or_default().word();
-            backend.write(LIFE.name, &Array::Uint((0..particles.len()).map(word).collect()))?;
+            let lives = state.life();
+            let word = |id: usize| lives.get(id).copied().unwrap_or_default().word();
+            backend.write(LIFE.name, &Array::Uint((0..state.len()).map(word).collect()))?;
         }
         // A target for everybody, by id; those that are not held have no use for it.
         let places = |ids: &mut dyn Iterator<Item = usize>| {
-            Array::Vec4(ids.map(|id| inside(particles.position[id]).extend(0.0)).collect())
+            Array::Vec4(ids.map(|id| inside(state.position()[id]).extend(0.0)).collect())
         };
         let named = |field: &str| plans.all().any(|plan| plan.fields(count).contains_key(field));
         if named(HOME.name) {
             backend.write(HOME.name, &places(&mut held.iter().map(|one| one.id as usize)))?;
         }
         if named(TARGET.name) {
-            backend.write(TARGET.name, &places(&mut (0..particles.len())))?;
+            backend.write(TARGET.name, &places(&mut (0..state.len())))?;
         }
-        let (links, breaks) = (particles.links.clone(), setup.breaks());
+        let (links, breaks) = (state.links.clone(), setup.breaks());
         let (begun, begins) = (false, setup.begins(backend.machine())?);
         let (dt, steps, pace) = (setup.dt, 0, setup.integrator.pace());
         let mut made = Self {
@@ -199,7 +187,7 @@ impl<B: Backend> Simulation<B> {
     ///
     /// # Errors
     /// [`Error::NotFinite`], [`Error::Crowded`], or what reading says. Speeds that run away are no error here.
-    pub async fn snapshot(&mut self) -> Result<Snapshot, Error> {
+    pub async fn snapshot(&mut self) -> Result<State, Error> {
         alarm::sound(&self.alarm().await?)?;
         // What a fluid's walls weigh, and its density at rest, are said there.
         if self.begins {
@@ -212,18 +200,23 @@ impl<B: Backend> Simulation<B> {
         let velocity = self.backend.read(VELOCITY.name, &like, count).await?;
         let acceleration = self.backend.read(ACCELERATION.name, &like, count).await?;
         self.backend.run(&self.measure.1, 1)?;
-        let mut particles = Particles::default();
+        let mut state = State::default();
         let mut potential = Vec::with_capacity(count);
         if let (Array::Vec4(x), Array::Vec4(v), Array::Vec4(a)) = (position, velocity, acceleration) {
             for ((x, v), a) in x.iter().zip(&v).zip(&a) {
-                particles.push(x.truncate(), v.truncate(), x.w, v.w);
-                potential.push(x.w * a.w);
+                state.push(x.truncate(), v.truncate(), x.w, v.w);
+                potential.push(a.w);
             }
         }
-        particles.species.clone_from(&self.species);
-        particles.life = self.lives().await?;
-        let time = self.clock().await?.map_or(self.steps as f64 * self.dt, |clock| clock.time);
-        Ok(Snapshot { step: self.steps, time, particles, potential })
+        state.species_mut().copy_from_slice(&self.species);
+        state.set("potential", Array::Float(potential))?;
+        if self.mortals > 0 {
+            let life = self.lives().await?;
+            state.set_lives(&life)?;
+        }
+        state.time = self.clock().await?.map_or(self.steps as f64 * self.dt, |clock| clock.time);
+        state.step = self.steps;
+        Ok(state)
     }
     /// One step, as `motes explain` prints it.
     #[must_use]

@@ -29,7 +29,7 @@ fn forces() -> Vec<Box<dyn Force>> {
 
 fn setup(name: &str) -> Setup {
     Setup {
-        particles: support::cloud(COUNT as usize, 5),
+        state: support::cloud(COUNT as usize, 5),
         forces: forces(),
         integrator: integrator(name),
         dt: 0.013,
@@ -143,8 +143,8 @@ fn a_measurement_leaves_no_trace() {
             measured.step(steps).expect("steps");
             let before = bytes(&mut measured);
             let snapshot = pollster::block_on(measured.snapshot()).expect("a snapshot");
-            assert_eq!(snapshot.particles.len(), COUNT as usize);
-            assert!(snapshot.potential.iter().sum::<f64>() < 0.0, "gravity binds");
+            assert_eq!(snapshot.len(), COUNT as usize);
+            assert!(snapshot.energies().expect("energies").iter().sum::<f64>() < 0.0, "gravity binds");
             assert!(bytes(&mut measured) == before, "{}: a snapshot changes the state", entry.name);
         }
         assert!(bytes(&mut measured) == want, "{}: snapshots change the run", entry.name);

@@ -7,7 +7,7 @@ use motes::forces::Force;
 use motes::integrators::INTEGRATORS;
 use motes::kernel::World;
 use motes::settings::Value;
-use motes::{Bounds, Particles, Setup, Simulation, VELOCITY};
+use motes::{Bounds, Setup, Simulation, State, VELOCITY};
 use support::states::{accelerations, cpu, felt, force, integrator, one, phase, vector, word};
 
 const NUMBER: fn(f64) -> Value = Value::Number;
@@ -28,7 +28,7 @@ fn boids(weights: [f64; 3], more: &[(&'static str, Value)]) -> Vec<Box<dyn Force
     vec![force("boids", &settings)]
 }
 
-fn two(r: DVec3, v: DVec3, w: DVec3) -> Particles {
+fn two(r: DVec3, v: DVec3, w: DVec3) -> State {
     let mut two = one(DVec3::new(0.3, 0.4, 0.5), v);
     two.push(DVec3::new(0.3, 0.4, 0.5) + r, w, 1.0, 0.0);
     two
@@ -65,7 +65,7 @@ fn two_by_hand() {
 #[test]
 fn separation_falls_off_with_distance() {
     let mut three = two(DVec3::X * 0.1, DVec3::ZERO, DVec3::ZERO);
-    three.push(three.position[0] + DVec3::Y * 0.2, DVec3::ZERO, 1.0, 0.0);
+    three.push(three.position()[0] + DVec3::Y * 0.2, DVec3::ZERO, 1.0, 0.0);
     // Σ r / r² = (10, 5).
     near(accelerations(&boids([1.0, 0.0, 0.0], &[]), &three, 0.0)[0], 2.0 * DVec3::new(-2.0, -1.0, 0.0) / 5f64.sqrt());
     // Cohesion is a mean way, (0.1, 0.2) / 2.
@@ -103,12 +103,12 @@ fn who_is_alone_flies_straight_on() {
 fn symmetries() {
     let cloud = support::cloud(60, 9);
     let turn = DMat3::from_axis_angle(DVec3::new(1.0, 2.0, -0.5).normalize(), 0.9);
-    let mut other = Particles::default();
+    let mut other = State::default();
     for i in 0..60 {
         let from = (i * 7) % 60;
-        let x = turn * cloud.position[from] + DVec3::new(3.0, -1.0, 2.0);
-        other.push(x, turn * cloud.velocity[from], cloud.mass[from], 0.01);
-        other.species[i] = cloud.species[from];
+        let x = turn * cloud.position()[from] + DVec3::new(3.0, -1.0, 2.0);
+        other.push(x, turn * cloud.velocity()[from], cloud.mass()[from], 0.01);
+        other.species_mut()[i] = cloud.species()[from];
     }
     for over in ["near", "within", "nearest"] {
         let settings =
@@ -130,8 +130,9 @@ fn species_keep_to_themselves() {
     let mut cloud = support::cloud(50, 4);
     let flock = boids([1.0; 3], &[("species", NUMBER(1.0))]);
     let all = accelerations(&flock, &cloud, 0.0);
-    assert!(all.iter().zip(&cloud.species).all(|(a, s)| *s == 1 || *a == DVec4::ZERO));
-    for (x, species) in cloud.position.iter_mut().zip(&cloud.species) {
+    assert!(all.iter().zip(cloud.species()).all(|(a, s)| *s == 1 || *a == DVec4::ZERO));
+    let kinds = cloud.species().to_vec();
+    for (x, species) in cloud.position_mut().iter_mut().zip(&kinds) {
         *x += if *species == 1 { DVec3::ZERO } else { DVec3::splat(0.05) };
     }
     assert!(all == accelerations(&flock, &cloud, 0.0) && all.iter().any(|a| *a != DVec4::ZERO));
@@ -141,12 +142,12 @@ fn species_keep_to_themselves() {
 #[test]
 fn what_is_degenerate_is_finite() {
     let shared = support::device();
-    let mut particles = Particles::default();
+    let mut particles = State::default();
     for i in 0..40u32 {
         let row = f64::from(i / 8);
         let v = if i % 3 == 0 { DVec3::ZERO } else { DVec3::X };
         particles.push(DVec3::splat(0.25 * row), v, 1.0, 0.0);
-        particles.species[i as usize] = i % 2;
+        particles.species_mut()[i as usize] = i % 2;
     }
     for integrator_name in ["symplectic_euler", "rk4"] {
         let forces = [
@@ -159,7 +160,7 @@ fn what_is_degenerate_is_finite() {
         ];
         for forces in forces {
             let setup = Setup {
-                particles: particles.clone(),
+                state: particles.clone(),
                 forces,
                 integrator: integrator(integrator_name),
                 dt: 0.05,
@@ -182,7 +183,7 @@ fn speeds_are_within_limits() {
         let flock = [("min_speed", NUMBER(0.4)), ("max_speed", NUMBER(0.9)), ("species", NUMBER(1.0))];
         let limit = [("min", NUMBER(1.5)), ("max", NUMBER(1.75)), ("species", NUMBER(2.0))];
         let setup = Setup {
-            particles: support::cloud(200, 3),
+            state: support::cloud(200, 3),
             forces: vec![
                 force("boids", &flock),
                 force("speed_limit", &limit),
@@ -198,7 +199,7 @@ fn speeds_are_within_limits() {
             simulation.step(1).expect("a step");
             let velocities = pollster::block_on(simulation.read(VELOCITY)).expect("velocities");
             let mut free = 0.0f64;
-            for (v, species) in velocities.iter().zip(&setup.particles.species) {
+            for (v, species) in velocities.iter().zip(setup.state.species()) {
                 let speed = f64::from(v.truncate().length());
                 // A length, a division and a product: a few roundings of 6e-8.
                 let within = |least: f64, most: f64| speed > least * (1.0 - 5e-7) && speed < most * (1.0 + 5e-7);
@@ -224,7 +225,7 @@ fn limits_by_hand() {
     assert_eq!(after(DVec3::ZERO), DVec3::new(2.0, 0.0, 0.0));
     let wrong = [("min", NUMBER(3.0)), ("max", NUMBER(2.0))];
     let setup = Setup {
-        particles: support::cloud(3, 1),
+        state: support::cloud(3, 1),
         forces: vec![force("speed_limit", &wrong)],
         integrator: integrator("leapfrog"),
         dt: 0.1,

@@ -135,7 +135,7 @@ fn no_binding_number_is_written_in_rust() {
 }
 
 /// A module may name only what stands before it.
-const ORDER: [&str; 27] = [
+const ORDER: [&str; 28] = [
     "error",
     "settings",
     "links",
@@ -143,6 +143,7 @@ const ORDER: [&str; 27] = [
     "solids",
     "life",
     "kernel",
+    "state",
     "boundary",
     "primitives",
     "neighbors",

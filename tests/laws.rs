@@ -5,7 +5,7 @@ mod support;
 use std::f64::consts::TAU;
 
 use glam::{DVec3, DVec4};
-use motes::Particles;
+use motes::State;
 use motes::forces::{self, Entry, Force, Over};
 use motes::kernel::{Access, Machine, World};
 use motes::settings::{Kind, Settings, Value};
@@ -29,8 +29,8 @@ fn is_reciprocal(force: &dyn Force) -> bool {
 }
 
 /// Σ m w: each of a pair holds its half.
-fn potential(force: &[Box<dyn Force>], particles: &Particles) -> f64 {
-    accelerations(force, particles, TIME).iter().zip(&particles.mass).map(|(a, m)| a.w * m).sum()
+fn potential(force: &[Box<dyn Force>], particles: &State) -> f64 {
+    accelerations(force, particles, TIME).iter().zip(particles.mass()).map(|(a, m)| a.w * m).sum()
 }
 
 /// Either a force has a potential, and is F = −∇U of it whatever the velocity; or it has none, and depends on velocity or
@@ -50,7 +50,7 @@ fn forces_are_gradients_or_depend_on_velocity() {
         assert!(a.iter().all(|a| a.is_finite()), "{name}: {a:?}");
         assert!(a.iter().filter(|a| a.truncate().length() > 0.0).count() > 5, "{name} does next to nothing: {a:?}");
         let mut faster = particles.clone();
-        faster.velocity.iter_mut().for_each(|v| *v = *v * 1.7 + DVec3::new(0.1, 0.2, -0.3));
+        faster.velocity_mut().iter_mut().for_each(|v| *v = *v * 1.7 + DVec3::new(0.1, 0.2, -0.3));
         let moved = accelerations(&force, &faster, TIME);
         if a.iter().all(|a| a.w == 0.0) {
             others += 1;
@@ -64,24 +64,24 @@ fn forces_are_gradients_or_depend_on_velocity() {
         // Wide, and so close that some are within any softening.
         gradient(name, &force, &support::elastic(support::cloud(6, 3)));
         let mut close = support::elastic(support::cloud(12, 3));
-        close.position.iter_mut().for_each(|x| *x *= 0.3);
+        close.position_mut().iter_mut().for_each(|x| *x *= 0.3);
         gradient(name, &force, &close);
     });
     assert!(gradients >= 6 && others >= 3, "{gradients} with a potential and {others} without are too few to be all");
 }
 
 /// m a = −∂U/∂x for every particle and direction, by central differences.
-fn gradient(name: &str, force: &[Box<dyn Force>], particles: &Particles) {
+fn gradient(name: &str, force: &[Box<dyn Force>], particles: &State) {
     let h = 1e-5;
     for (i, acceleration) in accelerations(force, particles, TIME).iter().enumerate() {
         for k in 0..3 {
             let at = |side: f64| {
                 let mut there = particles.clone();
-                there.position[i][k] += side * h;
+                there.position_mut()[i][k] += side * h;
                 potential(force, &there)
             };
             let want = -(at(1.0) - at(-1.0)) / (2.0 * h);
-            let got = particles.mass[i] * acceleration[k];
+            let got = particles.mass()[i] * acceleration[k];
             // Rounding, 1e-16 U / h = 1e-11 U, tenfold; and the third derivative, h² F″ / 6 with F″ up to F / ε², where ε is
             // 0.17, or the shortest side of a joint, a hundredth.
             let allowed = 1e-10 * potential(force, particles).abs().max(1.0) + 1e-6 * got.abs();
@@ -102,7 +102,7 @@ fn action_is_reaction() {
         let particles = support::cloud(40, 3);
         let a = accelerations(&[force], &particles, TIME);
         let (mut push, mut turn, mut size) = (DVec3::ZERO, DVec3::ZERO, 0.0);
-        for ((a, x), m) in a.iter().zip(&particles.position).zip(&particles.mass) {
+        for ((a, x), m) in a.iter().zip(particles.position()).zip(particles.mass()) {
             push += *m * a.truncate();
             turn += *m * x.cross(a.truncate());
             size += m * a.truncate().length();
@@ -127,7 +127,7 @@ fn every_key_is_read() {
         let world = World { time: TIME, dt: 0.01, ..World::default() };
         let cloud = support::cloud(100, 3);
         // What some have felt before, and some have not: by it, or by angles alone, a tree decides what is far.
-        let before: Vec<_> = cloud.position.iter().map(|x| DVec4::X * if x.x > 0.0 { 0.3 } else { 0.0 }).collect();
+        let before: Vec<_> = cloud.position().iter().map(|x| DVec4::X * if x.x > 0.0 { 0.3 } else { 0.0 }).collect();
         let at = |settings: &Settings| felt_after(&[(entry.build)(settings)], &cloud, world, &before);
         // What wants a box of its own has tests of its own.
         for key in entry.keys.iter().filter(|key| !matches!(key.kind, Kind::Choice(["nearest", "ewald"]))) {

@@ -6,7 +6,7 @@ use glam::DVec3;
 use motes::forces::Force;
 use motes::scene::{Options, Scene, Source};
 use motes::settings::Value;
-use motes::{Cpu, Error, Particles, Setup, Simulation};
+use motes::{Cpu, Error, Setup, Simulation, State};
 use pollster::block_on;
 use support::states::{cpu, force, integrator, one, word};
 use support::{Random, Shared};
@@ -15,9 +15,9 @@ fn spring(strength: f64) -> Vec<Box<dyn Force>> {
     vec![force("attractor", &[("profile", word("harmonic")), ("strength", Value::Number(strength))])]
 }
 
-fn on_device(shared: &Shared, particles: &Particles, strength: f64, name: &str, dt: f64) -> Simulation<motes::Gpu> {
+fn on_device(shared: &Shared, particles: &State, strength: f64, name: &str, dt: f64) -> Simulation<motes::Gpu> {
     let setup = Setup {
-        particles: particles.clone(),
+        state: particles.clone(),
         forces: spring(strength),
         integrator: integrator(name),
         dt,
@@ -41,7 +41,7 @@ fn runaway(result: Result<(), Error>) -> Option<(u32, u64)> {
 fn too_long_a_step_is_noticed() {
     let shared = support::device();
     // The second particle starts the farthest out, and is the first that is too fast.
-    let mut particles = Particles::default();
+    let mut particles = State::default();
     for x in [0.2, 1.0, 0.5] {
         particles.push(DVec3::new(0.1 * x, x, 0.0), DVec3::ZERO, 1.0, 0.0);
     }
@@ -102,7 +102,7 @@ fn what_grows_for_a_reason_is_left_alone() {
     let fall: Vec<Box<dyn Force>> = vec![weight()];
     let drag: Vec<Box<dyn Force>> = vec![weight(), force("drag", &[("linear", Value::Number(0.1))])];
     let mut random = Random::new(3);
-    let mut ball = Particles::default();
+    let mut ball = State::default();
     while ball.len() < 60 {
         let x = random.vector();
         if x.length() < 1.0 {
@@ -148,7 +148,7 @@ fn scenes_do_not_run_away() {
         };
         let count = u32::try_from(scene.particles.len()).expect("few");
         let setup = Setup {
-            particles: scene.particles,
+            state: scene.particles,
             forces: scene.forces,
             integrator: (scene.integrator.build)(),
             dt: scene.dt,

@@ -210,7 +210,7 @@ fn springs_resist_across_when_drawn_out() {
 /// Of a whole setup: the bound by what acts, the limit of its integrator by both, and the parts of a step that is too long.
 #[test]
 fn a_setup_is_judged() {
-    let mut particles = motes::Particles::default();
+    let mut particles = motes::State::default();
     for i in 0..12 {
         particles.push(DVec3::X * f64::from(i), DVec3::ZERO, 0.1, 0.0);
     }
@@ -220,7 +220,7 @@ fn a_setup_is_judged() {
         let entry = motes::integrators::entry(name).expect("an integrator");
         let (particles, bounds) = (particles.clone(), Bounds::default());
         let setup = motes::Setup {
-            particles,
+            state: particles,
             forces,
             integrator: (entry.build)(),
             dt,

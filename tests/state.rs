@@ -13,7 +13,7 @@ fn pair() -> Setup {
     let gravity = forces::entry("gravity").expect("gravity");
     let forces = vec![(gravity.build)(&Settings::defaults(gravity.keys))];
     Setup {
-        particles: support::cloud(2, 1),
+        state: support::cloud(2, 1),
         forces,
         integrator: Box::new(integrators::Leapfrog),
         dt: 0.1,
@@ -62,7 +62,7 @@ fn a_lost_device_is_an_error_for_new_simulations_and_pictures_too() {
     })
     .expect("a device of its own");
     let mut simulation = Simulation::new(&found.device, &found.queue, &pair()).expect("a simulation");
-    let picture = Picture::new(&Settings::defaults(KEYS), &pair().particles, &[], Trail::new(0)).expect("a picture");
+    let picture = Picture::new(&Settings::defaults(KEYS), &pair().state, &[], Trail::new(0)).expect("a picture");
     found.device.destroy();
     assert!(pollster::block_on(simulation.draw(&picture)).is_err(), "a picture of a lost device");
     assert!(Simulation::new(&found.device, &found.queue, &pair()).is_err(), "a simulation on a lost device");

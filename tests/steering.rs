@@ -6,7 +6,7 @@ use glam::{DVec3, DVec4};
 use motes::forces::Force;
 use motes::kernel::World;
 use motes::settings::Value;
-use motes::{Bounds, Particles, Side};
+use motes::{Bounds, Side, State};
 use support::states::{accelerations, cpu, felt, force, one, phase, vector, word};
 
 const NUMBER: fn(f64) -> Value = Value::Number;
@@ -98,11 +98,11 @@ fn obstacles_turn_away_who_heads_into_them() {
 }
 
 /// Predator and prey at a distance of 0.6 and of 0.8.
-fn hunt() -> Particles {
+fn hunt() -> State {
     let mut three = one(DVec3::ZERO, DVec3::ZERO);
     three.push(DVec3::X * 0.6, DVec3::Y, 1.0, 0.0);
     three.push(DVec3::Y * 0.8, DVec3::ZERO, 1.0, 0.0);
-    three.species = vec![7, 4, 4];
+    three.species_mut().copy_from_slice(&[7, 4, 4]);
     three
 }
 
@@ -174,7 +174,7 @@ fn soft_walls_give_back_what_they_take() {
 fn wandering_is_diffusion() {
     const COUNT: usize = 4000;
     let crowd = || {
-        let mut crowd = Particles::default();
+        let mut crowd = State::default();
         (0..COUNT).for_each(|_| crowd.push(DVec3::ZERO, DVec3::ZERO, 1.0, 0.0));
         crowd
     };

@@ -6,7 +6,7 @@ use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
 use motes::settings::Value;
-use motes::{Bounds, Particles, Setup, Side, Simulation, VELOCITY};
+use motes::{Bounds, Setup, Side, Simulation, State, VELOCITY};
 use support::states::{force, integrator, word};
 use support::{Random, Shared};
 
@@ -37,7 +37,7 @@ const PAPER: Run = Run {
 impl Run {
     fn simulation(&self, shared: &Shared) -> Simulation<motes::Gpu> {
         let mut random = Random::new(5);
-        let mut particles = Particles::default();
+        let mut particles = State::default();
         for _ in 0..self.count {
             let mut unit = || 0.5 + 0.5 * random.next();
             let (x, y, angle) = (self.side * unit(), self.side * unit(), TAU * unit());
@@ -54,7 +54,7 @@ impl Run {
         let bounds = Bounds::new(DVec3::ZERO, DVec3::new(self.side, self.side, 0.0), Side::Periodic);
         let forces = vec![force("vicsek", &settings)];
         let setup = Setup {
-            particles,
+            state: particles,
             forces,
             integrator: integrator(self.integrator),
             dt: 1.0,

@@ -35,14 +35,14 @@ fn keeps_energy(twin: &Twin, bounds: &Bounds) -> Result<bool, Error> {
 
 /// Whether a law leaves the first particles of a flat world in their plane.
 fn in_the_plane(name: &str, twin: &Twin, setup: &Setup) -> Result<(), Error> {
-    let particles = &setup.particles;
+    let particles = &setup.state;
     let some = particles.len().min(64);
     let mut host = Host::default();
-    let places = particles.position[..some].iter().zip(&particles.mass).map(|(x, m)| x.extend(*m)).collect();
-    let ways = particles.velocity[..some].iter().zip(&particles.radius).map(|(v, r)| v.extend(*r)).collect();
+    let places = particles.position()[..some].iter().zip(particles.mass()).map(|(x, m)| x.extend(*m)).collect();
+    let ways = particles.velocity()[..some].iter().zip(particles.size()).map(|(v, r)| v.extend(*r)).collect();
     host.insert(POSITION.name, Array::Vec4(places));
     host.insert(VELOCITY.name, Array::Vec4(ways));
-    host.insert(SPECIES.name, Array::Uint(particles.species[..some].to_vec()));
+    host.insert(SPECIES.name, Array::Uint(particles.species()[..some].to_vec()));
     host.insert(ACCELERATION.name, Array::Vec4(vec![DVec4::ZERO; some]));
     let count = u32::try_from(some).unwrap_or(0);
     host.set_world(World { time: 0.0, dt: setup.dt, step: 0, count, bounds: setup.bounds });
@@ -130,7 +130,7 @@ pub fn conserved(setup: &Setup) -> Result<Conserved, Error> {
         conserved.energy &= law.over == Over::Each || law.reciprocal;
         if matches!(law.over, Over::Links | Over::Joints | Over::Triangles) {
             // It goes by those that are tied, and by nothing else; what resists takes energy.
-            conserved.energy &= law.over != Over::Links || !damped(&setup.particles.links);
+            conserved.energy &= law.over != Over::Links || !damped(&setup.state.links);
             continue;
         }
         conserved.energy &= match &law.twin {
@@ -142,14 +142,14 @@ pub fn conserved(setup: &Setup) -> Result<Conserved, Error> {
     // What breaks takes its energy with it.
     conserved.energy &= !setup.breaks();
     // Who is held takes momentum; who is led does work as well.
-    let held = &setup.particles.held;
+    let held = &setup.state.held;
     conserved.momentum &= held.is_empty();
     conserved.angular_momentum &= held.is_empty();
     conserved.energy &= held.iter().all(|one| one.by == Hold::Fixed);
     // Who holds a speed takes energy and momentum, or gives some; so does who is born or dies.
     let mut limits = Plan::default();
     for force in &setup.forces {
-        let problem = Problem::new(1, MACHINE).moved(&setup.particles.motions, setup.dt);
+        let problem = Problem::new(1, MACHINE).moved(&setup.state.motions, setup.dt);
         let takes = force.takes(!held.is_empty());
         conserved.angular_momentum &= !takes.angular_momentum;
         conserved.takers.extend(takes.energy);
@@ -160,7 +160,7 @@ pub fn conserved(setup: &Setup) -> Result<Conserved, Error> {
         }
     }
     conserved.energy &= conserved.takers.is_empty();
-    if !limits.order.is_empty() || setup.particles.is_mortal() {
+    if !limits.order.is_empty() || setup.state.is_mortal() {
         conserved = Conserved { energy: false, momentum: false, angular_momentum: false, ..conserved };
     }
     Ok(conserved)
@@ -186,7 +186,7 @@ pub fn advice(scene: &Scene, setup: &Setup) -> Result<Vec<String>, Error> {
     remarks.extend(inside(setup)?);
     remarks.extend(births::early(setup, scene.steps as f64 * scene.dt));
     let laws: Vec<Law> = setup.forces.iter().flat_map(|force| force.laws()).collect();
-    remarks.extend(idle(&setup.particles.links, &laws));
+    remarks.extend(idle(&setup.state.links, &laws));
     let implicit = setup.integrator.is_implicit();
     if implicit {
         remarks.push(solves::remark(&setup.forces, scene.integrator.name));
@@ -216,7 +216,7 @@ pub fn advice(scene: &Scene, setup: &Setup) -> Result<Vec<String>, Error> {
         strangers(&kernel)?;
         let solved = implicit && offered;
         // Velocities count in the springs of the house where they are damped, and nowhere else.
-        let calm = over == Over::Links && !untwinned && !damped(&setup.particles.links);
+        let calm = over == Over::Links && !untwinned && !damped(&setup.state.links);
         if kernel.names("velocity") && !calm && !solved && loses {
             remarks.push(depends(&name));
         }
@@ -232,7 +232,7 @@ pub fn advice(scene: &Scene, setup: &Setup) -> Result<Vec<String>, Error> {
             ));
         }
         if let Over::Near { of: Some(kind), .. } = over
-            && !setup.particles.species.contains(&kind)
+            && !setup.state.species().contains(&kind)
         {
             remarks.push(format!("`{name}` looks for species {kind}, and nobody is of that"));
         }
@@ -264,7 +264,7 @@ pub fn advice(scene: &Scene, setup: &Setup) -> Result<Vec<String>, Error> {
             ));
         }
     }
-    if !setup.particles.links.rods.is_empty() && order > 2 {
+    if !setup.state.links.rods.is_empty() && order > 2 {
         remarks.push(format!("with rods {name} is of order 2, as leapfrog is, which costs less"));
     }
     if name == "forward_euler" && setup.forces.iter().all(|force| !force.integrators().contains(&name)) {

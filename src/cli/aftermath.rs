@@ -5,7 +5,7 @@ use std::path::Path;
 
 use motes::io::{Precision, atomically, csv, npz};
 use motes::scene::Format;
-use motes::{Error, Setup, Snapshot};
+use motes::{Error, Setup, State};
 
 use super::failure::Failure;
 use super::flow;
@@ -19,7 +19,7 @@ pub fn explain(
     error: Error,
     setup: &Setup,
     advice: Option<&str>,
-    last: Option<&Snapshot>,
+    last: Option<&State>,
     (folder, formats, precision): (&Path, &[Format], Precision),
 ) -> Failure {
     let (Error::NotFinite { particle, .. } | Error::Runaway { particle, .. }) = error else {
@@ -52,7 +52,7 @@ fn of_a_fluid(setup: &Setup) -> Option<&'static str> {
 
 /// Those whom links tie to a particle.
 fn neighbors(setup: &Setup, particle: u32) -> String {
-    let links = &setup.particles.links;
+    let links = &setup.state.links;
     let mut others: Vec<u32> = Vec::new();
     let pairs = links.springs.iter().map(|s| s.ends).chain(links.rods.iter().map(|r| r.ends));
     let threes = links.joints.iter().map(|j| j.ids).chain(links.triangles.iter().copied());
@@ -69,17 +69,17 @@ fn neighbors(setup: &Setup, particle: u32) -> String {
     format!("it is tied to {}{more}", named.join(", "))
 }
 
-fn keep(last: &Snapshot, folder: &Path, formats: &[Format], precision: Precision) -> Result<String, Error> {
+fn keep(last: &State, folder: &Path, formats: &[Format], precision: Precision) -> Result<String, Error> {
     let mut files = Vec::new();
     let text = formats.contains(&Format::Csv);
     if text {
         let path = folder.join("last_good.csv");
-        atomically(&path, |out| csv::write_csv(out, &last.particles, precision))?;
+        atomically(&path, |out| csv::write_csv(out, &last, precision))?;
         files.push(path.display().to_string());
     }
     if formats.contains(&Format::Npz) || !text {
         let path = folder.join("last_good.npz");
-        atomically(&path, |out| npz::write_npz(out, &last.particles, last.time, last.step, precision))?;
+        atomically(&path, |out| npz::write_npz(out, &last, last.time, last.step, precision))?;
         files.push(path.display().to_string());
     }
     Ok(files.join(" and "))

@@ -8,7 +8,7 @@ const ROUNDING: f64 = 1e-6;
 
 /// A line for each emitter: how many it has, and when they leave.
 pub fn forecast(setup: &Setup, end: f64) -> Vec<String> {
-    let births = &setup.particles.births;
+    let births = &setup.state.births;
     let line = |(number, (count, first, last)): (usize, &(u64, f64, f64))| {
         let due = births.iter().filter(|birth| birth.emitter as usize == number && birth.time <= end).count();
         let rest = if due as u64 == *count {
@@ -23,7 +23,7 @@ pub fn forecast(setup: &Setup, end: f64) -> Vec<String> {
 
 /// Emitters that are empty before the run is over.
 pub fn early(setup: &Setup, end: f64) -> Vec<String> {
-    let births = &setup.particles.births;
+    let births = &setup.state.births;
     let line = |(number, (count, first, last)): (usize, &(u64, f64, f64))| {
         let mut times: Vec<f64> = births.iter().filter(|b| b.emitter as usize == number).map(|b| b.time).collect();
         times.sort_by(f64::total_cmp);

@@ -21,7 +21,7 @@ use super::substeps::{self, Loaded};
 pub async fn check(args: &SceneArgs) -> Result<(), Failure> {
     let Loaded { scene, setup, start, lines, .. } = substeps::load(args, None).await?;
     let count = setup.check()?;
-    Picture::with(&scene.picture, &setup.particles, &[], Trail::new(0), &Scenery::of(&setup.particles))?;
+    Picture::with(&scene.picture, &setup.state, &[], Trail::new(0), &Scenery::of(&setup.state))?;
     let engine = Engine::choose(&args.device).await?;
     out!("{}: {count} particles, {} by {}", scene.name, course::words(&scene), scene.integrator.name);
     out!("on {}", engine.describe());
@@ -78,7 +78,7 @@ async fn measure<B: Backend>(
 ) -> Result<(Duration, (usize, f64)), Failure> {
     // The first step pays for what later ones have ready.
     simulation.step(1)?;
-    let held: BTreeSet<usize> = setup.particles.held.iter().map(|one| one.id as usize).collect();
+    let held: BTreeSet<usize> = setup.state.held.iter().map(|one| one.id as usize).collect();
     let all = simulation.read(ACCELERATION).await?.into_iter().map(|a| f64::from(a.truncate().length())).enumerate();
     let most =
         all.filter(|(id, _)| !held.contains(id)).fold((0, 0.0), |most, one| if one.1 > most.1 { one } else { most });

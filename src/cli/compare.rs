@@ -6,7 +6,7 @@ use glam::DVec3;
 use motes::kernel::Backend;
 use motes::lockstep::{self, Verdict};
 use motes::scene::Scene;
-use motes::{Cpu, Gpu, Measure, Setup, Simulation, Snapshot, gpu};
+use motes::{Cpu, Gpu, Measure, Setup, Simulation, State, gpu};
 use serde_json::json;
 
 use super::args::{BackendChoice, CompareArgs, DeviceArgs, SceneArgs};
@@ -55,12 +55,12 @@ pub async fn compare(args: &CompareArgs) -> Result<(), Failure> {
     let good = faults.is_empty();
     if args.json {
         let rows: Vec<_> = verdicts.iter().map(row).collect();
-        let value = json!({ "scene": scene.name, "particles": setup.particles.len(), "device": found.describe(),
+        let value = json!({ "scene": scene.name, "particles": setup.state.len(), "device": found.describe(),
             "tolerance": lockstep::TOLERANCE, "kernels": rows, "steps": args.steps, "position_error": over.position,
             "position_scale": over.scale, "energy_error": over.energy, "far_groups": far::rows(&far), "faults": faults, "good": good });
         out!("{value:#}");
     } else {
-        out!("{}: {} particles, {} against f64 twins\n", scene.name, setup.particles.len(), found.describe());
+        out!("{}: {} particles, {} against f64 twins\n", scene.name, setup.state.len(), found.describe());
         print_kernels(&verdicts);
         far::print(&far);
         out!("\n{} steps of the device against {} of the twins", args.steps, args.steps);
@@ -138,25 +138,25 @@ async fn steps(found: &gpu::Found, setup: &Setup, steps: u32) -> Result<Over, Fa
     device.step(steps)?;
     twins.step(steps)?;
     let (a, b) = (device.snapshot().await?, twins.snapshot().await?);
-    let (x, y) = (&a.particles.position, &b.particles.position);
+    let (x, y) = (a.position(), b.position());
     let errors: Vec<f64> = x.iter().zip(y).map(|(x, y)| apart(setup, *x, *y)).collect();
     let rms = |of: &[f64]| (of.iter().map(|e| e * e).sum::<f64>() / of.len().max(1) as f64).sqrt();
-    let center = Measure::of(&b).center;
+    let center = Measure::of(&b)?.center;
     let distances: Vec<f64> = y.iter().map(|y| y.distance(center)).collect();
     let travelled = travelled(&b, setup);
     let scale = rms(&distances).max(y.iter().map(|y| y.length()).fold(0.0, f64::max) * 1e-3);
     // Each step rounds a position to half a unit in the last place, and a force to some 1e-6 of the way it makes.
     let allowed = f64::from(f32::EPSILON) * rms(&y.iter().map(|y| y.length()).collect::<Vec<_>>()) * f64::from(steps)
         + 1e-5 * rms(&travelled) * f64::from(steps).sqrt();
-    let (ea, eb) = (Measure::of(&a).total(), Measure::of(&b).total());
-    let size = Measure::of(&b).kinetic + Measure::of(&b).potential.abs();
+    let (ea, eb) = (Measure::of(&a)?.total(), Measure::of(&b)?.total());
+    let size = Measure::of(&b)?.kinetic + Measure::of(&b)?.potential.abs();
     let energy = if size > 0.0 { (ea - eb).abs() / size } else { 0.0 };
     Ok(Over { position: [rms(&errors), errors.iter().copied().fold(0.0, f64::max)], scale, energy, allowed })
 }
 
-fn travelled(after: &Snapshot, setup: &Setup) -> Vec<f64> {
-    let before: &[DVec3] = &setup.particles.position;
-    after.particles.position.iter().zip(before).map(|(x, y)| apart(setup, *x, *y)).collect()
+fn travelled(after: &State, setup: &Setup) -> Vec<f64> {
+    let before: &[DVec3] = setup.state.position();
+    after.position().iter().zip(before).map(|(x, y)| apart(setup, *x, *y)).collect()
 }
 
 /// The way from one place to the other's nearest image.

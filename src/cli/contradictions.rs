@@ -20,7 +20,7 @@ pub fn all(setup: &Setup, start: &Start, weight: DVec3) -> Result<Vec<String>, E
 
 /// Emitters whose particles are not those of the fluid.
 fn births(setup: &Setup, medium: &Medium) -> Option<String> {
-    let birth = setup.particles.births.iter().find(|birth| (birth.mass / medium.mass() - 1.0).abs() > ALIKE)?;
+    let birth = setup.state.births.iter().find(|birth| (birth.mass / medium.mass() - 1.0).abs() > ALIKE)?;
     Some(format!(
         "particles of emitter {} weigh {:.4e}, and density × spacing^{} of the force is {:.4e}: leave out its `spacing` and \
          `density`, and it has those of the force",
@@ -33,10 +33,10 @@ fn births(setup: &Setup, medium: &Medium) -> Option<String> {
 
 /// Emitters that let particles out where somebody is.
 fn mouths(setup: &Setup, medium: &Medium) -> Option<String> {
-    let particles = &setup.particles;
+    let particles = &setup.state;
     let mut sites: Vec<(u32, usize)> =
         particles.births.iter().map(|birth| (birth.emitter, birth.id as usize)).collect();
-    let place = |id: usize| particles.position[id];
+    let place = |id: usize| particles.position()[id];
     // Those who follow each other out of one place are one site.
     sites.sort_by(|a, b| (a.0, place(a.1).to_array()).partial_cmp(&(b.0, place(b.1).to_array())).unwrap_or(a.cmp(b)));
     sites.dedup_by(|a, b| a.0 == b.0 && place(a.1) == place(b.1));
@@ -80,11 +80,11 @@ fn weighed(setup: &Setup, weight: DVec3) -> Result<Option<String>, Error> {
 
 /// Who begins out of a box that is open.
 fn outside(setup: &Setup) -> Option<String> {
-    let (particles, bounds) = (&setup.particles, &setup.bounds);
+    let (particles, bounds) = (&setup.state, &setup.bounds);
     let extent: Vec<usize> = (0..3).filter(|axis| bounds.high[*axis] > bounds.low[*axis]).collect();
     let held: std::collections::BTreeSet<usize> = particles.held.iter().map(|one| one.id as usize).collect();
     let out = |id: &usize| {
-        let x = particles.position[*id];
+        let x = particles.position()[*id];
         let beyond = |axis: &usize| x[*axis] < bounds.low[*axis] || x[*axis] > bounds.high[*axis];
         particles.lives(*id) && !held.contains(id) && extent.iter().any(beyond)
     };
@@ -93,6 +93,6 @@ fn outside(setup: &Setup) -> Option<String> {
     Some(format!(
         "{} particles of the fluid begin out of the box, particle {first} at {} first of them: open sides hold nobody",
         1 + all.count(),
-        particles.position[first]
+        particles.position()[first]
     ))
 }

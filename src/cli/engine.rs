@@ -90,7 +90,7 @@ pub fn load_with(args: &SceneArgs, set: Option<String>) -> Result<Scene, Failure
 /// What a simulation is made of, out of a scene.
 pub fn setup(scene: &mut Scene) -> Setup {
     Setup {
-        particles: std::mem::take(&mut scene.particles),
+        state: std::mem::take(&mut scene.particles),
         forces: std::mem::take(&mut scene.forces),
         integrator: match scene.pace {
             Some(pace) => Box::new(Paced { integrator: (scene.integrator.build)(), pace }),

@@ -39,7 +39,7 @@ pub fn remarks(setup: &Setup, machine: Machine) -> Result<Vec<String>, Failure> 
     };
     let mut all: Vec<_> = setup.forces.iter().flat_map(|force| force.laws()).filter_map(remark).collect();
     let walks = setup.forces.iter().flat_map(|force| force.laws()).any(|law| law.tree(&problem).is_some());
-    if let Some(ratio) = Some(spread(&setup.particles.position)).filter(|ratio| walks && *ratio > FAR) {
+    if let Some(ratio) = Some(spread(setup.state.position())).filter(|ratio| walks && *ratio > FAR) {
         all.push(format!(
             "somebody is {ratio:.0e} times as far out as 98 of 100 are wide: the tree cannot tell the others apart, and takes as long \
              as if everybody met everybody; leave out who is lost, or say over = \"pairs\""
@@ -111,7 +111,7 @@ pub async fn sweep(args: &CompareArgs, found: &gpu::Found) -> Result<(), Failure
                 out!(
                     "{}: {} particles, {}, {TARGETS} targets against everybody, summed in f64\n",
                     scene.name,
-                    setup.particles.len(),
+                    setup.state.len(),
                     found.describe()
                 );
                 out!(

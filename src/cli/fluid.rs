@@ -123,7 +123,7 @@ fn weight(setup: &Setup) -> Result<DVec3, Error> {
     for law in setup.forces.iter().flat_map(|force| force.laws()).filter(|law| law.over == Over::Each) {
         let velocity = law.clone().kernel(&Problem::new(1, machine))?.names("velocity");
         if let (Some(twin), false) = (&law.twin, velocity) {
-            let middle = setup.particles.position.iter().sum::<DVec3>() / setup.particles.len() as f64;
+            let middle = setup.state.position().iter().sum::<DVec3>() / setup.state.len() as f64;
             let world = World { time: 0.0, dt: setup.dt, step: 0, count: 1, bounds: setup.bounds };
             weight += felt(twin, (world.time, world.step), middle, world.bounds)?.truncate();
         }

@@ -6,7 +6,7 @@ use motes::fluids::{DENSITY, Medium};
 use motes::kernel::{Backend, Machine, Reason};
 use motes::measure::Ledger;
 use motes::simulation::Clock;
-use motes::{Bounds, Error, Setup, Simulation, Snapshot};
+use motes::{Bounds, Error, Setup, Simulation, State};
 
 use super::progress::plain;
 use super::table::Table;
@@ -34,7 +34,7 @@ impl Book {
         let problem = setup.problem(Machine::HOST)?;
         for force in &setup.forces {
             if let Some(fluid) = force.fluid(&problem)? {
-                let held = (0..setup.particles.len()).map(|id| problem.is_held(id)).collect();
+                let held = (0..setup.state.len()).map(|id| problem.is_held(id)).collect();
                 let (table, first, last, worst) = (None, None, Ledger::default(), Ledger::default());
                 let (bounds, dt, mean) = (setup.bounds, setup.dt, 0.0);
                 return Ok(Some(Self { medium: fluid.medium, bounds, held, dt, table, first, last, worst, mean }));
@@ -51,12 +51,12 @@ impl Book {
     pub async fn enter<B: Backend>(
         &mut self,
         simulation: &mut Simulation<B>,
-        snapshot: &Snapshot,
+        snapshot: &State,
         clock: Option<&Clock>,
     ) -> Result<Option<String>, Error> {
         let density = simulation.read(DENSITY).await?;
         let held = |id: usize| self.held.get(id).copied().unwrap_or(false);
-        let row = Ledger::of(snapshot, &density, &self.medium, &self.bounds, held);
+        let row = Ledger::of(snapshot, &density, &self.medium, &self.bounds, held)?;
         let (dt, free, reason) =
             clock.map_or((self.dt, self.dt, Reason::Longest), |clock| (clock.dt, clock.free, clock.reason));
         let whose = clock.and_then(|clock| clock.particle).map_or_else(String::new, |id| id.to_string());

@@ -10,7 +10,7 @@ use motes::measure::Flock;
 use motes::render::{Color, Picture, Scenery, Trail, framed, group_color, pack};
 use motes::scene::{Format, Group, Scene};
 use motes::settings::Settings;
-use motes::{Bounds, Error, Measure, Snapshot};
+use motes::{Bounds, Error, Measure, State};
 
 use super::plot;
 use super::table::Table;
@@ -85,8 +85,8 @@ impl Output {
         })
     }
     /// Measures a state, and writes that down.
-    pub fn measure(&mut self, snapshot: &Snapshot) -> Result<(), Error> {
-        let row = Measure::of(snapshot);
+    pub fn measure(&mut self, snapshot: &State) -> Result<(), Error> {
+        let row = Measure::of(snapshot)?;
         let (p, l) = (row.momentum, row.angular_momentum);
         let numbers = [row.time, row.kinetic, row.potential, row.total(), p.x, p.y, p.z, l.x, l.y, l.z];
         self.energy.row(row.step, &numbers)?;
@@ -97,13 +97,13 @@ impl Output {
             table.row(f.step, &numbers)?;
             self.company.push(f);
         }
-        if self.flow.is_none() && !snapshot.particles.life.is_empty() {
+        if self.flow.is_none() && !snapshot.life().is_empty() {
             self.flow = Some(Table::new(self.folder.join("flow.csv"), FLOW)?);
         }
         if let Some(table) = &mut self.flow {
-            let of = snapshot.particles.population();
+            let of = snapshot.population();
             let born = (of.living + of.dead) as f64;
-            let mass = snapshot.particles.mass.iter().sum::<f64>();
+            let mass = snapshot.mass().iter().sum::<f64>();
             table.row(row.step, &[row.time, of.waiting as f64, of.living as f64, of.dead as f64, born, mass])?;
             self.population = Some(of);
         }
@@ -126,15 +126,15 @@ impl Output {
         &self.rows
     }
     /// Writes particles in every format that is numbers.
-    pub fn snapshot(&self, snapshot: &Snapshot) -> Result<(), Error> {
+    pub fn snapshot(&self, snapshot: &State) -> Result<(), Error> {
         let stem = format!("snapshot_{:0width$}", snapshot.step, width = self.digits);
         if self.formats.contains(&Format::Csv) {
             let path = self.folder.join(&stem).with_extension("csv");
-            atomically(&path, |out| csv::write_csv(out, &snapshot.particles, self.precision))?;
+            atomically(&path, |out| csv::write_csv(out, &snapshot, self.precision))?;
         }
         if self.formats.contains(&Format::Npz) {
             let path = self.folder.join(&stem).with_extension("npz");
-            let (particles, time, step) = (&snapshot.particles, snapshot.time, snapshot.step);
+            let (particles, time, step) = (&snapshot, snapshot.time, snapshot.step);
             atomically(&path, |out| npz::write_npz(out, particles, time, step, self.precision))?;
         }
         Ok(())
@@ -152,15 +152,14 @@ impl Output {
         self.formats.contains(&Format::Png)
     }
     /// The picture of a state, to be drawn.
-    pub fn picture(&self, snapshot: &Snapshot) -> Result<Picture, Error> {
+    pub fn picture(&self, snapshot: &State) -> Result<Picture, Error> {
         let of = |id: usize| {
             let found = self.groups.iter().position(|g| g.ids.start as usize <= id && id < g.ids.end as usize);
             u32::try_from(found.unwrap_or(0)).unwrap_or(0)
         };
-        let groups: Vec<u32> = (0..snapshot.particles.len()).map(of).collect();
+        let groups: Vec<u32> = (0..snapshot.len()).map(of).collect();
         let trail = self.trail.clone();
-        let mut picture =
-            Picture::with(&self.picture, &snapshot.particles, &groups, trail, &self.scenery.at(snapshot.time))?;
+        let mut picture = Picture::with(&self.picture, &snapshot, &groups, trail, &self.scenery.at(snapshot.time))?;
         // Colours that the scene gives count before those of the palette, unless another was asked for.
         if !["speed", "heading"].contains(&self.picture.text("color")) && self.groups.iter().any(|g| g.color.is_some())
         {

@@ -10,7 +10,7 @@ use motes::kernel::Backend;
 use motes::render::{Image, Picture, Scenery, Trail};
 use motes::scene::Scene;
 use motes::stability::Verdict;
-use motes::{Cpu, Error, Measure, POSITION, Setup, Simulation, Snapshot};
+use motes::{Cpu, Error, Measure, POSITION, Setup, Simulation, State};
 use serde_json::json;
 
 use super::advice::{Conserved, advice, conserved};
@@ -91,7 +91,7 @@ struct Run {
     progress: Progress,
     stop: Stop,
     /// The last state that was read, and so the last that is known to be good.
-    last: Option<Snapshot>,
+    last: Option<State>,
     /// Springs at the start, and how many of them are torn.
     springs: usize,
     torn: Option<String>,
@@ -101,10 +101,10 @@ impl Run {
     fn new(args: &RunArgs, scene: Scene, setup: &Setup, engine: &Engine) -> Result<Self, Failure> {
         let progress = Progress::new(args, scene.steps);
         let standing = setup.forces.iter().filter_map(|force| force.standing()).collect();
-        let scenery = Scenery::of(&setup.particles).within(&scene.bounds).beside(standing, &setup.particles);
-        Picture::with(&scene.picture, &setup.particles, &[], Trail::new(0), &scenery)?;
+        let scenery = Scenery::of(&setup.state).within(&scene.bounds).beside(standing, &setup.state);
+        Picture::with(&scene.picture, &setup.state, &[], Trail::new(0), &scenery)?;
         let device = engine.describe();
-        let count = setup.particles.len();
+        let count = setup.state.len();
         let folder = args.output.clone().unwrap_or_else(|| PathBuf::from("out").join(&scene.name));
         let film = Film::of(&scene, &folder, args.fps);
         progress.event(
@@ -125,7 +125,7 @@ impl Run {
         }
         let company = setup.forces.iter().find_map(|force| force.company());
         let (conserved, stop) = (conserved(setup)?, Stop::listen());
-        let (springs, last, torn) = (setup.particles.links.springs.len(), None, None);
+        let (springs, last, torn) = (setup.state.links.springs.len(), None, None);
         Ok(Self {
             scene,
             device,
@@ -195,7 +195,7 @@ impl Run {
                 // The energy between two outputs, for whoever looks, and for a twentieth of the time at most.
                 let start = Instant::now();
                 let snapshot = simulation.snapshot().await?;
-                self.progress.energy(&Measure::of(&snapshot), &output.first());
+                self.progress.energy(&Measure::of(&snapshot)?, &output.first());
                 self.last = Some(snapshot);
                 (looked, look) = (Instant::now(), start.elapsed());
             }
@@ -245,7 +245,7 @@ impl Run {
             self.torn = Some(summary::torn(self.springs, &links));
         }
         if snapshot.step == 0 {
-            output.trail.push(&snapshot.particles.position);
+            output.trail.push(snapshot.position());
         }
         let mut image = None;
         if output.pictures() {
@@ -265,7 +265,7 @@ impl Run {
         &mut self,
         simulation: &mut Simulation<B>,
         course: &Course,
-        snapshot: &Snapshot,
+        snapshot: &State,
     ) -> Result<(), Failure> {
         let Some(book) = &mut self.book else { return Ok(()) };
         if let Some(loud) = book.enter(simulation, snapshot, course.clock()).await? {

@@ -103,7 +103,7 @@ fn culprit(verdict: &Verdict, setup: &Setup) -> String {
     }
     let row = if verdict.by_damping { verdict.bound.damping } else { verdict.bound.stiffness };
     let what = if verdict.by_damping { "damping" } else { "stiffness" };
-    match setup.particles.links.springs.get(row.spring) {
+    match setup.state.links.springs.get(row.spring) {
         Some(spring) => {
             let ([a, b], k, c) = (spring.ends, spring.stiffness, spring.damping);
             format!(

@@ -11,10 +11,10 @@ use rayon::prelude::*;
 
 use super::line::Line;
 use super::problems::{Problems, order};
-use super::{Precision, input, open, picked};
+use super::{Precision, input, open};
 use crate::error::Error;
 use crate::life::Life;
-use crate::particles::Particles;
+use crate::state::State;
 
 /// The columns with numbers, and what they are when left out.
 pub(super) const NUMBERS: [(&str, f64); 8] =
@@ -29,7 +29,7 @@ const NAME: &str = "name";
 /// # Errors
 /// [`Error::Input`] that lists, with line and column, every cell that is missing, no number, not finite, or negative where
 /// that makes no sense; every column that is unknown, missing or given twice; every id that is missing or given twice.
-pub fn read(path: &Path) -> Result<Particles, Error> {
+pub fn read(path: &Path) -> Result<State, Error> {
     let (file, _) = open(path)?;
     let mut rows =
         ReaderBuilder::new().comment(Some(b'#')).flexible(true).trim(Trim::All).has_headers(false).from_reader(file);
@@ -40,7 +40,8 @@ pub fn read(path: &Path) -> Result<Particles, Error> {
         return Err(input(path, "is empty; its first line must name the columns, such as x,y,z,vx,vy,vz,mass"));
     }
     let columns = Columns::named(&record, &mut problems);
-    let (mut particles, mut ids, mut lines) = (Particles::default(), Vec::new(), Vec::new());
+    let (mut particles, mut ids, mut lines) = (State::default(), Vec::new(), Vec::new());
+    let (mut species, mut lives) = (Vec::new(), Vec::new());
     while rows.read_byte_record(&mut record).map_err(failed)? {
         let line = Line::of(path, &record);
         if record.len() > columns.count {
@@ -49,9 +50,7 @@ pub fn read(path: &Path) -> Result<Particles, Error> {
         let [x, y, z, vx, vy, vz, mass, radius] = columns.numbers(&record, &line, &mut problems);
         particles.push(DVec3::new(x, y, z), DVec3::new(vx, vy, vz), mass, radius);
         let of = columns.species.and_then(|place| whole(&record, place, SPECIES, &line, &mut problems));
-        if let (Some(of), Some(species)) = (of, particles.species.last_mut()) {
-            *species = of;
-        }
+        species.push(of.unwrap_or_default());
         if let Some(place) = columns.life {
             let word = whole(&record, place, LIFE, &line, &mut problems);
             let life = word.and_then(Life::of);
@@ -59,12 +58,16 @@ pub fn read(path: &Path) -> Result<Particles, Error> {
                 problems
                     .note(|| format!("{line}, column {LIFE}: {word} is none of 0 (waits), 1 (lives) and 2 (is dead)"));
             }
-            particles.life.push(life.unwrap_or_default());
+            lives.push(life.unwrap_or_default());
         }
         if let Some(id) = columns.id.and_then(|place| whole(&record, place, ID, &line, &mut problems)) {
             ids.push(u64::from(id));
             lines.push(line);
         }
+    }
+    particles.species_mut().copy_from_slice(&species);
+    if columns.life.is_some() {
+        particles.set_lives(&lives)?;
     }
     if columns.id.is_none() {
         problems.check(path)?;
@@ -74,7 +77,7 @@ pub fn read(path: &Path) -> Result<Particles, Error> {
     if ids.len() == particles.len() {
         let order = order(&ids, |row| lines[row].to_string(), &mut problems);
         problems.check(path)?;
-        return Ok(picked(&particles, &order));
+        return Ok(particles.picked(&order));
     }
     problems.check(path)?;
     Ok(particles)
@@ -191,13 +194,13 @@ pub(super) fn unknown(what: &str, title: &str, others: &[&'static str]) -> Strin
 ///
 /// # Errors
 /// Those of `out`.
-pub fn write_csv(mut out: impl Write, particles: &Particles, precision: Precision) -> io::Result<()> {
+pub fn write_csv(mut out: impl Write, particles: &State, precision: Precision) -> io::Result<()> {
     /// Rows per piece of work, and pieces that are in memory at once: about 16 MB of text.
     const ROWS: usize = 4096;
     const PIECES: usize = 32;
-    let species = particles.species.iter().any(|species| *species != 0);
+    let species = particles.species().iter().any(|species| *species != 0);
     out.write_all(b"id,x,y,z,vx,vy,vz,mass")?;
-    let mortal = particles.life.iter().any(|life| *life != Life::Living);
+    let mortal = particles.life().iter().any(|life| *life != Life::Living);
     out.write_all(if species { b",species" } else { b"" })?;
     out.write_all(if mortal { b",life\n" } else { b"\n" })?;
     let mut pieces: Vec<String> = vec![String::new(); PIECES];
@@ -208,10 +211,10 @@ pub fn write_csv(mut out: impl Write, particles: &Particles, precision: Precisio
             for id in first..particles.len().min(first + ROWS) {
                 row(text, id, particles, precision);
                 if species {
-                    let _ = write!(text, ",{}", particles.species[id]);
+                    let _ = write!(text, ",{}", particles.species()[id]);
                 }
                 if mortal {
-                    let _ = write!(text, ",{}", particles.life.get(id).copied().unwrap_or_default().word());
+                    let _ = write!(text, ",{}", particles.life().get(id).copied().unwrap_or_default().word());
                 }
                 text.push('\n');
             }
@@ -223,11 +226,11 @@ pub fn write_csv(mut out: impl Write, particles: &Particles, precision: Precisio
     Ok(())
 }
 
-fn row(text: &mut String, id: usize, particles: &Particles, precision: Precision) {
-    let (x, v) = (particles.position[id], particles.velocity[id]);
+fn row(text: &mut String, id: usize, particles: &State, precision: Precision) {
+    let (x, v) = (particles.position()[id], particles.velocity()[id]);
     // Writing into a String cannot fail. `{:?}` is the shortest decimal that reads back, with an exponent where that is shorter.
     let _ = write!(text, "{id}");
-    for number in [x.x, x.y, x.z, v.x, v.y, v.z, particles.mass[id]] {
+    for number in [x.x, x.y, x.z, v.x, v.y, v.z, particles.mass()[id]] {
         let start = text.len();
         match precision {
             Precision::Single => {

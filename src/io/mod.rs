@@ -21,7 +21,7 @@ use std::path::Path;
 
 pub use self::atomic::atomically;
 use crate::error::Error;
-use crate::particles::Particles;
+use crate::state::State;
 
 /// How many digits, or bytes, a number gets in a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -33,37 +33,26 @@ pub enum Precision {
     Double,
 }
 
-/// Particles at a moment of a run.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Snapshot {
-    /// The particles, in the order of their ids.
-    pub particles: Particles,
-    /// The time \[time\]; 0 where the file does not say.
-    pub time: f64,
-    /// The step; 0 where the file does not say.
-    pub step: u64,
-}
-
 /// Reads particles from a file of any known format: by its ending `.csv`, `.npz`, `.tipsy` (or `.bin`, `.std`, `.tip`), and
 /// by what it starts with where the ending says nothing.
 ///
 /// # Errors
 /// [`Error::Input`], with the file and the line or byte offset of everything that is wrong with it.
-pub fn read(path: &Path) -> Result<Particles, Error> {
+pub fn read(path: &Path) -> Result<State, Error> {
     let ending = path.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase();
     match ending.as_str() {
         "csv" => csv::read(path),
-        "npz" => Ok(npz::read(path)?.particles),
-        "bin" | "std" | "tip" | "tipsy" => Ok(tipsy::read(path)?.particles),
+        "npz" => npz::read(path),
+        "bin" | "std" | "tip" | "tipsy" => tipsy::read(path),
         _ => {
             let mut start = Vec::new();
             let (file, _) = open(path)?;
             file.take(512).read_to_end(&mut start).map_err(|error| input(path, error.to_string()))?;
             if start.starts_with(b"PK\x03\x04") {
-                Ok(npz::read(path)?.particles)
+                npz::read(path)
             } else if start.contains(&0) {
                 // A Tipsy header holds small counts, so it holds zeros; text does not.
-                Ok(tipsy::read(path)?.particles)
+                tipsy::read(path)
             } else {
                 csv::read(path)
             }
@@ -84,22 +73,4 @@ fn open(path: &Path) -> Result<(BufReader<File>, u64), Error> {
         return Err(input(path, "is a folder, not a file of particles"));
     }
     Ok((BufReader::with_capacity(1 << 16, file), data.len()))
-}
-
-/// The particles at these places, in this order.
-fn picked(particles: &Particles, order: &[usize]) -> Particles {
-    let mut picked = Particles::default();
-    for place in order {
-        picked.push(
-            particles.position[*place],
-            particles.velocity[*place],
-            particles.mass[*place],
-            particles.radius[*place],
-        );
-    }
-    picked.species = order.iter().map(|place| particles.species[*place]).collect();
-    if !particles.life.is_empty() {
-        picked.life = order.iter().map(|place| particles.life.get(*place).copied().unwrap_or_default()).collect();
-    }
-    picked
 }

@@ -15,10 +15,10 @@ use npyz::{AutoSerialize, Serialize, WriterBuilder};
 use super::archive::Arrays;
 use super::csv::NUMBERS;
 use super::problems::{Problems, order};
-use super::{Precision, Snapshot, input, open, picked};
+use super::{Precision, input, open};
 use crate::error::Error;
 use crate::life::Life;
-use crate::particles::Particles;
+use crate::state::State;
 
 /// Bytes that are written at once.
 const PIECE: usize = 1 << 16;
@@ -28,7 +28,7 @@ const PIECE: usize = 1 << 16;
 /// # Errors
 /// [`Error::Input`] that lists every array that is missing, unknown, of another length than `x`, larger than the file can
 /// hold, not of numbers, not finite, or negative where that makes no sense; and every id that is missing or given twice.
-pub fn read(path: &Path) -> Result<Snapshot, Error> {
+pub fn read(path: &Path) -> Result<State, Error> {
     let (file, _) = open(path)?;
     let mut arrays = Arrays::opened(file).map_err(|error| input(path, error.to_string()))?;
     let time = arrays.single("time");
@@ -43,33 +43,33 @@ pub fn read(path: &Path) -> Result<Snapshot, Error> {
         check(name, values.as_deref(), rows, &mut problems);
     }
     if !problems.none() {
-        return problems.check(path).map(|()| Snapshot::default());
+        return problems.check(path).map(|()| State::default());
     }
     let filled = |(values, (_, default)): (Option<Vec<f64>>, (_, f64))| {
         values.unwrap_or_else(|| vec![default; rows.unwrap_or(0)])
     };
     let mut columns = columns.into_iter().zip(NUMBERS).map(filled);
     let mut next = || columns.next().unwrap_or_default();
-    let mut particles = Particles {
-        position: vectors(&next(), &next(), &next()),
-        velocity: vectors(&next(), &next(), &next()),
-        mass: next(),
-        radius: next(),
-        species: match species {
-            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked")]
-            Some(species) => species.iter().map(|of| *of as u32).collect(),
-            None => vec![0; rows.unwrap_or(0)],
-        },
-        life: life.unwrap_or_default().into_iter().filter_map(word).collect(),
-        ..Particles::default()
-    };
+    let (position, velocity) = (vectors(&next(), &next(), &next()), vectors(&next(), &next(), &next()));
+    let mut state = State::default();
+    (state.time, state.step) = (time, whole(step));
+    for (((x, v), mass), size) in position.iter().zip(&velocity).zip(next()).zip(next()) {
+        state.push(*x, *v, mass, size);
+    }
+    if let Some(species) = species {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked")]
+        state.species_mut().iter_mut().zip(species).for_each(|(to, from)| *to = from as u32);
+    }
+    if let Some(life) = life {
+        state.set_lives(&life.into_iter().filter_map(word).collect::<Vec<_>>())?;
+    }
     if let Some(ids) = ids {
         let ids: Vec<u64> = ids.iter().map(|id| whole(*id)).collect();
         let order = order(&ids, |place| format!("id[{place}]"), &mut problems);
         problems.check(path)?;
-        particles = picked(&particles, &order);
+        state = state.picked(&order);
     }
-    Ok(Snapshot { particles, time, step: whole(step) })
+    Ok(state)
 }
 
 /// Notes a column of the wrong length, and values that it must not hold.
@@ -118,7 +118,7 @@ fn whole(x: f64) -> u64 {
 /// Those of `out`.
 pub fn write_npz(
     out: impl Write + Seek,
-    particles: &Particles,
+    particles: &State,
     time: f64,
     step: u64,
     precision: Precision,
@@ -131,10 +131,10 @@ pub fn write_npz(
     put(&mut archive, "id", &[count], (0..ids).map(u32::to_le_bytes), 0_u32)?;
     for (column, (name, _)) in NUMBERS.iter().enumerate() {
         let values = (0..particles.len()).map(|id| match column {
-            0..3 => particles.position[id][column],
-            3..6 => particles.velocity[id][column - 3],
-            6 => particles.mass[id],
-            _ => particles.radius[id],
+            0..3 => particles.position()[id][column],
+            3..6 => particles.velocity()[id][column - 3],
+            6 => particles.mass()[id],
+            _ => particles.size()[id],
         });
         #[expect(clippy::cast_possible_truncation, reason = "single precision was asked for")]
         match precision {
@@ -142,11 +142,11 @@ pub fn write_npz(
             Precision::Double => put(&mut archive, name, &[count], values.map(f64::to_le_bytes), 0.0_f64)?,
         }
     }
-    if particles.species.iter().any(|species| *species != 0) {
-        put(&mut archive, "species", &[count], particles.species.iter().map(|of| of.to_le_bytes()), 0_u32)?;
+    if particles.species().iter().any(|species| *species != 0) {
+        put(&mut archive, "species", &[count], particles.species().iter().map(|of| of.to_le_bytes()), 0_u32)?;
     }
-    if particles.life.iter().any(|life| *life != Life::Living) {
-        let of = |id: usize| particles.life.get(id).copied().unwrap_or_default().word();
+    if particles.life().iter().any(|life| *life != Life::Living) {
+        let of = |id: usize| particles.life().get(id).copied().unwrap_or_default().word();
         put(&mut archive, "life", &[count], (0..particles.len()).map(|id| of(id).to_le_bytes()), 0_u32)?;
     }
     archive.zip_writer().finish().map(drop).map_err(io::Error::other)

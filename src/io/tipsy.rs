@@ -11,9 +11,9 @@ use std::path::Path;
 use glam::DVec3;
 
 use super::problems::Problems;
-use super::{Snapshot, input, open};
+use super::{input, open};
 use crate::error::Error;
-use crate::particles::Particles;
+use crate::state::State;
 
 /// Bytes of the header without its padding, and of the padding.
 const HEADER: usize = 28;
@@ -66,7 +66,7 @@ fn array<const N: usize>(bytes: &[u8], at: usize) -> [u8; N] {
 /// # Errors
 /// [`Error::Input`] with byte offsets: a file shorter than its header, no byte order in which `ndim` is 1 to 3, counts that do
 /// not add up or do not fit the file's size (found before memory is reserved), numbers that are not finite, negative masses.
-pub fn read(path: &Path) -> Result<Snapshot, Error> {
+pub fn read(path: &Path) -> Result<State, Error> {
     let (mut file, length) = open(path)?;
     let failed = |error: io::Error| input(path, error.to_string());
     let mut header = [0; HEADER];
@@ -94,7 +94,7 @@ pub fn read(path: &Path) -> Result<Snapshot, Error> {
     if !time.is_finite() {
         problems.note(|| format!("byte 0: the time {time} is not finite"));
     }
-    let mut particles = Particles::default();
+    let mut particles = State::default();
     let mut offset = length - size + HEADER as u64;
     for (count, (kind, bytes)) in counts.into_iter().zip(KINDS) {
         let mut record = [0; LONGEST];
@@ -118,7 +118,8 @@ pub fn read(path: &Path) -> Result<Snapshot, Error> {
         }
     }
     problems.check(path)?;
-    Ok(Snapshot { particles, time, step: 0 })
+    particles.time = time;
+    Ok(particles)
 }
 
 /// Byte order and counts of gas, dark and star particles.
@@ -151,7 +152,7 @@ fn counted(header: &[u8; HEADER]) -> Result<(Bytes, [u64; 3]), String> {
 ///
 /// # Errors
 /// Those of `out`; and what Tipsy cannot hold: more than 2³¹ - 1 particles, numbers beyond the range of f32.
-pub fn write_tipsy(mut out: impl Write, particles: &Particles, time: f64, softening: f64) -> io::Result<()> {
+pub fn write_tipsy(mut out: impl Write, particles: &State, time: f64, softening: f64) -> io::Result<()> {
     let count = i32::try_from(particles.len())
         .map_err(|_| io::Error::other(format!("{} particles; a Tipsy file counts to {}", particles.len(), i32::MAX)))?;
     out.write_all(&time.to_be_bytes())?;
@@ -159,7 +160,8 @@ pub fn write_tipsy(mut out: impl Write, particles: &Particles, time: f64, soften
         out.write_all(&word.to_be_bytes())?;
     }
     let mut record = [0; 36];
-    for (id, ((x, v), mass)) in particles.position.iter().zip(&particles.velocity).zip(&particles.mass).enumerate() {
+    for (id, ((x, v), mass)) in particles.position().iter().zip(particles.velocity()).zip(particles.mass()).enumerate()
+    {
         let values = [*mass, x.x, x.y, x.z, v.x, v.y, v.z, softening, 0.0];
         for (value, bytes) in values.iter().zip(record.chunks_exact_mut(4)) {
             #[expect(clippy::cast_possible_truncation, reason = "the format is single precision")]

@@ -103,6 +103,16 @@ impl Kind {
             Self::Whole => Array::Uint(vec![x as u32; count]),
         }
     }
+    /// That of an array on the host.
+    #[must_use]
+    pub fn of(values: &Array) -> Self {
+        match values {
+            Array::Float(_) => Self::Scalar,
+            Array::Vec3(_) => Self::Vector,
+            Array::Vec4(_) => Self::Quaternion,
+            Array::Uint(_) => Self::Whole,
+        }
+    }
     /// The word of scenes and messages.
     #[must_use]
     pub fn name(self) -> &'static str {

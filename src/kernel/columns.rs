@@ -32,6 +32,8 @@ pub fn base() -> Vec<Column> {
             .within("acceleration", 3)
             .summed(),
         Column::new("species", Kind::Whole, "", "of which kind it is, as a number that laws tell apart"),
+        Column::new("life", Kind::Whole, "", "whether it takes part: 0 is pending, 1 active, 2 removed")
+            .starting([1.0, 0.0, 0.0, 0.0]),
     ]
 }
 

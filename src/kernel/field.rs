@@ -87,6 +87,37 @@ impl Array {
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
+    /// Makes it as long as said; new elements hold this value.
+    pub fn resize(&mut self, len: usize, [x, y, z, w]: [f64; 4]) {
+        match self {
+            Self::Vec4(a) => a.resize(len, DVec4::new(x, y, z, w)),
+            Self::Vec3(a) => a.resize(len, DVec3::new(x, y, z)),
+            Self::Float(a) => a.resize(len, x),
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "declared as a whole number")]
+            Self::Uint(a) => a.resize(len, x as u32),
+        }
+    }
+    /// Adds the elements of another array of the same kind; one of another kind has none to add.
+    pub fn extend(&mut self, other: &Self) {
+        match (self, other) {
+            (Self::Vec4(a), Self::Vec4(b)) => a.extend_from_slice(b),
+            (Self::Vec3(a), Self::Vec3(b)) => a.extend_from_slice(b),
+            (Self::Float(a), Self::Float(b)) => a.extend_from_slice(b),
+            (Self::Uint(a), Self::Uint(b)) => a.extend_from_slice(b),
+            _ => {}
+        }
+    }
+    /// Groups of so many elements, in this order.
+    #[must_use]
+    pub fn picked(&self, order: &[usize], group: usize) -> Self {
+        let places = order.iter().flat_map(|n| n * group..(n + 1) * group);
+        match self {
+            Self::Vec4(a) => Self::Vec4(places.map(|n| a[n]).collect()),
+            Self::Vec3(a) => Self::Vec3(places.map(|n| a[n]).collect()),
+            Self::Float(a) => Self::Float(places.map(|n| a[n]).collect()),
+            Self::Uint(a) => Self::Uint(places.map(|n| a[n]).collect()),
+        }
+    }
     /// The bytes a device holds for it (f64 rounded to f32).
     #[must_use]
     pub fn to_bytes(&self) -> Vec<u8> {

@@ -66,11 +66,25 @@ impl Links {
     }
     /// Adds all of another set, whose ids begin at `first` here.
     pub fn append(&mut self, other: &Self, first: u32) {
-        let two = |ends: [u32; 2]| ends.map(|id| id.saturating_add(first));
-        let three = |ids: [u32; 3]| ids.map(|id| id.saturating_add(first));
-        self.springs.extend(other.springs.iter().map(|link| Link { ends: two(link.ends), ..*link }));
-        self.rods.extend(other.rods.iter().map(|rod| Rod { ends: two(rod.ends), ..*rod }));
-        self.joints.extend(other.joints.iter().map(|joint| Joint { ids: three(joint.ids), ..*joint }));
-        self.triangles.extend(other.triangles.iter().map(|ids| three(*ids)));
+        let other = other.renumbered(&|id| Some(id.saturating_add(first)));
+        self.springs.extend(other.springs);
+        self.rods.extend(other.rods);
+        self.joints.extend(other.joints);
+        self.triangles.extend(other.triangles);
+    }
+    /// Those whose particles all have new ids, with these.
+    #[must_use]
+    pub fn renumbered(&self, new: &impl Fn(u32) -> Option<u32>) -> Self {
+        let two = |[a, b]: [u32; 2]| Some([new(a)?, new(b)?]);
+        let three = |[a, b, c]: [u32; 3]| Some([new(a)?, new(b)?, new(c)?]);
+        let spring = |link: &Link| Some(Link { ends: two(link.ends)?, ..*link });
+        let rod = |rod: &Rod| Some(Rod { ends: two(rod.ends)?, ..*rod });
+        let joint = |joint: &Joint| Some(Joint { ids: three(joint.ids)?, ..*joint });
+        Self {
+            springs: self.springs.iter().filter_map(spring).collect(),
+            rods: self.rods.iter().filter_map(rod).collect(),
+            joints: self.joints.iter().filter_map(joint).collect(),
+            triangles: self.triangles.iter().filter_map(|ids| three(*ids)).collect(),
+        }
     }
 }

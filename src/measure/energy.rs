@@ -3,7 +3,8 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use crate::simulation::Snapshot;
+use crate::error::Error;
+use crate::state::State;
 
 /// Energies and momenta of a state: a row of `energy.csv`.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -30,41 +31,43 @@ const CHUNK: usize = 4096;
 
 impl Measure {
     /// Measures a state.
-    #[must_use]
-    pub fn of(snapshot: &Snapshot) -> Self {
-        let particles = &snapshot.particles;
-        let count = particles.len();
+    ///
+    /// # Errors
+    /// [`Error::Scene`] where the state does not have the potential energies.
+    pub fn of(snapshot: &State) -> Result<Self, Error> {
+        let (position, velocity, mass) = (snapshot.position(), snapshot.velocity(), snapshot.mass());
+        let (count, energies) = (snapshot.len(), snapshot.energies()?);
         let chunks: Vec<(Self, f64)> = (0..count.div_ceil(CHUNK))
             .into_par_iter()
             .map(|chunk| {
                 let mut sum = Self::default();
-                let mut mass = 0.0;
+                let mut total = 0.0;
                 for i in chunk * CHUNK..((chunk + 1) * CHUNK).min(count) {
-                    let (x, v, m) = (particles.position[i], particles.velocity[i], particles.mass[i]);
+                    let (x, v, m) = (position[i], velocity[i], mass[i]);
                     sum.kinetic += 0.5 * m * v.length_squared();
-                    sum.potential += snapshot.potential[i];
+                    sum.potential += energies[i];
                     sum.momentum += m * v;
                     sum.angular_momentum += m * x.cross(v);
                     sum.center += m * x;
-                    mass += m;
+                    total += m;
                 }
-                (sum, mass)
+                (sum, total)
             })
             .collect();
         let mut total = Self { step: snapshot.step, time: snapshot.time, ..Self::default() };
-        let mut mass = 0.0;
+        let mut weight = 0.0;
         for (part, m) in chunks {
             total.kinetic += part.kinetic;
             total.potential += part.potential;
             total.momentum += part.momentum;
             total.angular_momentum += part.angular_momentum;
             total.center += part.center;
-            mass += m;
+            weight += m;
         }
-        let living = || (0..count).filter(|id| particles.lives(*id));
-        let mean = living().map(|id| particles.position[id]).sum::<DVec3>() / living().count().max(1) as f64;
-        total.center = if mass > 0.0 { total.center / mass } else { mean };
-        total
+        let living = || (0..count).filter(|id| snapshot.lives(*id));
+        let mean = living().map(|id| position[id]).sum::<DVec3>() / living().count().max(1) as f64;
+        total.center = if weight > 0.0 { total.center / weight } else { mean };
+        Ok(total)
     }
     /// Kinetic and potential energy together.
     #[must_use]

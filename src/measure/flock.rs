@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use crate::error::Error;
 use crate::kernel::Bounds;
 use crate::neighbors::Cells;
-use crate::simulation::Snapshot;
+use crate::state::State;
 
 /// Order and company of a state: a row of `flock.csv`.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -38,13 +38,13 @@ impl Flock {
     ///
     /// # Errors
     /// [`Error::Scene`] when the range is not a positive number.
-    pub fn of(snapshot: &Snapshot, bounds: Bounds, range: Option<f64>, species: Option<u32>) -> Result<Self, Error> {
-        let all = &snapshot.particles;
+    pub fn of(snapshot: &State, bounds: Bounds, range: Option<f64>, species: Option<u32>) -> Result<Self, Error> {
+        let all = snapshot;
         let of = |list: &[DVec3]| -> Vec<DVec3> {
-            let chosen = |i: &usize| all.lives(*i) && species.is_none_or(|kind| all.species.get(*i) == Some(&kind));
+            let chosen = |i: &usize| all.lives(*i) && species.is_none_or(|kind| all.species().get(*i) == Some(&kind));
             (0..list.len()).filter(chosen).map(|i| list[i]).collect()
         };
-        let (positions, velocities) = (of(&all.position), of(&all.velocity));
+        let (positions, velocities) = (of(all.position()), of(all.velocity()));
         let headings: Vec<DVec3> = velocities.iter().map(|v| v.normalize_or_zero()).collect();
         let moving = headings.iter().filter(|h| **h != DVec3::ZERO).count();
         let count = velocities.len().max(1) as f64;
@@ -122,14 +122,14 @@ impl Sets {
 mod tests {
     use super::*;
     use crate::kernel::Side;
-    use crate::particles::Particles;
+    use crate::state::State;
 
-    fn snapshot(positions: &[DVec3], velocities: &[DVec3]) -> Snapshot {
-        let mut particles = Particles::default();
+    fn snapshot(positions: &[DVec3], velocities: &[DVec3]) -> State {
+        let mut particles = State::default();
         for (x, v) in positions.iter().zip(velocities) {
             particles.push(*x, *v, 1.0, 0.0);
         }
-        Snapshot { step: 0, time: 0.0, particles, potential: vec![0.0; positions.len()] }
+        particles
     }
 
     #[test]
@@ -150,7 +150,7 @@ mod tests {
         let open = Flock::of(&snapshot(&x, &[DVec3::X; 6]), Bounds::default(), Some(1.0), None).expect("a measurement");
         assert_eq!(open.clusters, 4);
         let mut two = snapshot(&x, &[DVec3::X; 6]);
-        two.particles.species = vec![0, 0, 5, 5, 0, 5];
+        two.species_mut().copy_from_slice(&[0, 0, 5, 5, 0, 5]);
         let some = Flock::of(&two, bounds, Some(1.0), Some(5)).expect("a measurement");
         assert_eq!((some.clusters, some.crowd), (2, 1));
     }

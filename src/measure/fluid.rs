@@ -2,9 +2,10 @@
 
 use glam::DVec3;
 
+use crate::error::Error;
 use crate::fluids::Medium;
 use crate::kernel::Bounds;
-use crate::simulation::Snapshot;
+use crate::state::State;
 
 /// What a fluid has at a time, without those who are held: its walls. A row of `fluid.csv`.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -39,22 +40,25 @@ pub struct Ledger {
 
 impl Ledger {
     /// Measures a state, with the density of everybody in it \[mass / length³, or mass / length² in two dimensions\].
-    #[must_use]
+    ///
+    /// # Errors
+    /// [`Error::Scene`] where the state does not have the potential energies.
     pub fn of(
-        snapshot: &Snapshot,
+        snapshot: &State,
         density: &[f32],
         medium: &Medium,
         bounds: &Bounds,
         held: impl Fn(usize) -> bool,
-    ) -> Self {
-        let particles = &snapshot.particles;
+    ) -> Result<Self, Error> {
+        let particles = snapshot;
+        let energies = snapshot.energies()?;
         let mut ledger = Self { step: snapshot.step, time: snapshot.time, ..Self::default() };
         let extent: Vec<usize> = (0..3).filter(|axis| bounds.high[*axis] > bounds.low[*axis]).collect();
         // Single precision may put who is at a side just behind it.
         let slack = f64::from(f32::EPSILON) * bounds.low.abs().max(bounds.high.abs());
         let sounds = medium.sound > 0.0;
         for i in (0..particles.len()).filter(|i| !held(*i) && particles.lives(*i)) {
-            let (x, v, m) = (particles.position[i], particles.velocity[i], particles.mass[i]);
+            let (x, v, m) = (particles.position()[i], particles.velocity()[i], particles.mass()[i]);
             let rho = density.get(i).copied().map_or(medium.density, f64::from);
             ledger.count += 1;
             if !(x.is_finite() && v.is_finite() && rho.is_finite()) {
@@ -65,7 +69,7 @@ impl Ledger {
             ledger.mass += m;
             ledger.momentum += m * v;
             ledger.kinetic += 0.5 * m * v.length_squared();
-            ledger.potential += snapshot.potential[i] - internal;
+            ledger.potential += energies[i] - internal;
             ledger.internal += internal;
             let error = (rho / medium.density - 1.0).max(0.0);
             ledger.mean_density += error;
@@ -79,7 +83,7 @@ impl Ledger {
             ledger.outside += u64::from(extent.iter().any(out));
         }
         ledger.mean_density /= (ledger.count - ledger.broken).max(1) as f64;
-        ledger
+        Ok(ledger)
     }
     /// All energies together.
     #[must_use]

@@ -7,9 +7,10 @@ use glam::DVec3;
 use super::build::{CENTER, PARTICLE_RADIUS, Reader, SEED, VELOCITY};
 use super::random::Random;
 use super::skin::{DENSITY, SPACING, cells, steps};
-use super::{Particles, Shape, one_part};
+use super::{Shape, one_part};
 use crate::error::Error;
 use crate::settings::{Key, Kind, Settings, Value};
+use crate::state::State;
 
 /// The shape `block`.
 pub const BLOCK: Shape = Shape {
@@ -44,7 +45,7 @@ const KEYS: &[Key] = &[
 ];
 
 /// As many particles along each side as fit best, in the middle of their shares; each weighs what the fluid in its share does.
-fn build(settings: &Settings) -> Result<Particles, Error> {
+fn build(settings: &Settings) -> Result<State, Error> {
     let reader = Reader { shape: "block", settings };
     let (size, spacing) = (reader.vector("size")?, reader.positive("spacing")?);
     let (flat, numbers) = (size.z == 0.0, cells(&reader, size, spacing)?);

@@ -2,10 +2,10 @@
 
 use glam::DVec3;
 
-use super::Particles;
 use crate::error::Error;
 use crate::motion::{Held, Hold};
 use crate::settings::{Key, Kind, Settings, Value};
+use crate::state::State;
 
 pub(super) const COUNT: Key = Key::required("count", Kind::Count, "number of particles");
 pub(super) const SEED: Key = Key::new("seed", Kind::Whole, Value::Number(1.0), "seed of the random numbers");
@@ -29,7 +29,7 @@ pub(super) const PARTICLE_RADIUS: Key = Key::new(
 const MOST: u32 = 100_000_000;
 
 /// Holds particles of a shape where they are; the scene may lead them along a motion instead.
-pub(super) fn hold(particles: &mut Particles, ids: impl IntoIterator<Item = u32>) {
+pub(super) fn hold(particles: &mut State, ids: impl IntoIterator<Item = u32>) {
     particles.held.extend(ids.into_iter().map(|id| Held { id, by: Hold::Fixed }));
 }
 
@@ -75,7 +75,7 @@ impl Reader<'_> {
     }
 
     /// Room for the shape's `count` particles.
-    pub fn room(&self) -> Result<(usize, Particles), Error> {
+    pub fn room(&self) -> Result<(usize, State), Error> {
         let count = self.settings.whole("count");
         if count == 0 {
             return Err(self.error("count is 0; it must be 1 or above"));
@@ -84,7 +84,7 @@ impl Reader<'_> {
     }
 
     /// Room for `count` particles: ids are 32 bits, and memory that is not there is an error here, not an abort later.
-    pub fn room_for(&self, count: u64) -> Result<(usize, Particles), Error> {
+    pub fn room_for(&self, count: u64) -> Result<(usize, State), Error> {
         let limit = |message: String| {
             Error::Limit(format!("shape `{}`: {count} particles {message}; ask for fewer", self.shape))
         };
@@ -92,18 +92,9 @@ impl Reader<'_> {
             .ok()
             .and_then(|count| usize::try_from(count).ok())
             .ok_or_else(|| limit(format!("need ids beyond the {} that fit 32 bits", u32::MAX)))?;
-        let mut particles = Particles::default();
-        let reserved = particles
-            .position
-            .try_reserve_exact(count)
-            .and_then(|()| particles.velocity.try_reserve_exact(count))
-            .and_then(|()| particles.mass.try_reserve_exact(count))
-            .and_then(|()| particles.radius.try_reserve_exact(count))
-            .and_then(|()| particles.species.try_reserve_exact(count));
-        match reserved {
-            Ok(()) => Ok((count, particles)),
-            Err(_) => Err(limit(format!("need {} GiB of memory, which is not there", (count >> 30) * 64))),
-        }
+        let room = State::with_room(count);
+        let missing = format!("need {} GiB of memory, which is not there", (count >> 30) * 64);
+        Ok((count, room.map_err(|_| limit(missing))?))
     }
 
     /// Whether so many particles may be asked for at all: what takes memory before it is known how many there will be, asks first.
@@ -118,9 +109,9 @@ impl Reader<'_> {
     }
 
     /// The same particles, if every number stayed finite.
-    pub fn finished(&self, particles: Particles) -> Result<Particles, Error> {
-        let finite = particles.position.iter().chain(&particles.velocity).all(|v| v.is_finite())
-            && particles.mass.iter().all(|m| m.is_finite());
+    pub fn finished(&self, particles: State) -> Result<State, Error> {
+        let finite = particles.position().iter().chain(particles.velocity()).all(|v| v.is_finite())
+            && particles.mass().iter().all(|m| m.is_finite());
         if finite {
             Ok(particles)
         } else {
@@ -129,13 +120,13 @@ impl Reader<'_> {
     }
 }
 
-impl Particles {
+impl State {
     /// Mean position and velocity, weighted by mass; by number where all masses are zero.
     pub(super) fn center(&self) -> (DVec3, DVec3) {
-        let total: f64 = self.mass.iter().sum();
+        let total: f64 = self.mass().iter().sum();
         let massless = total <= 0.0;
         let (mut position, mut velocity, mut weight) = (DVec3::ZERO, DVec3::ZERO, 0.0);
-        for ((x, v), m) in self.position.iter().zip(&self.velocity).zip(&self.mass) {
+        for ((x, v), m) in self.position().iter().zip(self.velocity()).zip(self.mass()) {
             let w = if massless { 1.0 } else { *m };
             position += *x * w;
             velocity += *v * w;
@@ -147,10 +138,10 @@ impl Particles {
     /// Moves all, so that the centre of mass lies at `center` and moves with `velocity`.
     pub(super) fn centered(mut self, center: DVec3, velocity: DVec3) -> Self {
         let (x, v) = self.center();
-        for position in &mut self.position {
+        for position in self.position_mut() {
             *position = *position - x + center;
         }
-        for speed in &mut self.velocity {
+        for speed in self.velocity_mut() {
             *speed = *speed - v + velocity;
         }
         self

@@ -5,10 +5,11 @@ use std::borrow::Cow;
 use glam::DVec3;
 
 use super::build::{MASS, PARTICLE_RADIUS, Reader, VELOCITY, hold};
-use super::{Particles, Shape, one_part};
+use super::{Shape, one_part};
 use crate::error::Error;
 use crate::links::{Joint, Link, Rod};
 use crate::settings::{Key, Kind, Settings, Value};
+use crate::state::State;
 
 /// The shape `chain`.
 pub const CHAIN: Shape = Shape {
@@ -60,7 +61,7 @@ const KEYS: &[Key] = &[
 ];
 
 /// `count` particles from `from` to `to`, evenly, in that order.
-fn build(settings: &Settings) -> Result<Particles, Error> {
+fn build(settings: &Settings) -> Result<State, Error> {
     let reader = Reader { shape: "chain", settings };
     let (count, mut particles) = reader.room()?;
     if count < 2 {

@@ -6,10 +6,11 @@ use glam::DVec3;
 
 use super::build::{CENTER, MASS, PARTICLE_RADIUS, Reader, SEED, VELOCITY, hold};
 use super::random::Random;
-use super::{Particles, Shape, one_part};
+use super::{Shape, one_part};
 use crate::error::Error;
 use crate::links::{Link, Links};
 use crate::settings::{Key, Kind, Settings, Value};
+use crate::state::State;
 
 /// The shape `cloth`.
 pub const CLOTH: Shape = Shape {
@@ -80,7 +81,7 @@ const PINS: &[&str] = &["none", "corners", "row", "column", "rim"];
 /// `columns * rows` particles, the middle of the sheet at `center`; those of a row follow each other, so particle i of row j
 /// has the id  i + columns j. Squares are cut into triangles along alternate diagonals;
 /// their front is towards whoever sees `right` to the right and `down` below.
-fn build(settings: &Settings) -> Result<Particles, Error> {
+fn build(settings: &Settings) -> Result<State, Error> {
     let reader = Reader { shape: "cloth", settings };
     let (columns, rows) = (settings.whole("columns"), settings.whole("rows"));
     if columns < 2 || rows < 2 {

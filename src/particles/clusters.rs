@@ -8,9 +8,10 @@ use glam::DVec3;
 
 use super::build::{CENTER, COUNT, PARTICLE_RADIUS, Reader, SEED, TOTAL_MASS, VELOCITY};
 use super::random::Random;
-use super::{Particles, Shape, one_part};
+use super::{Shape, one_part};
 use crate::error::Error;
 use crate::settings::{Key, Kind, Settings, Value};
+use crate::state::State;
 
 /// The shape `clusters`.
 pub const CLUSTERS: Shape = Shape {
@@ -50,7 +51,7 @@ const KEYS: &[Key] = &[
 ];
 
 /// `count` particles of equal mass, a clump's side by side; their centre of mass is at `center`, up to `velocity`.
-fn build(settings: &Settings) -> Result<Particles, Error> {
+fn build(settings: &Settings) -> Result<State, Error> {
     let reader = Reader { shape: "clusters", settings };
     let (count, mut particles) = reader.room()?;
     let total = reader.positive("mass")?;

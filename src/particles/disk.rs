@@ -6,13 +6,14 @@ use std::f64::consts::TAU;
 
 use glam::{DMat3, DVec3};
 
+use super::Shape;
 use super::build::{CENTER, COUNT, G, PARTICLE_RADIUS, Reader, SEED, VELOCITY};
 use super::halo::Round;
 use super::random::Random;
 use super::rotation::{Galaxy, Rotation, Sphere};
-use super::{Particles, Shape};
 use crate::error::Error;
 use crate::settings::{Key, Kind, Settings, Value};
+use crate::state::State;
 
 /// The shape `disk`.
 pub const DISK: Shape = Shape {
@@ -74,7 +75,7 @@ const KEYS: &[Key] = &[
 
 /// `count` particles: first those of the disk, then those of the halo and of the bulge, equal masses within each. All have
 /// their own centre of mass at rest at `center`, up to `velocity`, so that the disk starts in the middle of its halo.
-fn build(settings: &Settings) -> Result<Particles, Error> {
+fn build(settings: &Settings) -> Result<State, Error> {
     let reader = Reader { shape: "disk", settings };
     let (count, _) = reader.room()?;
     let mut random = Random::new(settings.whole("seed"));
@@ -94,7 +95,7 @@ fn build(settings: &Settings) -> Result<Particles, Error> {
     let radius = reader.not_negative("particle_radius")?;
     let [disk_count, halo_count, bulge_count] = split(&reader, count)?;
 
-    let mut disk = Particles::default();
+    let mut disk = State::default();
     let rotation = Rotation::new(&galaxy);
     let (across, along) = normal.any_orthonormal_pair();
     let tilt = DMat3::from_cols(across, along, normal);
@@ -105,13 +106,13 @@ fn build(settings: &Settings) -> Result<Particles, Error> {
     let mut particles = disk.centered(center, velocity);
     for (Sphere { mass, scale }, count) in [(galaxy.halo, halo_count), (galaxy.bulge, bulge_count)] {
         if count > 0 {
-            let mut part = Particles::default();
+            let mut part = State::default();
             let round = Round::new(&galaxy, scale);
             for _ in 0..count {
                 let (position, velocity) = round.draw(&mut random);
                 part.push(position, velocity, mass / f64::from(count), radius);
             }
-            particles.append(&part.centered(center, velocity));
+            particles.append(&part.centered(center, velocity))?;
         }
     }
     reader.finished(particles)

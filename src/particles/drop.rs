@@ -4,9 +4,10 @@ use glam::DVec3;
 
 use super::build::{CENTER, PARTICLE_RADIUS, Reader, VELOCITY};
 use super::skin::{DENSITY, SPACING, cells, steps};
-use super::{Particles, Shape, one_part};
+use super::{Shape, one_part};
 use crate::error::Error;
 use crate::settings::{Key, Kind, Settings};
+use crate::state::State;
 
 /// The shape `drop`.
 pub const DROP: Shape = Shape {
@@ -27,7 +28,7 @@ const KEYS: &[Key] = &[
 ];
 
 /// All places of a lattice about its centre that are within the drop; each weighs what the fluid in its share does.
-fn build(settings: &Settings) -> Result<Particles, Error> {
+fn build(settings: &Settings) -> Result<State, Error> {
     let reader = Reader { shape: "drop", settings };
     let (size, spacing) = (reader.vector("size")?, reader.positive("spacing")?);
     let (flat, numbers) = (size.z == 0.0, cells(&reader, size, spacing)?);
@@ -37,7 +38,7 @@ fn build(settings: &Settings) -> Result<Particles, Error> {
     let radius = reader.not_negative("particle_radius")?;
     let middle = (numbers - DVec3::ONE) * 0.5;
     let half = 0.5 * if flat { size.with_z(1.0) } else { size };
-    let mut particles = Particles::default();
+    let mut particles = State::default();
     for k in steps(numbers.z) {
         for j in steps(numbers.y) {
             for i in steps(numbers.x) {

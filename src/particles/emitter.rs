@@ -4,12 +4,12 @@ use std::borrow::Cow;
 
 use glam::DVec3;
 
-use super::Particles;
 use super::build::{CENTER, PARTICLE_RADIUS, Reader, SEED};
 use super::random::Random;
 use crate::error::Error;
 use crate::life::{Birth, Life};
 use crate::settings::{Key, Kind, Settings, Value};
+use crate::state::State;
 
 /// What an emitter may be told.
 pub const KEYS: &[Key] = &[
@@ -93,7 +93,7 @@ const ROUNDING: f64 = 1e-9;
 ///
 /// # Errors
 /// [`Error::Scene`] when a setting makes no sense, or nobody would leave; [`Error::Limit`] when there would be more than `room`.
-pub fn build(settings: &Settings, dimensions: u32, end: f64, room: u32) -> Result<Particles, Error> {
+pub fn build(settings: &Settings, dimensions: u32, end: f64, room: u32) -> Result<State, Error> {
     let reader = Reader { shape: "emitter", settings };
     let refuse = |text: String| Err(Error::Scene(format!("an emitter {text}")));
     let (spacing, rate) = (reader.not_negative("spacing")?, reader.not_negative("rate")?);
@@ -143,7 +143,7 @@ pub fn build(settings: &Settings, dimensions: u32, end: f64, room: u32) -> Resul
         let time = row as f64 * interval + start;
         particles.births.push(Birth { id: k, time, velocity: speed * way, mass, guided, emitter: 0 });
     }
-    particles.life = vec![Life::Waiting; count];
+    particles.set_lives(&vec![Life::Waiting; count])?;
     reader.finished(particles)
 }
 

@@ -4,10 +4,11 @@ use glam::DVec3;
 
 use super::build::{CENTER, PARTICLE_RADIUS, Reader, SEED, hold};
 use super::random::Random;
-use super::{Particles, Shape, one_part};
+use super::{Shape, one_part};
 use crate::error::Error;
 use crate::links::{Joint, Rod};
 use crate::settings::{Key, Kind, Settings, Value};
+use crate::state::State;
 
 /// The shape `hair`.
 pub const HAIR: Shape = Shape {
@@ -51,7 +52,7 @@ const KEYS: &[Key] = &[
 /// `strands * points` particles, strand by strand from its root on. Roots lie evenly on the cap (Fibonacci's lattice), and
 /// strands stand straight off the head, whose middle is at `center`. Inner joints have EI / ds, the clamped one at the
 /// second particle 2 EI / ds: half of the piece before it does not bend.
-fn build(settings: &Settings) -> Result<Particles, Error> {
+fn build(settings: &Settings) -> Result<State, Error> {
     let reader = Reader { shape: "hair", settings };
     let (strands, points) = (settings.whole("strands"), settings.whole("points"));
     if strands < 1 || points < 3 {

@@ -6,9 +6,10 @@
 
 use super::build::{CENTER, COUNT, G, PARTICLE_RADIUS, Reader, SEED, TOTAL_MASS, VELOCITY};
 use super::random::Random;
-use super::{Particles, Shape, one_part};
+use super::{Shape, one_part};
 use crate::error::Error;
 use crate::settings::{Key, Kind, Settings, Value};
+use crate::state::State;
 
 /// The shape `hernquist`.
 pub const HERNQUIST: Shape = Shape {
@@ -42,7 +43,7 @@ const KEYS: &[Key] = &[
 ];
 
 /// `count` particles of equal mass; their centre of mass is at rest at `center`, up to `velocity`.
-fn build(settings: &Settings) -> Result<Particles, Error> {
+fn build(settings: &Settings) -> Result<State, Error> {
     let reader = Reader { shape: "hernquist", settings };
     let (count, mut particles) = reader.room()?;
     let mut random = Random::new(settings.whole("seed"));

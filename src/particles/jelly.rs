@@ -3,10 +3,11 @@
 use glam::DVec3;
 
 use super::build::{CENTER, MASS, PARTICLE_RADIUS, Reader, VELOCITY};
-use super::{Particles, Shape, one_part};
+use super::{Shape, one_part};
 use crate::error::Error;
 use crate::links::{Link, Links};
 use crate::settings::{Key, Kind, Settings, Value};
+use crate::state::State;
 
 /// The shape `jelly`.
 pub const JELLY: Shape = Shape {
@@ -32,7 +33,7 @@ const KEYS: &[Key] = &[
 /// `size.x * size.y * size.z` particles, the middle of the block at `center`; x runs fastest. Springs in the surface belong to
 /// one cell less than those inside: they have half of the stiffness, edges of the block a quarter, so that the block is
 /// the same stuff throughout; so have the masses.
-fn build(settings: &Settings) -> Result<Particles, Error> {
+fn build(settings: &Settings) -> Result<State, Error> {
     let reader = Reader { shape: "jelly", settings };
     let size = reader.vector("size")?;
     if size.to_array().iter().any(|n| n.fract() != 0.0 || *n < 2.0) {

@@ -5,9 +5,10 @@ use glam::DVec3;
 use super::build::{CENTER, PARTICLE_RADIUS, Reader, SEED, VELOCITY};
 use super::random::Random;
 use super::zeldovich::displacements;
-use super::{Particles, Shape, one_part};
+use super::{Shape, one_part};
 use crate::error::Error;
 use crate::settings::{Key, Kind, Settings, Value};
+use crate::state::State;
 
 /// The shape `lattice`.
 pub const LATTICE: Shape = Shape {
@@ -54,7 +55,7 @@ const KEYS: &[Key] = &[
 
 /// `size.x * size.y * size.z` particles, the middle of the lattice at `center`; x runs fastest, so particle (i, j, k) has
 /// the id  i + size.x (j + size.y k).
-fn build(settings: &Settings) -> Result<Particles, Error> {
+fn build(settings: &Settings) -> Result<State, Error> {
     let reader = Reader { shape: "lattice", settings };
     let size = reader.vector("size")?;
     if size.to_array().iter().any(|n| n.fract() != 0.0 || *n < 1.0) {

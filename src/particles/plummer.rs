@@ -5,9 +5,10 @@ use std::f64::consts::PI;
 
 use super::build::{CENTER, COUNT, G, PARTICLE_RADIUS, Reader, SEED, TOTAL_MASS, VELOCITY};
 use super::random::Random;
-use super::{Particles, Shape, one_part};
+use super::{Shape, one_part};
 use crate::error::Error;
 use crate::settings::{Key, Kind, Settings, Value};
+use crate::state::State;
 
 /// The shape `plummer`.
 pub const PLUMMER: Shape = Shape {
@@ -41,7 +42,7 @@ const KEYS: &[Key] = &[
 ];
 
 /// `count` particles of equal mass; their centre of mass is at rest at `center`, up to `velocity`.
-fn build(settings: &Settings) -> Result<Particles, Error> {
+fn build(settings: &Settings) -> Result<State, Error> {
     let reader = Reader { shape: "plummer", settings };
     let (count, mut particles) = reader.room()?;
     let mut random = Random::new(settings.whole("seed"));

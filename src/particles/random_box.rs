@@ -4,9 +4,10 @@ use glam::DVec3;
 
 use super::build::{CENTER, COUNT, PARTICLE_RADIUS, Reader, SEED, VELOCITY};
 use super::random::Random;
-use super::{Particles, Shape, one_part};
+use super::{Shape, one_part};
 use crate::error::Error;
 use crate::settings::{Key, Kind, Settings, Value};
+use crate::state::State;
 
 /// The shape `box`.
 pub const RANDOM_BOX: Shape = Shape {
@@ -39,7 +40,7 @@ const KEYS: &[Key] = &[
 ];
 
 /// `count` particles. Their mean velocity is `velocity` exactly, so that a warm box does not drift.
-fn build(settings: &Settings) -> Result<Particles, Error> {
+fn build(settings: &Settings) -> Result<State, Error> {
     let reader = Reader { shape: "box", settings };
     let (count, mut particles) = reader.room()?;
     let mut random = Random::new(settings.whole("seed"));
@@ -62,7 +63,7 @@ fn build(settings: &Settings) -> Result<Particles, Error> {
         particles.push(DVec3::new(x, y, z) * size + center, thermal, mass, radius);
     }
     let (_, drift) = particles.center();
-    for v in &mut particles.velocity {
+    for v in particles.velocity_mut() {
         *v = *v - drift + velocity;
     }
     reader.finished(particles)

@@ -4,11 +4,11 @@ use std::borrow::Cow;
 
 use glam::DVec3;
 
-use super::Particles;
 use super::build::{PARTICLE_RADIUS, Reader, hold};
 use crate::error::Error;
 use crate::fluids::{Smoothing, gap};
 use crate::settings::{Key, Kind, Value};
+use crate::state::State;
 
 pub(super) const SPACING: Key = Key::required(
     "spacing",
@@ -85,7 +85,7 @@ impl Skin {
         (0..self.layers).map(|k| self.depth + f64::from(k) * self.spacing)
     }
     /// Particles at these places, all held. What they weigh, the force finds out.
-    pub fn filled(&self, reader: &Reader<'_>, places: Vec<DVec3>) -> Result<Particles, Error> {
+    pub fn filled(&self, reader: &Reader<'_>, places: Vec<DVec3>) -> Result<State, Error> {
         let (_, mut particles) = reader.room_for(places.len() as u64)?;
         for place in places {
             particles.push(place, DVec3::ZERO, self.mass, self.radius);

@@ -4,9 +4,10 @@ use glam::DVec3;
 
 use super::build::{CENTER, COUNT, G, PARTICLE_RADIUS, Reader, SEED, TOTAL_MASS, VELOCITY};
 use super::random::Random;
-use super::{Particles, Shape, one_part};
+use super::{Shape, one_part};
 use crate::error::Error;
 use crate::settings::{Key, Kind, Settings, Value};
+use crate::state::State;
 
 /// The shape `sphere`.
 pub const SPHERE: Shape = Shape {
@@ -41,7 +42,7 @@ const KEYS: &[Key] = &[
 ];
 
 /// `count` particles of equal mass. With  |W| = 3 G M² / 5 R  the dispersion per axis is  σ² = 2/5 virial G M / R.
-fn build(settings: &Settings) -> Result<Particles, Error> {
+fn build(settings: &Settings) -> Result<State, Error> {
     let reader = Reader { shape: "sphere", settings };
     let (count, mut particles) = reader.room()?;
     let mut random = Random::new(settings.whole("seed"));

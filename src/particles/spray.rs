@@ -4,9 +4,10 @@ use glam::{DMat3, DVec3};
 
 use super::build::{CENTER, COUNT, PARTICLE_RADIUS, Reader, SEED, VELOCITY};
 use super::random::Random;
-use super::{Particles, Shape, one_part};
+use super::{Shape, one_part};
 use crate::error::Error;
 use crate::settings::{Key, Kind, Settings, Value};
+use crate::state::State;
 
 /// The shape `spray`.
 pub const SPRAY: Shape = Shape {
@@ -42,7 +43,7 @@ const KEYS: &[Key] = &[
 ];
 
 /// `count` particles that leave the nozzle at `center` all at once, their directions uniform in the solid angle of the cone.
-fn build(settings: &Settings) -> Result<Particles, Error> {
+fn build(settings: &Settings) -> Result<State, Error> {
     let reader = Reader { shape: "spray", settings };
     let (count, mut particles) = reader.room()?;
     let mut random = Random::new(settings.whole("seed"));
@@ -91,16 +92,16 @@ mod tests {
             .with("nozzle", Value::Number(0.5));
         let spray = build(&settings).expect("these settings are sound");
         let n = 20_000.0;
-        let cosines: Vec<f64> = spray.velocity.iter().map(|v| v.normalize().dot(axis / 3.0)).collect();
+        let cosines: Vec<f64> = spray.velocity().iter().map(|v| v.normalize().dot(axis / 3.0)).collect();
         assert!(cosines.iter().all(|&c| c >= 0.5 - 1e-12));
         // Uniform on [1/2, 1]: mean 3/4, deviation 1/√48; five standard errors.
         let mean = cosines.iter().sum::<f64>() / n;
         assert!((mean - 0.75).abs() < 5.0 * (1.0_f64 / 48.0 / n).sqrt(), "{mean}");
-        let speed = spray.velocity.iter().map(|v| v.length()).sum::<f64>() / n;
+        let speed = spray.velocity().iter().map(|v| v.length()).sum::<f64>() / n;
         assert!((speed - 3.0).abs() < 5.0 * 0.3 / n.sqrt(), "{speed}");
         // Mean square radius of a disk is R² / 2, with deviation R² / √12.
-        let square = spray.position.iter().map(|x| x.length_squared()).sum::<f64>() / n;
+        let square = spray.position().iter().map(|x| x.length_squared()).sum::<f64>() / n;
         assert!((square - 0.125).abs() < 5.0 * 0.25 / 12f64.sqrt() / n.sqrt(), "{square}");
-        assert!(spray.position.iter().all(|x| x.dot(axis).abs() < 1e-12), "the nozzle is flat");
+        assert!(spray.position().iter().all(|x| x.dot(axis).abs() < 1e-12), "the nozzle is flat");
     }
 }

@@ -13,9 +13,10 @@ use glam::DVec3;
 
 use super::build::{CENTER, Reader};
 use super::skin::{DENSITY, KERNEL, LAYERS, RADIUS, SPACING, SUPPORT, Skin, WALL_MASS, cells, steps};
-use super::{Particles, Shape, one_part};
+use super::{Shape, one_part};
 use crate::error::Error;
 use crate::settings::{Key, Kind, Settings, Value};
+use crate::state::State;
 
 /// The shape `tank`.
 pub const TANK: Shape = Shape {
@@ -46,7 +47,7 @@ const KEYS: &[Key] = &[
 
 /// The walls of a room that is as many spacings long as fit best, so that a block of the same size fills it. They stand on the
 /// fluid's own lattice, but for the distance from the face: there the first layer of the fluid is at rest.
-fn build(settings: &Settings) -> Result<Particles, Error> {
+fn build(settings: &Settings) -> Result<State, Error> {
     let reader = Reader { shape: "tank", settings };
     let size = reader.vector("size")?;
     let flat = size.z == 0.0;

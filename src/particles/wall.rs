@@ -8,9 +8,10 @@ use glam::DVec3;
 use super::build::{CENTER, Reader};
 use super::mesh::Mesh;
 use super::skin::{DENSITY, KERNEL, LAYERS, RADIUS, SPACING, SUPPORT, Skin, WALL_MASS, cells, steps};
-use super::{Particles, Shape, one_part};
+use super::{Shape, one_part};
 use crate::error::Error;
 use crate::settings::{Key, Kind, Settings, Value};
+use crate::state::State;
 
 /// The shape `wall`.
 pub const WALL: Shape = Shape {
@@ -55,7 +56,7 @@ const KEYS: &[Key] = &[
 ];
 
 /// One or more layers of particles behind a face, so far that the first layer of fluid before it is at rest.
-fn build(settings: &Settings) -> Result<Particles, Error> {
+fn build(settings: &Settings) -> Result<State, Error> {
     let reader = Reader { shape: "wall", settings };
     let (size, surface) = (reader.vector("size")?, settings.text("surface"));
     let flat = match surface {

@@ -4,8 +4,8 @@ use glam::DVec3;
 
 use super::{KEYS, Trail};
 use crate::kernel::{Bounds, Side};
-use crate::particles::Particles;
 use crate::settings::{Settings, Value};
+use crate::state::State;
 
 /// An eye, what it looks at, and how much of it is in the picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -38,7 +38,7 @@ const SAMPLE: usize = 20_000;
 impl Camera {
     /// The camera of a scene's `[picture]`, with all that matters of these particles and their trails in view.
     #[must_use]
-    pub fn fit(particles: &Particles, trail: &Trail, settings: &Settings) -> Self {
+    pub fn fit(particles: &State, trail: &Trail, settings: &Settings) -> Self {
         let back = settings.vector("eye").normalize_or(DVec3::NEG_Y);
         let wanted = settings.vector("up").cross(back);
         // Straight from above, up in the picture is y.
@@ -64,11 +64,11 @@ impl Camera {
         self.distance = if perspective { extent / HALF_VIEW } else { 0.0 };
     }
 
-    fn frame(&mut self, particles: &Particles, trail: &Trail, aspect: f64, perspective: bool) {
+    fn frame(&mut self, particles: &State, trail: &Trail, aspect: f64, perspective: bool) {
         let few = particles.len() <= FEW;
         let stride = particles.len().div_ceil(SAMPLE).max(1);
         let mut shapes: Vec<(DVec3, f64)> =
-            particles.position.iter().copied().zip(particles.radius.iter().copied()).step_by(stride).collect();
+            particles.position().iter().copied().zip(particles.size().iter().copied()).step_by(stride).collect();
         if particles.population().living > 0 {
             let lives = (0..particles.len()).step_by(stride).map(|id| particles.lives(id));
             shapes = shapes.into_iter().zip(lives).filter_map(|(shape, lives)| lives.then_some(shape)).collect();
@@ -117,7 +117,7 @@ pub fn framed(settings: &Settings, bounds: &Bounds) -> Settings {
     if !settings.flag("auto_frame") || bounds.sides[..axes].contains(&Side::Open) {
         return settings.clone();
     }
-    let mut corners = Particles::default();
+    let mut corners = State::default();
     for corner in 0..1 << axes {
         let bit = |axis: usize| f64::from(corner >> axis & 1);
         let along = |axis: usize| {
@@ -175,7 +175,7 @@ mod tests {
     }
     /// How much of the picture these particles and trails fill, from the middle to the fuller edge.
     fn filled(shapes: &[(DVec3, f64)], past: &[DVec3], projection: &'static str) -> f64 {
-        let mut particles = Particles::default();
+        let mut particles = State::default();
         for (x, radius) in shapes {
             particles.push(*x, DVec3::ZERO, 1.0, *radius);
         }
@@ -213,7 +213,7 @@ mod tests {
             let (low, high) = if flat { (low.with_z(7.0), high.with_z(7.0)) } else { (low, high) };
             let bounds = Bounds::new(low, high, Side::Reflecting);
             let framed = framed(&settings, &bounds);
-            let mut particles = Particles::default();
+            let mut particles = State::default();
             particles.push(DVec3::ZERO, DVec3::ZERO, 1.0, 0.0);
             // Whatever the particles.
             let camera = Camera::fit(&particles, &Trail::new(0), &framed);

@@ -67,13 +67,13 @@ pub async fn shoot<B: Backend>(backend: &mut B, film: &mut Film) -> Result<Image
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::particles::Particles;
     use crate::render::KEYS;
     use crate::settings::Settings;
+    use crate::state::State;
 
     #[test]
     fn the_exposure_follows_slowly_and_arrives() {
-        let mut particles = Particles::default();
+        let mut particles = State::default();
         particles.push(glam::DVec3::ONE, glam::DVec3::ZERO, 1.0, 0.0);
         let picture = Picture::new(&Settings::defaults(KEYS), &particles, &[], Trail::new(1)).unwrap();
         let extent = picture.frame.camera.extent;

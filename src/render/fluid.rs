@@ -3,8 +3,8 @@
 use glam::DVec3;
 
 use super::{Camera, Scenery, Water};
-use crate::particles::Particles;
 use crate::settings::Settings;
+use crate::state::State;
 
 /// Radii of drops, as a part of how far apart they are: with less there are holes, with more a fluid is fat.
 const FULL: f64 = 0.75;
@@ -32,7 +32,7 @@ impl Water {
     /// That of a scene's `[picture]`; `painted` where colours say something.
     pub(super) fn of(
         settings: &Settings,
-        particles: &Particles,
+        particles: &State,
         scenery: &Scenery,
         camera: &Camera,
         painted: bool,
@@ -78,15 +78,15 @@ impl Water {
 
 /// The radius of drops of particles that are not held, by the middle of the distances from some to their nearest; zero
 /// where there is but one.
-pub fn drop_of(particles: &Particles) -> f64 {
+pub fn drop_of(particles: &State) -> f64 {
     let mut free = vec![true; particles.len()];
     for one in &particles.held {
         if let Some(one) = free.get_mut(one.id as usize) {
             *one = false;
         }
     }
-    let of = |id: usize| free[id] && particles.position[id].is_finite();
-    let places: Vec<DVec3> = (0..free.len()).filter(|id| of(*id)).map(|id| particles.position[id]).collect();
+    let of = |id: usize| free[id] && particles.position()[id].is_finite();
+    let places: Vec<DVec3> = (0..free.len()).filter(|id| of(*id)).map(|id| particles.position()[id]).collect();
     let nearest = |x: &DVec3| {
         let squares = places.iter().map(|y| x.distance_squared(*y)).filter(|square| *square > 0.0);
         squares.fold(f64::INFINITY, f64::min).sqrt()

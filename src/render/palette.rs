@@ -1,8 +1,8 @@
 //! Colours of groups, and how a picture's particles get theirs.
 
 use super::camera::FEW;
-use crate::particles::Particles;
 use crate::settings::Settings;
+use crate::state::State;
 
 /// Colours that stay apart on a dark background, for most eyes; red, green, blue.
 const PALETTE: [[u8; 3]; 10] = [
@@ -49,7 +49,7 @@ pub fn group_color(group: u32) -> [u8; 3] {
 impl Color {
     /// As the scene's `color` says. `groups` has a number for each particle, or is empty when all are one group.
     #[must_use]
-    pub fn choose(settings: &Settings, particles: &Particles, groups: &[u32]) -> Self {
+    pub fn choose(settings: &Settings, particles: &State, groups: &[u32]) -> Self {
         let several = groups.iter().any(|g| Some(g) != groups.first());
         let few = particles.len() <= FEW;
         let by_speed = match settings.text("color") {
@@ -69,8 +69,8 @@ impl Color {
         Self::Given((0..particles.len()).map(group).collect())
     }
 
-    fn by_speed(particles: &Particles) -> Self {
-        let mut speeds: Vec<f64> = particles.velocity.iter().map(|v| v.length()).filter(|v| v.is_finite()).collect();
+    fn by_speed(particles: &State) -> Self {
+        let mut speeds: Vec<f64> = particles.velocity().iter().map(|v| v.length()).filter(|v| v.is_finite()).collect();
         if speeds.is_empty() {
             return Self::Speed { slow: 0.0, fast: 1.0 };
         }

@@ -17,8 +17,8 @@ use super::{blank, cover, drops, fluid, foam, halo, heading, hide, meter, paint,
 use super::{settle, shade, splat, streak, stroke, tear, tone, vertex};
 use crate::error::Error;
 use crate::kernel::Plan;
-use crate::particles::Particles;
 use crate::settings::{Settings, Value};
+use crate::state::State;
 
 /// A picture of so many particles, from one place. It can be drawn again and again as they move.
 #[derive(Debug, Clone, PartialEq)]
@@ -53,7 +53,7 @@ impl Picture {
     ///
     /// # Errors
     /// [`Error::Scene`] when there are no particles or too many, or the picture is too large.
-    pub fn new(settings: &Settings, particles: &Particles, groups: &[u32], trail: Trail) -> Result<Self, Error> {
+    pub fn new(settings: &Settings, particles: &State, groups: &[u32], trail: Trail) -> Result<Self, Error> {
         Self::with(settings, particles, groups, trail, &Scenery::default())
     }
     /// The same with what ties the particles together, and with solids. What of it is drawn the key `draw` says.
@@ -62,7 +62,7 @@ impl Picture {
     /// As for [`Picture::new`]; when a link has an id that no particle has, or there are too many solids.
     pub fn with(
         settings: &Settings,
-        particles: &Particles,
+        particles: &State,
         groups: &[u32],
         trail: Trail,
         scenery: &Scenery,
@@ -102,7 +102,7 @@ impl Picture {
             count,
             width: super::frame::whole(width),
             height: super::frame::whole(height),
-            heaviest: particles.mass.iter().copied().fold(0.0, f64::max),
+            heaviest: particles.mass().iter().copied().fold(0.0, f64::max),
             marker: match style {
                 "auto" | "balls" if few => 0.025 * short / (1.0 + f64::from(count) / 16.0),
                 "balls" => 1.0,
@@ -152,7 +152,7 @@ impl Picture {
             trail,
             exposure: settings.number("exposure"),
             facets,
-            mortal: !particles.life.is_empty(),
+            mortal: !particles.life().is_empty(),
         })
     }
     /// The same picture with other trails.
@@ -246,7 +246,7 @@ impl Picture {
 }
 
 /// Particles, and where solids reach to.
-fn beside<'a>(particles: &'a Particles, solids: &[Solid]) -> Cow<'a, Particles> {
+fn beside<'a>(particles: &'a State, solids: &[Solid]) -> Cow<'a, State> {
     let mut all = Cow::Borrowed(particles);
     for (solid, reach) in solids.iter().filter_map(|solid| Some((solid, solid.reach()?))) {
         all.to_mut().push(solid.place, DVec3::ZERO, 0.0, reach);
@@ -266,8 +266,8 @@ fn unit(count: u32) -> f64 {
 
 /// The radius from which on a particle is a ball. A picture in which like particles are balls here and lights there, as
 /// they are near or far, is no good: where the usual size is enough for balls, all that have one are.
-fn solid(particles: &Particles, scale: f64, few: bool) -> f64 {
-    let mut sizes: Vec<f64> = particles.radius.iter().copied().filter(|radius| *radius > 0.0).collect();
+fn solid(particles: &State, scale: f64, few: bool) -> f64 {
+    let mut sizes: Vec<f64> = particles.size().iter().copied().filter(|radius| *radius > 0.0).collect();
     if few {
         return 0.5;
     }

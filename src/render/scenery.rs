@@ -13,8 +13,8 @@ use crate::error::Error;
 use crate::kernel::{Bounds, Kernel, Name, Side};
 use crate::links::{Links, MOST_LINKS, Network};
 use crate::motion::{Hold, Motion};
-use crate::particles::Particles;
 use crate::solids::Standing;
+use crate::state::State;
 
 /// What a picture shows beside particles.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -38,7 +38,7 @@ pub struct Scenery {
 impl Scenery {
     /// What ties particles together, and no solids.
     #[must_use]
-    pub fn of(particles: &Particles) -> Self {
+    pub fn of(particles: &State) -> Self {
         let held = particles.held.iter().map(|one| one.id).collect();
         let bounded = around_walls(particles);
         let tanks = bounded.into_iter().collect();
@@ -65,7 +65,7 @@ impl Scenery {
     }
     /// The same with what stands in a scene, on the motions of these particles, as at the time 0.
     #[must_use]
-    pub fn beside(self, standing: Vec<Standing>, particles: &Particles) -> Self {
+    pub fn beside(self, standing: Vec<Standing>, particles: &State) -> Self {
         Self { standing: (standing, particles.motions.clone()), ..self }.at(0.0)
     }
     /// The same with its solids where they are at a time.
@@ -260,9 +260,9 @@ fn upright(low: DVec3, high: DVec3) -> Solid {
 }
 
 /// The box around all particles that stay where they are.
-fn around_walls(particles: &Particles) -> Option<Solid> {
+fn around_walls(particles: &State) -> Option<Solid> {
     let fixed = particles.held.iter().filter(|one| one.by == Hold::Fixed);
-    let places = fixed.filter_map(|one| particles.position.get(one.id as usize)).filter(|x| x.is_finite());
+    let places = fixed.filter_map(|one| particles.position().get(one.id as usize)).filter(|x| x.is_finite());
     let ends = places.fold(None, |ends, x| {
         let (low, high) = ends.unwrap_or((*x, *x));
         Some((low.min(*x), high.max(*x)))

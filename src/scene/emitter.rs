@@ -2,8 +2,9 @@
 
 use crate::error::Error;
 use crate::life::Birth;
-use crate::particles::{Particles, emitter};
+use crate::particles::emitter;
 use crate::settings::{Key, Kind, Settings, Value};
+use crate::state::State;
 
 use super::color;
 use super::fluid;
@@ -31,7 +32,7 @@ pub(super) struct Emitted {
 pub(super) fn read(
     table: &Table<'_>,
     (dimensions, end, room, said): (u32, f64, u32, &[Entry]),
-    particles: &mut Particles,
+    particles: &mut State,
     out: &mut Writer,
     report: &mut Report,
 ) -> Option<Emitted> {
@@ -70,7 +71,9 @@ pub(super) fn read(
     let count = u32::try_from(made.len()).unwrap_or(u32::MAX);
     let Some((entry, first)) = first else {
         let species = u32::try_from(own.whole("species")).unwrap_or(u32::MAX);
-        particles.append(&made.of_species(species));
+        if let Err(why) = particles.append(&made.of_species(species)) {
+            report.push(Fault::at(table.place, why.to_string()));
+        }
         return Some(Emitted { count, color });
     };
     out.line("first", &first.to_string());
@@ -81,12 +84,15 @@ pub(super) fn read(
         report.push(fault.label(format!("there are {have}: those of the file's own emitters are to be in it")));
         return None;
     }
-    let mut births = Particles { births: made.births, ..Particles::default() };
+    let mut births = State::default();
+    births.births = made.births;
     let first = u32::try_from(first).unwrap_or(u32::MAX);
     births.births.iter_mut().for_each(|birth| *birth = Birth { id: birth.id + first, ..*birth });
-    let mut emitters = Particles::default();
+    let mut emitters = State::default();
     emitters.births.clone_from(&particles.births);
-    emitters.append(&births);
+    if let Err(why) = emitters.append(&births) {
+        report.push(Fault::at(table.place, why.to_string()));
+    }
     particles.births = emitters.births;
     Some(Emitted { count: 0, color })
 }

@@ -3,8 +3,9 @@
 use crate::error::Error;
 use crate::forces::{self, Force, Problem};
 use crate::kernel::{Bounds, Machine};
-use crate::particles::{Particles, SHAPES};
+use crate::particles::SHAPES;
 use crate::settings::{Key, Value};
+use crate::state::State;
 
 use super::EMITTER_KEYS;
 use super::report::{Fault, Place, Report};
@@ -81,7 +82,7 @@ fn given(table: &Table<'_>, keys: &[Key], name: &str) -> Option<Value> {
 pub(super) fn check(
     table: &Table<'_>,
     force: &dyn Force,
-    (bounds, particles, earlier): (&Bounds, &Particles, bool),
+    (bounds, particles, earlier): (&Bounds, &State, bool),
     report: &mut Report,
 ) -> bool {
     let machine = Machine::HOST;

@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 
 use crate::motion::{Held, Hold, Motion};
-use crate::particles::Particles;
 use crate::settings::Kind;
+use crate::state::State;
 
 use super::report::{Fault, Report};
 use super::resolved::Writer;
@@ -19,7 +19,7 @@ pub(super) const OWN: &[&str] = &["fixed", "motion"];
 pub(super) fn read(
     table: &Table<'_>,
     motions: &[Motion],
-    particles: &mut Particles,
+    particles: &mut State,
     out: &mut Writer,
     report: &mut Report,
 ) {
@@ -52,7 +52,7 @@ pub(super) fn motion<'a>(table: &Table<'_>, names: &[&'a str], report: &mut Repo
     walk::choice(entry, "motion", names, report)
 }
 
-fn fixed(table: &Table<'_>, particles: &mut Particles, out: &mut Writer, report: &mut Report) {
+fn fixed(table: &Table<'_>, particles: &mut State, out: &mut Writer, report: &mut Report) {
     let Some(entry) = table.get("fixed") else { return };
     let Data::List(list) = &entry.node.data else {
         value::refuse::<()>(&entry.node, "fixed", "a list of whole numbers, as in [0, 7]", report);

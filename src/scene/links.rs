@@ -7,8 +7,8 @@ use glam::DVec3;
 use crate::io::links::{self, Tie, Usual};
 use crate::kernel::Bounds;
 use crate::links::Links;
-use crate::particles::Particles;
 use crate::settings::{Key, Kind, Settings, Value};
+use crate::state::State;
 
 use super::files::{Files, Located};
 use super::report::{Fault, Report};
@@ -35,7 +35,7 @@ pub(super) const OWN: &[&str] = &["file", "pairs"];
 /// Reads a section about particles that are there already, and adds its links to theirs.
 pub(super) fn read(
     table: &Table<'_>,
-    particles: &mut Particles,
+    particles: &mut State,
     bounds: &Bounds,
     files: &Files,
     out: &mut Writer,
@@ -47,13 +47,13 @@ pub(super) fn read(
     let usual = usual(&settings);
     out.header("[[links]]");
     let links = match entry.key.as_str() {
-        "file" => from_file(entry, &particles.position, bounds, &usual, files, out, report),
-        _ => from_pairs(entry, &particles.position, bounds, &usual, out, report),
+        "file" => from_file(entry, particles.position(), bounds, &usual, files, out, report),
+        _ => from_pairs(entry, particles.position(), bounds, &usual, out, report),
     };
     out.settings(LINKS_KEYS, &settings);
     let Some(links) = links.filter(|_| report.len() == faults) else { return };
     particles.links.append(&links, 0);
-    if let Err(why) = particles.links.check(&particles.mass) {
+    if let Err(why) = particles.links.check(particles.mass()) {
         report.push(Fault::at(&entry.node.place, why.to_string()));
     }
 }

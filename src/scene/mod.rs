@@ -42,9 +42,9 @@ use std::ops::Range;
 use crate::forces::Force;
 use crate::integrators;
 use crate::kernel::{Bounds, Pace, Solver};
-use crate::particles::Particles;
 use crate::render;
 use crate::settings::Settings;
+use crate::state::State;
 
 pub use bounds::BOX_KEYS;
 pub use builtin::{Builtin, SCENES};
@@ -84,7 +84,7 @@ pub struct Scene {
     /// Where particles may be.
     pub bounds: Bounds,
     /// All particles, in the order of the scene; at least one.
-    pub particles: Particles,
+    pub particles: State,
     /// One for each `[[particles]]`, or for each of its parts (a disk, its halo), in their order; together they cover every
     /// id.
     pub groups: Vec<Group>,
@@ -172,7 +172,7 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
         motions.extend(motion::read(table, &motions, (simulation.dt, &bounds), &mut out, report));
     }
 
-    let mut particles = Particles::default();
+    let mut particles = State::default();
     let mut groups = Vec::new();
     if all("particles").chain(all("emitter")).next().is_none() {
         let fault = Fault::missing(&Place::end(), "there are no particles");
@@ -185,7 +185,9 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
         let start = ids(&particles);
         let room = options.most_particles.saturating_sub(start);
         if let Some(block) = particles::read(table, room, (files, &motions, &said), report) {
-            particles.append(&block.particles);
+            if let Err(why) = particles.append(&block.particles) {
+                report.push(Fault::at(table.place, why.to_string()));
+            }
             let mut end = start;
             for (count, color) in block.parts {
                 groups.push(Group { ids: end..end + count, color });
@@ -267,6 +269,6 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
 }
 
 /// How many particles, as an id. `most_particles` keeps it within 32 bits.
-fn ids(particles: &Particles) -> u32 {
+fn ids(particles: &State) -> u32 {
     u32::try_from(particles.len()).unwrap_or(u32::MAX)
 }

@@ -7,8 +7,9 @@ use glam::DVec3;
 use crate::error::Error;
 use crate::io;
 use crate::motion::{Held, Hold, Motion};
-use crate::particles::{Particles, SHAPES, Shape};
+use crate::particles::{SHAPES, Shape};
 use crate::settings::{Key, Kind, Settings, Value};
+use crate::state::State;
 
 use super::color;
 use super::files::{Files, Located};
@@ -45,7 +46,7 @@ const BODY: &[Key] = &[
 
 /// One entry, read.
 pub(super) struct Block {
-    pub(super) particles: Particles,
+    pub(super) particles: State,
     /// Its parts, as the picture tells them apart: how many particles, and their colour; the last has the rest.
     pub(super) parts: Vec<(u32, Option<[u8; 3]>)>,
     /// The entry as the resolved scene has it.
@@ -84,7 +85,7 @@ pub(super) fn read(
     if let Some(species) = species {
         out.line("species", &species.to_string());
     }
-    let mut particles = species.into_iter().fold(particles, Particles::of_species);
+    let mut particles = species.into_iter().fold(particles, State::of_species);
     held::read(table, motions, &mut particles, &mut out, report);
     // Parts that nobody tells apart are one.
     if others.iter().all(|(_, own)| own.is_none()) {
@@ -115,13 +116,7 @@ fn species(entry: &Entry, report: &mut Report) -> Option<u32> {
     Some(number as u32)
 }
 
-fn from_file(
-    table: &Table<'_>,
-    entry: &Entry,
-    files: &Files,
-    out: &mut Writer,
-    report: &mut Report,
-) -> Option<Particles> {
+fn from_file(table: &Table<'_>, entry: &Entry, files: &Files, out: &mut Writer, report: &mut Report) -> Option<State> {
     let offsets = table.named(format!("{} file", table.name)).settings(OFFSETS, &beside("file"), report);
     let name = value::text(&entry.node, "file", "the name of a file", report)?;
     let place = &entry.node.place;
@@ -153,7 +148,7 @@ fn from_shape(
     parts: &mut Vec<(u32, Option<[u8; 3]>)>,
     out: &mut Writer,
     report: &mut Report,
-) -> Option<Particles> {
+) -> Option<State> {
     let names: Vec<_> = SHAPES.iter().map(|s| s.name).collect();
     let name = walk::choice(entry, "shape", &names, report)?;
     let shape = SHAPES.iter().find(|s| s.name == name)?;
@@ -224,12 +219,12 @@ fn wanted_count(shape: &Shape, settings: &Settings) -> (&'static str, f64) {
     }
 }
 
-fn from_bodies(table: &Table<'_>, entry: &Entry, out: &mut Writer, report: &mut Report) -> Option<Particles> {
+fn from_bodies(table: &Table<'_>, entry: &Entry, out: &mut Writer, report: &mut Report) -> Option<State> {
     let offsets = table.named(format!("{} bodies", table.name)).settings(OFFSETS, &beside("bodies"), report);
     let Data::List(list) = &entry.node.data else {
         return value::refuse(&entry.node, "bodies", "a list of tables, as in [{ position = [1, 0, 0] }]", report);
     };
-    let mut particles = Particles::default();
+    let mut particles = State::default();
     let mut text = String::from("[\n");
     for node in list {
         let Data::Table(entries) = &node.data else {
@@ -257,15 +252,15 @@ fn from_bodies(table: &Table<'_>, entry: &Entry, out: &mut Writer, report: &mut 
     Some(moved(particles, &offsets))
 }
 
-fn moved(mut particles: Particles, offsets: &Settings) -> Particles {
+fn moved(mut particles: State, offsets: &Settings) -> State {
     let [center, velocity] = ["center", "velocity"].map(|k| offsets.vector(k));
-    particles.position.iter_mut().for_each(|x| *x += center);
-    particles.velocity.iter_mut().for_each(|v| *v += velocity);
+    particles.position_mut().iter_mut().for_each(|x| *x += center);
+    particles.velocity_mut().iter_mut().for_each(|v| *v += velocity);
     particles
 }
 
 /// What files and generators promise, checked once for all of them.
-fn sound(particles: &Particles, room: u32, place: &Place) -> Result<(), Fault> {
+fn sound(particles: &State, room: u32, place: &Place) -> Result<(), Fault> {
     let count = particles.len();
     if count == 0 {
         return Err(Fault::at(place, "there are no particles in it"));
@@ -276,13 +271,13 @@ fn sound(particles: &Particles, room: u32, place: &Place) -> Result<(), Fault> {
         );
     }
     let fits = |x: f64| x.abs() <= f64::from(f32::MAX);
-    let vectors = [("position", &particles.position), ("velocity", &particles.velocity)];
+    let vectors = [("position", particles.position()), ("velocity", particles.velocity())];
     let wrong = vectors.iter().find_map(|(what, list)| {
         let id = list.iter().position(|v| !v.to_array().into_iter().all(fits))?;
         Some((id, *what, format!("{}", list[id]), "finite numbers that fit single precision"))
     });
     let wrong = wrong.or_else(|| {
-        [("mass", &particles.mass), ("radius", &particles.radius)].iter().find_map(|(what, list)| {
+        [("mass", particles.mass()), ("radius", particles.size())].iter().find_map(|(what, list)| {
             let id = list.iter().position(|&x| !(x >= 0.0 && fits(x)))?;
             Some((id, *what, format!("{}", list[id]), "a finite number, zero or above"))
         })

@@ -20,14 +20,14 @@ pub(super) struct Kept {
 
 /// Asks all forces.
 pub(super) fn kept(setup: &Setup, problem: &Problem) -> Result<Kept, Error> {
-    let mut kept = Kept { places: setup.particles.position.clone(), moved: Vec::new() };
+    let mut kept = Kept { places: setup.state.position().to_vec(), moved: Vec::new() };
     let keepers = setup.forces.iter().filter_map(|force| force.keeper(problem).transpose());
     let keepers = keepers.collect::<Result<Vec<_>, _>>()?;
     if keepers.is_empty() {
         return Ok(kept);
     }
     for id in (0..kept.places.len()).filter(|id| !problem.is_held(*id)) {
-        let (before, species) = (kept.places[id], setup.particles.species[id]);
+        let (before, species) = (kept.places[id], setup.state.species()[id]);
         let after = keepers.iter().fold(before, |x, keeper| keeper(species, x));
         let way = (after - before).length();
         if way > ROUNDING * before.abs().max_element() {

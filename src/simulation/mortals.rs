@@ -3,14 +3,14 @@
 use crate::error::Error;
 use crate::forces::{Force, Over};
 use crate::integrators::Integrator;
-use crate::particles::Particles;
+use crate::state::State;
 
 /// Whether forces and an integrator know who lives. Who waits or is dead is in no grid, has no mass, and is put to rest after
 /// every evaluation: that serves searches of a grid, what acts on each alone, and attraction by mass. It does not serve ties.
 ///
 /// # Errors
 /// [`Error::Scene`] that names what does not.
-pub fn serves(particles: &Particles, forces: &[Box<dyn Force>], integrator: &dyn Integrator) -> Result<(), Error> {
+pub fn serves(particles: &State, forces: &[Box<dyn Force>], integrator: &dyn Integrator) -> Result<(), Error> {
     if !particles.is_mortal() {
         return Ok(());
     }

@@ -11,12 +11,12 @@ use crate::integrators::{Integrator, Step};
 use crate::kernel::{Bounds, Columns, Machine, Plan, Solver};
 use crate::life;
 use crate::motion::{self, Hold};
-use crate::particles::Particles;
+use crate::state::State;
 
 /// What a simulation is made of.
 pub struct Setup {
-    /// What moves.
-    pub particles: Particles,
+    /// What moves, and where it starts.
+    pub state: State,
     /// What moves it, in this order.
     pub forces: Vec<Box<dyn Force>>,
     /// How.
@@ -84,7 +84,7 @@ impl Setup {
     /// Refuses a tree whose nodes single precision cannot hold.
     fn weigh(&self, problem: &Problem) -> Result<(), Error> {
         let walks = self.forces.iter().flat_map(|force| force.laws()).any(|law| law.tree(problem).is_some());
-        let mass: f64 = self.particles.mass.iter().sum();
+        let mass: f64 = self.state.mass().iter().sum();
         let side = (problem.extent.1 - problem.extent.0).max_element();
         let moment = mass * side * side;
         if walks && moment > f64::from(f32::MAX) {
@@ -101,11 +101,11 @@ impl Setup {
     /// When the setup makes no sense.
     pub fn problem(&self, machine: Machine) -> Result<Problem, Error> {
         Ok(Problem::new(self.check()?, machine)
-            .at(&self.particles.position, self.bounds)
-            .of_species(&self.particles.species)
-            .tied(&self.particles.links, &self.particles.held)
-            .moved(&self.particles.motions, self.dt)
-            .mortal(&self.particles.births, &self.particles.drains, self.particles.is_mortal())
+            .at(self.state.position(), self.bounds)
+            .of_species(self.state.species())
+            .tied(&self.state.links, &self.state.held)
+            .moved(&self.state.motions, self.dt)
+            .mortal(&self.state.births, &self.state.drains, self.state.is_mortal())
             .breaking(self.breaks())
             .solved(self.solver)
             .paced(self.integrator.pace())
@@ -135,11 +135,11 @@ impl Setup {
         let mut media = self.forces.iter().map(|force| force.fluid(&problem));
         let Some(fluid) = media.find_map(Result::transpose).transpose()? else { return Ok(None) };
         // Who waits or is dead is in nobody's way; a scene has the ids of those last.
-        let living: Vec<usize> = (0..self.particles.len()).filter(|id| self.particles.lives(*id)).collect();
+        let living: Vec<usize> = (0..self.state.len()).filter(|id| self.state.lives(*id)).collect();
         let of = |list: &[DVec3]| -> Vec<DVec3> { living.iter().map(|id| list[*id]).collect() };
         let keepers::Kept { places, moved } = keepers::kept(self, &problem)?;
-        let (position, velocity) = (of(&places), of(&self.particles.velocity));
-        let mass: Vec<f64> = living.iter().map(|id| self.particles.mass[*id]).collect();
+        let (position, velocity) = (of(&places), of(self.state.velocity()));
+        let mass: Vec<f64> = living.iter().map(|id| self.state.mass()[*id]).collect();
         let walls: Vec<bool> = living.iter().map(|id| problem.is_held(*id)).collect();
         if problem.mortal && walls.iter().all(|wall| *wall) {
             return Ok(None);
@@ -189,16 +189,10 @@ impl Setup {
     /// [`Error::Scene`] when there are none or too many, when dt is not a positive number, when a particle has a number
     /// that is none, or a negative mass, when there can be no such box, or when it does not hold them.
     pub fn check(&self) -> Result<u32, Error> {
-        let Particles { position, velocity, mass, radius, species, links, held, motions, life, births, drains } =
-            &self.particles;
-        let count = position.len();
-        let lengths = [velocity.len(), mass.len(), radius.len(), species.len()];
-        if lengths.iter().any(|l| *l != count) {
-            return Err(Error::Scene(format!(
-                "{count} positions come with {lengths:?} velocities, masses, radii and species: give each particle one of \
-                 each"
-            )));
-        }
+        let state = &self.state;
+        let State { links, held, motions, births, drains, .. } = state;
+        let (position, velocity, mass, size) = (state.position(), state.velocity(), state.mass(), state.size());
+        let (count, life) = (position.len(), &state.life());
         let single = f64::from(f32::MIN_POSITIVE)..=f64::from(f32::MAX);
         if !single.contains(&self.dt) {
             let text =
@@ -208,13 +202,13 @@ impl Setup {
         let fits = |x: f64| x.abs() <= f64::from(f32::MAX);
         let bad = (0..count).find(|i| {
             let vectors = [position[*i], velocity[*i]];
-            let (mass, radius) = (mass[*i], radius[*i]);
-            let good = vectors.iter().all(|v| v.to_array().into_iter().all(fits)) && fits(mass) && fits(radius);
-            !(good && mass >= 0.0 && radius >= 0.0)
+            let (mass, size) = (mass[*i], size[*i]);
+            let good = vectors.iter().all(|v| v.to_array().into_iter().all(fits)) && fits(mass) && fits(size);
+            !(good && mass >= 0.0 && size >= 0.0)
         });
         if let Some(bad) = bad {
             return Err(Error::Scene(format!(
-                "particle {bad} has a number that is NaN, infinite or beyond single precision, or a negative mass or radius"
+                "particle {bad} has a number that is NaN, infinite or beyond single precision, or a negative mass or size"
             )));
         }
         self.fluids()?;
@@ -227,7 +221,7 @@ impl Setup {
         boundary::check(&self.bounds)?;
         motion::check(held, motions, count, self.bounds.dimensions, self.dt)?;
         life::check((life, births, drains), held, count, self.bounds.dimensions)?;
-        mortals::serves(&self.particles, &self.forces, self.integrator.as_ref())?;
+        mortals::serves(&self.state, &self.forces, self.integrator.as_ref())?;
         if !links.rods.is_empty() && !self.forces.iter().any(|force| force.keeps_rods()) {
             let text = format!(
                 "nothing keeps the lengths of the rods (of which there are {}): add a [[force]] of kind = \"rod\"",

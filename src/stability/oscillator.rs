@@ -11,9 +11,9 @@ use crate::error::Error;
 use crate::forces::{self, Force};
 use crate::integrators::Integrator;
 use crate::kernel::{ACCELERATION, Array, Backend, Bounds, POSITION, Solver, VELOCITY, World};
-use crate::particles::Particles;
 use crate::settings::{Settings, Value};
 use crate::simulation::{Setup, Simulation};
+use crate::state::State;
 
 /// A run in which nothing grows by more than this is called stable.
 const MOST: f64 = 10.0;
@@ -161,14 +161,14 @@ pub fn spectral_radius(mut matrix: DMat3) -> f64 {
 /// One particle of mass 1 at x = 1, at rest, that swings with `omega` and is damped by `damping` \[1 / time\].
 #[must_use]
 pub fn oscillator(integrator: Box<dyn Integrator>, omega: f64, damping: f64, dt: f64) -> Setup {
-    let mut particles = Particles::default();
+    let mut particles = State::default();
     particles.push(DVec3::X, DVec3::ZERO, 1.0, 0.0);
     let spring = [("profile", Value::Text(Cow::Borrowed("harmonic"))), ("strength", Value::Number(omega * omega))];
     let drag = [("linear", Value::Number(damping))];
     let mut forces: Vec<Box<dyn Force>> = Vec::new();
     forces.extend(force("attractor", &spring).filter(|_| omega != 0.0));
     forces.extend(force("drag", &drag).filter(|_| damping != 0.0));
-    Setup { particles, forces, integrator, dt, bounds: Bounds::default(), solver: Solver::default() }
+    Setup { state: particles, forces, integrator, dt, bounds: Bounds::default(), solver: Solver::default() }
 }
 
 fn force(name: &str, settings: &[(&'static str, Value)]) -> Option<Box<dyn Force>> {

@@ -9,9 +9,9 @@ use crate::visit::{Body, Jacobian};
 /// The largest ω² of the joints by Gershgorin's theorem, with their lengths at the start: each is k g gᵀ, with g the change of
 /// its angle by the places of the three, across the way 1 / l₁, 1 / l₁ + 1 / l₂ and 1 / l₂.
 pub fn joints(setup: &Setup, masses: &[f64]) -> f64 {
-    let at = |id: u32| setup.particles.position.get(id as usize).copied().unwrap_or_default();
+    let at = |id: u32| setup.state.position().get(id as usize).copied().unwrap_or_default();
     let mut rows = vec![0.0; masses.len()];
-    for joint in &setup.particles.links.joints {
+    for joint in &setup.state.links.joints {
         let [a, b, c] = joint.ids;
         let inverse = |from: u32, to: u32| 1.0 / setup.bounds.shortest(at(to) - at(from)).length();
         let (before, after) = (inverse(a, b), inverse(b, c));
@@ -30,7 +30,7 @@ pub fn joints(setup: &Setup, masses: &[f64]) -> f64 {
 /// The largest stiffness and damping that laws of each particle add, by the largest sums of columns of their Jacobians at the
 /// start, which bound the eigenvalues.
 pub fn each(setup: &Setup) -> (f64, f64) {
-    let particles = &setup.particles;
+    let particles = &setup.state;
     let laws: Vec<_> = setup.forces.iter().flat_map(|force| force.laws()).collect();
     let jacobians = laws.iter().filter_map(|law| match &law.jacobian {
         Some(Jacobian::Each(jvp)) => Some(jvp),
@@ -44,11 +44,11 @@ pub fn each(setup: &Setup) -> (f64, f64) {
             let me = Body {
                 lives: true,
                 index,
-                position: particles.position[index],
-                velocity: particles.velocity[index],
-                mass: particles.mass[index],
-                radius: particles.radius[index],
-                species: particles.species[index],
+                position: particles.position()[index],
+                velocity: particles.velocity()[index],
+                mass: particles.mass()[index],
+                radius: particles.size()[index],
+                species: particles.species()[index],
             };
             let norm = |product: &dyn Fn(DVec3) -> DVec3| {
                 [DVec3::X, DVec3::Y, DVec3::Z]

@@ -36,17 +36,17 @@ impl Verdict {
     /// # Errors
     /// What a simulation of one particle by the twins says.
     pub async fn of(setup: &Setup, build: Build, steps: u64) -> Result<Option<Self>, Error> {
-        let springs = &setup.particles.links.springs;
+        let springs = &setup.state.links.springs;
         let names: Vec<String> = setup.forces.iter().flat_map(|force| force.laws()).map(|law| law.name).collect();
         // Two forces of a kind act twice.
         let acts = |kind: &str| names.iter().filter(|name| *name == kind).count() as f64;
         let springs = if acts("spring") > 0.0 { springs.as_slice() } else { &[] };
-        let bending = acts("joint") > 0.0 && !setup.particles.links.joints.is_empty();
+        let bending = acts("joint") > 0.0 && !setup.state.links.joints.is_empty();
         if springs.is_empty() && !bending {
             return Ok(None);
         }
-        let mut masses = setup.particles.mass.clone();
-        for held in &setup.particles.held {
+        let mut masses = setup.state.mass().to_vec();
+        for held in &setup.state.held {
             if let Some(mass) = masses.get_mut(held.id as usize) {
                 *mass = f64::INFINITY;
             }
@@ -72,7 +72,7 @@ impl Verdict {
         };
         let mut verdict = Self { bound, joints, safe, lost: f64::INFINITY, by_damping };
         if setup.dt > safe && !springs.is_empty() {
-            let network = Network::new(springs, &masses, &setup.particles.position, &setup.bounds);
+            let network = Network::new(springs, &masses, setup.state.position(), &setup.bounds);
             for mode in [network.quickest(), network.most_damped()] {
                 let (stiffness, damping) = (acts("spring") * mode.stiffness, acts("spring") * mode.damping);
                 verdict.lost = verdict.lost.min(limit(build, Mode { stiffness, damping }, duration).await?);

@@ -20,30 +20,26 @@ pub fn drains() -> Vec<Drain> {
 #[test]
 fn the_dead_stay_dead_and_ids_are_never_reused() {
     let setup = pool(drains());
-    let count = setup.particles.len();
+    let count = setup.state.len();
     let shared = support::device();
     let mut simulation = Simulation::on(machines::gpu(&shared, count), &setup).expect("a run");
-    let mut last = state(&mut simulation).particles;
+    let mut last = state(&mut simulation);
     let mut seen = [0; 2];
     for _ in 0..12 {
         simulation.step(7).expect("steps");
         let snapshot = state(&mut simulation);
-        let now = &snapshot.particles;
+        let (now, energies) = (&snapshot, snapshot.energies().expect("energies"));
         for id in 0..count {
-            let (then, is) = (last.life[id], now.life[id]);
+            let (then, is) = (last.life()[id], now.life()[id]);
             // Life goes on, and never back.
             assert!(then.word() <= is.word(), "{id}: {then:?} and then {is:?}");
             seen[0] += usize::from(then == Life::Waiting && is != then);
             seen[1] += usize::from(is == Life::Dead && is != then);
             if then == Life::Dead || is == Life::Waiting {
-                assert_eq!(now.position[id], last.position[id], "{id} stays");
+                assert_eq!(now.position()[id], last.position()[id], "{id} stays");
             }
             if is != Life::Living {
-                assert_eq!(
-                    (now.velocity[id], now.mass[id], snapshot.potential[id]),
-                    (DVec3::ZERO, 0.0, 0.0),
-                    "{id} rests"
-                );
+                assert_eq!((now.velocity()[id], now.mass()[id], energies[id]), (DVec3::ZERO, 0.0, 0.0), "{id} rests");
             }
         }
         let of = now.population();
@@ -51,14 +47,14 @@ fn the_dead_stay_dead_and_ids_are_never_reused() {
         assert_eq!(of.waiting + of.living + of.dead, count as u64);
         // The ledger's sums are those over the living, of their own masses.
         let own = |id: usize| {
-            setup.particles.births.iter().find(|b| b.id as usize == id).map_or(setup.particles.mass[id], |b| b.mass)
+            setup.state.births.iter().find(|b| b.id as usize == id).map_or(setup.state.mass()[id], |b| b.mass)
         };
-        let alive = || (0..count).filter(|id| now.life[*id] == Life::Living);
+        let alive = || (0..count).filter(|id| now.life()[*id] == Life::Living);
         let mass: f64 = alive().map(own).sum();
-        let momentum: DVec3 = alive().map(|id| own(id) * now.velocity[id]).sum();
-        let measure = Measure::of(&snapshot);
+        let momentum: DVec3 = alive().map(|id| own(id) * now.velocity()[id]).sum();
+        let measure = Measure::of(&snapshot).expect("energies");
         // Masses are those that f32 holds, to 6e-8.
-        assert!((now.mass.iter().sum::<f64>() / mass - 1.0).abs() < 1e-7);
+        assert!((now.mass().iter().sum::<f64>() / mass - 1.0).abs() < 1e-7);
         assert!((measure.momentum - momentum).length() < 1e-6 * mass);
         last = now.clone();
     }
@@ -69,31 +65,25 @@ fn the_dead_stay_dead_and_ids_are_never_reused() {
 #[test]
 fn nobody_meets_those_who_do_not_live() {
     let alone = pool(Vec::new());
-    let n = alone.particles.len() - alone.particles.births.len();
+    let n = alone.state.len() - alone.state.births.len();
     let run = |particles| {
-        let setup = crate::Setup { particles, ..pool(Vec::new()) };
-        let count = u32::try_from(setup.particles.len()).expect("few");
+        let setup = crate::Setup { state: particles, ..pool(Vec::new()) };
+        let count = u32::try_from(setup.state.len()).expect("few");
         let mut simulation = Simulation::on(Cpu::new(count).expect("some"), &setup).expect("a run");
         simulation.step(3).expect("steps");
         pollster::block_on(simulation.read(POSITION)).expect("positions")[..n].to_vec()
     };
-    let mut some = alone.particles.clone();
+    let mut some = alone.state.clone();
     // In the midst of the pool, some of them dead.
     for k in n..some.len() {
-        some.position[k] = some.position[k % n] + DVec3::new(0.013, 0.021, 0.0);
-        some.life[k] = [Life::Waiting, Life::Dead][k % 2];
-        some.velocity[k] = DVec3::X;
-        some.mass[k] = 3.0;
+        some.position_mut()[k] = some.position()[k % n] + DVec3::new(0.013, 0.021, 0.0);
+        some.set_life(k, [Life::Waiting, Life::Dead][k % 2]);
+        some.velocity_mut()[k] = DVec3::X;
+        some.mass_mut()[k] = 3.0;
     }
     some.births.clear();
-    let mut few = some.clone();
-    for list in [&mut few.position, &mut few.velocity] {
-        list.truncate(n);
-    }
-    few.mass.truncate(n);
-    few.radius.truncate(n);
-    few.species.truncate(n);
-    few.life.clear();
+    let mut few = some.picked(&(0..n).collect::<Vec<_>>());
+    few.remove("life");
     assert_eq!(run(some), run(few));
 }
 
@@ -110,8 +100,8 @@ fn the_dead_attract_nobody() {
         pollster::block_on(simulation.read(ACCELERATION)).expect("accelerations")
     };
     let mut massless = particles.clone();
-    (30..40).for_each(|id| massless.mass[id] = 0.0);
-    (0..40).for_each(|id| particles.life.push(if id < 30 { Life::Living } else { Life::Dead }));
+    (30..40).for_each(|id| massless.mass_mut()[id] = 0.0);
+    (30..40).for_each(|id| particles.set_life(id, Life::Dead));
     let (dead, light) = (gravity(particles), gravity(massless));
     for id in 0..30 {
         assert!((dead[id] - light[id]).length() < 1e-6 * light[id].length(), "{id}");
@@ -124,7 +114,7 @@ fn batches_make_no_difference() {
     let run = |steps: &[u32]| {
         let setup = pool(drains());
         let shared = support::device();
-        let mut simulation = Simulation::on(machines::gpu(&shared, setup.particles.len()), &setup).expect("a run");
+        let mut simulation = Simulation::on(machines::gpu(&shared, setup.state.len()), &setup).expect("a run");
         for n in steps {
             simulation.step(*n).expect("steps");
         }
@@ -141,18 +131,18 @@ fn batches_make_no_difference() {
 fn without_births_nothing_is_added() {
     let machine = motes::kernel::Machine::HOST;
     let mut setup = pool(Vec::new());
-    setup.particles = {
+    setup.state = {
         let mut p = jet(0.1);
-        p.life.clear();
+        p.remove("life");
         p.births.clear();
-        p.mass.fill(1.0);
-        p.position.iter_mut().for_each(|x| *x = x.abs().with_z(0.0));
+        p.mass_mut().fill(1.0);
+        p.position_mut().iter_mut().for_each(|x| *x = x.abs().with_z(0.0));
         p
     };
     let plans = setup.plans(machine).expect("plans");
     let plain = plans.step.to_string();
     assert!(plans.all().all(|plan| !plan.fields(6).contains_key("life")), "{plain}");
-    setup.particles.drains = drains();
+    setup.state.drains = drains();
     let more = setup.plans(machine).expect("plans").step.to_string();
     let rest = more.replace("rest | ", "").replace(" | drain 1 | drain 2", "");
     assert!(more != plain && rest == plain, "{more}\n{plain}");

@@ -33,7 +33,7 @@ fn kernels_agree_with_their_twins() {
         let mut setup = pool(drains());
         // Those who live are fewer than their ids: who is dead came first.
         setup.forces[1] = fluid_with(&[("tension", Value::Number(0.3)), ("adhesion", Value::Number(0.2))]);
-        let mut gpu = machines::gpu(&shared, setup.particles.len());
+        let mut gpu = machines::gpu(&shared, setup.state.len());
         gpu.pretend(machine);
         let plans = setup.plans(machine).expect("plans");
         let mut simulation = Simulation::on(gpu, &setup).expect("a run");
@@ -65,7 +65,7 @@ fn states_of_density_agree_with_their_twins() {
     let mut setup = pool(drains());
     let (continuity, diffusion) = (("density_by", word("continuity")), ("diffusion", Value::Number(0.1)));
     setup.forces[1] = fluid_with(&[continuity, diffusion]);
-    let mut simulation = Simulation::on(machines::gpu(&shared, setup.particles.len()), &setup).expect("a run");
+    let mut simulation = Simulation::on(machines::gpu(&shared, setup.state.len()), &setup).expect("a run");
     let plans = setup.plans(simulation.backend().machine()).expect("plans");
     for _ in 0..4 {
         agreed(&mut simulation, 13, &plans.step, "continuity");
@@ -88,7 +88,7 @@ fn solves_for_pressure_agree_with_their_twins() {
         let mut setup = pool(drains());
         setup.forces[1] = fluid_with(&[("solver", word("dfsph")), ("max_iterations", Value::Number(4.0))]);
         setup.integrator = integrator("symplectic_euler");
-        let mut gpu = machines::gpu(&shared, setup.particles.len());
+        let mut gpu = machines::gpu(&shared, setup.state.len());
         if walks {
             let machine = gpu.machine();
             gpu.pretend(Machine { bindable: 0, ..machine });

@@ -15,21 +15,21 @@ use motes::kernel::Backend;
 use motes::life::Drain;
 use motes::particles::emitter;
 use motes::settings::{Settings, Value};
-use motes::{Bounds, Particles, Setup, Side, Simulation};
+use motes::{Bounds, Setup, Side, Simulation, State};
 use support::states::{force, integrator, word};
 
 /// No round number, and no part of an interval between two births.
 const DT: f64 = 0.0137;
 
 /// The particles of an emitter with these settings, until some end.
-fn emitted(settings: &[(&'static str, Value)], dimensions: u32, end: f64) -> Particles {
+fn emitted(settings: &[(&'static str, Value)], dimensions: u32, end: f64) -> State {
     let defaults = Settings::defaults(emitter::KEYS);
     let settings = settings.iter().fold(defaults, |s, (key, value)| s.with(key, value.clone()));
     emitter::build(&settings, dimensions, end, 100_000).expect("an emitter")
 }
 
 /// A mouth of three rows by two, at an angle.
-fn jet(end: f64) -> Particles {
+fn jet(end: f64) -> State {
     let settings = [
         ("shape", word("rectangle")),
         ("size", Value::Vector(DVec3::new(0.3, 0.2, 0.0))),
@@ -42,7 +42,7 @@ fn jet(end: f64) -> Particles {
 }
 
 /// A spray of a disk, in a cone.
-fn spray(end: f64) -> Particles {
+fn spray(end: f64) -> State {
     let settings = [
         ("radius", Value::Number(0.2)),
         ("direction", Value::Vector(DVec3::Y)),
@@ -56,8 +56,15 @@ fn spray(end: f64) -> Particles {
 }
 
 /// What is to run.
-fn setup(particles: Particles, forces: Vec<Box<dyn Force>>, bounds: Bounds) -> Setup {
-    Setup { particles, forces, integrator: integrator("leapfrog"), dt: DT, bounds, solver: motes::Solver::default() }
+fn setup(particles: State, forces: Vec<Box<dyn Force>>, bounds: Bounds) -> Setup {
+    Setup {
+        state: particles,
+        forces,
+        integrator: integrator("leapfrog"),
+        dt: DT,
+        bounds,
+        solver: motes::Solver::default(),
+    }
 }
 
 /// A fluid of that spacing in the plane, slow enough for [`DT`].
@@ -89,7 +96,7 @@ fn pool(drains: Vec<Drain>) -> Setup {
         ("speed", Value::Number(1.1)),
         ("spacing", Value::Number(0.1)),
     ];
-    particles.append(&emitted(&settings, 2, 1.2));
+    particles.append(&emitted(&settings, 2, 1.2)).expect("one kind");
     particles.drains = drains;
     let forces = vec![
         force("uniform", &[("acceleration", Value::Vector(DVec3::new(0.0, -1.3, 0.0)))]),
@@ -102,6 +109,6 @@ fn pool(drains: Vec<Drain>) -> Setup {
 }
 
 /// The state of a simulation, for a moment.
-fn state<B: Backend>(simulation: &mut Simulation<B>) -> motes::Snapshot {
+fn state<B: Backend>(simulation: &mut Simulation<B>) -> motes::State {
     pollster::block_on(simulation.snapshot()).expect("a state")
 }

@@ -5,7 +5,7 @@ use motes::integrators::Paced;
 use motes::kernel::Pace;
 use motes::life::Life;
 use motes::settings::Value;
-use motes::{Bounds, Particles, Setup, Simulation};
+use motes::{Bounds, Setup, Simulation, State};
 
 use crate::support::states::word;
 use crate::support::{self, machines};
@@ -20,7 +20,7 @@ const LONGEST: f64 = COURANT * 0.1 / SOUND;
 const MASS: f64 = 10.0;
 
 /// A jet in the plane, four abreast, whose first row is born while steps are as long as they may be.
-fn jet(start: f64) -> Particles {
+fn jet(start: f64) -> State {
     let settings = [
         ("shape", word("rectangle")),
         ("size", Value::Vector(DVec3::new(0.4, 0.4, 0.0))),
@@ -32,7 +32,7 @@ fn jet(start: f64) -> Particles {
     emitted(&settings, 2, 0.5)
 }
 
-fn paced(particles: Particles, more: &[(&'static str, Value)]) -> Setup {
+fn paced(particles: State, more: &[(&'static str, Value)]) -> Setup {
     let forces = vec![fluid_with(&[&[("sound_speed", Value::Number(SOUND))], more].concat())];
     let even = setup(particles, forces, Bounds { dimensions: 2, ..Bounds::default() });
     let pace = Pace { least: DT / 1000.0, courant: COURANT, before: None };
@@ -53,21 +53,21 @@ fn births_keep_their_times() {
         let clock = pollster::block_on(simulation.clock()).expect("a clock").expect("steps are paced");
         lengths.push(clock.dt);
         assert!(lived == 0 || clock.dt <= LONGEST * (1.0 + 1e-6), "{} after {lived} were born", clock.dt);
-        let now = state(&mut simulation).particles;
+        let now = state(&mut simulation);
         let (time, soon) = (clock.time, clock.dt / 32.0);
         lived = now.population().living;
         for birth in &particles.births {
-            let (id, lives) = (birth.id as usize, now.life[birth.id as usize] == Life::Living);
+            let (id, lives) = (birth.id as usize, now.life()[birth.id as usize] == Life::Living);
             assert!(lives || birth.time > time, "{id} is late: {} at {time}", birth.time);
             assert!(!lives || birth.time < time + soon, "{id} is early: {} at {time}", birth.time);
             let mass = if lives { MASS } else { 0.0 };
-            assert!(now.mass[id].to_bits() == mass.to_bits(), "{id} weighs {}", now.mass[id]);
+            assert!(now.mass()[id].to_bits() == mass.to_bits(), "{id} weighs {}", now.mass()[id]);
             // Three rows go straight on.
             let way = if lives { birth.velocity * (time - birth.time) } else { DVec3::ZERO };
-            let off = (now.position[id] - particles.position[id] - way).length();
+            let off = (now.position()[id] - particles.position()[id] - way).length();
             assert!(off < 1e-5 || time > birth.time + 0.3 / 1.3, "{id} is {off} from its way");
         }
-        let ledger = now.mass.iter().sum::<f64>();
+        let ledger = now.mass().iter().sum::<f64>();
         assert!(ledger.to_bits() == (lived as f64 * MASS).to_bits(), "{ledger}");
     }
     // The first steps have nobody to ask, and then there are those of a fluid.

@@ -22,7 +22,7 @@ fn as_many_are_born_as_are_due() {
     let end = 60.0 * DT;
     let mut particles = jet(end);
     let rows = particles.len() as u64;
-    particles.append(&spray(end));
+    particles.append(&spray(end)).expect("one kind");
     // As many as leave before the end: rows of six, and one by one.
     assert!((rows as f64 - 6.0 * (end * 1.3 / 0.1).ceil()).abs() < 0.5, "{rows}");
     let single = particles.len() as u64 - rows;
@@ -40,16 +40,19 @@ fn as_many_are_born_as_are_due() {
         let have = pollster::block_on(simulation.population()).expect("a count");
         assert_eq!((have.living, have.waiting, have.dead), (want, all - want, 0), "at {time}");
         // Those who live are the first of each emitter, and each is where it flew to by itself.
-        let now = state(&mut simulation).particles;
+        let now = state(&mut simulation);
         for birth in &particles.births {
             let id = birth.id as usize;
             let lives = birth.time <= time + DT / 64.0;
-            assert_eq!(now.life[id], if lives { Life::Living } else { Life::Waiting }, "{id} at {time}");
+            assert_eq!(now.life()[id], if lives { Life::Living } else { Life::Waiting }, "{id} at {time}");
             let way = if lives { birth.velocity * (time - birth.time) } else { DVec3::ZERO };
             // 60 additions near 1, each rounded by 6e-8.
-            assert!((now.position[id] - particles.position[id] - way).length() < 60.0 * 2e-7, "{id}");
+            assert!((now.position()[id] - particles.position()[id] - way).length() < 60.0 * 2e-7, "{id}");
             let (mass, v) = if lives { (birth.mass, birth.velocity) } else { (0.0, DVec3::ZERO) };
-            assert!((now.mass[id] - mass).abs() < 1e-7 * birth.mass && (now.velocity[id] - v).length() < 1e-6, "{id}");
+            assert!(
+                (now.mass()[id] - mass).abs() < 1e-7 * birth.mass && (now.velocity()[id] - v).length() < 1e-6,
+                "{id}"
+            );
         }
     }
 }
@@ -62,10 +65,10 @@ fn rows_follow_each_other_at_the_spacing() {
     let gpu = machines::gpu(&shared, particles.len());
     let mut simulation = Simulation::on(gpu, &setup(particles.clone(), Vec::new(), Bounds::default())).expect("a run");
     simulation.step(73).expect("steps");
-    let now = state(&mut simulation).particles;
-    assert!(now.life.iter().all(|life| *life == Life::Living));
+    let now = state(&mut simulation);
+    assert!(now.life().iter().all(|life| *life == Life::Living));
     // Of everybody in the middle of the jet the nearest others are a spacing away, and six of them.
-    let gap = |a: usize, b: usize| (now.position[a] - now.position[b]).length();
+    let gap = |a: usize, b: usize| (now.position()[a] - now.position()[b]).length();
     for id in 0..particles.len() {
         let near = (0..particles.len()).filter(|other| *other != id && gap(id, *other) < 0.12).collect::<Vec<_>>();
         assert!(near.iter().all(|other| (gap(id, *other) - 0.1).abs() < 2e-5), "{id}");
@@ -83,10 +86,10 @@ fn mouths_have_their_shapes() {
     let row = emitted(&disk, 3, 0.05);
     // The area of the disk over that of a share, 78.5, within the shares of its edge.
     assert!((70..=88).contains(&row.len()), "{}", row.len());
-    assert!(row.position.iter().all(|x| x.length() <= 0.5 + 1e-12 && x.x.abs() < 1e-12));
+    assert!(row.position().iter().all(|x| x.length() <= 0.5 + 1e-12 && x.x.abs() < 1e-12));
     let line = emitted(&disk, 2, 0.05);
     assert_eq!(line.len(), 10);
-    assert!(line.position.iter().all(|x| x.z == 0.0 && x.x.abs() < 1e-12 && x.y.abs() <= 0.45 + 1e-12));
+    assert!(line.position().iter().all(|x| x.z == 0.0 && x.x.abs() < 1e-12 && x.y.abs() <= 0.45 + 1e-12));
     let spray = spray(20.0);
     let n = spray.len() as f64;
     let cosines: Vec<f64> = spray.births.iter().map(|birth| birth.velocity.y / birth.velocity.length()).collect();
@@ -96,7 +99,7 @@ fn mouths_have_their_shapes() {
     let mean = cosines.iter().sum::<f64>() / n;
     assert!((mean - 0.5 * (1.0 + edge)).abs() < 5.0 * (1.0 - edge) / (12.0 * n).sqrt(), "{mean}");
     // The mean square of a disk's radius is half the square of its edge.
-    let square = spray.position.iter().map(|x| x.length_squared()).sum::<f64>() / n;
+    let square = spray.position().iter().map(|x| x.length_squared()).sum::<f64>() / n;
     assert!((square - 0.02).abs() < 5.0 * 0.04 / (12.0 * n).sqrt(), "{square}");
     assert!(spray.births.iter().all(|birth| (birth.velocity.length() - 0.9).abs() < 1e-12));
 }
@@ -118,10 +121,10 @@ fn a_jet_is_at_rest_density() {
         Simulation::on(Cpu::new(count).expect("some"), &setup(particles, vec![fluid()], bounds)).expect("a run");
     simulation.step(88).expect("steps");
     let density = pollster::block_on(simulation.read(motes::fluids::DENSITY)).expect("densities");
-    let now = state(&mut simulation).particles;
+    let now = state(&mut simulation);
     // Ten abreast: the fourth to seventh of a row see no edge, nor do rows that are two behind an end.
     let rows = now.len() / 10;
-    assert!(rows >= 12 && now.life.iter().all(|life| *life == Life::Living));
+    assert!(rows >= 12 && now.life().iter().all(|life| *life == Life::Living));
     for id in (2..rows - 2).flat_map(|row| (3..7).map(move |k| 10 * row + k)) {
         assert!((f64::from(density[id]) / 1000.0 - 1.0).abs() < 0.02, "{id}: {}", density[id]);
     }
@@ -136,11 +139,11 @@ fn the_newest_go_straight_on() {
     let run = setup(particles.clone(), vec![weight()], Bounds::default());
     let mut simulation = Simulation::on(Cpu::new(count).expect("some"), &run).expect("a run");
     simulation.step(50).expect("steps");
-    let (now, time) = (state(&mut simulation).particles, 50.0 * DT);
+    let (now, time) = (state(&mut simulation), 50.0 * DT);
     for birth in particles.births.iter().filter(|birth| birth.time < time) {
         // Three rows, at 1.3 and a tenth apart, and then the steps that begin and end in free fall.
         let fall = (time - birth.time - 0.3 / 1.3).max(0.0);
-        let change = (now.velocity[birth.id as usize] - birth.velocity) * DVec3::NEG_Z;
+        let change = (now.velocity()[birth.id as usize] - birth.velocity) * DVec3::NEG_Z;
         assert!(change.z >= 0.0 && (change.z - fall).abs() <= DT, "{}: {} after {fall}", birth.id, change.z);
         assert!(fall > 0.0 || change.z == 0.0);
     }

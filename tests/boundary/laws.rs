@@ -6,7 +6,7 @@ use motes::integrators::Step;
 use motes::kernel::Backend;
 use motes::lockstep::{Verdict, compare};
 use motes::settings::Value;
-use motes::{Bounds, Particles, Side, Simulation};
+use motes::{Bounds, Side, Simulation, State};
 
 use crate::support::machines::{gpu, machines};
 use crate::support::states::{accelerations_in, force, one, word};
@@ -41,12 +41,13 @@ fn every_law_in_a_periodic_box() {
                     // of prey that is all round: here no hunter is in the very middle of its prey.
                     let nearby = meet && !pairs;
                     let far = if nearby { crate::inside(count, &bounds, 17) } else { scattered(count, &bounds, 9) };
-                    let far: Vec<_> = far.position.iter().zip(&far.mass).map(|(x, m)| x.extend(*m).as_vec4()).collect();
+                    let far: Vec<_> =
+                        far.position().iter().zip(far.mass()).map(|(x, m)| x.extend(*m).as_vec4()).collect();
                     simulation.write(motes::POSITION, &far).expect("places");
                     let problem = Problem::new(333, machine)
                         .tied(&support::links(333), &[])
-                        .at(&start.particles.position, bounds)
-                        .of_species(&start.particles.species);
+                        .at(start.state.position(), bounds)
+                        .of_species(start.state.species());
                     let law = [pick()];
                     let mut step = Step::new(&law, problem);
                     step.evaluate();
@@ -112,7 +113,7 @@ fn across_a_seam() {
 /// In a lattice that fills the box, no place is another: forces cancel, and all have one potential.
 #[test]
 fn a_lattice_is_the_same_everywhere() {
-    let mut lattice = Particles::default();
+    let mut lattice = State::default();
     for place in 0..125_u8 {
         let x = DVec3::new(f64::from(place % 5), f64::from(place / 5 % 5), f64::from(place / 25));
         lattice.push(2.0 * x + DVec3::splat(0.5), DVec3::ZERO, 1.0, 0.0);
@@ -138,20 +139,20 @@ fn forces_are_gradients() {
     ];
     for (case, law) in laws.iter().enumerate() {
         let particles = scattered(8, &bounds, 12);
-        let potential = |particles: &Particles| -> f64 {
+        let potential = |particles: &State| -> f64 {
             let all: Vec<DVec4> = accelerations_in(&bounds, law, particles, 0.3);
-            all.iter().zip(&particles.mass).map(|(a, m)| a.w * m).sum()
+            all.iter().zip(particles.mass()).map(|(a, m)| a.w * m).sum()
         };
         for (id, a) in accelerations_in(&bounds, law, &particles, 0.3).iter().enumerate() {
             for k in 0..3 {
                 let h = 1e-5;
                 let at = |way: f64| {
                     let mut there = particles.clone();
-                    there.position[id][k] += way;
+                    there.position_mut()[id][k] += way;
                     potential(&there)
                 };
                 let want = -(at(h) - at(-h)) / (2.0 * h);
-                let got = particles.mass[id] * a[k];
+                let got = particles.mass()[id] * a[k];
                 // Rounding, 1e-16 U / h, tenfold; and h² F″ / 6 with F″ up to F / ε², ε = 0.05.
                 let allowed = 1e-10 * potential(&particles).abs().max(1.0) + 1e-7 * got.abs();
                 assert!((got - want).abs() < allowed, "law {case}, particle {id}, axis {k}: {got} is not {want}");

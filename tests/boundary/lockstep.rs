@@ -27,7 +27,7 @@ fn anywhere(shared: &Shared, count: usize, bounds: Bounds, name: &str) -> Simula
     let mut simulation = Simulation::on(gpu(shared, count), &setup).expect("a simulation");
     simulation.step(2).expect("two steps");
     let places = scattered(count, &bounds, 9);
-    let places: Vec<Vec4> = places.position.iter().zip(&places.mass).map(|(x, m)| x.extend(*m).as_vec4()).collect();
+    let places: Vec<Vec4> = places.position().iter().zip(places.mass()).map(|(x, m)| x.extend(*m).as_vec4()).collect();
     simulation.write(POSITION, &places).expect("places");
     simulation
 }

@@ -12,7 +12,7 @@ mod species;
 
 use glam::DVec3;
 use motes::forces::Force;
-use motes::{Bounds, Particles, Setup, Side};
+use motes::{Bounds, Setup, Side, State};
 
 use crate::support::Random;
 use crate::support::states::integrator;
@@ -23,11 +23,11 @@ fn odd(sides: [Side; 3]) -> Bounds {
 }
 
 /// Particles that are inside, or up to five lengths of the box away.
-fn scattered(count: usize, bounds: &Bounds, seed: u64) -> Particles {
+fn scattered(count: usize, bounds: &Bounds, seed: u64) -> State {
     let mut random = Random::new(seed);
     let mut particles = support::cloud(count, seed);
     let (middle, size) = (0.5 * (bounds.low + bounds.high), bounds.high - bounds.low);
-    for x in &mut particles.position {
+    for x in particles.position_mut() {
         let far = if random.next() > 0.0 { 0.49 } else { 5.0 };
         *x = (middle + far * size * random.vector()).as_vec3().as_dvec3();
     }
@@ -35,14 +35,17 @@ fn scattered(count: usize, bounds: &Bounds, seed: u64) -> Particles {
 }
 
 /// The same, all inside.
-fn inside(count: usize, bounds: &Bounds, seed: u64) -> Particles {
+fn inside(count: usize, bounds: &Bounds, seed: u64) -> State {
     let mut random = Random::new(seed);
     let mut particles = support::cloud(count, seed);
     let (middle, size) = (0.5 * (bounds.low + bounds.high), bounds.high - bounds.low);
-    particles.position.iter_mut().for_each(|x| *x = (middle + 0.49 * size * random.vector()).as_vec3().as_dvec3());
+    particles
+        .position_mut()
+        .iter_mut()
+        .for_each(|x| *x = (middle + 0.49 * size * random.vector()).as_vec3().as_dvec3());
     particles
 }
 
-fn setup(particles: Particles, forces: Vec<Box<dyn Force>>, name: &str, dt: f64, bounds: Bounds) -> Setup {
-    Setup { particles, forces, integrator: integrator(name), dt, bounds, solver: motes::Solver::default() }
+fn setup(particles: State, forces: Vec<Box<dyn Force>>, name: &str, dt: f64, bounds: Bounds) -> Setup {
+    Setup { state: particles, forces, integrator: integrator(name), dt, bounds, solver: motes::Solver::default() }
 }

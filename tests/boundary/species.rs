@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DVec3, DVec4};
 use motes::forces::{Distant, Force, Law, Over};
 use motes::kernel::{ACCELERATION, Backend, Host, Source};
-use motes::{Bounds, Cpu, Particles, SPECIES, Setup, Simulation, VELOCITY};
+use motes::{Bounds, Cpu, SPECIES, Setup, Simulation, State, VELOCITY};
 
 use crate::setup;
 use crate::support;
@@ -38,31 +38,31 @@ impl Force for Sorting {
     }
 }
 
-fn particles() -> Particles {
+fn particles() -> State {
     let mut particles = support::cloud(40, 2).of_species(3);
-    particles.append(&support::cloud(25, 3).of_species(0));
-    particles.velocity.fill(DVec3::ZERO);
-    particles.species[64] = 9;
+    particles.append(&support::cloud(25, 3).of_species(0)).expect("one kind");
+    particles.velocity_mut().fill(DVec3::ZERO);
+    particles.species_mut()[64] = 9;
     particles
 }
 
 fn sorted<B: Backend>(mut simulation: Simulation<B>, setup: &Setup) {
     simulation.step(2).expect("steps");
     let velocity = pollster::block_on(simulation.read(VELOCITY)).expect("velocities");
-    for (v, species) in velocity.iter().zip(&setup.particles.species) {
+    for (v, species) in velocity.iter().zip(setup.state.species()) {
         // Twice 0.25 times a small whole number: exact.
         assert!((f64::from(v.x) - 0.5 * f64::from(*species)).abs() < 1e-6, "{v} of {species}");
     }
     let snapshot = pollster::block_on(simulation.snapshot()).expect("a snapshot");
-    assert_eq!(snapshot.particles.species, setup.particles.species);
-    assert_eq!(pollster::block_on(simulation.read(SPECIES)).expect("species"), setup.particles.species);
+    assert_eq!(snapshot.species(), setup.state.species());
+    assert_eq!(pollster::block_on(simulation.read(SPECIES)).expect("species"), setup.state.species());
 }
 
 #[test]
 fn laws_may_tell_species_apart() {
     let shared = support::device();
     let setup = setup(particles(), vec![Box::new(Sorting)], "leapfrog", 0.25, Bounds::default());
-    assert_eq!(setup.particles.species.iter().map(|of| u64::from(*of)).sum::<u64>(), 129);
+    assert_eq!(setup.state.species().iter().map(|of| u64::from(*of)).sum::<u64>(), 129);
     sorted(Simulation::new(&shared.found.device, &shared.found.queue, &setup).expect("a simulation"), &setup);
     sorted(Simulation::on(Cpu::new(65).expect("some"), &setup).expect("a simulation"), &setup);
 }
@@ -74,5 +74,5 @@ fn where_no_law_asks_none_are_on_the_device() {
     let mut simulation = Simulation::new(&shared.found.device, &shared.found.queue, &setup).expect("a simulation");
     assert!(simulation.buffer(SPECIES).is_none());
     let snapshot = pollster::block_on(simulation.snapshot()).expect("a snapshot");
-    assert_eq!(snapshot.particles.species, setup.particles.species);
+    assert_eq!(snapshot.species(), setup.state.species());
 }

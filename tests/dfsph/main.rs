@@ -17,7 +17,7 @@ use glam::DVec3;
 use motes::forces::Force;
 use motes::motion::{Held, Hold};
 use motes::settings::Value;
-use motes::{Bounds, Gpu, Particles, Setup, Side, Simulation};
+use motes::{Bounds, Gpu, Setup, Side, Simulation, State};
 use support::states::{force, integrator, vector, word};
 use support::{Random, Shared};
 
@@ -28,7 +28,7 @@ const WEIGHT: f64 = 1.7;
 
 /// A block of fluid above a floor, periodic to the sides: in two dimensions y is up, else z.
 struct Tank {
-    particles: Particles,
+    particles: State,
     bounds: Bounds,
     up: DVec3,
     /// How many layers there are.
@@ -44,7 +44,7 @@ impl Tank {
         let gap = if flat { 1.114 } else { 1.098 };
         let mass = DENSITY * if flat { SPACING * SPACING } else { SPACING.powi(3) };
         let mut random = Random::new(3);
-        let mut particles = Particles::default();
+        let mut particles = State::default();
         let across = |i: usize, j: usize| {
             DVec3::X * (i as f64 + 0.5) + if flat { DVec3::ZERO } else { DVec3::Y * (j as f64 + 0.5) }
         };
@@ -94,10 +94,10 @@ fn fluid(settings: &[(&'static str, Value)]) -> Box<dyn Force> {
     force("fluid", &all)
 }
 
-fn setup(particles: &Particles, bounds: Bounds, forces: Vec<Box<dyn Force>>, dt: f64) -> Setup {
+fn setup(particles: &State, bounds: Bounds, forces: Vec<Box<dyn Force>>, dt: f64) -> Setup {
     let particles = particles.clone();
     Setup {
-        particles,
+        state: particles,
         forces,
         integrator: integrator("symplectic_euler"),
         dt,

@@ -4,7 +4,7 @@ use glam::DVec3;
 use motes::forces::Force;
 use motes::kernel::Machine;
 use motes::settings::Value;
-use motes::{Bounds, Particles, Setup, Simulation, VELOCITY};
+use motes::{Bounds, Setup, Simulation, State, VELOCITY};
 
 use crate::support::states::{force, word};
 use crate::{DENSITY, SPACING, fluid, setup, support};
@@ -12,7 +12,7 @@ use crate::{DENSITY, SPACING, fluid, setup, support};
 /// Particles of one mass at these places, after some steps: velocities, and how many solves of the density failed.
 fn after(places: &[DVec3], steps: u32) -> (Vec<DVec3>, u32) {
     let shared = support::device();
-    let mut particles = Particles::default();
+    let mut particles = State::default();
     for x in places {
         particles.push(*x, DVec3::new(0.3, -0.2, 0.1), DENSITY * SPACING.powi(3), 0.0);
     }
@@ -45,7 +45,7 @@ fn who_is_all_at_one_place_is_not_solved_for_and_that_is_told() {
 }
 
 fn refused(force: Box<dyn Force>) -> String {
-    let mut particles = Particles::default();
+    let mut particles = State::default();
     particles.push(DVec3::ZERO, DVec3::ZERO, 1.0, 0.0);
     let setup: Setup = setup(&particles, Bounds::default(), vec![force], 0.004);
     let machine = Machine::HOST;

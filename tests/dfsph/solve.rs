@@ -13,7 +13,8 @@ const DT: f64 = 0.004;
 
 fn stirred(tank: &mut Tank, flat: bool) {
     let mut random = Random::new(5);
-    for v in &mut tank.particles.velocity[tank.particles.held.len()..] {
+    let walls = tank.particles.held.len();
+    for v in &mut tank.particles.velocity_mut()[walls..] {
         let way = random.vector() * SPACING * 10.0;
         *v = (if flat { way.with_z(0.0) } else { way }).as_vec3().as_dvec3();
     }
@@ -39,7 +40,7 @@ fn a_solve_keeps_the_density_in_as_many_iterations_as_in_f64() {
         let medium = medium(bounds.dimensions);
         // Walls weigh as the device has found.
         let mass = read(&mut simulation, POSITION).iter().map(|x| f64::from(x.w)).collect();
-        let (x, v0) = (particles.position.clone(), particles.velocity.clone());
+        let (x, v0) = (particles.position().to_vec(), particles.velocity().to_vec());
         let mut flow = Flow::new(medium, x, v0, mass, wall, move |r| bounds.shortest(r));
         let (count, few) = (particles.len(), flow.few());
         let first = flow.solve(&vec![1.0; count], &few, DT, 1e-3, 50);
@@ -104,10 +105,10 @@ fn who_does_not_converge_is_told() {
 fn drop(shared: &Shared) -> Simulation<motes::Gpu> {
     let mut tank = Tank::new([7, 8], false, 0.2);
     stirred(&mut tank, false);
-    let mut particles = motes::Particles::default();
+    let mut particles = motes::State::default();
     for i in tank.walls()..tank.particles.len() {
         let p = &tank.particles;
-        particles.push(p.position[i], p.velocity[i], p.mass[i], 0.0);
+        particles.push(p.position()[i], p.velocity()[i], p.mass()[i], 0.0);
     }
     let setup = setup(&particles, Bounds::default(), vec![fluid(&[])], DT);
     Simulation::new(&shared.found.device, &shared.found.queue, &setup).expect("a simulation")

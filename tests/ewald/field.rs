@@ -1,7 +1,7 @@
 //! The field of one mass.
 
 use glam::{DVec3, DVec4};
-use motes::Particles;
+use motes::State;
 
 use crate::support::Random;
 use crate::support::states::{accelerations_in, one};
@@ -42,7 +42,7 @@ fn two_splittings_agree() {
 fn felt(r: DVec3, light: f64) -> DVec4 {
     let bounds = cube(1.0);
     let mut two = one(bounds.low + 0.3, DVec3::ZERO);
-    two.push(two.position[0] + r, DVec3::ZERO, light, 0.0);
+    two.push(two.position()[0] + r, DVec3::ZERO, light, 0.0);
     accelerations_in(&bounds, &gravity(1.0, 0.0, "pairs"), &two, 0.0)[1]
 }
 
@@ -80,7 +80,7 @@ fn the_waves_that_are_left_out_are_few() {
 fn a_mass_alone_has_the_energy_of_its_images() {
     for (side, mass, g) in [(1.0, 1.0, 1.0), (3.7, 2.3, 0.7)] {
         let mut alone = one(DVec3::splat(0.2), DVec3::ZERO);
-        alone.mass[0] = mass;
+        alone.mass_mut()[0] = mass;
         let a = accelerations_in(&cube(side), &gravity(g, 0.0, "pairs"), &alone, 0.0)[0];
         let want = 0.5 * exact::alone(SPLITTING) * g * mass / side;
         assert!((a.w - want).abs() < 1e-5 * want, "{} is not {want}", a.w);
@@ -95,19 +95,19 @@ fn a_cloud_is_the_exact_sum() {
     let bounds = cube(side);
     let mut cloud = scattered(12, &bounds, 3);
     let want = exact_sum(&cloud, side, g);
-    for (i, x) in cloud.position.iter_mut().enumerate() {
+    for (i, x) in cloud.position_mut().iter_mut().enumerate() {
         *x += side * DVec3::new([0.0, 1.0, -2.0][i % 3], 0.0, (i / 6) as f64);
     }
     let got = accelerations_in(&bounds, &gravity(g, 0.0, "pairs"), &cloud, 0.0);
-    let mass: f64 = cloud.mass.iter().sum();
+    let mass: f64 = cloud.mass().iter().sum();
     for (got, want) in got.iter().zip(&want) {
         let error = (*got - *want).truncate().length();
         assert!(error < MOST * g * mass / (side * side), "{got} is not {want}");
         assert!((got.w - want.w).abs() < 2e-5 * g * mass / side, "{got} is not {want}");
     }
-    let net: DVec3 = got.iter().zip(&cloud.mass).map(|(a, m)| *m * a.truncate()).sum();
+    let net: DVec3 = got.iter().zip(cloud.mass()).map(|(a, m)| *m * a.truncate()).sum();
     // 12 sums of 137 terms.
-    let size: f64 = got.iter().zip(&cloud.mass).map(|(a, m)| m * a.truncate().length()).sum();
+    let size: f64 = got.iter().zip(cloud.mass()).map(|(a, m)| m * a.truncate().length()).sum();
     assert!(net.length() < 1e-13 * size, "it pulls itself along by {net}");
 }
 
@@ -118,18 +118,18 @@ fn it_is_a_gradient() {
     for softening in [0.0, 0.23] {
         let force = gravity(0.9, softening, "pairs");
         let cloud = scattered(7, &bounds, 12);
-        let potential = |particles: &Particles| -> f64 {
-            accelerations_in(&bounds, &force, particles, 0.0).iter().zip(&particles.mass).map(|(a, m)| a.w * m).sum()
+        let potential = |particles: &State| -> f64 {
+            accelerations_in(&bounds, &force, particles, 0.0).iter().zip(particles.mass()).map(|(a, m)| a.w * m).sum()
         };
         for (id, a) in accelerations_in(&bounds, &force, &cloud, 0.0).iter().enumerate() {
             for axis in 0..3 {
                 let h = 1e-5;
                 let at = |way: f64| {
                     let mut there = cloud.clone();
-                    there.position[id][axis] += way;
+                    there.position_mut()[id][axis] += way;
                     potential(&there)
                 };
-                let (want, got) = (-(at(h) - at(-h)) / (2.0 * h), cloud.mass[id] * a[axis]);
+                let (want, got) = (-(at(h) - at(-h)) / (2.0 * h), cloud.mass()[id] * a[axis]);
                 // Rounding, 1e-16 U / h, tenfold; and h² F″ / 6 with F″ up to 12 F / r², r = 0.2.
                 assert!((got - want).abs() < 1e-10 + 1e-7 * got.abs(), "{id}, {axis}: {got} is not {want}");
             }

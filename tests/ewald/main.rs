@@ -11,7 +11,7 @@ mod worlds;
 use glam::{DVec3, DVec4};
 use motes::forces::Force;
 use motes::settings::Value;
-use motes::{Bounds, Particles, Side};
+use motes::{Bounds, Side, State};
 use support::states::{force, word};
 
 /// The splitting of exact sums; see `two_splittings_agree`.
@@ -36,23 +36,23 @@ fn gravity(g: f64, softening: f64, over: &'static str) -> Vec<Box<dyn Force>> {
 }
 
 /// Some in a cube, of various masses.
-fn scattered(count: usize, bounds: &Bounds, seed: u64) -> Particles {
+fn scattered(count: usize, bounds: &Bounds, seed: u64) -> State {
     let mut cloud = support::cloud(count, seed);
-    for x in &mut cloud.position {
+    for x in cloud.position_mut() {
         *x = (bounds.low + (*x * 0.5 + 0.5) * (bounds.high - bounds.low)).as_vec3().as_dvec3();
     }
     cloud
 }
 
 /// What everybody feels of everybody, and of its own images: the exact sum.
-fn exact_sum(particles: &Particles, side: f64, g: f64) -> Vec<DVec4> {
+fn exact_sum(particles: &State, side: f64, g: f64) -> Vec<DVec4> {
     let alone = exact::alone(SPLITTING);
     let felt = |i: usize| {
         let others = (0..particles.len()).filter(|j| *j != i).map(|j| {
-            let r = (particles.position[i] - particles.position[j]) / side;
-            particles.mass[j] * exact::field(r - r.round(), SPLITTING)
+            let r = (particles.position()[i] - particles.position()[j]) / side;
+            particles.mass()[j] * exact::field(r - r.round(), SPLITTING)
         });
-        let sum = others.sum::<DVec4>() + DVec4::W * (particles.mass[i] * alone);
+        let sum = others.sum::<DVec4>() + DVec4::W * (particles.mass()[i] * alone);
         g * sum * DVec3::splat(1.0 / (side * side)).extend(0.5 / side)
     };
     (0..particles.len()).map(felt).collect()

@@ -7,15 +7,15 @@ use motes::integrators::Step;
 use motes::kernel::{Backend, Machine};
 use motes::lockstep::compare;
 use motes::settings::Value;
-use motes::{ACCELERATION, Bounds, POSITION, Particles, Setup, Simulation};
+use motes::{ACCELERATION, Bounds, POSITION, Setup, Simulation, State};
 
 use crate::support::machines::{self, gpu, machines};
 use crate::support::states::{accelerations_in, cpu_in, force, integrator, phase, word};
 use crate::support::{self, Shared};
 use crate::{MOST, cube, exact_sum, gravity, scattered};
 
-fn lattice(side: f64, number: u8) -> Particles {
-    let mut lattice = Particles::default();
+fn lattice(side: f64, number: u8) -> State {
+    let mut lattice = State::default();
     let n = f64::from(number);
     for x in 0..number {
         for y in 0..number {
@@ -58,9 +58,9 @@ fn a_plane_wave_grows_as_jeans_says() {
     let (side, number, g) = (1.0, 8, 1.0 / (4.0 * PI));
     let mut wave = lattice(side, number);
     let shape = |x: f64| (2.0 * PI * x / side).sin();
-    let start: Vec<f64> = wave.position.iter().map(|x| x.x).collect();
+    let start: Vec<f64> = wave.position().iter().map(|x| x.x).collect();
     let small = 1e-3;
-    for x in &mut wave.position {
+    for x in wave.position_mut() {
         x.x += small * shape(x.x - cube(side).low.x);
     }
     // ω is 1 here: two times e.
@@ -77,18 +77,18 @@ fn a_plane_wave_grows_as_jeans_says() {
     let want = (2.0 * rate).cosh();
     // Steps of leapfrog: (ω dt)² / 24 of ω t, 2e-4; the waves that are left out, 1e-4; an amplitude that ends as 4e-3 of the side.
     assert!((growth / want - 1.0).abs() < 1e-3, "it grows to {growth}, not {want}");
-    let across = places.iter().zip(&wave.position).map(|(x, q)| (x.y - q.y).abs().max((x.z - q.z).abs()));
+    let across = places.iter().zip(wave.position()).map(|(x, q)| (x.y - q.y).abs().max((x.z - q.z).abs()));
     assert!(across.fold(0.0, f64::max) < 1e-9, "it turns");
 }
 
-fn on_device(shared: &Shared, machine: Option<Machine>, count: usize, over: &'static str) -> (Particles, Vec<DVec4>) {
+fn on_device(shared: &Shared, machine: Option<Machine>, count: usize, over: &'static str) -> (State, Vec<DVec4>) {
     let bounds = cube(SIDE);
     let cloud = scattered(count, &bounds, 4);
     let mut gpu = gpu(shared, count);
     let machine = machine.unwrap_or(gpu.machine());
     gpu.pretend(machine);
     let setup = Setup {
-        particles: cloud.clone(),
+        state: cloud.clone(),
         forces: gravity(G, 0.0, over),
         integrator: integrator("symplectic_euler"),
         dt: 0.01,
@@ -97,11 +97,11 @@ fn on_device(shared: &Shared, machine: Option<Machine>, count: usize, over: &'st
     };
     let mut simulation = Simulation::on(gpu, &setup).expect("a simulation");
     let number = simulation.count();
-    let problem = motes::forces::Problem::new(number, machine).at(&cloud.position, bounds);
+    let problem = motes::forces::Problem::new(number, machine).at(cloud.position(), bounds);
     let mut step = Step::new(&setup.forces, problem);
     step.evaluate();
     let plan = step.finished().expect("a plan");
-    let places: Vec<_> = cloud.position.iter().zip(&cloud.mass).map(|(x, m)| x.extend(*m).as_vec4()).collect();
+    let places: Vec<_> = cloud.position().iter().zip(cloud.mass()).map(|(x, m)| x.extend(*m).as_vec4()).collect();
     simulation.write(POSITION, &places).expect("places");
     let verdicts = pollster::block_on(compare(simulation.backend(), &plan, number)).expect("verdicts");
     for v in &verdicts {
@@ -119,7 +119,7 @@ fn a_device_sums_as_exactly() {
         let want = exact_sum(&scattered(count, &cube(SIDE), 4), SIDE, G);
         for (name, machine) in machines(&shared) {
             let (cloud, got) = on_device(&shared, Some(machine), count, "pairs");
-            let mass: f64 = cloud.mass.iter().sum();
+            let mass: f64 = cloud.mass().iter().sum();
             for (got, want) in got.iter().zip(&want) {
                 let error = *got - *want;
                 // The waves that are left out; and of a force that is larger than that of all, rounding.

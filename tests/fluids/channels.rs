@@ -75,9 +75,8 @@ fn a_wall_drags_a_fluid_along() {
     setup.forces.remove(0);
     let key = |time: f64| Keyframe { time, shift: DVec3::new(0.25 * time, 0.0, 0.0), turn: DVec3::ZERO };
     let motion = Motion { name: "wall".to_owned(), keys: vec![key(0.0), key(8.0)], ..Motion::default() };
-    setup.particles.motions = vec![motion];
-    setup.particles.held =
-        (0..20).map(|id| Held { id, by: if id < 10 { Hold::Fixed } else { Hold::Motion(0) } }).collect();
+    setup.state.motions = vec![motion];
+    setup.state.held = (0..20).map(|id| Held { id, by: if id < 10 { Hold::Fixed } else { Hold::Motion(0) } }).collect();
     let mut simulation = gpu(&shared, &setup);
     for t in [1.0, 2.0] {
         simulation.step(400).expect("steps");

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use motes::kernel::Array;
 use motes::settings::Value;
-use motes::{Cpu, Particles, Setup, Side, Simulation};
+use motes::{Cpu, Setup, Side, Simulation, State};
 
 use crate::setup;
 use crate::support::fluids::{DENSITY, bounds, cloud, fluid};
@@ -78,14 +78,14 @@ fn stages_that_are_thrown_away_are_refused() {
 #[test]
 fn diffusion_leaves_a_fluid_at_rest_alone() {
     let all = bounds(144, true, Side::Open);
-    let mut particles: Particles = cloud(144, true, false);
-    particles.velocity.fill(DVec3::ZERO);
+    let mut particles: State = cloud(144, true, false);
+    particles.velocity_mut().fill(DVec3::ZERO);
     let weight = DVec3::new(0.03, -0.08, 0.0);
     let run = |told: DVec3, start: &dyn Fn(DVec3) -> f64| {
         let still = [("diffusion", Number(0.1)), ("weight", Value::Vector(told)), ("density_by", word("continuity"))];
         let mut simulation = cpu_in(&all, &particles, vec![fluid(&still)], "symplectic_euler", 1e-6);
         simulation.step(1).expect("a step");
-        let dense = particles.position.iter().map(|x| start(*x)).collect::<Vec<_>>();
+        let dense = particles.position().iter().map(|x| start(*x)).collect::<Vec<_>>();
         motes::kernel::Backend::write(simulation.backend(), "density", &Array::Float(dense.clone()))
             .expect("densities");
         simulation.step(1).expect("a step");
@@ -105,16 +105,16 @@ fn xsph_draws_together() {
     let all = bounds(100, true, Side::Open);
     let mut particles = cloud(100, true, false);
     let quiet = |xsph: f64| [fluid(&[("alpha", Number(0.0)), ("viscosity", Number(0.0)), ("xsph", Number(xsph))])];
-    let felt = |particles: &Particles| {
+    let felt = |particles: &State| {
         let both = [0.0, 0.5].map(|xsph| accelerations_in(&all, &quiet(xsph), particles, 0.0));
         both[1].iter().zip(&both[0]).map(|(with, without)| (*with - *without).truncate()).collect::<Vec<_>>()
     };
     let drawn = felt(&particles);
-    let each = || drawn.iter().zip(&particles.mass).map(|(a, m)| *m * *a);
+    let each = || drawn.iter().zip(particles.mass()).map(|(a, m)| *m * *a);
     let (total, size) = (each().sum::<DVec3>().length(), each().map(DVec3::length).sum::<f64>());
     assert!(total < 1e-12 * size && size > 0.0, "{total:e} of {size}");
-    let power: f64 = each().zip(&particles.velocity).map(|(f, v)| f.dot(*v)).sum();
+    let power: f64 = each().zip(particles.velocity()).map(|(f, v)| f.dot(*v)).sum();
     assert!(power < 0.0, "{power}");
-    particles.velocity.fill(DVec3::new(0.3, -0.4, 0.0));
+    particles.velocity_mut().fill(DVec3::new(0.3, -0.4, 0.0));
     assert!(felt(&particles).iter().all(|a| a.length() < 1e-12));
 }

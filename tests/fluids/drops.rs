@@ -3,7 +3,7 @@
 use glam::DVec3;
 use motes::forces::Force;
 use motes::settings::Value;
-use motes::{Bounds, Gpu, Particles, Simulation};
+use motes::{Bounds, Gpu, Simulation, State};
 
 use crate::support;
 use crate::support::states::{force, word};
@@ -11,8 +11,8 @@ use crate::{gpu, setup, state};
 use Value::Number;
 
 /// A disk of radius 1, drawn out along y and pressed together along x at a rate.
-fn disk(spacing: f64, strain: f64) -> Particles {
-    let mut particles = Particles::default();
+fn disk(spacing: f64, strain: f64) -> State {
+    let mut particles = State::default();
     let most = (1.0 / spacing).ceil() as i32;
     for j in -most..most {
         for i in -most..most {

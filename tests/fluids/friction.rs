@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use glam::DVec3;
 use motes::settings::Value;
-use motes::{Bounds, Particles, Side};
+use motes::{Bounds, Side, State};
 
 use crate::support::states::{accelerations_in, force, word};
 use Value::Number;
@@ -13,7 +13,7 @@ use Value::Number;
 fn viscosity(flat: bool, support: f64, rubs: (&'static str, f64)) -> f64 {
     let n = 20;
     let spacing = 1.0 / f64::from(n);
-    let mut particles = Particles::default();
+    let mut particles = State::default();
     let depth = if flat { 1 } else { 9 };
     for k in 0..depth {
         for j in 0..n {
@@ -35,8 +35,8 @@ fn viscosity(flat: bool, support: f64, rubs: (&'static str, f64)) -> f64 {
     ];
     let bounds = Bounds::new(DVec3::ZERO, size, Side::Periodic);
     let felt = accelerations_in(&bounds, &[force("fluid", &settings)], &particles, 0.0);
-    let slowed: f64 = felt.iter().zip(&particles.velocity).map(|(a, v)| a.truncate().dot(*v)).sum();
-    let square: f64 = particles.velocity.iter().map(|v| v.length_squared()).sum();
+    let slowed: f64 = felt.iter().zip(particles.velocity()).map(|(a, v)| a.truncate().dot(*v)).sum();
+    let square: f64 = particles.velocity().iter().map(|v| v.length_squared()).sum();
     -slowed / square / (TAU * TAU)
 }
 

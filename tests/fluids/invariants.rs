@@ -4,7 +4,7 @@ use glam::{DVec3, DVec4, Vec4};
 use motes::fluids::DENSITY;
 use motes::kernel::{ACCELERATION, Array};
 use motes::settings::Value;
-use motes::{Bounds, POSITION, Particles, Side, VELOCITY};
+use motes::{Bounds, POSITION, Side, State, VELOCITY};
 
 use crate::support;
 use crate::support::fluids::{bounds, cloud, fluid};
@@ -30,9 +30,9 @@ fn pressure_is_the_slope_of_the_energy() {
     ] {
         let forces = [smooth(&more)];
         let particles = cloud(60, flat, false);
-        let energy = |particles: &Particles| {
+        let energy = |particles: &State| {
             let felt = accelerations_in(&open(flat), &forces, particles, 0.0);
-            felt.iter().zip(&particles.mass).map(|(a, m)| m * a.w).sum::<f64>()
+            felt.iter().zip(particles.mass()).map(|(a, m)| m * a.w).sum::<f64>()
         };
         let felt = accelerations_in(&open(flat), &forces, &particles, 0.0);
         let usual = (felt.iter().map(|a| a.truncate().length_squared()).sum::<f64>() / felt.len() as f64).sqrt();
@@ -42,10 +42,10 @@ fn pressure_is_the_slope_of_the_energy() {
             for axis in [DVec3::X, DVec3::Y] {
                 let moved = |by: f64| {
                     let mut particles = particles.clone();
-                    particles.position[id] += by * axis;
+                    particles.position_mut()[id] += by * axis;
                     energy(&particles)
                 };
-                let slope = (moved(e) - moved(-e)) / (2.0 * e) / particles.mass[id];
+                let slope = (moved(e) - moved(-e)) / (2.0 * e) / particles.mass()[id];
                 // e² / 6 of a third derivative, which is of the order of the acceleration over the square of the support:
                 // (1e-5 / 0.2)² = 2.5e-9, by γ² at most.
                 let off = (felt[id].truncate().dot(axis) + slope).abs();
@@ -62,11 +62,11 @@ fn momentum_is_kept_without_walls() {
         let particles = cloud(200, flat, false);
         for (more, turns) in [(vec![("viscosity", Number(0.0))], false), (vec![], true)] {
             let felt = accelerations_in(&open(flat), &[fluid(&more)], &particles, 0.0);
-            let each = || felt.iter().zip(&particles.mass).map(|(a, m)| *m * a.truncate());
+            let each = || felt.iter().zip(particles.mass()).map(|(a, m)| *m * a.truncate());
             let (total, size) = (each().sum::<DVec3>().length(), each().map(DVec3::length).sum::<f64>());
             // Sums of 200 in f64.
             assert!(total < 1e-13 * size && size > 0.0, "{total:e} of {size}");
-            let turning = || each().zip(&particles.position).map(|(f, x)| x.cross(f));
+            let turning = || each().zip(particles.position()).map(|(f, x)| x.cross(f));
             let (total, size) = (turning().sum::<DVec3>().length(), turning().map(DVec3::length).sum::<f64>());
             assert!((total > 1e-6 * size) == turns && (turns || total < 1e-13 * size), "{total:e} of {size}");
         }
@@ -77,11 +77,11 @@ fn momentum_is_kept_without_walls() {
 #[test]
 fn energy_is_kept_without_walls_and_friction() {
     let mut particles = cloud(64, true, false);
-    particles.position.iter_mut().for_each(|x| *x *= 0.95);
-    particles.velocity.fill(DVec3::ZERO);
+    particles.position_mut().iter_mut().for_each(|x| *x *= 0.95);
+    particles.velocity_mut().fill(DVec3::ZERO);
     let total = |simulation: &mut motes::Simulation<motes::Cpu>| {
         let snapshot = pollster::block_on(simulation.snapshot()).expect("a snapshot");
-        let energy = motes::Measure::of(&snapshot);
+        let energy = motes::Measure::of(&snapshot).expect("energies");
         (energy.total(), energy.kinetic)
     };
     let drift = |dt: f64, steps: u32| {
@@ -132,7 +132,7 @@ fn walls_stay_where_they_are() {
     };
     for (i, x) in x.iter().enumerate() {
         let held = i % 5 == 2;
-        assert_eq!(held, x.truncate() == particles.position[i], "{i}");
+        assert_eq!(held, x.truncate() == particles.position()[i], "{i}");
         assert_eq!(held, v[i].with_w(0.0) == DVec4::ZERO, "{i}");
     }
 }

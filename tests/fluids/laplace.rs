@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use glam::DVec3;
 use motes::fluids::{DENSITY, Medium, Smoothing};
 use motes::settings::Value;
-use motes::{Bounds, Particles};
+use motes::{Bounds, State};
 
 use crate::support;
 use crate::support::states::{force, word};
@@ -20,8 +20,8 @@ const SOUND: f64 = 10.0;
 
 /// Drops of so many spacings, one behind the other and out of each other's reach; of lattices that are nobody's mirror image, or
 /// they would keep their corners. And how many are in each.
-fn drops(radii: &[f64]) -> (Particles, Vec<usize>) {
-    let (mut particles, mut counts, mut along) = (Particles::default(), Vec::new(), 0.0);
+fn drops(radii: &[f64]) -> (State, Vec<usize>) {
+    let (mut particles, mut counts, mut along) = (State::default(), Vec::new(), 0.0);
     for radius in radii {
         let (most, before) = (radius.ceil() as i32 + 1, particles.len());
         along += radius + 4.0;

@@ -23,13 +23,13 @@ mod walls;
 use glam::DVec3;
 use motes::forces::Force;
 use motes::scene::{Options, Scene, Source};
-use motes::{Bounds, Gpu, POSITION, Particles, Setup, Simulation, VELOCITY};
+use motes::{Bounds, Gpu, POSITION, Setup, Simulation, State, VELOCITY};
 use support::Shared;
 use support::states::integrator;
 
-fn setup(particles: &Particles, forces: Vec<Box<dyn Force>>, name: &str, dt: f64, bounds: Bounds) -> Setup {
+fn setup(particles: &State, forces: Vec<Box<dyn Force>>, name: &str, dt: f64, bounds: Bounds) -> Setup {
     Setup {
-        particles: particles.clone(),
+        state: particles.clone(),
         forces,
         integrator: integrator(name),
         dt,
@@ -52,7 +52,7 @@ fn scene(name: &str, changes: &[&str]) -> (Scene, Setup) {
     let parts = load();
     let integrator = (parts.integrator.build)();
     let setup = Setup {
-        particles: parts.particles,
+        state: parts.particles,
         forces: parts.forces,
         integrator,
         dt: parts.dt,

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use motes::settings::Value;
 use motes::stability::{Asks, Flow};
-use motes::{Bounds, Particles, Setup, Side};
+use motes::{Bounds, Setup, Side, State};
 
 use crate::support::states::{force, integrator};
 use crate::support::{Random, device};
@@ -15,7 +15,7 @@ const SPACING: f64 = 0.1;
 
 /// A lattice at rest in a periodic box, all of whose waves have a little in them.
 fn lattice(flat: bool, more: &[(&'static str, Value)], dt: f64) -> Setup {
-    let (mut particles, mut random) = (Particles::default(), Random::new(3));
+    let (mut particles, mut random) = (State::default(), Random::new(3));
     let deep = if flat { 1 } else { SIDE };
     for id in 0..SIDE * SIDE * deep {
         let place = DVec3::new(f64::from(id % SIDE), f64::from(id / SIDE % SIDE), f64::from(id / SIDE / SIDE));

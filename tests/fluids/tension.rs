@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use motes::settings::Value;
-use motes::{Bounds, Particles, Side};
+use motes::{Bounds, Side, State};
 
 use crate::support;
 use crate::support::fluids::{DENSITY, SPACING, bounds, cloud, fluid};
@@ -15,7 +15,7 @@ use Value::Number;
 fn two_pull_each_other_by_the_paper() {
     let forces = |tension| [fluid(&[("alpha", Number(0.0)), ("viscosity", Number(0.0)), ("tension", Number(tension))])];
     let (h, density, mass) = (2.0 * SPACING, DENSITY, DENSITY * SPACING.powi(3));
-    let mut particles = Particles::default();
+    let mut particles = State::default();
     particles.push(DVec3::ZERO, DVec3::ZERO, mass, 0.0);
     particles.push(DVec3::new(0.5 * h, 0.0, 0.0), DVec3::ZERO, mass, 0.0);
     let felt = |tension| accelerations_in(&bounds(2, false, Side::Open), &forces(tension), &particles, 0.0)[0].x;
@@ -38,7 +38,7 @@ const LATTICE: f64 = 0.999972466091;
 fn tension_keeps_momentum() {
     for flat in [false, true] {
         let mut particles = cloud(80, flat, false);
-        particles.mass.fill(0.01);
+        particles.mass_mut().fill(0.01);
         let felt =
             accelerations_in(&bounds(80, flat, Side::Periodic), &[fluid(&[("tension", Number(5.0))])], &particles, 0.0);
         let sum: DVec3 = felt.iter().map(|a| a.truncate()).sum();
@@ -58,7 +58,7 @@ fn quarter(shared: &support::Shared, tension: f64) -> f64 {
         ("alpha", Number(0.02)),
         ("tension", Number(tension)),
     ];
-    let mut particles = Particles::default();
+    let mut particles = State::default();
     for j in -10..10 {
         for i in -15..15 {
             let x = D * DVec3::new(f64::from(i) + 0.5, f64::from(j) + 0.5, 0.0);

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use motes::settings::Value;
-use motes::{Bounds, Cpu, Particles, Side, Simulation};
+use motes::{Bounds, Cpu, Side, Simulation, State};
 
 use super::setup;
 use crate::support::states::{force, phase, word};
@@ -11,9 +11,9 @@ use Value::Number;
 const D: f64 = 0.1;
 
 /// A layer of walls at y = 0 and above it, from a gap on, layers of fluid; periodic along the walls.
-fn layers(flat: bool, gap: f64, fluid: usize) -> (Particles, Bounds, usize) {
+fn layers(flat: bool, gap: f64, fluid: usize) -> (State, Bounds, usize) {
     let n = 12;
-    let mut particles = Particles::default();
+    let mut particles = State::default();
     let volume = if flat { D * D } else { D * D * D };
     for j in 0..=fluid {
         let y = if j == 0 { 0.0 } else { gap + (j - 1) as f64 };

@@ -1,15 +1,15 @@
 //! A rumpled cloth, and the linear system of its backward Euler step in f64, by a program of its own.
 
 use glam::DVec3;
-use motes::Particles;
+use motes::State;
 
 use crate::support::Random;
 use crate::{hold, tie};
 
 /// A cloth of n × n particles and one that is tied to nothing, a metre wide, two corners held; springs to the next, across and
 /// to the next but one, all as stiff.
-pub fn cloth(n: u32, stiffness: f64) -> Particles {
-    let mut particles = Particles::default();
+pub fn cloth(n: u32, stiffness: f64) -> State {
+    let mut particles = State::default();
     let mut random = Random::new(17);
     let step = 1.0 / f64::from(n - 1);
     let noise = 0.002 / (f64::from(n) / 32.0);
@@ -39,7 +39,7 @@ pub fn cloth(n: u32, stiffness: f64) -> Particles {
 
 /// The system (M − h² K) y = b.
 pub struct System<'a> {
-    pub particles: &'a Particles,
+    pub particles: &'a State,
     pub h: f64,
     /// Whether compressed springs may push aside.
     pub exact: bool,
@@ -51,7 +51,7 @@ impl System<'_> {
     }
     /// k h² (t (I − u uᵀ) + u uᵀ) for each spring.
     fn blocks(&self) -> Vec<([usize; 2], DVec3, f64, f64)> {
-        let x = &self.particles.position;
+        let x = self.particles.position();
         let block = |link: &motes::links::Link| {
             let ends = link.ends.map(|id| id as usize);
             let r = x[ends[1]] - x[ends[0]];
@@ -61,7 +61,7 @@ impl System<'_> {
         self.particles.links.springs.iter().map(block).collect()
     }
     fn product(&self, blocks: &[([usize; 2], DVec3, f64, f64)], z: &[DVec3]) -> Vec<DVec3> {
-        let mut y: Vec<DVec3> = z.iter().zip(&self.particles.mass).map(|(z, m)| *z * *m).collect();
+        let mut y: Vec<DVec3> = z.iter().zip(self.particles.mass()).map(|(z, m)| *z * *m).collect();
         for ([a, b], u, t, k) in blocks {
             let way = z[*a] - z[*b];
             let force = *k * (*t * way + (1.0 - t) * u.dot(way) * *u);
@@ -86,7 +86,7 @@ impl System<'_> {
     /// none where a direction of negative curvature comes.
     pub fn iterations(&self, b: &[DVec3], tolerance: f64, most: usize) -> Option<usize> {
         let blocks = self.blocks();
-        let mut diagonal: Vec<DVec3> = self.particles.mass.iter().map(|m| DVec3::splat(*m)).collect();
+        let mut diagonal: Vec<DVec3> = self.particles.mass().iter().map(|m| DVec3::splat(*m)).collect();
         for ([a, c], u, t, k) in &blocks {
             let own = *k * (DVec3::splat(*t) + (1.0 - t) * *u * *u);
             diagonal[*a] += own;

@@ -4,7 +4,7 @@
 use glam::DVec3;
 use motes::forces::Force;
 use motes::settings::Value;
-use motes::{Particles, Setup, Solver};
+use motes::{Setup, Solver, State};
 
 use crate::support::states::{force, one, word};
 use crate::support::{self, Shared};
@@ -16,14 +16,14 @@ const STRENGTH: f64 = 1.69;
 const SOLVER: Solver = Solver { tolerance: 1e-6, iterations: 20, solves: 3 };
 
 /// A particle about the origin, drawn back by a law of each alone, or by a spring of no length to one that is held.
-fn oscillator(by_spring: bool) -> (Particles, Vec<Box<dyn Force>>) {
+fn oscillator(by_spring: bool) -> (State, Vec<Box<dyn Force>>) {
     let (x, v) = (DVec3::new(0.8, -0.3, 0.4), DVec3::new(0.2, 0.7, -0.5));
     let mut particles = one(x, v);
     if !by_spring {
         let harmonic = [("profile", word("harmonic")), ("strength", Value::Number(STRENGTH))];
         return (particles, vec![force("attractor", &harmonic)]);
     }
-    particles.mass[0] = 1.5;
+    particles.mass_mut()[0] = 1.5;
     particles.push(DVec3::ZERO, DVec3::ZERO, 0.7, 0.0);
     hold(&mut particles, 1);
     tie(&mut particles, [0, 1], 0.0, STRENGTH * 1.5, 0.0);

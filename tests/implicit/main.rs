@@ -16,7 +16,7 @@ use motes::forces::Force;
 use motes::kernel::Backend;
 use motes::links::Link;
 use motes::motion::{Held, Hold};
-use motes::{Bounds, Cpu, Gpu, POSITION, Particles, Setup, Simulation, Solver, VELOCITY};
+use motes::{Bounds, Cpu, Gpu, POSITION, Setup, Simulation, Solver, State, VELOCITY};
 use support::Shared;
 use support::states::integrator;
 
@@ -30,8 +30,8 @@ const ALL: [&str; 6] = [
     "implicit_midpoint",
 ];
 
-fn setup(particles: &Particles, forces: Vec<Box<dyn Force>>, name: &str, dt: f64, solver: Solver) -> Setup {
-    Setup { particles: particles.clone(), forces, integrator: integrator(name), dt, bounds: Bounds::default(), solver }
+fn setup(particles: &State, forces: Vec<Box<dyn Force>>, name: &str, dt: f64, solver: Solver) -> Setup {
+    Setup { state: particles.clone(), forces, integrator: integrator(name), dt, bounds: Bounds::default(), solver }
 }
 
 fn on_device(shared: &Shared, setup: &Setup) -> Simulation<Gpu> {
@@ -39,7 +39,7 @@ fn on_device(shared: &Shared, setup: &Setup) -> Simulation<Gpu> {
 }
 
 fn on_twins(setup: &Setup) -> Simulation<Cpu> {
-    let count = u32::try_from(setup.particles.len()).expect("few");
+    let count = u32::try_from(setup.state.len()).expect("few");
     Simulation::on(Cpu::new(count).expect("some"), setup).expect("a simulation")
 }
 
@@ -52,10 +52,10 @@ fn phase<B: Backend>(simulation: &mut Simulation<B>, id: usize) -> (DVec3, DVec3
 }
 
 /// Ties two particles by a spring.
-fn tie(particles: &mut Particles, ends: [u32; 2], rest: f64, stiffness: f64, damping: f64) {
+fn tie(particles: &mut State, ends: [u32; 2], rest: f64, stiffness: f64, damping: f64) {
     particles.links.springs.push(Link { ends, rest, stiffness, damping, rope: false });
 }
 
-fn hold(particles: &mut Particles, id: u32) {
+fn hold(particles: &mut State, id: u32) {
     particles.held.push(Held { id, by: Hold::Fixed });
 }

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use motes::forces::Force;
-use motes::{Particles, Setup, Solver};
+use motes::{Setup, Solver, State};
 
 use crate::support::states::{force, phase as wide, vector};
 use crate::support::{self};
@@ -12,8 +12,8 @@ const SOLVER: Solver = Solver { tolerance: 1e-6, iterations: 10, solves: 8 };
 const GRAVITY: f64 = 9.81;
 const STIFFNESS: f64 = 100.0;
 
-fn pendulum() -> (Particles, Vec<Box<dyn Force>>) {
-    let mut particles = Particles::default();
+fn pendulum() -> (State, Vec<Box<dyn Force>>) {
+    let mut particles = State::default();
     particles.push(DVec3::X, DVec3::ZERO, 1.0, 0.0);
     particles.push(DVec3::ZERO, DVec3::ZERO, 1.0, 0.0);
     hold(&mut particles, 1);

@@ -6,7 +6,7 @@ use glam::{DVec3, Vec4};
 use motes::forces::{Force, Jacobian, Law};
 use motes::kernel::{Array, Backend, Source};
 use motes::simulation::{Outcome, Solves};
-use motes::{ACCELERATION, Gpu, POSITION, Particles, Simulation, Solver};
+use motes::{ACCELERATION, Gpu, POSITION, Simulation, Solver, State};
 
 use crate::cloth::{System, cloth};
 use crate::support::states::{force, vector};
@@ -33,7 +33,7 @@ fn vectors(simulation: &mut Simulation<Gpu>, name: &str, particles: usize, parts
 }
 
 /// One linear step of a cloth: the device's report, and what the textbook makes of the same system.
-fn step(shared: &Shared, particles: &Particles, solver: Solver) -> (Solves, usize, f64) {
+fn step(shared: &Shared, particles: &State, solver: Solver) -> (Solves, usize, f64) {
     let count = particles.len();
     let setup = setup(particles, forces(), "linear_backward_euler", H, solver);
     let mut simulation = on_device(shared, &setup);
@@ -41,7 +41,7 @@ fn step(shared: &Shared, particles: &Particles, solver: Solver) -> (Solves, usiz
     // The right-hand side as the device has it: forces of stiff springs round by more than the tolerance.
     let a = pollster::block_on(simulation.read(ACCELERATION)).expect("accelerations");
     let due = |(a, m): (&Vec4, &f64)| H * m * a.truncate().as_dvec3();
-    let b: Vec<DVec3> = a.iter().zip(&particles.mass).map(due).collect();
+    let b: Vec<DVec3> = a.iter().zip(particles.mass()).map(due).collect();
     let y = vectors(&mut simulation, "directions", count, 3, 2);
     let system = System { particles, h: H, exact: false };
     let iterations = system.iterations(&b, solver.tolerance, 2000).expect("the matrix is positive");

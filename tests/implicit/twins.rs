@@ -34,7 +34,7 @@ fn a_step_of_a_cloth() {
             }
             // Who has no mass is solved alone.
             let last = particles.len() - 1;
-            particles.mass[last] = 0.0;
+            particles.mass_mut()[last] = 0.0;
             let count = u32::try_from(particles.len()).expect("few");
             // So few iterations that much is left for the second solve: what is left is a difference of impulses, and where
             // they cancel, so do their digits.

@@ -22,7 +22,7 @@ fn a_csv_snapshot_is_the_shortest_text() {
 #[test]
 fn species_are_written_where_there_are_any() {
     let mut particles = some(2);
-    particles.species[1] = 7;
+    particles.species_mut()[1] = 7;
     let text = String::from_utf8(csv_bytes(&particles, Precision::Single)).expect("text");
     let lines: Vec<_> = text.lines().collect();
     assert_eq!(lines[0], "id,x,y,z,vx,vy,vz,mass,species");
@@ -55,14 +55,14 @@ fn a_csv_may_leave_out_much_and_come_in_any_order() {
     let path =
         put(&folder, "a.csv", "# a comment\n name , mass ,x,y,z\n\"Sun, the\",2, 1,2,3\n# more\nEarth,0,4,5,-6e-1\n");
     let p = read(&path).expect("csv");
-    assert_eq!(p.position, [DVec3::new(1.0, 2.0, 3.0), DVec3::new(4.0, 5.0, -0.6)]);
-    assert_eq!((p.velocity, p.mass, p.radius), (vec![DVec3::ZERO; 2], vec![2.0, 0.0], vec![0.0; 2]));
-    assert_eq!(p.species, [0, 0]);
+    assert_eq!(p.position(), [DVec3::new(1.0, 2.0, 3.0), DVec3::new(4.0, 5.0, -0.6)]);
+    assert_eq!((p.velocity(), p.mass(), p.size()), (&[DVec3::ZERO; 2][..], &[2.0, 0.0][..], &[0.0; 2][..]));
+    assert_eq!(p.species(), [0, 0]);
     let p =
         read(&put(&folder, "b.txt", "radius,z,y,x,id,species\n0.5,3,2,1,1,4\n0.25,6,5,4,0,4294967295\n")).expect("csv");
-    assert_eq!(p.position, [DVec3::new(4.0, 5.0, 6.0), DVec3::new(1.0, 2.0, 3.0)]);
-    assert_eq!((p.mass, p.radius), (vec![1.0; 2], vec![0.25, 0.5]));
-    assert_eq!(p.species, [u32::MAX, 4]);
+    assert_eq!(p.position(), [DVec3::new(4.0, 5.0, 6.0), DVec3::new(1.0, 2.0, 3.0)]);
+    assert_eq!((p.mass(), p.size()), (&[1.0; 2][..], &[0.25, 0.5][..]));
+    assert_eq!(p.species(), [u32::MAX, 4]);
 }
 
 #[test]

@@ -14,9 +14,9 @@ use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
 use glam::DVec3;
+use motes::State;
 use motes::error::Error;
 use motes::io::{Precision, csv, npz, read, tipsy};
-use motes::particles::Particles;
 use tempfile::TempDir;
 
 fn folder() -> TempDir {
@@ -50,14 +50,14 @@ fn refused(name: &str, bytes: impl AsRef<[u8]>, words: &[&str]) {
     }
 }
 
-fn bits(p: &Particles) -> Vec<u64> {
-    let vectors = p.position.iter().chain(&p.velocity).flat_map(DVec3::to_array);
-    let numbers = vectors.chain(p.mass.iter().copied()).chain(p.radius.iter().copied());
-    numbers.chain(p.species.iter().map(|of| f64::from(*of))).map(f64::to_bits).collect()
+fn bits(p: &State) -> Vec<u64> {
+    let vectors = p.position().iter().chain(p.velocity()).flat_map(DVec3::to_array);
+    let numbers = vectors.chain(p.mass().iter().copied()).chain(p.size().iter().copied());
+    numbers.chain(p.species().iter().map(|of| f64::from(*of))).map(f64::to_bits).collect()
 }
 
-fn some(count: u32) -> Particles {
-    let mut particles = Particles::default();
+fn some(count: u32) -> State {
+    let mut particles = State::default();
     for i in 0..count {
         let x = f64::from(i) + 1.0 / 3.0;
         particles.push(DVec3::new(x, -x * 1e-3, 1e5 / x), DVec3::new(x.sqrt(), -0.0, 0.7 * x), 0.1 * x, 0.0);
@@ -65,19 +65,19 @@ fn some(count: u32) -> Particles {
     particles
 }
 
-fn csv_bytes(particles: &Particles, precision: Precision) -> Vec<u8> {
+fn csv_bytes(particles: &State, precision: Precision) -> Vec<u8> {
     let mut bytes = Vec::new();
     csv::write_csv(&mut bytes, particles, precision).expect("memory");
     bytes
 }
 
-fn npz_bytes(particles: &Particles, precision: Precision) -> Vec<u8> {
+fn npz_bytes(particles: &State, precision: Precision) -> Vec<u8> {
     let mut bytes = Cursor::new(Vec::new());
     npz::write_npz(&mut bytes, particles, 2.5, 77, precision).expect("memory");
     bytes.into_inner()
 }
 
-fn tipsy_bytes(particles: &Particles) -> Vec<u8> {
+fn tipsy_bytes(particles: &State) -> Vec<u8> {
     let mut bytes = Vec::new();
     tipsy::write_tipsy(&mut bytes, particles, 2.5, 0.125).expect("memory");
     bytes

@@ -1,14 +1,14 @@
 //! What was written reads back to the same bits; what was damaged never panics.
 
 use glam::DVec3;
+use motes::State;
 use motes::io::{Precision, npz, read, tipsy};
-use motes::particles::Particles;
 use proptest::prelude::*;
 
 use crate::{bits, csv_bytes, folder, npz_bytes, put, some, tipsy_bytes};
 
 /// The same, all numbers narrowed to f32.
-fn narrow(p: &Particles) -> Vec<u32> {
+fn narrow(p: &State) -> Vec<u32> {
     #[expect(clippy::cast_possible_truncation, reason = "on purpose")]
     bits(p).into_iter().map(|bits| (f64::from_bits(bits) as f32).to_bits()).collect()
 }
@@ -31,8 +31,8 @@ prop_compose! {
     }
 }
 
-fn of(numbers: &[f64]) -> Particles {
-    let mut particles = Particles::default();
+fn of(numbers: &[f64]) -> State {
+    let mut particles = State::default();
     for n in numbers.chunks_exact(7) {
         particles.push(DVec3::new(n[0], n[1], n[2]), DVec3::new(n[3], n[4], n[5]), n[6].abs(), 0.0);
     }
@@ -53,8 +53,8 @@ fn a_single_survives_rounding_twice() {
 }
 
 /// The same, of some species.
-fn kinds(mut particles: Particles, kinds: &[u32]) -> Particles {
-    particles.species.iter_mut().zip(kinds).for_each(|(species, kind)| *species = *kind);
+fn kinds(mut particles: State, kinds: &[u32]) -> State {
+    particles.species_mut().iter_mut().zip(kinds).for_each(|(species, kind)| *species = *kind);
     particles
 }
 
@@ -69,7 +69,7 @@ proptest! {
         prop_assert_eq!(bits(&read(&text).expect("csv")), bits(&particles));
         let archive = put(&folder, "a.npz", npz_bytes(&particles, Precision::Double));
         let back = npz::read(&archive).expect("npz");
-        prop_assert_eq!((bits(&back.particles), back.time, back.step), (bits(&particles), 2.5, 77));
+        prop_assert_eq!((bits(&back), back.time, back.step), (bits(&particles), 2.5, 77));
     }
 
     #[test]
@@ -83,7 +83,7 @@ proptest! {
         prop_assert_eq!(bits(&read(&archive).expect("npz")), bits(&particles));
         let binary = put(&folder, "a.tipsy", tipsy_bytes(&particles));
         let back = tipsy::read(&binary).expect("tipsy");
-        prop_assert_eq!((bits(&back.particles), back.time), (bits(&particles), 2.5));
+        prop_assert_eq!((bits(&back), back.time), (bits(&particles), 2.5));
     }
 
     #[test]

@@ -29,7 +29,7 @@ fn what_was_cut_off_is_an_error() {
         let path = put(&folder, "a.csv", &bytes[..bytes.len() * part / 16]);
         if let Ok(less) = read(&path) {
             let whole = less.len().saturating_sub(1);
-            assert!(less.len() < 20 && less.position[..whole] == all.position[..whole]);
+            assert!(less.len() < 20 && less.position()[..whole] == all.position()[..whole]);
         }
     }
 }

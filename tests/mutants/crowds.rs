@@ -7,7 +7,7 @@ use std::rc::Rc;
 use glam::DVec3;
 use motes::kernel::{ALARM, Backend, Kernel, Plan, QUIET};
 use motes::settings::Value;
-use motes::{Bounds, Gpu, POSITION, Particles, Setup, Simulation};
+use motes::{Bounds, Gpu, POSITION, Setup, Simulation, State};
 
 use crate::dfsph::{ANYTIME, SPACING, anything, go, state, words};
 use crate::stages::{Device, Stage};
@@ -28,7 +28,7 @@ pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
 
 /// A fluid of those, at rest, a step on its way.
 fn resting(device: &Device, places: &[DVec3], flat: bool) -> (Rc<RefCell<Simulation<Gpu>>>, Plan) {
-    let mut particles = Particles::default();
+    let mut particles = State::default();
     let mass = SPACING.powi(if flat { 2 } else { 3 });
     for place in places {
         particles.push(*place, DVec3::ZERO, mass, 0.0);
@@ -39,7 +39,7 @@ fn resting(device: &Device, places: &[DVec3], flat: bool) -> (Rc<RefCell<Simulat
     gpu.pad(5);
     let bounds = Bounds { dimensions: if flat { 2 } else { 3 }, ..Bounds::default() };
     let (forces, integrator) = (vec![force("fluid", &settings)], integrator("symplectic_euler"));
-    let setup = Setup { particles, forces, integrator, dt: 0.007, bounds, solver: motes::Solver::default() };
+    let setup = Setup { state: particles, forces, integrator, dt: 0.007, bounds, solver: motes::Solver::default() };
     let plan = setup.plans(gpu.machine()).expect("plans").step;
     let mut simulation = Simulation::on(gpu, &setup).expect("a simulation");
     simulation.step(1).expect("a step");
@@ -103,7 +103,7 @@ fn crowded(device: &Device, stages: &mut Vec<Stage>) {
 /// Errors of so many that they are added in two dispatches.
 fn many(device: &Device, stages: &mut Vec<Stage>) {
     const MANY: usize = 9000;
-    let mut particles = Particles::default();
+    let mut particles = State::default();
     let mut random = Random::new(19);
     for n in 0..MANY {
         particles.push(DVec3::X * n as f64, DVec3::ZERO, 1.0, 0.0);
@@ -112,8 +112,14 @@ fn many(device: &Device, stages: &mut Vec<Stage>) {
     let mut gpu = Gpu::new(&device.0, &device.1, MANY as u32).expect("a GPU");
     gpu.pad(5);
     let integrator = integrator("symplectic_euler");
-    let setup =
-        Setup { particles, forces, integrator, dt: 0.007, bounds: Bounds::default(), solver: motes::Solver::default() };
+    let setup = Setup {
+        state: particles,
+        forces,
+        integrator,
+        dt: 0.007,
+        bounds: Bounds::default(),
+        solver: motes::Solver::default(),
+    };
     let plan = setup.plans(gpu.machine()).expect("plans").step;
     let simulation = Rc::new(RefCell::new(Simulation::on(gpu, &setup).expect("a simulation")));
     go(&simulation, &plan);

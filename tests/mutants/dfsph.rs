@@ -10,7 +10,7 @@ use motes::fluids::DFSPH_REPORT;
 use motes::kernel::{Backend, Kernel, Machine, Plan, World};
 use motes::motion::{Held, Hold};
 use motes::settings::Value;
-use motes::{Bounds, Gpu, Particles, Setup, Side, Simulation, VELOCITY};
+use motes::{Bounds, Gpu, Setup, Side, Simulation, State, VELOCITY};
 
 use crate::stages::{Device, Stage};
 use crate::support::machines::alone;
@@ -28,10 +28,10 @@ pub const ANYTIME: f64 = 0.13;
 
 /// A jittered block on a floor, of masses that are not all the same, and a few particles that are alone or nearly so; eight
 /// workgroups of slots, which is two rows of the smaller device, and none too many.
-fn block(flat: bool) -> (Particles, Bounds) {
+fn block(flat: bool) -> (State, Bounds) {
     let (wide, layers) = if flat { (20, 23) } else { (6, 12) };
     let mut random = Random::new(17);
-    let mut particles = Particles::default();
+    let mut particles = State::default();
     let area = SPACING * SPACING;
     let mass = 700.0 * if flat { area } else { area * SPACING };
     for k in 0..=layers {
@@ -81,19 +81,19 @@ fn simulation(device: &Device, flat: bool, walks: bool) -> (Simulation<Gpu>, Pla
         gpu.pretend(Machine { bindable: 0, ..machine });
     }
     let setup = Setup {
-        particles,
+        state: particles,
         forces,
         integrator: integrator("symplectic_euler"),
         dt: 0.007,
         bounds,
         solver: motes::Solver::default(),
     };
-    let fluid = setup.particles.len() - setup.particles.held.len();
+    let fluid = setup.state.len() - setup.state.held.len();
     let plan = setup.plans(gpu.machine()).expect("plans").step;
     let mut simulation = Simulation::on(gpu, &setup).expect("a simulation");
     simulation.step(2).expect("two steps");
     let mut random = Random::new(5);
-    let count = setup.particles.len();
+    let count = setup.state.len();
     let velocity = (0..count).map(|_| {
         let v = random.vector() * 1.5;
         (if flat { v.with_z(0.0) } else { v }).as_vec3().extend(0.0)

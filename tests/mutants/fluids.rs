@@ -129,7 +129,7 @@ pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
         for case in cases() {
             let bounds = bounds(FEW, case.flat, case.side);
             let setup = Setup {
-                particles: cloud(FEW, case.flat, case.walls),
+                state: cloud(FEW, case.flat, case.walls),
                 forces: vec![fluid(&case.settings)],
                 // Its drifts are parts of a step.
                 integrator: integrator("pefrl"),
@@ -159,7 +159,7 @@ pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
 fn told(device: &Device, machine: Machine, stages: &mut Vec<Stage>) {
     let all = bounds(FEW, false, Side::Periodic);
     let setup = Setup {
-        particles: cloud(FEW, false, true),
+        state: cloud(FEW, false, true),
         forces: vec![fluid(&[])],
         integrator: integrator("leapfrog"),
         dt: 0.003,

@@ -9,7 +9,7 @@ use motes::kernel::{Backend, Kernel, Machine, Plan, Scalar};
 use motes::links::{Link, Links};
 use motes::motion::{Held, Hold};
 use motes::settings::Value;
-use motes::{Bounds, Gpu, Particles, Setup, Simulation, Solver};
+use motes::{Bounds, Gpu, Setup, Simulation, Solver, State};
 
 use crate::stages::{Device, Stage};
 use crate::support::machines::alone;
@@ -21,7 +21,7 @@ const COUNT: usize = 1010;
 
 /// A cloud of which most are tied, some in rings; one is held, one has no mass.
 #[expect(clippy::cast_possible_truncation, reason = "numbers are rounded to what f32 holds")]
-fn tangle(stiffness: f64) -> Particles {
+fn tangle(stiffness: f64) -> State {
     let mut particles = support::cloud(COUNT, 31);
     particles.links = Links::default();
     let tied = u32::try_from(COUNT).expect("few") - 20;
@@ -38,10 +38,10 @@ fn tangle(stiffness: f64) -> Particles {
             }
         }
     }
-    for mass in &mut particles.mass {
+    for mass in particles.mass_mut() {
         *mass = f64::from((*mass * 300.0) as f32);
     }
-    particles.mass[COUNT - 3] = 0.0;
+    particles.mass_mut()[COUNT - 3] = 0.0;
     particles.held.push(Held { id: 17, by: Hold::Fixed });
     particles
 }
@@ -105,7 +105,7 @@ pub fn all(device: &Device, stages: &mut Vec<Stage>) {
         gpu.pad(5);
         gpu.pretend(machine);
         let setup = Setup {
-            particles: tangle(stiffness),
+            state: tangle(stiffness),
             forces: forces(),
             integrator: integrator(name),
             dt: 0.31,

@@ -100,8 +100,8 @@ pub fn resting(device: &Device, machine: Machine, bounds: Bounds) -> Simulation<
     let mut simulation = moving(device, FEW, Some(machine));
     let cloud = support::cloud(FEW, 11);
     let join = |v: &[DVec3], w: &[f64]| -> Vec<Vec4> { v.iter().zip(w).map(|(v, w)| v.extend(*w).as_vec4()).collect() };
-    let mut positions = join(&cloud.position, &cloud.mass);
-    let mut velocities = join(&cloud.velocity, &cloud.radius);
+    let mut positions = join(cloud.position(), cloud.mass());
+    let mut velocities = join(cloud.velocity(), cloud.size());
     for v in &mut velocities {
         *v *= Vec4::splat(1.7).with_w(1.0);
     }

@@ -30,6 +30,7 @@ fn remember(kernel: &mut Kernel) {
             for (name, array) in arrays {
                 match array {
                     Array::Vec4(made) => host.writing::<glam::Vec4>(name)?.copy_from_slice(made),
+                    Array::Vec3(_) => panic!("{name} is an array of the host"),
                     Array::Float(made) => host.writing::<f32>(name)?.copy_from_slice(made),
                     Array::Uint(made) => host.writing::<u32>(name)?.copy_from_slice(made),
                 }

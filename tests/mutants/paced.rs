@@ -100,7 +100,7 @@ fn wants(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
             let forces = if silent { vec![Box::new(Silent) as Box<dyn Force>] } else { vec![fluid(&[])] };
             let setup = Setup {
                 // Where nobody is held, who writes behind the last is seen.
-                particles: cloud(FEW, false, !silent),
+                state: cloud(FEW, false, !silent),
                 forces,
                 integrator: Box::new(Paced { integrator: integrator("leapfrog"), pace }),
                 dt: 0.003,

@@ -51,7 +51,7 @@ impl Force for Thick {
 fn setup(force: Box<dyn Force>, least: f64) -> Setup {
     let pace = Pace { least, courant: 0.3, before: None };
     Setup {
-        particles: support::cloud(FEW, 11),
+        state: support::cloud(FEW, 11),
         forces: vec![force],
         integrator: Box::new(Paced { integrator: integrator("heun"), pace }),
         dt: DT,

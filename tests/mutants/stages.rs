@@ -140,7 +140,7 @@ pub fn moving(device: &Device, count: usize, machine: Option<Machine>) -> Simula
     let integrator = integrator("symplectic_euler");
     let forces = vec![force("uniform", &[])];
     let setup = Setup {
-        particles: support::cloud(count, 11),
+        state: support::cloud(count, 11),
         forces,
         integrator,
         dt: DT,
@@ -211,7 +211,7 @@ fn integrators(device: &Device, stages: &mut Vec<Stage>) {
     let machine = moving(device, 1, None).backend().machine();
     for entry in INTEGRATORS {
         let setup = Setup {
-            particles: support::cloud(FEW, 11),
+            state: support::cloud(FEW, 11),
             forces: Vec::new(),
             integrator: (entry.build)(),
             dt: DT,

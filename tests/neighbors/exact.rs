@@ -3,7 +3,7 @@
 use glam::{DVec3, DVec4, Vec4};
 use motes::forces::{Force, Law, Over};
 use motes::kernel::{Machine, Source};
-use motes::{ACCELERATION, Bounds, Gpu, Particles, Setup, Simulation};
+use motes::{ACCELERATION, Bounds, Gpu, Setup, Simulation, State};
 
 use crate::support::states::integrator;
 use crate::support::{Shared, machines};
@@ -58,8 +58,8 @@ pub fn by_sort(positions: &[DVec3], bounds: &Bounds, count: usize) -> Vec<Vec4> 
 }
 
 /// Particles at rest at these places, as f32 holds them.
-pub fn at_rest(positions: &[DVec3]) -> Particles {
-    let mut particles = Particles::default();
+pub fn at_rest(positions: &[DVec3]) -> State {
+    let mut particles = State::default();
     for x in positions {
         particles.push(x.as_vec3().as_dvec3(), DVec3::ZERO, 1.0, 0.0);
     }
@@ -68,7 +68,7 @@ pub fn at_rest(positions: &[DVec3]) -> Particles {
 
 pub fn simulation(gpu: Gpu, positions: &[DVec3], bounds: Bounds, over: Over) -> Simulation<Gpu> {
     let setup = Setup {
-        particles: at_rest(positions),
+        state: at_rest(positions),
         forces: vec![Box::new(Whole(over))],
         integrator: integrator("symplectic_euler"),
         dt: 1e-3,

@@ -51,7 +51,7 @@ fn variants(shared: &Shared) -> Vec<(&'static str, Machine)> {
 
 fn simulation(gpu: Gpu, place: &Place, force: Box<dyn Force>) -> Simulation<Gpu> {
     let setup = Setup {
-        particles: place.particles.clone(),
+        state: place.particles.clone(),
         forces: vec![force],
         integrator: integrator("symplectic_euler"),
         dt: 1e-3,
@@ -89,7 +89,7 @@ fn check(gpu: Gpu, place: &Place, over: Over, of: &str) {
     let count = u32::try_from(place.particles.len()).expect("few");
     let machine = gpu.machine();
     let mut simulation = simulation(gpu, place, Box::new(Curious(over)));
-    let problem = Problem::new(count, machine).at(&place.particles.position, place.bounds);
+    let problem = Problem::new(count, machine).at(place.particles.position(), place.bounds);
     let forces: [Box<dyn Force>; 1] = [Box::new(Curious(over))];
     let mut step = Step::new(&forces, problem);
     step.evaluate();

@@ -1,22 +1,22 @@
 //! Places where a search for neighbours may go wrong.
 
 use glam::DVec3;
-use motes::{Bounds, Particles, Side};
+use motes::{Bounds, Side, State};
 
 use crate::support::{self, Random};
 
 /// Particles in a box, and how far they look.
 pub struct Place {
     pub name: &'static str,
-    pub particles: Particles,
+    pub particles: State,
     pub bounds: Bounds,
     pub range: f64,
 }
 
 /// Particles at these places, with velocities and masses of a cloud.
-fn particles(positions: &[DVec3]) -> Particles {
+fn particles(positions: &[DVec3]) -> State {
     let mut cloud = support::cloud(positions.len(), 17);
-    cloud.position = positions.iter().map(|x| x.as_vec3().as_dvec3()).collect();
+    cloud.position_mut().copy_from_slice(&positions.iter().map(|x| x.as_vec3().as_dvec3()).collect::<Vec<_>>());
     cloud
 }
 
@@ -25,7 +25,7 @@ fn uniform(random: &mut Random, low: DVec3, high: DVec3) -> DVec3 {
     low + (high - low) * DVec3::new(number(), number(), number()).clamp(DVec3::ZERO, DVec3::splat(0.999_999))
 }
 
-fn random(count: usize, low: DVec3, high: DVec3) -> Particles {
+fn random(count: usize, low: DVec3, high: DVec3) -> State {
     let mut random = Random::new(3);
     particles(&(0..count).map(|_| uniform(&mut random, low, high)).collect::<Vec<_>>())
 }
@@ -60,7 +60,7 @@ pub fn all() -> Vec<Place> {
     ];
     let plane = Bounds::new(-4.0 * flat, 4.0 * flat, Side::Periodic);
     let mut planar = random(2000, -4.0 * flat, 4.0 * flat);
-    planar.velocity.iter_mut().for_each(|v| v.z = 0.0);
+    planar.velocity_mut().iter_mut().for_each(|v| v.z = 0.0);
     list.push(place("a periodic plane", planar, plane, 0.5));
     let strip = Bounds { sides: [Side::Periodic, Side::Open, Side::Open], ..cube(3.0) };
     list.push(place("periodic along one axis", in_cube(1000, 3.0), strip, 0.9));
@@ -76,13 +76,13 @@ pub fn all() -> Vec<Place> {
     ));
     // Far away f32 is coarse: cells and places are of one size there, and places are further apart than cells.
     for far in [1e4, 3e5, 4e6, 2e7, 1e9, 1e30] {
-        let mut positions: Vec<_> = in_cube(400, 2.0).position;
-        positions.extend(in_cube(400, 2.0).position.iter().map(|x| *x + DVec3::new(far, -far, 0.5 * far)));
+        let mut positions: Vec<_> = in_cube(400, 2.0).position().to_vec();
+        positions.extend(in_cube(400, 2.0).position().iter().map(|x| *x + DVec3::new(far, -far, 0.5 * far)));
         list.push(place("some far away", particles(&positions), Bounds::default(), 1.0));
     }
     // A clump in thin air, and strays.
-    let mut clumped = in_cube(600, 0.4).position;
-    clumped.extend(in_cube(200, 30.0).position);
+    let mut clumped = in_cube(600, 0.4).position().to_vec();
+    clumped.extend(in_cube(200, 30.0).position());
     list.push(place("clumped", particles(&clumped), Bounds::default(), 0.5));
     list.push(place("clumped, periodic", particles(&clumped), cube(30.0), 0.5));
     list

@@ -20,9 +20,9 @@ fn periodic() -> Bounds {
 
 fn setup(overs: &[Over], bounds: Bounds, name: &str, dt: f64) -> Setup {
     let mut particles = support::cloud(COUNT, 8);
-    particles.mass.iter_mut().for_each(|mass| *mass = 0.3);
+    particles.mass_mut().iter_mut().for_each(|mass| *mass = 0.3);
     let forces = overs.iter().map(|over| Box::new(Curious(*over)) as Box<dyn Force>).collect();
-    Setup { particles, forces, integrator: integrator(name), dt, bounds, solver: motes::Solver::default() }
+    Setup { state: particles, forces, integrator: integrator(name), dt, bounds, solver: motes::Solver::default() }
 }
 
 fn run(shared: &Shared, setup: &Setup, batches: &[u32], scratch: bool) -> Vec<u8> {
@@ -64,7 +64,7 @@ fn a_grid_is_built_once_for_all_who_search_it() {
     let near = |range, of| Over::Near { range, of };
     let overs = [near(0.4, None), near(0.25, None), near(0.4, None), Over::Nearest { count: 7 }, near(0.4, Some(1))];
     let setup = setup(&overs, periodic(), "rk4", 1e-3);
-    let mut step = Step::new(&setup.forces, Problem::new(300, machine).at(&setup.particles.position, setup.bounds));
+    let mut step = Step::new(&setup.forces, Problem::new(300, machine).at(setup.state.position(), setup.bounds));
     step.evaluate();
     let plan = step.finished().expect("a plan");
     let names: Vec<_> = plan.steps().map(|kernel| kernel.name.clone()).collect();

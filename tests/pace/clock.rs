@@ -3,7 +3,7 @@
 use glam::DVec3;
 use motes::kernel::{Backend, POSITION, Reason, VELOCITY};
 use motes::settings::Value;
-use motes::{Particles, Simulation};
+use motes::{Simulation, State};
 
 use crate::support::states::{force, vector};
 use crate::{DT, Free, PACE, clock, drop, fluid, on_cpu, on_gpu, paced, support};
@@ -100,9 +100,8 @@ fn it_is_known_how_many_steps_are_safe() {
 
 /// The end of an orbit about a softened centre, in steps that were chosen before: h (1 + ½ sin 3t), about `1 / n` long.
 fn orbit(name: &str, n: u32) -> DVec3 {
-    let mut particles = Particles::default();
+    let mut particles = State::default();
     particles.push(DVec3::new(0.8, 0.1, -0.2), DVec3::new(-0.2, 0.9, 0.3), 1.0, 0.0);
-    particles.species = vec![0];
     let centre = force("attractor", &[("strength", Value::Number(1.0)), ("softening", Value::Number(0.2))]);
     let mut setup = paced(&particles, vec![centre, Box::new(Free)], name, PACE);
     setup.dt = 2.0 / f64::from(n);

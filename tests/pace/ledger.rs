@@ -14,7 +14,7 @@ use crate::{PACE, drop, fluid, on_gpu, paced, support};
 fn its_numbers_are_direct_sums() {
     let mut particles = drop();
     // Closer than at rest: pressure is above 0.
-    particles.position.iter_mut().for_each(|x| *x *= 0.93);
+    particles.position_mut().iter_mut().for_each(|x| *x *= 0.93);
     particles.held = [3, 40, 77].map(|id| Held { id, by: Hold::Fixed }).to_vec();
     let weight = force("uniform", &[("acceleration", vector(0.0, 0.0, -3.0))]);
     let mut setup = paced(&particles, vec![weight, fluid(4.0, &[])], "leapfrog", PACE);
@@ -27,13 +27,13 @@ fn its_numbers_are_direct_sums() {
     let density = pollster::block_on(simulation.read(DENSITY)).expect("densities");
     let problem = setup.problem(Machine::HOST).expect("a problem");
     let medium = setup.forces[1].fluid(&problem).expect("a fluid").expect("a medium").medium;
-    let ledger = |snapshot: &motes::Snapshot, density: &[f32]| {
-        Ledger::of(snapshot, density, &medium, &setup.bounds, |id| problem.is_held(id))
+    let ledger = |snapshot: &motes::State, density: &[f32]| {
+        Ledger::of(snapshot, density, &medium, &setup.bounds, |id| problem.is_held(id)).expect("energies")
     };
     let row = ledger(&snapshot, &density);
 
     let fluid = || (0..125usize).filter(|id| ![3, 40, 77].contains(id));
-    let (x, v, m) = (&snapshot.particles.position, &snapshot.particles.velocity, &snapshot.particles.mass);
+    let (x, v, m) = (snapshot.position(), snapshot.velocity(), snapshot.mass());
     let sum = |of: &dyn Fn(usize) -> f64| fluid().map(of).sum::<f64>();
     let near =
         |a: f64, b: f64, what: &str| assert!((a - b).abs() <= 1e-6 * b.abs().max(1e-9), "{what}: {a} is not {b}");
@@ -64,10 +64,10 @@ fn its_numbers_are_direct_sums() {
     near(row.total(), row.kinetic + row.potential + row.internal, "total");
 
     // What must stay 0, and does not: three are out, of which one is held; one is broken.
-    snapshot.particles.position[7].z = -0.71;
-    snapshot.particles.position[8].x = 1.01;
-    snapshot.particles.position[40].x = 5.0;
-    snapshot.particles.velocity[9].y = f64::NAN;
+    snapshot.position_mut()[7].z = -0.71;
+    snapshot.position_mut()[8].x = 1.01;
+    snapshot.position_mut()[40].x = 5.0;
+    snapshot.velocity_mut()[9].y = f64::NAN;
     let row = ledger(&snapshot, &density);
     assert_eq!((row.outside, row.broken, row.count), (2, 1, 122));
     assert!((row.mass - 121.0).abs() < 1e-6 && row.kinetic.is_finite());

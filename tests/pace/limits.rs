@@ -3,7 +3,7 @@
 use glam::DVec3;
 use motes::kernel::Reason;
 use motes::settings::Value;
-use motes::{Error, Particles};
+use motes::{Error, State};
 
 use crate::support::states::{force, vector};
 use crate::{DT, Free, LENGTH, PACE, SPACING, Silent, clock, drop, fluid, on_cpu, on_gpu, paced, support};
@@ -13,14 +13,13 @@ const DIGITS: f64 = 1.0 / 2048.0;
 const ROUNDING: f64 = 1e-6;
 
 /// Far apart, but for 1 and 2, which come together at 2 × 1.5 along x: so nobody feels anybody's pressure.
-fn few() -> Particles {
-    let mut particles = Particles::default();
+fn few() -> State {
+    let mut particles = State::default();
     let speeds = [DVec3::new(0.0, 0.4, 0.0), DVec3::X * 1.5, DVec3::X * -1.5, DVec3::new(0.0, 0.0, 0.7)];
     let places = [DVec3::new(0.0, 9.0, 0.0), DVec3::ZERO, DVec3::X * 0.15, DVec3::new(0.0, 0.0, 8.0)];
     for (x, v) in places.into_iter().zip(speeds) {
         particles.push(x, v, 0.25, 0.02);
     }
-    particles.species = vec![0; 4];
     particles
 }
 
@@ -166,7 +165,7 @@ fn what_makes_no_sense_is_refused() {
 fn what_viscosity_bears_is_what_is_allowed() {
     let side = 12;
     let shear = |times: f64, support: f64, kernel: &'static str| {
-        let mut particles = Particles::default();
+        let mut particles = State::default();
         for i in 0..side * side {
             let place = DVec3::new(f64::from(i % side) + 0.5, f64::from(i / side) + 0.5, 0.0);
             // The shortest wave there is: a chequered one.
@@ -182,7 +181,7 @@ fn what_viscosity_bears_is_what_is_allowed() {
         ];
         let length = 0.5 * support * SPACING;
         let setup = motes::Setup {
-            particles,
+            state: particles,
             forces: vec![fluid(0.01, &more)],
             integrator: crate::support::states::integrator("leapfrog"),
             dt: times * 0.125 * length * length / 0.5,
@@ -192,7 +191,7 @@ fn what_viscosity_bears_is_what_is_allowed() {
         let mut simulation = on_cpu(&setup);
         simulation.step(40).expect("steps");
         let state = pollster::block_on(simulation.snapshot()).expect("a snapshot");
-        state.particles.velocity.iter().map(|v| v.length()).fold(0.0, f64::max)
+        state.velocity().iter().map(|v| v.length()).fold(0.0, f64::max)
     };
     for (support, kernel) in [(2.0, "cubic"), (3.0, "wendland"), (2.0, "wendland"), (4.0, "wendland")] {
         let (allowed, more) = (shear(1.0, support, kernel), shear(8.0, support, kernel));

@@ -17,7 +17,7 @@ use motes::kernel::{Backend, Pace, Plan};
 use motes::neighbors::Grid;
 use motes::settings::Value;
 use motes::simulation::Clock;
-use motes::{Bounds, Cpu, Gpu, Particles, Setup, Simulation, Solver};
+use motes::{Bounds, Cpu, Gpu, Setup, Simulation, Solver, State};
 use support::Shared;
 use support::states::{force, integrator};
 
@@ -66,9 +66,9 @@ impl Force for Silent {
 /// Steps down to a thousandth, with C = 0.3.
 const PACE: Pace = Pace { least: DT / 1000.0, courant: 0.3, before: None };
 
-fn paced(particles: &Particles, forces: Vec<Box<dyn Force>>, name: &str, pace: Pace) -> Setup {
+fn paced(particles: &State, forces: Vec<Box<dyn Force>>, name: &str, pace: Pace) -> Setup {
     Setup {
-        particles: particles.clone(),
+        state: particles.clone(),
         forces,
         integrator: Box::new(Paced { integrator: integrator(name), pace }),
         dt: DT,
@@ -82,7 +82,7 @@ fn on_gpu(shared: &Shared, setup: &Setup) -> Simulation<Gpu> {
 }
 
 fn on_cpu(setup: &Setup) -> Simulation<Cpu> {
-    let count = u32::try_from(setup.particles.len()).expect("few");
+    let count = u32::try_from(setup.state.len()).expect("few");
     Simulation::on(Cpu::new(count).expect("a processor"), setup).expect("a simulation")
 }
 
@@ -98,14 +98,13 @@ fn fluid(sound: f64, more: &[(&'static str, Value)]) -> Box<dyn Force> {
 }
 
 /// A drop of 5 × 5 × 5 particles that flies apart and together, somewhat out of its lattice.
-fn drop() -> Particles {
+fn drop() -> State {
     let mut random = support::Random::new(17);
-    let mut particles = Particles::default();
+    let mut particles = State::default();
     for i in 0..125u32 {
         let place = DVec3::new(f64::from(i % 5), f64::from(i / 5 % 5), f64::from(i / 25));
         let x = (SPACING * (place + 0.1 * random.vector())).as_vec3().as_dvec3();
         particles.push(x, (0.3 * random.vector()).as_vec3().as_dvec3(), f64::from(1.0f32), 0.02);
     }
-    particles.species = vec![0; 125];
     particles
 }

@@ -1,7 +1,7 @@
 //! What moves by itself goes by the time, not by the number of steps.
 
 use glam::DVec3;
-use motes::Particles;
+use motes::State;
 use motes::kernel::{POSITION, TARGET};
 use motes::motion::{Held, Hold, Keyframe, Motion};
 use motes::settings::Value;
@@ -26,15 +26,14 @@ fn swing() -> Motion {
 
 #[test]
 fn held_ones_are_where_the_time_says() {
-    let mut particles = Particles::default();
+    let mut particles = State::default();
     for x in [DVec3::new(0.5, 0.1, 0.3), DVec3::new(-0.2, 0.4, 0.1), DVec3::new(0.3, 0.3, 0.3)] {
         particles.push(x, DVec3::ZERO, 1.0, 0.01);
     }
-    particles.species = vec![0; 3];
     particles.motions = vec![swing()];
     let hold = [Hold::Motion(0), Hold::Target, Hold::Fixed];
     particles.held = (0..3).zip(hold).map(|(id, by)| Held { id, by }).collect();
-    let homes = particles.position.clone();
+    let homes = particles.position().to_vec();
     for name in ["leapfrog", "rk4"] {
         let setup = paced(&particles, vec![Box::new(Free)], name, PACE);
         let shared = support::device();
@@ -63,10 +62,9 @@ fn held_ones_are_where_the_time_says() {
 
 #[test]
 fn solids_are_where_the_time_says() {
-    let mut particles = Particles::default();
+    let mut particles = State::default();
     // One stands still, and the wall comes to it.
     particles.push(DVec3::new(0.05, 0.0, 0.0), DVec3::ZERO, 1.0, 0.01);
-    particles.species = vec![0];
     let key = |time: f64, x: f64| Keyframe { time, shift: DVec3::X * x, turn: DVec3::ZERO };
     particles.motions =
         vec![Motion { name: "push".to_owned(), keys: vec![key(0.0, 0.0), key(1.0, 2.0)], ..Motion::default() }];

@@ -1,6 +1,6 @@
 //! What strains a tree: a cusp, and clumps of clumps.
 
-use motes::particles::Particles;
+use motes::State;
 use rayon::prelude::*;
 
 use crate::make;
@@ -18,7 +18,7 @@ fn dispersion2(r: f64) -> f64 {
 #[test]
 fn hernquist_has_its_radii() {
     let p = make("hernquist", &[("count", 20_000.0), ("cutoff", 0.99), ("scale", 2.0)]);
-    let radii = lengths(&p.position);
+    let radii = lengths(p.position());
     // M(r)/M = (r / (r + a))² of the endless model; the centre of mass is moved by some 2 a / √N · 10.
     for mass in [0.1_f64, 0.25, 0.5, 0.75, 0.9] {
         let radius = 2.0 * mass.sqrt() / (1.0 - mass.sqrt());
@@ -38,15 +38,15 @@ fn hernquist_is_in_equilibrium() {
         let p = make("hernquist", &values);
         // The endless model, of which this is the inner part.
         let unit = g * mass / cutoff / scale;
-        let inside = |i: &usize| (low..high).contains(&(p.position[*i].length() / scale));
+        let inside = |i: &usize| (low..high).contains(&(p.position()[*i].length() / scale));
         let ids: Vec<usize> = (0..p.len()).filter(inside).collect();
-        let wanted = |i: usize| unit * dispersion2(p.position[i].length() / scale);
-        let radial = |i: usize| p.velocity[i].dot(p.position[i].normalize()).powi(2);
-        let all = |i: usize| p.velocity[i].length_squared();
+        let wanted = |i: usize| unit * dispersion2(p.position()[i].length() / scale);
+        let radial = |i: usize| p.velocity()[i].dot(p.position()[i].normalize()).powi(2);
+        let all = |i: usize| p.velocity()[i].length_squared();
         near(&format!("{low} σ²"), mean(ids.iter().map(|i| all(*i) / wanted(*i))), 3.0, 0.01);
         near(&format!("{low} radial σ²"), mean(ids.iter().map(|i| radial(*i) / wanted(*i))), 1.0, 0.01);
         // Nobody is beyond the escape speed, v² = 2 ψ, up to that displacement.
-        let bound = |i: usize| 0.5 * all(i) / unit * (1.0 + p.position[i].length() / scale);
+        let bound = |i: usize| 0.5 * all(i) / unit * (1.0 + p.position()[i].length() / scale);
         assert!((0..p.len()).all(|i| bound(i) < 1.05), "escapers");
     }
 }
@@ -59,14 +59,14 @@ fn hernquist_is_in_virial_balance() {
     // W = -G M² / 6a and K = -W / 2 of the endless model, of mass M = 1 / 0.99; beyond the cut lie 1e-4 of both.
     let endless = 1.0 / (0.99 * 0.99);
     near("W", (0.5 * w, 2.0 * error), -0.5 * endless, 0.0);
-    let kinetic = mean(p.velocity.iter().map(|v| 0.5 * v.length_squared()));
+    let kinetic = mean(p.velocity().iter().map(|v| 0.5 * v.length_squared()));
     near("K", kinetic, 0.25 * endless * 0.99, 0.0);
 }
 
 /// Pairs nearer than each distance.
-fn pairs(p: &Particles, distances: [f64; 2]) -> [f64; 2] {
+fn pairs(p: &State, distances: [f64; 2]) -> [f64; 2] {
     let within = |i: usize| {
-        let near = |r: f64| (0..i).filter(|j| p.position[i].distance_squared(p.position[*j]) < r * r).count();
+        let near = |r: f64| (0..i).filter(|j| p.position()[i].distance_squared(p.position()[*j]) < r * r).count();
         distances.map(near)
     };
     let all = (0..p.len()).into_par_iter().map(within).reduce(|| [0; 2], |a, b| [a[0] + b[0], a[1] + b[1]]);

@@ -10,9 +10,10 @@ mod waves;
 use std::borrow::Cow;
 
 use glam::DVec3;
+use motes::State;
 use motes::error::Error;
 use motes::links::Links;
-use motes::particles::{Particles, SHAPES, shape};
+use motes::particles::{SHAPES, shape};
 use motes::settings::{Kind, Settings, Value};
 
 fn settings(name: &str, values: &[(&'static str, f64)]) -> Settings {
@@ -27,16 +28,16 @@ fn settings(name: &str, values: &[(&'static str, f64)]) -> Settings {
     values.iter().fold(start, |all, (key, x)| all.with(key, Value::Number(*x)))
 }
 
-fn made(name: &str, settings: &Settings) -> Particles {
+fn made(name: &str, settings: &Settings) -> State {
     (shape(name).expect("a shape").build)(settings).expect("good settings")
 }
 
-fn make(name: &str, values: &[(&'static str, f64)]) -> Particles {
+fn make(name: &str, values: &[(&'static str, f64)]) -> State {
     made(name, &settings(name, values))
 }
 
 /// All numbers of what is tied and held.
-fn ties(particles: &Particles) -> impl Iterator<Item = f64> {
+fn ties(particles: &State) -> impl Iterator<Item = f64> {
     let Links { springs, rods, joints, triangles } = &particles.links;
     let ids = |ids: &[u32]| ids.iter().map(|id| f64::from(*id)).collect::<Vec<_>>();
     let springs = springs
@@ -49,9 +50,9 @@ fn ties(particles: &Particles) -> impl Iterator<Item = f64> {
 }
 
 /// FNV-1a over the bits of all numbers.
-fn hash(particles: &Particles) -> u64 {
-    let vectors = particles.position.iter().chain(&particles.velocity).flat_map(DVec3::to_array);
-    let numbers = vectors.chain(particles.mass.iter().copied()).chain(particles.radius.iter().copied());
+fn hash(particles: &State) -> u64 {
+    let vectors = particles.position().iter().chain(particles.velocity()).flat_map(DVec3::to_array);
+    let numbers = vectors.chain(particles.mass().iter().copied()).chain(particles.size().iter().copied());
     numbers
         .chain(ties(particles))
         .flat_map(|x| x.to_bits().to_le_bytes())
@@ -59,10 +60,10 @@ fn hash(particles: &Particles) -> u64 {
 }
 
 /// Sum of mass, centre of mass, its velocity.
-fn totals(p: &Particles) -> (f64, DVec3, DVec3) {
-    let mass: f64 = p.mass.iter().sum();
-    let x: DVec3 = p.position.iter().zip(&p.mass).map(|(x, m)| *x * *m).sum();
-    let v: DVec3 = p.velocity.iter().zip(&p.mass).map(|(v, m)| *v * *m).sum();
+fn totals(p: &State) -> (f64, DVec3, DVec3) {
+    let mass: f64 = p.mass().iter().sum();
+    let x: DVec3 = p.position().iter().zip(p.mass()).map(|(x, m)| *x * *m).sum();
+    let v: DVec3 = p.velocity().iter().zip(p.mass()).map(|(v, m)| *v * *m).sum();
     (mass, x / mass, v / mass)
 }
 
@@ -154,7 +155,7 @@ fn totals_are_exact() {
             .with("velocity", Value::Vector(velocity)),
         );
         let (total, x, v) = totals(&p);
-        assert_eq!((p.len(), p.radius.as_slice()), (500, [0.1; 500].as_slice()), "{name}");
+        assert_eq!((p.len(), p.size()), (500, [0.1; 500].as_slice()), "{name}");
         // 500 roundings of 1e-16.
         assert!((total / mass - 1.0).abs() < 1e-13, "{name}: mass {total}");
         assert!((v - velocity).length() < 1e-13, "{name}: velocity {v}");

@@ -4,10 +4,11 @@ use std::borrow::Cow;
 use std::collections::BTreeSet;
 
 use glam::DVec3;
+use motes::State;
 use motes::error::Error;
 use motes::links::Link;
 use motes::motion::Hold;
-use motes::particles::{Particles, shape};
+use motes::particles::shape;
 use motes::settings::{Settings, Value};
 
 pub(crate) const fn number(x: f64) -> Value {
@@ -21,7 +22,7 @@ pub(crate) const fn word(text: &'static str) -> Value {
 }
 
 /// A shape of some settings.
-fn build(name: &str, values: &[(&'static str, Value)]) -> Result<Particles, Error> {
+fn build(name: &str, values: &[(&'static str, Value)]) -> Result<State, Error> {
     let shape = shape(name).expect("a shape");
     let settings = values.iter().fold(Settings::defaults(shape.keys), |all, (key, value)| all.with(key, value.clone()));
     (shape.build)(&settings)
@@ -29,25 +30,25 @@ fn build(name: &str, values: &[(&'static str, Value)]) -> Result<Particles, Erro
 
 /// The same with others besides.
 #[track_caller]
-pub(crate) fn made(name: &str, values: &[(&'static str, Value)], more: &[(&'static str, Value)]) -> Particles {
+pub(crate) fn made(name: &str, values: &[(&'static str, Value)], more: &[(&'static str, Value)]) -> State {
     let particles = build(name, &[values, more].concat()).expect("good settings");
-    particles.links.check(&particles.mass).expect("good links");
+    particles.links.check(particles.mass()).expect("good links");
     particles
 }
 
 /// The ids that are held, all where they are.
-pub(crate) fn held(particles: &Particles) -> Vec<u32> {
+pub(crate) fn held(particles: &State) -> Vec<u32> {
     assert!(particles.held.iter().all(|one| one.by == Hold::Fixed));
     particles.held.iter().map(|one| one.id).collect()
 }
 
-pub(crate) fn distance(particles: &Particles, [a, b]: [u32; 2]) -> f64 {
-    particles.position[a as usize].distance(particles.position[b as usize])
+pub(crate) fn distance(particles: &State, [a, b]: [u32; 2]) -> f64 {
+    particles.position()[a as usize].distance(particles.position()[b as usize])
 }
 
 /// Springs rest at a part of their lengths; f64 rounds a few numbers of about 1.
 #[track_caller]
-pub(crate) fn assert_rest(particles: &Particles, part: f64) {
+pub(crate) fn assert_rest(particles: &State, part: f64) {
     for link in &particles.links.springs {
         let length = distance(particles, link.ends);
         assert!((link.rest - part * length).abs() < 1e-12, "{link:?} is {length} long");
@@ -55,8 +56,8 @@ pub(crate) fn assert_rest(particles: &Particles, part: f64) {
 }
 
 /// Twice the area of a triangle, along its normal, and its middle.
-pub(crate) fn area(particles: &Particles, ids: [u32; 3]) -> (DVec3, DVec3) {
-    let [a, b, c] = ids.map(|id| particles.position[id as usize]);
+pub(crate) fn area(particles: &State, ids: [u32; 3]) -> (DVec3, DVec3) {
+    let [a, b, c] = ids.map(|id| particles.position()[id as usize]);
     ((b - a).cross(c - a), (a + b + c) / 3.0)
 }
 
@@ -88,8 +89,8 @@ fn chains() {
     let chain = made("chain", CHAIN, &[]);
     // A part of the way from the first to the last: 6 and 8 make 10, and a quarter of that is 2.5.
     let places: Vec<_> = (0..5).map(|i| DVec3::new(1.0, 2.0, 3.0) + DVec3::new(0.0, 1.5, 2.0) * f64::from(i)).collect();
-    assert!(chain.position.iter().zip(&places).all(|(x, want)| x.distance(*want) < 1e-14), "{:?}", chain.position);
-    assert!(chain.velocity.iter().all(|v| *v == DVec3::new(0.1, 0.2, 0.3)));
+    assert!(chain.position().iter().zip(&places).all(|(x, want)| x.distance(*want) < 1e-14), "{:?}", chain.position());
+    assert!(chain.velocity().iter().all(|v| *v == DVec3::new(0.1, 0.2, 0.3)));
     let spring = |i, rope| Link { ends: [i, i + 1], rest: 2.0, stiffness: 7.0, damping: 0.3, rope };
     assert_eq!(chain.links.springs, [0, 1, 2, 3].map(|i| spring(i, false)));
     assert_eq!(chain.links.joints.iter().map(|joint| joint.ids).collect::<Vec<_>>(), [[0, 1, 2], [1, 2, 3], [2, 3, 4]]);
@@ -141,9 +142,9 @@ fn cloths() {
     let cloth = made("cloth", CLOTH, &[]);
     let (right, down) = (DVec3::new(2.0, 0.5, 0.0).normalize(), DVec3::new(0.1, -1.0, 0.3).normalize());
     assert_eq!(cloth.len(), 30);
-    let apart = |a: usize, b: usize| cloth.position[b] - cloth.position[a];
+    let apart = |a: usize, b: usize| cloth.position()[b] - cloth.position()[a];
     assert!(apart(0, 1).distance(0.25 * right) < 1e-15 && apart(0, 6).distance(0.25 * down) < 1e-15);
-    let middle = cloth.position.iter().sum::<DVec3>() / 30.0;
+    let middle = cloth.position().iter().sum::<DVec3>() / 30.0;
     assert!(middle.distance(DVec3::new(1.0, -2.0, 3.0)) < 1e-14, "{middle}");
     // Along the threads 5 in each of 5 rows and 4 in each of 6 columns, two in each of 20 squares, over two 4 · 5 and 3 · 6.
     for (stiffness, count) in [(40.0, 49), (20.0, 40), (5.0, 38)] {
@@ -178,7 +179,7 @@ fn the_triangles_of_a_cloth_face_one_way() {
     assert!(sum.distance(2.0 * 20.0 * 0.0625 * front) < 1e-13, "{sum}");
     // Displaced by a fifth of a spacing at most, a triangle's normal turns by less than 2 · 2 · 0.2 in its tangent.
     let rough = made("cloth", CLOTH, &[("jitter", number(0.2))]);
-    let aside: Vec<_> = rough.position.iter().zip(&flat.position).map(|(x, y)| *x - *y).collect();
+    let aside: Vec<_> = rough.position().iter().zip(flat.position()).map(|(x, y)| *x - *y).collect();
     let most = aside.iter().map(|d| d.length()).fold(0.0, f64::max);
     assert!(most <= 0.05 && most > 0.04, "thirty displacements reach {most}");
     assert!(aside.iter().all(|d| d.dot(right).abs() < 1e-15 && d.dot(down).abs() < 1e-15));

@@ -20,21 +20,21 @@ fn jellies() {
     let jelly = made("jelly", JELLY, &[]);
     let (middle, springs) = (DVec3::new(1.0, -2.0, 3.0), &jelly.links.springs);
     assert_eq!(jelly.len(), 60);
-    let low = jelly.position[0];
+    let low = jelly.position()[0];
     assert!(
         low.distance(middle - DVec3::new(0.2, 0.3, 0.4)) < 1e-15
-            && (low + jelly.position[59]).distance(2.0 * middle) < 1e-14
+            && (low + jelly.position()[59]).distance(2.0 * middle) < 1e-14
     );
     // x runs fastest.
-    assert!((jelly.position[1] - low).distance(0.2 * DVec3::X) < 1e-15);
-    assert!((jelly.position[3] - low).distance(0.2 * DVec3::Y) < 1e-15);
+    assert!((jelly.position()[1] - low).distance(0.2 * DVec3::X) < 1e-15);
+    assert!((jelly.position()[3] - low).distance(0.2 * DVec3::Y) < 1e-15);
     // 2 · 4 · 5 + 3 · 3 · 5 + 3 · 4 · 4 edges, and two diagonals of each of 6 · 5 + 8 · 4 + 12 · 3 squares.
     let long = springs.iter().filter(|link| link.rest > 0.25).count();
     assert_eq!((springs.len(), long), (133 + 196, 196));
     assert_rest(&jelly, 1.0);
     // Of each of 24 cells: a mass, three edges (twelve quarters) and six diagonals (twelve halves).
     let sum = |of: fn(&motes::links::Link) -> f64| springs.iter().map(of).sum::<f64>();
-    assert!((jelly.mass.iter().sum::<f64>() - 24.0 * 0.5).abs() < 1e-12);
+    assert!((jelly.mass().iter().sum::<f64>() - 24.0 * 0.5).abs() < 1e-12);
     assert!(
         (sum(|l| l.stiffness) - 24.0 * 9.0 * 30.0).abs() < 1e-9 && (sum(|l| l.damping) - 24.0 * 9.0 * 0.6).abs() < 1e-9
     );
@@ -42,7 +42,7 @@ fn jellies() {
     // A quarter: four edges of the block in each direction, of 2, 3 and 4 pieces.
     assert_eq!(shares(7.5), 4 * (2 + 3 + 4));
     assert_eq!(shares(7.5) + shares(15.0) + shares(30.0), springs.len());
-    assert!(jelly.velocity.iter().all(|v| *v == DVec3::new(0.1, 0.2, 0.3)) && held(&jelly).is_empty());
+    assert!(jelly.velocity().iter().all(|v| *v == DVec3::new(0.1, 0.2, 0.3)) && held(&jelly).is_empty());
     // The skin looks outwards all around: two triangles on each square of six sides.
     assert_eq!(jelly.links.triangles.len(), 4 * (2 * 3 + 3 * 4 + 4 * 2));
     let (mut total, mut volume) = (0.0, 0.0);
@@ -89,14 +89,15 @@ fn hairs() {
     let (mut lengths, mut heights) = (Vec::new(), Vec::new());
     for strand in 0..40u32 {
         let first = 5 * strand;
-        let way = hair.position[first as usize] - middle;
+        let way = hair.position()[first as usize] - middle;
         assert!((way.length() - 0.2).abs() < 1e-14, "roots are on the head");
         heights.push(way.dot(up) / 0.2);
         let length = distance(&hair, [first, first + 4]);
         lengths.push(length);
         for point in 0..5u32 {
-            let off =
-                hair.position[(first + point) as usize] - middle - way * (1.0 + length / 0.2 * f64::from(point) / 4.0);
+            let off = hair.position()[(first + point) as usize]
+                - middle
+                - way * (1.0 + length / 0.2 * f64::from(point) / 4.0);
             assert!(off.length() < 1e-14, "strands stand off straight, in pieces of one length");
         }
         let rods = &hair.links.rods[3 * strand as usize..][..3];

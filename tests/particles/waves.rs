@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use glam::DVec3;
-use motes::particles::Particles;
+use motes::State;
 use motes::settings::Value;
 
 use crate::{made, settings};
@@ -11,7 +11,7 @@ use crate::{made, settings};
 const SPACING: f64 = 0.5;
 const GROWTH: f64 = 1.7;
 
-fn lattice(size: [f64; 3], spectrum: f64, displacement: f64, seed: u32) -> Particles {
+fn lattice(size: [f64; 3], spectrum: f64, displacement: f64, seed: u32) -> State {
     let numbers = [
         ("spacing", SPACING),
         ("displacement", displacement),
@@ -25,7 +25,7 @@ fn lattice(size: [f64; 3], spectrum: f64, displacement: f64, seed: u32) -> Parti
 /// How far each is from its place, in spacings.
 fn waves(size: [f64; 3], spectrum: f64, seed: u32) -> Vec<DVec3> {
     let (straight, bent) = (lattice(size, spectrum, 0.0, seed), lattice(size, spectrum, 0.3, seed));
-    let away = straight.position.iter().zip(&bent.position).map(|(a, b)| (*b - *a) / SPACING);
+    let away = straight.position().iter().zip(bent.position()).map(|(a, b)| (*b - *a) / SPACING);
     away.collect()
 }
 
@@ -37,7 +37,7 @@ fn they_are_as_large_as_was_asked_and_grow() {
     let square = moved.iter().map(|d| d.length_squared()).sum::<f64>() / (3.0 * 480.0);
     // Roundings of 480 numbers of some lengths.
     assert!(mean.length() < 1e-12 && (square.sqrt() - 0.3).abs() < 1e-12, "{mean} {square}");
-    for (away, velocity) in moved.iter().zip(&bent.velocity) {
+    for (away, velocity) in moved.iter().zip(bent.velocity()) {
         assert!((*velocity - *away * SPACING * GROWTH).length() < 1e-12, "{away} {velocity}");
     }
     // Too few for a wave.

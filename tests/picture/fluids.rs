@@ -10,8 +10,8 @@ use motes::*;
 use super::*;
 
 /// A lattice of particles, `spacing` apart, of those within a box for which `of` holds.
-fn lattice(half: DVec3, spacing: f64, of: impl Fn(DVec3) -> bool) -> Particles {
-    let mut particles = Particles::default();
+fn lattice(half: DVec3, spacing: f64, of: impl Fn(DVec3) -> bool) -> State {
+    let mut particles = State::default();
     let number = |k: usize| (half[k] / spacing).floor();
     let steps = |k: usize| (0..).map(f64::from).map(move |i| i - number(k)).take_while(move |i| *i <= number(k));
     for z in steps(2) {
@@ -32,20 +32,20 @@ fn above(width: u32, height: u32) -> Settings {
     framed.with("style", word("fluid")).with("background", word("day"))
 }
 
-fn picture(particles: &Particles, settings: &Settings) -> Picture {
+fn picture(particles: &State, settings: &Settings) -> Picture {
     Picture::with(settings, particles, &[], Trail::default(), &Scenery::of(particles)).unwrap()
 }
 
 /// A field of a picture as a device leaves it.
-fn field(particles: &Particles, picture: &Picture, name: &str) -> Vec<f64> {
+fn field(particles: &State, picture: &Picture, name: &str) -> Vec<f64> {
     let count = u32::try_from(particles.len()).unwrap();
     let device = support::device();
     let mut gpu = Gpu::new(&device.found.device, &device.found.queue, count).unwrap();
     let program = gpu.compile(&picture.plan().unwrap()).unwrap();
     gpu.set_world(World { count, dt: 0.1, ..World::default() }).unwrap();
     let array = |v: &[DVec3], w: &[f64]| Array::Vec4(v.iter().zip(w).map(|(x, w)| x.extend(*w)).collect());
-    gpu.write("position", &array(&particles.position, &particles.mass)).unwrap();
-    gpu.write("velocity", &array(&particles.velocity, &particles.radius)).unwrap();
+    gpu.write("position", &array(particles.position(), particles.mass())).unwrap();
+    gpu.write("velocity", &array(particles.velocity(), particles.size())).unwrap();
     gpu.write("color", &Array::Uint(vec![0xff30_90e0; particles.len()])).unwrap();
     gpu.run(&program, 1).unwrap();
     let area = (picture.frame.width * picture.frame.height) as usize;
@@ -110,8 +110,8 @@ fn a_slab_is_as_thick_as_it_is() {
 fn gpu_and_twins_draw_the_same_fluid() {
     let mut particles = lattice(DVec3::new(0.7, 0.4, 0.3), 0.06, |x| x.x + 2.0 * x.z < 0.5);
     let mut random = support::Random::new(3);
-    particles.position.iter_mut().for_each(|x| *x += 0.02 * random.vector());
-    particles.velocity.iter_mut().for_each(|v| *v = 2.0 * random.vector());
+    particles.position_mut().iter_mut().for_each(|x| *x += 0.02 * random.vector());
+    particles.velocity_mut().iter_mut().for_each(|v| *v = 2.0 * random.vector());
     let stand = |shape, x: f64, z: f64| Solid { shape, place: DVec3::new(x, -0.1, z), turn: glam::DQuat::IDENTITY };
     let tank = stand(Shape::Box { half: DVec3::new(0.9, 0.6, 0.5) }, 0.0, 0.1);
     let ball = stand(Shape::Ball { radius: 0.25 }, 0.5, -0.2);
@@ -137,7 +137,7 @@ fn gpu_and_twins_draw_the_same_fluid() {
 fn walls_are_not_drawn_and_nothing_wet_is_sky() {
     let mut particles = lattice(DVec3::splat(0.3), 0.06, |_| true);
     let free = on_gpu(&particles, &[&picture(&particles, &above(120, 90))]).remove(0);
-    particles.held = (0..).zip(&particles.position).map(|(id, _)| Held { id, by: Hold::Fixed }).collect();
+    particles.held = (0..).zip(particles.position()).map(|(id, _)| Held { id, by: Hold::Fixed }).collect();
     let held = Picture::with(
         &above(120, 90),
         &particles,
@@ -164,7 +164,7 @@ fn walls_are_not_drawn_and_nothing_wet_is_sky() {
 
 #[test]
 fn one_drop_is_a_disc_and_an_eye_may_be_in_a_fluid() {
-    let mut one = Particles::default();
+    let mut one = State::default();
     one.push(DVec3::new(0.1, -0.2, 0.0), DVec3::ZERO, 1.0, 0.0);
     let made = picture(&one, &above(100, 100).with("drop", Value::Number(0.2)));
     let level = field(&one, &made, "level");
@@ -183,7 +183,8 @@ fn one_drop_is_a_disc_and_an_eye_may_be_in_a_fluid() {
 #[test]
 fn foam_is_where_it_is_fast() {
     let mut particles = lattice(DVec3::new(0.6, 0.3, 0.15), 0.05, |x| x.x.abs() > 0.1);
-    for (v, x) in particles.velocity.iter_mut().zip(&particles.position) {
+    let (positions, velocities) = particles.phase_mut();
+    for (v, x) in velocities.iter_mut().zip(positions) {
         // Below three fifths of the speed there is none.
         *v = DVec3::Z * if x.x > 0.0 { 3.1 } else { 1.7 };
     }

@@ -13,7 +13,7 @@ fn all_lights_on_one_pixel_do_not_overflow() {
     // The canvas holds what all of them give: with a unit one bit larger, it would not.
     let count = 70_000_u32;
     let many = count as usize;
-    let mut particles = Particles::default();
+    let mut particles = State::default();
     for _ in 0..count {
         particles.push(DVec3::ZERO, DVec3::ZERO, 1.0, 0.0);
     }
@@ -25,7 +25,7 @@ fn all_lights_on_one_pixel_do_not_overflow() {
     let program = gpu.compile(&picture.plan().unwrap()).unwrap();
     gpu.set_world(World { count, dt: 0.1, ..World::default() }).unwrap();
     let array = |v: &[DVec3]| Array::Vec4(v.iter().map(|x| x.extend(1.0)).collect());
-    gpu.write("position", &array(&particles.position)).unwrap();
+    gpu.write("position", &array(particles.position())).unwrap();
     gpu.write("velocity", &Array::Vec4(vec![glam::DVec4::ZERO; many])).unwrap();
     gpu.write("color", &Array::Uint(vec![u32::MAX; many])).unwrap();
     gpu.run(&program, 1).unwrap();
@@ -44,7 +44,7 @@ fn nothing_is_written_behind_the_end() {
     const PAD: u64 = 256;
     for (count, width, height) in [(1_u32, 61, 33), (65, 130, 67), (1000, 64, 64)] {
         let mut particles = support::cloud(count as usize, 11);
-        particles.radius.iter_mut().step_by(2).for_each(|r| *r = 0.2);
+        particles.size_mut().iter_mut().step_by(2).for_each(|r| *r = 0.2);
         // Much is beyond the edges.
         let settings =
             settings(width, height).with("auto_frame", Value::Flag(false)).with("extent", Value::Number(0.4));
@@ -62,8 +62,8 @@ fn nothing_is_written_behind_the_end() {
             gpu.write_bytes(name, 0, &vec![MARK; usize::try_from(gpu.size(name)).unwrap()]).unwrap();
         }
         let array = |v: &[DVec3], w: &[f64]| Array::Vec4(v.iter().zip(w).map(|(x, w)| x.extend(*w)).collect());
-        gpu.write("position", &array(&particles.position, &particles.mass)).unwrap();
-        gpu.write("velocity", &array(&particles.velocity, &particles.radius)).unwrap();
+        gpu.write("position", &array(particles.position(), particles.mass())).unwrap();
+        gpu.write("velocity", &array(particles.velocity(), particles.size())).unwrap();
         gpu.write("color", &Array::Uint(vec![0xff30_90e0; count as usize])).unwrap();
         let points: Vec<_> = picture.trail.points().map(|x| x.extend(0.0)).collect();
         if !points.is_empty() {

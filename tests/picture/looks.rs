@@ -8,8 +8,8 @@ use motes::*;
 use super::*;
 
 /// Particles on a line, 0.5 apart, each with its own velocity; seen from above, 100 pixels per length.
-fn line(velocities: &[DVec3]) -> (Particles, Settings) {
-    let mut particles = Particles::default();
+fn line(velocities: &[DVec3]) -> (State, Settings) {
+    let mut particles = State::default();
     for (i, v) in (0_u32..).zip(velocities) {
         particles.push(DVec3::new(0.5 * f64::from(i) - 0.75, 0.0, 0.0), *v, 1.0, 0.0);
     }
@@ -29,7 +29,7 @@ fn bright(image: &Image, x: f64, y: f64) -> u8 {
 #[test]
 fn a_slab_leaves_out_what_is_before_and_behind_it() {
     let (mut particles, settings) = line(&[DVec3::ZERO; 4]);
-    for x in &mut particles.position {
+    for x in particles.position_mut() {
         // From −0.75 behind the centre to 0.75 before it; of a slab of 1 the two in the middle are part.
         x.z = x.x;
     }
@@ -90,7 +90,7 @@ fn gpu_and_twins_draw_the_same_birds() {
     for (count, background, tail) in [(65, "dusk", 0.3), (3000, "dusk", 0.08), (3000, "night", 0.2), (40, "dusk", 0.0)]
     {
         let mut particles = support::cloud(count, 21);
-        particles.radius.iter_mut().step_by(3).for_each(|r| *r = 0.04);
+        particles.size_mut().iter_mut().step_by(3).for_each(|r| *r = 0.04);
         let settings = settings(301, 203).with("background", word(background)).with("tail", Value::Number(tail));
         let picture =
             Picture::new(&settings.with("color", word("heading")), &particles, &[], trail(&particles)).unwrap();

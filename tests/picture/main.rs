@@ -22,11 +22,13 @@ fn word(text: &'static str) -> Value {
     Value::Text(text.into())
 }
 
-fn setup(particles: Particles) -> Setup {
+fn setup(particles: State) -> Setup {
     let integrator = (integrators::entry("leapfrog").unwrap().build)();
+    let mut untied = particles;
+    untied.links = links::Links::default();
     Setup {
         // A picture may show what is broken, and a simulation would refuse to tie.
-        particles: Particles { links: links::Links::default(), ..particles },
+        state: untied,
         forces: Vec::new(),
         integrator,
         dt: 0.013,
@@ -35,24 +37,24 @@ fn setup(particles: Particles) -> Setup {
     }
 }
 
-fn on_gpu(particles: &Particles, pictures: &[&Picture]) -> Vec<Image> {
+fn on_gpu(particles: &State, pictures: &[&Picture]) -> Vec<Image> {
     let device = support::device();
     let mut simulation = Simulation::new(&device.found.device, &device.found.queue, &setup(particles.clone())).unwrap();
     pictures.iter().map(|picture| pollster::block_on(simulation.draw(picture)).unwrap()).collect()
 }
 
-fn on_cpu(particles: &Particles, picture: &Picture) -> Image {
+fn on_cpu(particles: &State, picture: &Picture) -> Image {
     let cpu = Cpu::new(u32::try_from(particles.len()).unwrap()).unwrap();
     pollster::block_on(Simulation::on(cpu, &setup(particles.clone())).unwrap().draw(picture)).unwrap()
 }
 
 /// Some turns of a spiral for each particle.
-fn trail(particles: &Particles) -> Trail {
+fn trail(particles: &State) -> Trail {
     let mut trail = Trail::new(particles.len());
     for turn in 0..40 {
         let angle = 0.31 * f64::from(turn);
         let offset = 0.9 * (1.0 - f64::from(turn) / 40.0) * DVec3::new(angle.cos(), angle.sin(), 0.3);
-        trail.push(&particles.position.iter().map(|x| *x + offset).collect::<Vec<_>>());
+        trail.push(&particles.position().iter().map(|x| *x + offset).collect::<Vec<_>>());
     }
     trail
 }
@@ -94,12 +96,16 @@ fn gpu_and_twins_draw_the_same_picture() {
         {
             let mut particles = support::cloud(count, 7);
             particles
-                .radius
+                .size_mut()
                 .iter_mut()
                 .enumerate()
                 .for_each(|(i, r)| *r = 0.017 * f64::from(u8::try_from(i % 7).unwrap()));
-            particles.mass.iter_mut().zip([1.0, 0.3, 1e-3, 0.07, 2e-5].iter().cycle()).for_each(|(m, part)| *m *= part);
-            particles.mass[count / 2] = 0.0;
+            particles
+                .mass_mut()
+                .iter_mut()
+                .zip([1.0, 0.3, 1e-3, 0.07, 2e-5].iter().cycle())
+                .for_each(|(m, part)| *m *= part);
+            particles.mass_mut()[count / 2] = 0.0;
             let settings = settings(width, height).with("style", word(style)).with("projection", word(projection));
             let settings = settings.with("color", word(color)).with("eye", Value::Vector(DVec3::new(0.3, -0.9, 0.55)));
             let groups: Vec<u32> = [0, 1, 2].into_iter().cycle().take(count).collect();
@@ -120,13 +126,13 @@ fn the_same_state_gives_the_same_bytes_and_another_gives_others() {
     assert!(images[0] == images[2] && images[1] == images[3]);
     assert!(images[1] == on_gpu(&particles, &[&large])[0]);
     let mut moved = particles.clone();
-    moved.position[17].x += 0.5;
+    moved.position_mut()[17].x += 0.5;
     assert!(images[1] != on_gpu(&moved, &[&large])[0]);
 }
 
 #[test]
 fn a_large_ball_has_the_area_of_its_disc() {
-    let mut particles = Particles::default();
+    let mut particles = State::default();
     particles.push(DVec3::new(3.0, 4.0, 5.0), DVec3::ZERO, 1.5, 2.0);
     // Half the height is 8, so that a ball of radius 2 is an eighth of the height across its radius: 75 pixels.
     let settings = settings(900, 600).with("auto_frame", Value::Flag(false)).with("extent", Value::Number(8.0));
@@ -150,7 +156,7 @@ fn a_large_ball_has_the_area_of_its_disc() {
 #[test]
 fn the_nearer_ball_is_in_front_whatever_its_id() {
     for near in [0, 1] {
-        let mut particles = Particles::default();
+        let mut particles = State::default();
         for id in 0..2 {
             let y = if id == near { -3.0 } else { 3.0 };
             particles.push(DVec3::new(0.0, y, 0.0), DVec3::ZERO, 1.5, if id == near { 1.0 } else { 2.0 });
@@ -166,7 +172,7 @@ fn the_nearer_ball_is_in_front_whatever_its_id() {
 
 #[test]
 fn a_trail_is_where_the_particle_was() {
-    let mut particles = Particles::default();
+    let mut particles = State::default();
     particles.push(DVec3::new(0.8, 0.0, 0.0), DVec3::ZERO, 1.0, 0.01);
     let mut trail = Trail::new(1);
     trail.push(&[DVec3::new(-0.8, 0.0, 0.0)]);
@@ -183,10 +189,10 @@ fn a_trail_is_where_the_particle_was() {
     assert_close(image, &on_cpu(&particles, &picture), "trail");
     // Broad lines in every direction, longer than what one layer of the dispatch walks.
     let mut particles = support::cloud(40, 13);
-    particles.radius.fill(0.0);
+    particles.size_mut().fill(0.0);
     let settings = settings.with("width", Value::Number(1500.0)).with("height", Value::Number(1200.0));
     let mut trail = Trail::new(40);
-    trail.push(&particles.position.iter().map(|x| DVec3::new(x.y, x.z, x.x)).collect::<Vec<_>>());
+    trail.push(&particles.position().iter().map(|x| DVec3::new(x.y, x.z, x.x)).collect::<Vec<_>>());
     let mut picture = Picture::new(&settings, &particles, &[], trail).unwrap();
     picture.frame.line = 3.3;
     assert_close(&on_gpu(&particles, &[&picture])[0], &on_cpu(&particles, &picture), "broad trails");
@@ -195,13 +201,13 @@ fn a_trail_is_where_the_particle_was() {
 #[test]
 fn pictures_that_make_no_sense_are_refused() {
     let particles = support::cloud(4, 1);
-    let refused = |settings: &Settings, particles: &Particles| {
+    let refused = |settings: &Settings, particles: &State| {
         let made = Picture::new(settings, particles, &[], Trail::default());
         matches!(made, Err(Error::Scene(message)) if !message.is_empty())
     };
     assert!(refused(&settings(9000, 100), &particles));
     assert!(refused(&settings(8000, 8000), &particles));
-    assert!(refused(&settings(320, 200), &Particles::default()));
+    assert!(refused(&settings(320, 200), &State::default()));
     assert!(!refused(&settings(1, 1), &particles));
     // Made for four, drawn of five.
     let picture = Picture::new(&settings(32, 20), &particles, &[], Trail::default()).unwrap();

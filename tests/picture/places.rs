@@ -10,7 +10,7 @@ use super::*;
 #[test]
 fn what_is_behind_the_eye_or_beside_the_picture_is_counted_and_not_drawn() {
     let mut particles = support::cloud(80, 3);
-    particles.radius.fill(0.0);
+    particles.size_mut().fill(0.0);
     let plain = settings(300, 200).with("auto_frame", Value::Flag(false)).with("extent", Value::Number(2.5));
     let settings = plain.with("eye", Value::Vector(DVec3::NEG_Y)).with("color", word("group"));
     let before = Picture::new(&settings, &particles, &[], Trail::new(80)).unwrap();
@@ -26,7 +26,7 @@ fn what_is_behind_the_eye_or_beside_the_picture_is_counted_and_not_drawn() {
         DVec3::new(0.0, 0.0, -9.0),
         DVec3::new(3e38, -3e38, 3e38),
     ];
-    particles.position[..6].copy_from_slice(&away);
+    particles.position_mut()[..6].copy_from_slice(&away);
     let image = &on_gpu(&particles, &[&before])[0];
     assert_eq!((image.outside, image.broken), (6, 0));
     let cpu = on_cpu(&particles, &before);
@@ -37,15 +37,15 @@ fn what_is_behind_the_eye_or_beside_the_picture_is_counted_and_not_drawn() {
 #[test]
 fn broken_numbers_are_drawn_nowhere_and_counted() {
     let mut particles = support::cloud(70, 9);
-    particles.radius.fill(0.03);
+    particles.size_mut().fill(0.03);
     let picture = Picture::new(&settings(260, 150), &particles, &[], Trail::new(70)).unwrap();
     let device = support::device();
     let mut gpu = Simulation::new(&device.found.device, &device.found.queue, &setup(particles.clone())).unwrap();
     let mut cpu = Simulation::on(Cpu::new(70).unwrap(), &setup(particles.clone())).unwrap();
     let mut position: Vec<Vec4> =
-        particles.position.iter().zip(&particles.mass).map(|(x, m)| x.extend(*m).as_vec4()).collect();
+        particles.position().iter().zip(particles.mass()).map(|(x, m)| x.extend(*m).as_vec4()).collect();
     let mut velocity: Vec<Vec4> =
-        particles.velocity.iter().zip(&particles.radius).map(|(v, r)| v.extend(*r).as_vec4()).collect();
+        particles.velocity().iter().zip(particles.size()).map(|(v, r)| v.extend(*r).as_vec4()).collect();
     position[3].x = f32::NAN;
     position[64].z = f32::NEG_INFINITY;
     position[10].w = f32::NAN;
@@ -64,7 +64,7 @@ fn broken_numbers_are_drawn_nowhere_and_counted() {
 fn particles_at_one_place_have_a_picture() {
     for place in [DVec3::ZERO, DVec3::new(1e6, -2e6, 3e6)] {
         for count in [1, 2, 65, 20_000] {
-            let mut particles = Particles::default();
+            let mut particles = State::default();
             for _ in 0..count {
                 particles.push(place, DVec3::ZERO, 0.0, 0.0);
             }

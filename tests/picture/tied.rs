@@ -15,8 +15,8 @@ fn spring(a: u32, b: u32) -> Link {
 }
 
 /// A wavy sheet of `side`² particles, three lengths wide, about the origin.
-fn sheet(side: u32) -> Particles {
-    let mut particles = Particles::default();
+fn sheet(side: u32) -> State {
+    let mut particles = State::default();
     let at = |k: u32| 3.0 * f64::from(k) / f64::from(side - 1) - 1.5;
     let id = |x: u32, y: u32| y * side + x;
     for (y, x) in (0..side).flat_map(|y| (0..side).map(move |x| (y, x))) {
@@ -46,7 +46,7 @@ fn solids() -> Vec<Solid> {
     ]
 }
 
-fn picture(particles: &Particles, settings: &Settings, solids: Vec<Solid>) -> Picture {
+fn picture(particles: &State, settings: &Settings, solids: Vec<Solid>) -> Picture {
     let scenery = Scenery { solids, ..Scenery::of(particles) };
     Picture::with(settings, particles, &[], Trail::default(), &scenery).unwrap()
 }
@@ -84,9 +84,9 @@ fn gpu_and_twins_draw_the_same_cloth_threads_and_solids() {
 #[test]
 fn what_is_torn_is_not_drawn_and_its_neighbours_are() {
     let mut particles = sheet(4);
-    particles.position.iter_mut().for_each(|x| x.z = 0.0);
+    particles.position_mut().iter_mut().for_each(|x| x.z = 0.0);
     let color = |image: &Image, x: u32, y: u32| image.rgba[4 * (y * 400 + x) as usize..][..3].to_vec();
-    let draw = |particles: &Particles| on_gpu(particles, &[&picture(particles, &above(), Vec::new())]).remove(0);
+    let draw = |particles: &State| on_gpu(particles, &[&picture(particles, &above(), Vec::new())]).remove(0);
     let whole = draw(&particles);
     // The squares are a length wide, from 50 pixels on; the spring is the lower side of the one in the middle.
     let broken = particles.links.springs.iter_mut().find(|s| s.ends == [5, 6]).unwrap();
@@ -104,7 +104,7 @@ fn what_is_torn_is_not_drawn_and_its_neighbours_are() {
 
 #[test]
 fn a_triangle_as_large_as_the_picture_is_drawn_whole() {
-    let mut particles = Particles::default();
+    let mut particles = State::default();
     for x in [DVec3::new(-9.0, -9.0, 0.0), DVec3::new(9.0, -9.0, 0.0), DVec3::new(0.0, 14.0, 0.0)] {
         particles.push(x, DVec3::ZERO, 1.0, 0.0);
     }
@@ -115,7 +115,7 @@ fn a_triangle_as_large_as_the_picture_is_drawn_whole() {
 
 #[test]
 fn the_nearer_is_in_front_and_bobs_stay_balls_beside_their_rods() {
-    let mut particles = Particles::default();
+    let mut particles = State::default();
     for (x, radius) in [(-1.0, 0.1), (1.0, 0.1), (0.0, 0.0)] {
         particles.push(DVec3::new(x, 0.0, 0.0), DVec3::ZERO, 1.0, radius);
     }

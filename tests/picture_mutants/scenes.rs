@@ -1,7 +1,7 @@
 //! Scenes: particles and looks that bring about what the shaders of a picture tell apart.
 
 use glam::{DVec2, DVec3, DVec4, Vec4};
-use motes::Particles;
+use motes::State;
 use motes::kernel::{Array, Field, Host};
 use motes::render::{Camera, Color, Exposure, KEYS, Picture, Scenery, Trail};
 use motes::settings::{Settings, Value};
@@ -20,7 +20,7 @@ pub struct Scene {
     pub name: &'static str,
     pub picture: Picture,
     pub exposure: Exposure,
-    particles: Particles,
+    particles: State,
 }
 
 /// What is asked of a scene; the rest is the same for all.
@@ -49,16 +49,16 @@ pub const PLAIN: Wish = Wish {
     color: "speed",
 };
 
-pub fn scene(wish: &Wish, change: impl FnOnce(&mut Picture, &mut Particles)) -> Scene {
+pub fn scene(wish: &Wish, change: impl FnOnce(&mut Picture, &mut State)) -> Scene {
     with(wish, &Scenery::default(), change)
 }
 
 /// The same with what stands in it.
-pub fn with(wish: &Wish, scenery: &Scenery, change: impl FnOnce(&mut Picture, &mut Particles)) -> Scene {
+pub fn with(wish: &Wish, scenery: &Scenery, change: impl FnOnce(&mut Picture, &mut State)) -> Scene {
     let word = |text: &'static str| Value::Text(text.into());
     let mut particles = support::cloud(wish.count, 11);
     // Half as far again as the picture reaches, so that many cross its edges.
-    particles.position.iter_mut().for_each(|x| *x *= 1.5 * wish.extent / PLAIN.extent);
+    particles.position_mut().iter_mut().for_each(|x| *x *= 1.5 * wish.extent / PLAIN.extent);
     let sizes = [("width", wish.size.0), ("height", wish.size.1)];
     let words = [
         ("style", wish.style),
@@ -77,8 +77,9 @@ pub fn with(wish: &Wish, scenery: &Scenery, change: impl FnOnce(&mut Picture, &m
     let mut trail = Trail::new(FEW);
     if wish.trails {
         for _ in 0..MOMENTS {
-            trail
-                .push(&particles.position.iter().map(|x| *x + 0.3 * wish.extent * random.vector()).collect::<Vec<_>>());
+            trail.push(
+                &particles.position().iter().map(|x| *x + 0.3 * wish.extent * random.vector()).collect::<Vec<_>>(),
+            );
         }
     }
     let mut picture = Picture::with(&settings, &particles, &[], trail, scenery).expect("a picture");
@@ -99,23 +100,23 @@ pub fn at(camera: &Camera, pixels: DVec2, height: u32, back: f64) -> DVec3 {
 }
 
 /// Particles that cannot be drawn, or hardly: behind the eye and about it, far out, not a number, two at one place.
-pub fn awkward(picture: &Picture, particles: &mut Particles) {
+pub fn awkward(picture: &Picture, particles: &mut State) {
     let camera = &picture.frame.camera;
     let axis = |back: f64| at(camera, DVec2::new(0.4, -0.3), picture.frame.height, back);
     let d = camera.distance.max(0.1);
     let places = [2.0 * d, d, 0.98 * d, 0.951 * d, 0.949 * d, 0.9 * d, -3.0 * d].map(axis);
-    particles.position[10..17].copy_from_slice(&places);
+    particles.position_mut()[10..17].copy_from_slice(&places);
     // Not a number by its last bit too.
-    particles.position[18].x = f64::from(f32::from_bits(0x7fc0_0001));
-    particles.position[19].z = f64::NEG_INFINITY;
-    particles.velocity[20].y = f64::INFINITY;
-    particles.mass[21] = f64::NAN;
-    particles.position[22] = particles.position[23];
-    particles.position[24] = DVec3::new(1e30, -1e30, 1e30);
+    particles.position_mut()[18].x = f64::from(f32::from_bits(0x7fc0_0001));
+    particles.position_mut()[19].z = f64::NEG_INFINITY;
+    particles.velocity_mut()[20].y = f64::INFINITY;
+    particles.mass_mut()[21] = f64::NAN;
+    particles.position_mut()[22] = particles.position()[23];
+    particles.position_mut()[24] = DVec3::new(1e30, -1e30, 1e30);
 }
 
 /// The trails of some particles begin far out of the picture, to the right and above, or nowhere.
-fn far_trails(picture: &mut Picture, particles: &Particles) {
+fn far_trails(picture: &mut Picture, particles: &State) {
     let (camera, height) = (picture.frame.camera, picture.frame.height);
     let mut moments: Vec<Vec<DVec3>> =
         picture.trail.points().collect::<Vec<_>>().chunks(FEW).map(<[_]>::to_vec).collect();
@@ -129,7 +130,7 @@ fn far_trails(picture: &mut Picture, particles: &Particles) {
     moments[1][4].y = f64::NAN;
     for moment in &mut moments {
         // One that has not moved.
-        moment[5] = particles.position[5];
+        moment[5] = particles.position()[5];
     }
     let mut trail = Trail::new(FEW);
     for moment in &moments {
@@ -139,14 +140,14 @@ fn far_trails(picture: &mut Picture, particles: &Particles) {
 }
 
 /// Sizes from nothing to more than what is drawn.
-pub fn sizes(particles: &mut Particles, largest: f64) {
-    for (i, radius) in (0..7).cycle().zip(&mut particles.radius) {
+pub fn sizes(particles: &mut State, largest: f64) {
+    for (i, radius) in (0..7).cycle().zip(particles.size_mut()) {
         *radius = largest * f64::from(i) / 6.0;
     }
 }
 
-fn masses(particles: &mut Particles) {
-    particles.mass.iter_mut().zip([1.0, 0.3, 0.02, 0.07, 2e-5].iter().cycle()).for_each(|(m, part)| *m *= part);
+fn masses(particles: &mut State) {
+    particles.mass_mut().iter_mut().zip([1.0, 0.3, 0.02, 0.07, 2e-5].iter().cycle()).for_each(|(m, part)| *m *= part);
 }
 
 /// Few particles, with trails.
@@ -159,7 +160,7 @@ pub fn few() -> Vec<Scene> {
         sizes(particles, 0.4);
         // Its radius is 2.75 pixels, and half a pixel more ends a little beyond the edge.
         let beside = DVec2::new(-0.5 * f64::from(picture.frame.width) - 3.35, 4.0);
-        particles.position[3] = at(&picture.frame.camera, beside, picture.frame.height, 0.0);
+        particles.position_mut()[3] = at(&picture.frame.camera, beside, picture.frame.height, 0.0);
         picture.frame.marker = 2.6;
         picture.frame.heaviest *= 0.6;
         picture.frame.largest = 6.0;
@@ -181,8 +182,8 @@ pub fn few() -> Vec<Scene> {
     let tiny = Wish { name: "tiny", style: "balls", extent: 0.05, trails: true, ..PLAIN };
     let tiny = scene(&tiny, |picture, particles| {
         awkward(picture, particles);
-        particles.mass.fill(0.0);
-        particles.radius.fill(0.0);
+        particles.mass_mut().fill(0.0);
+        particles.size_mut().fill(0.0);
         picture.frame.heaviest = 0.0;
         picture.frame.marker = 0.8;
         picture.frame.solid = 0.5;
@@ -235,8 +236,8 @@ pub fn tall() -> Scene {
         picture.frame.glow = 9.0;
         let camera = picture.frame.camera;
         for (i, height) in [(31, 1200.0), (32, 1100.0), (33, 900.0)] {
-            particles.position[i] = at(&camera, DVec2::new(0.02 * height - 21.0, height), 2500, 1.0);
-            particles.velocity[i] = 1.6 * camera.up;
+            particles.position_mut()[i] = at(&camera, DVec2::new(0.02 * height - 21.0, height), 2500, 1.0);
+            particles.velocity_mut()[i] = 1.6 * camera.up;
         }
     })
 }
@@ -244,9 +245,10 @@ pub fn tall() -> Scene {
 impl Scene {
     /// What the host writes before a picture is drawn.
     pub fn fields(&self) -> Vec<(&'static str, Array)> {
-        let Particles { position, velocity, mass, radius, .. } = &self.particles;
+        let of = &self.particles;
         let join = |v: &[DVec3], w: &[f64]| Array::Vec4(v.iter().zip(w).map(|(v, w)| v.extend(*w)).collect());
-        let mut fields = vec![("position", join(position, mass)), ("velocity", join(velocity, radius))];
+        let mut fields =
+            vec![("position", join(of.position(), of.mass())), ("velocity", join(of.velocity(), of.size()))];
         if let Color::Given(colors) = &self.picture.color {
             fields.push(("color", Array::Uint(colors.clone())));
         }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use glam::{DQuat, DVec2, DVec3};
-use motes::Particles;
+use motes::State;
 use motes::links::{Link, Links, Rod};
 use motes::render::{Camera, Color, Exposure, Picture, Scenery, Shape, Solid};
 
@@ -46,7 +46,7 @@ fn links(count: u32) -> Links {
 }
 
 /// Where all of that is, in pixels of a picture of 45 × 33.
-fn place(picture: &Picture, particles: &mut Particles) {
+fn place(picture: &Picture, particles: &mut State) {
     let camera = picture.frame.camera;
     let height = picture.frame.height;
     let unit = camera.extent;
@@ -55,7 +55,8 @@ fn place(picture: &Picture, particles: &mut Particles) {
         let (x, y) = (f64::from(k % SIDE), f64::from(k / SIDE));
         // Folded, so that its back is seen too, and it throws shadows on itself.
         let fold = (1.7 * x).sin();
-        particles.position[k as usize] = put(5.3 * x - 13.0 + 2.0 * fold, 4.1 * y - 9.0 + fold, 0.35 * fold - 0.1 * y);
+        particles.position_mut()[k as usize] =
+            put(5.3 * x - 13.0 + 2.0 * fold, 4.1 * y - 9.0 + fold, 0.35 * fold - 0.1 * y);
     }
     let more = [
         // Partly behind the eye; of no width; partly out of the picture; not a number.
@@ -72,22 +73,22 @@ fn place(picture: &Picture, particles: &mut Particles) {
         put(5.0, 1.0, 0.0),
         DVec3::NAN,
     ];
-    particles.position[25..37].copy_from_slice(&more);
+    particles.position_mut()[25..37].copy_from_slice(&more);
     for (thread, first) in [38, 44, 50].into_iter().enumerate() {
         let sway = thread as f64;
         for k in 0..6 {
             let t = f64::from(u32::try_from(k).expect("few"));
             let curl = (1.3 * t + sway).sin();
-            particles.position[first + k] =
+            particles.position_mut()[first + k] =
                 put(6.0 + 4.0 * sway + 2.5 * curl, 13.0 - 4.7 * t, 0.5 + 0.2 * curl - 0.1 * sway);
         }
     }
     // Straight across, and straight up from below the picture.
-    particles.position[56] = put(-18.0, -13.5, 0.3);
-    particles.position[57] = particles.position[56] + 0.5 * unit * camera.right;
-    particles.position[58] = put(-19.5, -20.0, 0.3);
-    particles.position[59] = particles.position[58] + 1.2 * unit * camera.up;
-    particles.radius.fill(0.0);
+    particles.position_mut()[56] = put(-18.0, -13.5, 0.3);
+    particles.position_mut()[57] = particles.position()[56] + 0.5 * unit * camera.right;
+    particles.position_mut()[58] = put(-19.5, -20.0, 0.3);
+    particles.position_mut()[59] = particles.position()[58] + 1.2 * unit * camera.up;
+    particles.size_mut().fill(0.0);
 }
 
 fn solids(camera: &Camera) -> Vec<Solid> {
@@ -120,7 +121,7 @@ fn solids(camera: &Camera) -> Vec<Solid> {
 pub fn tied() -> Vec<Scene> {
     let camera = with(&PLAIN, &Scenery::default(), |_, _| ()).picture.frame.camera;
     let links = Arc::new(links(60));
-    let colored = |picture: &mut Picture, particles: &mut Particles| {
+    let colored = |picture: &mut Picture, particles: &mut State| {
         let count = particles.len();
         picture.color =
             Color::Given((1..=131_u32).take(count).map(|k| k.wrapping_mul(0x9E37_79B9) | 0xff40_4040).collect());
@@ -155,7 +156,7 @@ pub fn tied() -> Vec<Scene> {
         for (id, x, y) in
             [(31, -12.0, -1200.0), (32, 11.0, -900.0), (33, 5.0, 1230.0), (56, 12.0, -1100.0), (57, -8.0, 1000.0)]
         {
-            particles.position[id] = put(x, y, if id > 50 { 0.3 } else { -0.2 });
+            particles.position_mut()[id] = put(x, y, if id > 50 { 0.3 } else { -0.2 });
         }
     });
     high.exposure = Exposure { knee: 60.0, white: 900.0 };

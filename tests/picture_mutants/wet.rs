@@ -43,12 +43,12 @@ pub fn wet() -> Vec<Scene> {
         picture.frame.water.murk = 1.7 / SMALL;
         // Some are so near that they are cut off, and half of them are in one heap.
         picture.frame.largest = 7.0;
-        for x in &mut particles.position[60..] {
+        for x in &mut particles.position_mut()[60..] {
             *x = 0.35 * *x + SMALL * DVec3::new(-0.2, 0.1, 0.0);
         }
         // So far away that they are less than a pixel.
         let camera = picture.frame.camera;
-        for (k, x) in (0..).zip(&mut particles.position[110..118]) {
+        for (k, x) in (0..).zip(&mut particles.position_mut()[110..118]) {
             *x = at(&camera, DVec2::new(70.0 - 20.0 * f64::from(k), 45.0), 33, -3.2 * camera.distance);
         }
     });
@@ -64,15 +64,17 @@ pub fn wet() -> Vec<Scene> {
         picture.frame.water.calm = 1.9;
         picture.frame.water.murk = 4.3;
         // Two at exactly one place; and both edges of a row, which are neighbours in memory.
-        particles.position[100] = particles.position[101];
+        particles.position_mut()[100] = particles.position()[101];
         let camera = picture.frame.camera;
-        for (x, place) in particles.position[90..].iter_mut().zip([DVec2::new(4.0, 16.4), DVec2::new(-3.0, -16.0)]) {
+        for (x, place) in
+            particles.position_mut()[90..].iter_mut().zip([DVec2::new(4.0, 16.4), DVec2::new(-3.0, -16.0)])
+        {
             *x = at(&camera, place, 33, 0.1);
         }
         // Those at the right are a little nearer, and before all others.
         for (k, height) in (0..).zip([9.0, 3.0, -4.0, -10.0]) {
-            particles.position[92 + 2 * k] = at(&camera, DVec2::new(22.4, height), 33, 0.91);
-            particles.position[93 + 2 * k] = at(&camera, DVec2::new(-22.0, height - 0.4), 33, 0.9);
+            particles.position_mut()[92 + 2 * k] = at(&camera, DVec2::new(22.4, height), 33, 0.91);
+            particles.position_mut()[93 + 2 * k] = at(&camera, DVec2::new(-22.0, height - 0.4), 33, 0.9);
         }
         picture.frame.water.oblate = 1.0;
     });

@@ -12,7 +12,7 @@ use motes::kernel::{ACCELERATION, Array, Backend, Bounds, POSITION, Side, TARGET
 use motes::lockstep::compare;
 use motes::motion::{Held, Hold, Keyframe, Motion};
 use motes::settings::Value;
-use motes::{Cpu, Gpu, Particles, Setup, Simulation};
+use motes::{Cpu, Gpu, Setup, Simulation, State};
 use support::Shared;
 use support::states::{force, integrator, vector};
 
@@ -49,7 +49,7 @@ pub(crate) fn motions() -> Vec<Motion> {
 }
 
 /// A cloud of which some are held: two fixed, then one for each motion, then two with targets.
-pub(crate) fn pinned(count: usize) -> Particles {
+pub(crate) fn pinned(count: usize) -> State {
     let mut particles = support::cloud(count, 5);
     let led = (0..5).map(|n| Held { id: 7 - n, by: Hold::Motion(n) });
     let others = [(9, Hold::Target), (0, Hold::Fixed), (8, Hold::Target), (1, Hold::Fixed)];
@@ -58,7 +58,7 @@ pub(crate) fn pinned(count: usize) -> Particles {
     particles
 }
 
-pub(crate) fn setup(particles: Particles, name: &str) -> Setup {
+pub(crate) fn setup(particles: State, name: &str) -> Setup {
     let forces = vec![
         force("gravity", &[("softening", Value::Number(0.17))]),
         force("uniform", &[("acceleration", vector(0.3, -2.0, 0.7))]),
@@ -66,7 +66,7 @@ pub(crate) fn setup(particles: Particles, name: &str) -> Setup {
         force("speed_limit", &[("min", Value::Number(0.4)), ("max", Value::Number(0.9))]),
     ];
     Setup {
-        particles,
+        state: particles,
         forces,
         integrator: integrator(name),
         dt: DT,
@@ -128,7 +128,7 @@ fn a_led_one_is_where_its_motion_says_at_every_step() {
             let places = read(&mut simulation, POSITION);
             for (n, motion) in particles.motions.iter().enumerate() {
                 let id = 7 - n;
-                let home = particles.position[id];
+                let home = particles.position()[id];
                 let want = motion.place(home, f64::from(step) * DT);
                 let got = places[id].truncate().as_dvec3();
                 // Two units in the last place of the numbers that are added: the place, the way there, and the arm, which
@@ -160,7 +160,7 @@ fn a_motion_late_in_a_run_is_as_exact() {
         simulation.step(1).expect("a step");
         let places = read(&mut simulation, POSITION);
         for (n, motion) in particles.motions.iter().enumerate() {
-            let home = particles.position[7 - n];
+            let home = particles.position()[7 - n];
             let want = motion.place(home, (2_999_995.0 + f64::from(step)) * DT);
             let got = places[7 - n].truncate().as_dvec3();
             // What repeats has turned 4e5 times: its phase is a product of that and a rest in f32, good to 0.03 steps.
@@ -219,7 +219,7 @@ fn through_the_side_of_a_periodic_box() {
     let mut simulation = simulation(&shared, &setup);
     for step in 1..=24 {
         simulation.step(1).expect("a step");
-        let want = particles.motions[0].place(particles.position[7], f64::from(step) * DT);
+        let want = particles.motions[0].place(particles.position()[7], f64::from(step) * DT);
         let got = read(&mut simulation, POSITION)[7].truncate().as_dvec3();
         let apart = bounds.shortest(got - want).length();
         // Of numbers up to 6, a few ulp each.
@@ -232,14 +232,14 @@ fn through_the_side_of_a_periodic_box() {
 fn no_mirror_throws_back_who_is_led() {
     let shared = support::device();
     let mut particles = pinned(12);
-    particles.position.iter_mut().for_each(|x| *x *= 0.9);
+    particles.position_mut().iter_mut().for_each(|x| *x *= 0.9);
     particles.motions[0].keys[1].shift = DVec3::new(5.0, 0.0, 0.0);
     let bounds = Bounds::new(DVec3::splat(-1.0), DVec3::splat(1.0), Side::Reflecting);
     let setup = Setup { bounds, ..setup(particles.clone(), "forest_ruth") };
     let mut simulation = simulation(&shared, &setup);
     simulation.step(25).expect("steps");
     let places = read(&mut simulation, POSITION);
-    let want = particles.motions[0].place(particles.position[7], 25.0 * DT);
+    let want = particles.motions[0].place(particles.position()[7], 25.0 * DT);
     assert!((places[7].truncate().as_dvec3() - want).length() < 4e-6, "{} is not {want}", places[7]);
     for id in [10, 11] {
         assert!(places[id].truncate().abs().max_element() <= 1.0, "who is free stays inside: {}", places[id]);
@@ -285,8 +285,8 @@ fn a_snapshot_feels_no_force_on_the_held() {
     let setup = setup(pinned(12), "leapfrog");
     let mut simulation = simulation(&shared, &setup);
     let first = pollster::block_on(simulation.snapshot()).expect("a snapshot");
-    assert_eq!(first.particles.velocity[0], DVec3::ZERO, "its own velocity counts for nothing");
-    assert_ne!(setup.particles.velocity[0], DVec3::ZERO);
+    assert_eq!(first.velocity()[0], DVec3::ZERO, "its own velocity counts for nothing");
+    assert_ne!(setup.state.velocity()[0], DVec3::ZERO);
     simulation.step(5).expect("steps");
     let before = read(&mut simulation, ACCELERATION);
     pollster::block_on(simulation.snapshot()).expect("a snapshot");

@@ -5,13 +5,13 @@ use std::f64::consts::PI;
 use glam::DVec3;
 use motes::kernel::Bounds;
 use motes::motion::{Held, Hold};
-use motes::{Particles, Setup};
+use motes::{Setup, State};
 
 use crate::{motions, pinned, setup};
 
 #[test]
 fn what_makes_no_sense_is_refused() {
-    let refused = |change: &dyn Fn(&mut Particles), words: &str| {
+    let refused = |change: &dyn Fn(&mut State), words: &str| {
         let mut particles = pinned(12);
         change(&mut particles);
         let error = setup(particles, "leapfrog").check().expect_err(words).to_string();
@@ -28,7 +28,7 @@ fn what_makes_no_sense_is_refused() {
     refused(&|p| p.motions[1].about.y = 1e39, "finite numbers");
     refused(&|p| p.motions[1].repeat = true, "it would jump");
     refused(&|p| p.motions[3].keys[1].time = 0.021, "less than a step");
-    let mut flat = Particles::default();
+    let mut flat = State::default();
     flat.push(DVec3::X, DVec3::ZERO, 1.0, 0.0);
     flat.motions = motions();
     let bounds = Bounds { dimensions: 2, ..Bounds::default() };
@@ -39,7 +39,7 @@ fn what_makes_no_sense_is_refused() {
 #[test]
 fn sets_of_particles_keep_their_own_motions() {
     let mut both = pinned(12);
-    both.append(&pinned(12));
+    both.append(&pinned(12)).expect("one kind");
     assert_eq!(both.motions.len(), 10);
     assert_eq!(both.held[9], Held { id: 19, by: Hold::Motion(5) });
 }

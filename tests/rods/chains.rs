@@ -1,7 +1,7 @@
 //! Many rods: chains that hang, fly and are pulled.
 
 use glam::{DVec3, DVec4};
-use motes::Particles;
+use motes::State;
 use motes::forces::{Force, Law};
 use motes::kernel::Source;
 use motes::links::Rod;
@@ -18,13 +18,13 @@ const CATENARIES: [(usize, f64, Option<[f64; 2]>); 2] =
     [(10, -0.5059459315710845, Some([0.06221109051911371, -0.13649095287389065])), (20, -0.5034466343401924, None)];
 
 /// Straight down to the middle and up again.
-fn valley(links: usize) -> Particles {
+fn valley(links: usize) -> State {
     let depth = (0.75f64 * 0.75 - 0.25).sqrt();
     let place = |n: usize| {
         let part = 2.0 * n as f64 / links as f64;
         DVec3::new(0.5 * part, 0.0, -depth * part.min(2.0 - part))
     };
-    let mut particles = Particles::default();
+    let mut particles = State::default();
     chain(&mut particles, &(0..=links).map(place).collect::<Vec<_>>(), [true, true]);
     particles
 }
@@ -60,17 +60,18 @@ fn a_chain_comes_to_hang_in_the_catenary() {
 }
 
 /// A free chain in space of different masses, which turns and flies; what is rigid now moves along no rod.
-fn flying() -> Particles {
+fn flying() -> State {
     let mut random = Random::new(17);
     let mut places = vec![DVec3::new(0.3, -0.2, 0.1)];
     for _ in 0..7 {
         places.push(*places.last().expect("a place") + random.vector().normalize() * (0.5 + 0.2 * random.next()));
     }
-    let mut particles = Particles::default();
+    let mut particles = State::default();
     chain(&mut particles, &places, [false, false]);
     for i in 0..particles.len() {
-        particles.mass[i] = f64::from((2.0 + random.next()) as f32);
-        particles.velocity[i] = DVec3::new(0.2, 0.1, -0.3) + DVec3::new(0.9, -1.3, 0.7).cross(particles.position[i]);
+        particles.mass_mut()[i] = f64::from((2.0 + random.next()) as f32);
+        particles.velocity_mut()[i] =
+            DVec3::new(0.2, 0.1, -0.3) + DVec3::new(0.9, -1.3, 0.7).cross(particles.position()[i]);
     }
     particles
 }
@@ -85,14 +86,14 @@ fn a_free_chain_keeps_momentum_and_spin() {
     let shared = support::device();
     let start = flying();
     let rod = || vec![force("rod", &[])];
-    let join = |v: &[DVec3]| -> Vec<DVec4> { v.iter().zip(&start.mass).map(|(v, m)| v.extend(*m)).collect() };
-    let (p, l, _) = momenta(&join(&start.position), &join(&start.velocity));
+    let join = |v: &[DVec3]| -> Vec<DVec4> { v.iter().zip(start.mass()).map(|(v, m)| v.extend(*m)).collect() };
+    let (p, l, _) = momenta(&join(start.position()), &join(start.velocity()));
     for name in ["leapfrog", "pefrl", "rk4"] {
         let mut simulation = twins(&start, rod(), name, 0.01);
         simulation.step(1000).expect("steps");
         let (x, v) = phase(&mut simulation);
         let (p_now, l_now, _) = momenta(&x, &v);
-        let moved = (0..8).map(|i| (x[i] - x[0]).truncate().distance(start.position[i] - start.position[0]));
+        let moved = (0..8).map(|i| (x[i] - x[0]).truncate().distance(start.position()[i] - start.position()[0]));
         assert!(moved.fold(0.0, f64::max) > 0.5, "{name}: it is as stiff as a stick");
         // 1000 steps of a dozen roundings, 1e-16 of 20 each.
         assert!(p_now.distance(p) < 1e-11 * p.length(), "{name}: {p_now} is not {p}");
@@ -125,11 +126,11 @@ impl Force for Pull {
 #[test]
 fn each_rod_pulls_what_is_behind_it() {
     let shared = support::device();
-    let mut particles = Particles::default();
+    let mut particles = State::default();
     let along = DVec3::new(-0.6, 0.0, -0.8);
     chain(&mut particles, &(0..13).map(|n| along * 0.25 * f64::from(n)).collect::<Vec<_>>(), [false, false]);
-    particles.mass = (0..13).map(|n| f64::from(1 + n * n % 7)).collect();
-    let want = -along * 5.0 * particles.mass[0] / particles.mass.iter().sum::<f64>();
+    particles.mass_mut().copy_from_slice(&(0..13).map(|n| f64::from(1 + n * n % 7)).collect::<Vec<_>>());
+    let want = -along * 5.0 * particles.mass()[0] / particles.mass().iter().sum::<f64>();
     let forces = || -> Vec<Box<dyn Force>> { vec![Box::new(Pull), force("rod", &[])] };
     let mut simulation = twins(&particles, forces(), "leapfrog", 0.125);
     simulation.step(16).expect("steps");
@@ -148,15 +149,15 @@ fn each_rod_pulls_what_is_behind_it() {
 #[test]
 fn a_hanging_chain_rests() {
     let shared = support::device();
-    let mut particles = Particles::default();
+    let mut particles = State::default();
     chain(&mut particles, &(0..40).map(|n| down(0.0) * 0.0625 * f64::from(n)).collect::<Vec<_>>(), [true, false]);
     for n in 1..40 {
-        particles.mass[n] = 1.0 + (n * n % 11) as f64;
+        particles.mass_mut()[n] = 1.0 + (n * n % 11) as f64;
     }
     let mut simulation = device(&shared, &particles, forces(), "leapfrog", 0.01);
     simulation.step(200).expect("steps");
     let (x, v) = read(&mut simulation);
-    for (n, want) in particles.position.iter().enumerate() {
+    for (n, want) in particles.position().iter().enumerate() {
         // A place, 2.4e-7 at 2.4; and of a kick of 0.05 what the 40 rows round away.
         assert!(x[n].truncate().distance(*want) < 1e-6, "{n}: {} is not {want}", x[n]);
         assert!(v[n].truncate().length() < 1e-5, "{n}: {}", v[n]);

@@ -14,7 +14,7 @@ const TABLE: [(u32, [f64; 4]); 3] = [
     (5, [-0.62718670507, -1.30131555021, 2.12540867384, 3.88188872726]),
 ];
 
-fn right() -> motes::Particles {
+fn right() -> motes::State {
     pendulum(&[90.0, 90.0].map(f64::to_radians))
 }
 
@@ -75,15 +75,15 @@ fn there_and_back() {
         let mut simulation = twins(&start, forces(), name, 1e-3);
         simulation.step(steps).expect("steps");
         let (x, v) = phase(&mut simulation);
-        assert!(x[2].truncate().distance(start.position[2]) > 0.5, "{name}: {x:?} is no way away");
+        assert!(x[2].truncate().distance(start.position()[2]) > 0.5, "{name}: {x:?} is no way away");
         let mut back = start.clone();
-        back.position = x.iter().map(|x| x.truncate()).collect();
-        back.velocity = v.iter().map(|v| -v.truncate()).collect();
+        back.position_mut().copy_from_slice(&x.iter().map(|x| x.truncate()).collect::<Vec<_>>());
+        back.velocity_mut().copy_from_slice(&v.iter().map(|v| -v.truncate()).collect::<Vec<_>>());
         let mut simulation = twins(&back, forces(), name, 1e-3);
         simulation.step(steps).expect("steps");
         let (x, _) = phase(&mut simulation);
         // Lengths are exact to rounding, and 1200 roundings of speeds, 1e-15 each, go 0.6 far.
-        let error = (0..3).map(|i| x[i].truncate().distance(start.position[i])).fold(0.0, f64::max);
+        let error = (0..3).map(|i| x[i].truncate().distance(start.position()[i])).fold(0.0, f64::max);
         assert!(error < 1e-11, "{name}: {error:e} from where it began");
     }
     let mut simulation = device(&shared, &start, forces(), "leapfrog", 1e-3);
@@ -93,7 +93,7 @@ fn there_and_back() {
     simulation.write(motes::VELOCITY, &flipped).expect("velocities");
     simulation.step(steps).expect("steps");
     let (x, _) = read(&mut simulation);
-    let error = (0..3).map(|i| x[i].truncate().distance(start.position[i])).fold(0.0, f64::max);
+    let error = (0..3).map(|i| x[i].truncate().distance(start.position()[i])).fold(0.0, f64::max);
     // 1200 roundings of places and speeds, 6e-8 and a few of them each, and three times more on the way.
     assert!(error < 1e-4, "{error:e} from where it began, in f32");
 }

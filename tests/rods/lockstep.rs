@@ -5,7 +5,7 @@ use motes::kernel::{Backend, World};
 use motes::links::Rod;
 use motes::lockstep::compare;
 use motes::motion::{Held, Hold};
-use motes::{Bounds, POSITION, Particles, Side, Simulation, VELOCITY};
+use motes::{Bounds, POSITION, Side, Simulation, State, VELOCITY};
 use support::Random;
 use support::machines::gpu;
 use support::states::integrator;
@@ -13,7 +13,7 @@ use support::states::integrator;
 use crate::{chain, device, forces, read, setup, stretch, support};
 
 /// Chains of `rods` rods with masses of all sizes, some of them held at an end or in the middle, in no order of ids.
-fn tangle(count: usize, rods: usize) -> Particles {
+fn tangle(count: usize, rods: usize) -> State {
     let mut random = Random::new(5);
     let mut particles = support::cloud(count, 7);
     // Ids along a chain lie apart from each other.
@@ -22,11 +22,11 @@ fn tangle(count: usize, rods: usize) -> Particles {
         if n % (rods + 1) < rods {
             let ends = [place(n), place(n + 1)];
             if n % (rods + 1) == 0 {
-                particles.position[ends[0]] *= 0.3;
+                particles.position_mut()[ends[0]] *= 0.3;
             }
             let way = random.vector().normalize() * (0.1 + 0.04 * random.next());
-            particles.position[ends[1]] = (particles.position[ends[0]] + way).as_vec3().as_dvec3();
-            let length = f64::from(particles.position[ends[0]].distance(particles.position[ends[1]]) as f32);
+            particles.position_mut()[ends[1]] = (particles.position()[ends[0]] + way).as_vec3().as_dvec3();
+            let length = f64::from(particles.position()[ends[0]].distance(particles.position()[ends[1]]) as f32);
             particles.links.rods.push(Rod { ends: ends.map(|id| id as u32), length });
         }
         if n % 11 == 4 {
@@ -34,8 +34,8 @@ fn tangle(count: usize, rods: usize) -> Particles {
         }
     }
     for i in 0..count {
-        particles.mass[i] = f64::from((1.3 + random.next()) as f32);
-        particles.velocity[i] = DVec3::ZERO;
+        particles.mass_mut()[i] = f64::from((1.3 + random.next()) as f32);
+        particles.velocity_mut()[i] = DVec3::ZERO;
     }
     let held: Vec<u32> = particles.held.iter().map(|held| held.id).collect();
     particles.links.rods.retain(|rod| !rod.ends.iter().all(|id| held.contains(id)));
@@ -77,16 +77,16 @@ fn device_and_twins_solve_alike() {
 fn rods_go_through_periodic_sides() {
     let shared = support::device();
     let bounds = Bounds::new(DVec3::splat(-1.0), DVec3::splat(1.0), Side::Periodic);
-    let mut particles = Particles::default();
+    let mut particles = State::default();
     let velocity = DVec3::new(0.5, 0.7, -0.4);
     chain(&mut particles, &[0.4, 0.8, 1.2].map(|x| DVec3::new(x, 0.9, 0.3)), [false, false]);
-    particles.position[2].x -= 2.0;
+    particles.position_mut()[2].x -= 2.0;
     particles.links.rods[1].length = 0.4;
-    for (v, way) in particles.velocity.iter_mut().zip([DVec3::Z, DVec3::Y, -DVec3::Z]) {
+    for (v, way) in particles.velocity_mut().iter_mut().zip([DVec3::Z, DVec3::Y, -DVec3::Z]) {
         *v = velocity + way;
     }
-    let free = |particles: &Particles, bounds| motes::Setup {
-        particles: particles.clone(),
+    let free = |particles: &State, bounds| motes::Setup {
+        state: particles.clone(),
         forces: vec![support::states::force("rod", &[])],
         integrator: integrator("leapfrog"),
         dt: 0.01,
@@ -94,8 +94,8 @@ fn rods_go_through_periodic_sides() {
         solver: motes::Solver::default(),
     };
     let mut open = particles.clone();
-    open.position[2].x += 2.0;
-    let run = |particles: &Particles, bounds| {
+    open.position_mut()[2].x += 2.0;
+    let run = |particles: &State, bounds| {
         let gpu = &shared.found;
         let mut simulation = Simulation::new(&gpu.device, &gpu.queue, &free(particles, bounds)).expect("a simulation");
         simulation.step(300).expect("steps");
@@ -114,7 +114,7 @@ fn rods_go_through_periodic_sides() {
 #[test]
 fn chains_side_by_side_do_the_same() {
     let shared = support::device();
-    let mut particles = Particles::default();
+    let mut particles = State::default();
     for _ in 0..150 {
         let places: Vec<_> = (0..16).map(|n| DVec3::new(0.05, 0.02, 0.04) * f64::from(n)).collect();
         chain(&mut particles, &places, [true, false]);
@@ -126,7 +126,7 @@ fn chains_side_by_side_do_the_same() {
         assert!(x[16 * n..16 * (n + 1)] == x[..16] && v[16 * n..16 * (n + 1)] == v[..16], "chain {n} goes its own way");
     }
     assert!(stretch(&particles, &x) < 2e-6, "{:e}", stretch(&particles, &x));
-    assert!(x[15].truncate().distance(particles.position[15]) > 0.05, "nothing happens");
+    assert!(x[15].truncate().distance(particles.position()[15]) > 0.05, "nothing happens");
 }
 
 /// A rod that turns by more than a radian in a step is lost, and the run says so.
@@ -134,7 +134,7 @@ fn chains_side_by_side_do_the_same() {
 fn what_does_not_come_right_stops_the_run() {
     let shared = support::device();
     let mut particles = crate::pendulum(&[0.3]);
-    particles.velocity[1] = 300.0 * crate::down(0.3 + std::f64::consts::FRAC_PI_2);
+    particles.velocity_mut()[1] = 300.0 * crate::down(0.3 + std::f64::consts::FRAC_PI_2);
     let mut simulation = device(&shared, &particles, forces(), "leapfrog", 0.01);
     simulation.step(2).expect("steps");
     let lost = pollster::block_on(simulation.check());
@@ -144,7 +144,7 @@ fn what_does_not_come_right_stops_the_run() {
     let lost = pollster::block_on(simulation.check());
     assert!(matches!(lost, Err(motes::Error::NotFinite { particle: 1, step: 0 })), "{lost:?}");
     // The same a hundred times slower.
-    particles.velocity[1] /= 100.0;
+    particles.velocity_mut()[1] /= 100.0;
     let mut simulation = device(&shared, &particles, forces(), "leapfrog", 0.01);
     simulation.step(2).expect("steps");
     pollster::block_on(simulation.check()).expect("a good run");

@@ -1,7 +1,7 @@
 //! What stays over many steps: lengths and energy.
 
 use glam::{DVec3, DVec4};
-use motes::Particles;
+use motes::State;
 use support::states::phase;
 
 use crate::{G, chain, device, down, forces, pendulum, read, stretch, support, twins};
@@ -15,8 +15,8 @@ fn energies(x: &[DVec4], v: &[DVec4]) -> Vec<f64> {
 /// From hardly moving to going over the top.
 const SWINGS: [[f64; 2]; 4] = [[10.0, 5.0], [90.0, 90.0], [120.0, -60.0], [175.0, 160.0]];
 
-fn swings() -> Particles {
-    let mut particles = Particles::default();
+fn swings() -> State {
+    let mut particles = State::default();
     for [a, b] in SWINGS.map(|angles| angles.map(f64::to_radians)) {
         chain(&mut particles, &[DVec3::ZERO, down(a), down(a) + down(b)], [true, false]);
     }

@@ -15,7 +15,7 @@ use motes::forces::{Force, Law};
 use motes::kernel::Source;
 use motes::links::Rod;
 use motes::motion::{Held, Hold};
-use motes::{Bounds, Cpu, Gpu, Particles, Setup, Simulation, gpu};
+use motes::{Bounds, Cpu, Gpu, Setup, Simulation, State, gpu};
 use support::Shared;
 use support::states::{cpu, force, integrator, phase};
 
@@ -42,7 +42,7 @@ fn forces() -> Vec<Box<dyn Force>> {
 }
 
 /// Adds a chain of particles of mass 1 at rest; who is at an end may be held.
-fn chain(particles: &mut Particles, places: &[DVec3], held: [bool; 2]) {
+fn chain(particles: &mut State, places: &[DVec3], held: [bool; 2]) {
     let first = u32::try_from(particles.len()).expect("few");
     let last = first + u32::try_from(places.len()).expect("few") - 1;
     for x in places {
@@ -51,7 +51,7 @@ fn chain(particles: &mut Particles, places: &[DVec3], held: [bool; 2]) {
     for (id, held) in [(first, held[0]), (last, held[1])] {
         if held {
             particles.held.push(Held { id, by: Hold::Fixed });
-            particles.mass[id as usize] = HELD;
+            particles.mass_mut()[id as usize] = HELD;
         }
     }
     for (id, x) in (first..last).zip(places.windows(2)) {
@@ -65,8 +65,8 @@ fn down(angle: f64) -> DVec3 {
 }
 
 /// Rods of length 1 that hang from the origin at these angles.
-fn pendulum(angles: &[f64]) -> Particles {
-    let mut particles = Particles::default();
+fn pendulum(angles: &[f64]) -> State {
+    let mut particles = State::default();
     let mut places = vec![DVec3::ZERO];
     for angle in angles {
         places.push(*places.last().expect("a place") + down(*angle));
@@ -87,13 +87,13 @@ fn angles(x: &[DVec4], v: &[DVec4]) -> Vec<[f64; 2]> {
     rods.map(angle).collect()
 }
 
-fn twins(particles: &Particles, forces: Vec<Box<dyn Force>>, name: &str, dt: f64) -> Simulation<Cpu> {
+fn twins(particles: &State, forces: Vec<Box<dyn Force>>, name: &str, dt: f64) -> Simulation<Cpu> {
     cpu(particles, forces, name, dt)
 }
 
-fn setup(particles: &Particles, forces: Vec<Box<dyn Force>>, name: &str, dt: f64) -> Setup {
+fn setup(particles: &State, forces: Vec<Box<dyn Force>>, name: &str, dt: f64) -> Setup {
     Setup {
-        particles: particles.clone(),
+        state: particles.clone(),
         forces,
         integrator: integrator(name),
         dt,
@@ -102,20 +102,20 @@ fn setup(particles: &Particles, forces: Vec<Box<dyn Force>>, name: &str, dt: f64
     }
 }
 
-fn device(shared: &Shared, particles: &Particles, forces: Vec<Box<dyn Force>>, name: &str, dt: f64) -> Simulation<Gpu> {
+fn device(shared: &Shared, particles: &State, forces: Vec<Box<dyn Force>>, name: &str, dt: f64) -> Simulation<Gpu> {
     let gpu::Found { device, queue, .. } = &shared.found;
     Simulation::new(device, queue, &setup(particles, forces, name, dt)).expect("a simulation")
 }
 
 /// Position and velocity on the device.
 fn read(simulation: &mut Simulation<Gpu>) -> (Vec<DVec4>, Vec<DVec4>) {
-    let all = pollster::block_on(simulation.snapshot()).expect("a good state").particles;
+    let all = pollster::block_on(simulation.snapshot()).expect("a good state");
     let join = |v: &[DVec3], w: &[f64]| v.iter().zip(w).map(|(v, w)| v.extend(*w)).collect();
-    (join(&all.position, &all.mass), join(&all.velocity, &all.radius))
+    (join(all.position(), all.mass()), join(all.velocity(), all.size()))
 }
 
 /// The largest |r| / L − 1 of some rods.
-fn stretch(particles: &Particles, x: &[DVec4]) -> f64 {
+fn stretch(particles: &State, x: &[DVec4]) -> f64 {
     let one = |rod: &Rod| {
         let [a, b] = rod.ends.map(|id| x[id as usize].truncate());
         (a.distance(b) / rod.length - 1.0).abs()
@@ -127,14 +127,14 @@ fn stretch(particles: &Particles, x: &[DVec4]) -> f64 {
 type Phase = (Vec<DVec4>, Vec<DVec4>);
 
 /// What the twins have after a time in so many steps, all components of the state of the particles in a row.
-fn state(particles: &Particles, name: &str, time: f64, steps: u32) -> Phase {
+fn state(particles: &State, name: &str, time: f64, steps: u32) -> Phase {
     let mut simulation = twins(particles, forces(), name, time / f64::from(steps));
     simulation.step(steps).expect("steps");
     phase(&mut simulation)
 }
 
 /// The same by leapfrog at a step, a half and a quarter of it; its error is a series in h², of which two terms go.
-fn extrapolated(particles: &Particles, time: f64, steps: u32) -> Phase {
+fn extrapolated(particles: &State, time: f64, steps: u32) -> Phase {
     let rows: Vec<_> = [1, 2, 4].map(|k| state(particles, "leapfrog", time, k * steps)).into();
     let mix = |pick: fn(&Phase) -> &Vec<DVec4>| {
         let [a, b, c] = [0, 1, 2].map(|row| pick(&rows[row]));

@@ -3,16 +3,16 @@
 use glam::DVec3;
 use motes::links::{MOST_RODS, Rod};
 use motes::motion::{Held, Hold};
-use motes::{Particles, Setup};
+use motes::{Setup, State};
 
 use crate::{chain, forces, pendulum, setup};
 
-fn said(particles: &Particles) -> String {
+fn said(particles: &State) -> String {
     setup(particles, forces(), "leapfrog", 0.01).check().err().map_or_else(String::new, |error| error.to_string())
 }
 
-fn square() -> Particles {
-    let mut particles = Particles::default();
+fn square() -> State {
+    let mut particles = State::default();
     chain(&mut particles, &[DVec3::ZERO, DVec3::X, DVec3::X + DVec3::Y, DVec3::Y], [false, false]);
     particles
 }
@@ -35,7 +35,7 @@ fn rods_make_open_chains() {
     branch.held.push(Held { id: 4, by: Hold::Fixed });
     assert!(said(&branch).contains("rod 3 ties two particles that are held"), "{}", said(&branch));
 
-    let mut long = Particles::default();
+    let mut long = State::default();
     let line = |rods: u32| (0..=rods).map(|n| DVec3::X * (f64::from(n) - 1350.0)).collect::<Vec<_>>();
     chain(&mut long, &line(MOST_RODS + 1), [false, false]);
     assert!(said(&long).contains("from particle 0 to particle 2701 has 2701 rods: 2700 are"), "{}", said(&long));
@@ -56,24 +56,24 @@ fn rods_have_their_lengths_at_the_start() {
     assert_eq!(said(&wrong), "");
 
     let mut far = pendulum(&[0.4]);
-    far.position.iter_mut().for_each(|x| x.y += 3000.0);
+    far.position_mut().iter_mut().for_each(|x| x.y += 3000.0);
     assert!(said(&far).contains("an origin that is nearer"), "{}", said(&far));
-    far.position.iter_mut().for_each(|x| x.y -= 2900.0);
+    far.position_mut().iter_mut().for_each(|x| x.y -= 2900.0);
     assert_eq!(said(&far), "");
 }
 
 #[test]
 fn rods_do_not_grow_at_the_start() {
     let mut grows = pendulum(&[0.0, 0.0]);
-    grows.velocity[2] = DVec3::new(3.0, 0.0, -0.5);
+    grows.velocity_mut()[2] = DVec3::new(3.0, 0.0, -0.5);
     assert!(said(&grows).contains("rod 1 between particles 1 and 2 would grow by 5e-1"), "{}", said(&grows));
-    grows.velocity[2].z = 0.0;
+    grows.velocity_mut()[2].z = 0.0;
     assert_eq!(said(&grows), "");
     // Who is fixed has no velocity, whatever is written of it; who is led has one that nobody knows yet.
-    grows.velocity[0] = DVec3::Z;
+    grows.velocity_mut()[0] = DVec3::Z;
     assert_eq!(said(&grows), "");
-    grows.velocity[1] = DVec3::Z;
-    grows.velocity[2] += DVec3::Z;
+    grows.velocity_mut()[1] = DVec3::Z;
+    grows.velocity_mut()[2] += DVec3::Z;
     assert!(said(&grows).contains("rod 0"), "{}", said(&grows));
     grows.held[0].by = Hold::Target;
     assert_eq!(said(&grows), "");

@@ -179,7 +179,7 @@ fn species() {
     let two = "[simulation]\ndt = 0.1\nsteps = 10\n[[particles]]\nbodies = [{ position = [0, 0, 0] }]\nspecies = 7\n\
                [[particles]]\nshape = \"lattice\"\nsize = [2, 1, 1]\n";
     let scene = load(two, &["particles.1.species=4294967295"]).unwrap_or_else(|faults| panic!("{faults}"));
-    assert_eq!(scene.particles.species, [7, u32::MAX, u32::MAX]);
+    assert_eq!(scene.particles.species(), [7, u32::MAX, u32::MAX]);
     assert!(scene.resolved.contains("\nspecies = 7\n") && scene.resolved.contains("\nspecies = 4294967295\n"));
     assert_report(
         &two.replace("species = 7", "species = 4294967296\ncolor = 3"),
@@ -214,7 +214,7 @@ a.toml: 3 errors",
     };
     for (entry, species) in [("", [5, 0]), ("species = 3", [3, 3]), ("species = 0", [0, 0])] {
         let scene = file(entry);
-        assert_eq!(scene.particles.species, species, "{entry}");
+        assert_eq!(scene.particles.species(), species, "{entry}");
         assert_eq!(scene.resolved.contains("\nspecies = "), !entry.is_empty(), "{entry}");
     }
 }

@@ -13,7 +13,7 @@ fn survives(text: &str, overrides: &[String]) {
             let particles = scene.particles.len();
             assert!((1..=300).contains(&particles) && scene.steps > 0 && scene.dt > 0.0);
             let covered: u32 = scene.groups.iter().map(|g| g.ids.end - g.ids.start).sum();
-            assert_eq!((covered as usize, scene.particles.species.len()), (particles, particles));
+            assert_eq!((covered as usize, scene.particles.species().len()), (particles, particles));
             assert!(motes::boundary::check(&scene.bounds).is_ok());
         }
         Err(faults) => {

@@ -157,7 +157,7 @@ fn overrides_replace_their_rivals() {
     assert_eq!(steps(&["simulation.steps=7", "simulation.steps = 8"]), 8);
     let scene = load(SMALL, &["particles.0.bodies.0.position.1=4", "output.formats=[]", "picture.width=64"]);
     let scene = scene.unwrap_or_else(|faults| panic!("{faults}"));
-    assert_eq!(scene.particles.position[0].to_array(), [0.0, 4.0, 0.0]);
+    assert_eq!(scene.particles.position()[0].to_array(), [0.0, 4.0, 0.0]);
     assert!(scene.output.formats.is_empty());
     assert_eq!(scene.picture.whole("width"), 64);
 }

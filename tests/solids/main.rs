@@ -12,15 +12,15 @@ use motes::lockstep::compare;
 use motes::motion::{Held, Hold, Keyframe, Motion};
 use motes::settings::Value;
 use motes::solids::{SHAPES, Solid};
-use motes::{Cpu, Gpu, Particles, Setup, Simulation};
+use motes::{Cpu, Gpu, Setup, Simulation, State};
 use support::Random;
 use support::states::{force, integrator, one, phase, vector, word};
 
 const G: f64 = 9.81;
 
-pub(crate) fn setup(particles: Particles, forces: Vec<Box<dyn Force>>, name: &str, dt: f64) -> Setup {
+pub(crate) fn setup(particles: State, forces: Vec<Box<dyn Force>>, name: &str, dt: f64) -> Setup {
     Setup {
-        particles,
+        state: particles,
         forces,
         integrator: integrator(name),
         dt,
@@ -30,7 +30,7 @@ pub(crate) fn setup(particles: Particles, forces: Vec<Box<dyn Force>>, name: &st
 }
 
 fn twins(setup: &Setup) -> Simulation<Cpu> {
-    let count = u32::try_from(setup.particles.len()).expect("few");
+    let count = u32::try_from(setup.state.len()).expect("few");
     Simulation::on(Cpu::new(count).expect("some"), setup).expect("a simulation")
 }
 
@@ -228,10 +228,10 @@ fn nobody_is_inside_after_any_step() {
 #[test]
 fn it_meets_images_and_leaves_the_held_alone() {
     let ball = || solid("sphere", &[("position", vector(0.9, 0.0, 0.0)), ("species", number(0.0))]);
-    let mut particles = Particles::default();
+    let mut particles = State::default();
     for (x, species) in [(-0.9, 0), (-0.8, 0), (0.7, 1)] {
         particles.push(DVec3::X * x, DVec3::ZERO, 1.0, 0.0);
-        *particles.species.last_mut().expect("some") = species;
+        *particles.species_mut().last_mut().expect("some") = species;
     }
     particles.held = vec![Held { id: 1, by: Hold::Fixed }];
     let bounds = Bounds::new(DVec3::splat(-1.0), DVec3::splat(1.0), Side::Periodic);

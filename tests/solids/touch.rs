@@ -3,7 +3,7 @@
 use glam::DVec3;
 use motes::kernel::Backend;
 use motes::lockstep::compare;
-use motes::{Gpu, Particles, Simulation};
+use motes::{Gpu, Simulation, State};
 
 use crate::support::states::vector;
 use crate::{number, setup, solid, support};
@@ -12,7 +12,7 @@ use crate::{number, setup, solid, support};
 #[test]
 fn who_rests_at_the_touch_is_not_wrong() {
     let shared = support::device();
-    let mut particles = Particles::default();
+    let mut particles = State::default();
     for i in 0..64u16 {
         // On the surface at 0.01 and the next numbers above and below it, on their way down.
         let height = f32::from_bits(0.01f32.to_bits() - 3 + u32::from(i % 7));

@@ -13,7 +13,7 @@ fn tip(pieces: u32, gamma: f64, base: f64) -> (f64, f64) {
     // q = γ with E I = 1; half of a piece's weight is on either of its ends.
     let places: Vec<[f64; 3]> = (0..pieces + 2).map(|i| [ds * (f64::from(i) - 1.0), 0.0, 0.0]).collect();
     let mut beam = at(&places, ds);
-    beam.mass[pieces as usize + 1] = 0.5 * ds;
+    beam.mass_mut()[pieces as usize + 1] = 0.5 * ds;
     fix(&mut beam, [0, 1]);
     for i in 1..=pieces {
         beam.links.rods.push(Rod { ends: [i, i + 1], length: ds });

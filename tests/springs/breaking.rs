@@ -3,23 +3,23 @@
 use glam::DVec3;
 use motes::links::Links;
 use motes::settings::Value;
-use motes::{Particles, Setup, VELOCITY};
+use motes::{Setup, State, VELOCITY};
 
 use super::{at, fix, forces, gpu, made, setup, spring};
 use crate::support;
 use crate::support::states::{cpu, force, phase, word};
 
-fn tearing(particles: &Particles, strain: f64, name: &str, dt: f64) -> Setup {
+fn tearing(particles: &State, strain: f64, name: &str, dt: f64) -> Setup {
     let mut all = forces(0.0, 0.0);
     all.push(force("tear", &[("strain", Value::Number(strain))]));
     setup(particles, all, name, dt)
 }
 
 /// A row of four, of which the last is torn off.
-fn row() -> Particles {
+fn row() -> State {
     let mut row = at(&[[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0], [3.0, 0.0, 0.0]], 1.0);
     row.links.springs = (0..3).map(|i| spring([i, i + 1], 1.0, 100.0)).collect();
-    row.velocity[3] = DVec3::X * 8.0;
+    row.velocity_mut()[3] = DVec3::X * 8.0;
     row
 }
 
@@ -69,7 +69,8 @@ fn broken_stays_broken_over_a_restart() {
             ("pins", word("row")),
         ],
     );
-    for (x, v) in sheet.position.iter().zip(&mut sheet.velocity) {
+    let (positions, velocities) = sheet.phase_mut();
+    for (x, v) in positions.iter().zip(velocities) {
         *v = DVec3::new(if x.x > 0.0 { 4.0 } else { -4.0 }, -3.0, 0.5) * (0.6 - x.y);
     }
     let shared = support::device();
@@ -79,14 +80,15 @@ fn broken_stays_broken_over_a_restart() {
     let torn = sheet.links.springs.len() - links.springs.len();
     assert!(torn > 5 && torn < 300, "{torn} springs are torn");
     let snapshot = pollster::block_on(whole.snapshot()).expect("a snapshot");
-    let mut rest = Particles { links, held: sheet.held.clone(), ..snapshot.particles };
+    let mut rest = snapshot;
+    (rest.links, rest.held) = (links, sheet.held.clone());
     // Through a file, as the command does it.
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("links.csv");
     motes::io::links::write(std::fs::File::create(&path).expect("a file"), &rest.links).expect("written");
     let usual =
         motes::io::links::Usual { tie: motes::io::links::Tie::default(), rest: 1.0, stiffness: 1.0, damping: 0.0 };
-    let read = motes::io::links::read(&path, &rest.position, &motes::Bounds::default(), &usual).expect("links");
+    let read = motes::io::links::read(&path, rest.position(), &motes::Bounds::default(), &usual).expect("links");
     assert_eq!(read.springs, rest.links.springs);
     rest.links.springs = read.springs;
     let mut again = gpu(&shared, &tearing(&rest, 0.4, "symplectic_euler", 0.004));
@@ -123,7 +125,7 @@ fn a_limit_of_strain() {
     let number = Value::Number;
     let limit = |sweeps: f64| force("strain_limit", &[("strain", number(0.05)), ("sweeps", number(sweeps))]);
     let mut chain = at(&[[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0], [3.0, 0.0, 0.0]], 1.0);
-    chain.mass[3] = 4.0;
+    chain.mass_mut()[3] = 4.0;
     chain.links.springs = (0..3).map(|i| spring([i, i + 1], 1.0, 50.0)).collect();
     fix(&mut chain, [0]);
     let longest = |sweeps: Option<f64>| {
@@ -144,14 +146,14 @@ fn a_limit_of_strain() {
     let shared = support::device();
     let mut free = chain.clone();
     free.held.clear();
-    free.velocity = vec![DVec3::ZERO, DVec3::Y, DVec3::X * 3.0, DVec3::new(9.0, -1.0, 2.0)];
+    free.velocity_mut().copy_from_slice(&[DVec3::ZERO, DVec3::Y, DVec3::X * 3.0, DVec3::new(9.0, -1.0, 2.0)]);
     let mut all = forces(0.0, 0.0);
     all.push(limit(8.0));
     let mut simulation = gpu(&shared, &setup(&free, all, "leapfrog", 0.01));
     simulation.step(40).expect("steps");
     let v = pollster::block_on(simulation.read(VELOCITY)).expect("velocities");
-    let momentum = |v: &dyn Fn(usize) -> DVec3| (0..4).map(|i| free.mass[i] * v(i)).sum::<DVec3>();
-    let (before, after) = (momentum(&|i| free.velocity[i]), momentum(&|i| v[i].as_dvec4().truncate()));
+    let momentum = |v: &dyn Fn(usize) -> DVec3| (0..4).map(|i| free.mass()[i] * v(i)).sum::<DVec3>();
+    let (before, after) = (momentum(&|i| free.velocity()[i]), momentum(&|i| v[i].as_dvec4().truncate()));
     // 40 · 8 sweeps, each with a rounding of a place of 3 by 1e-7, over 0.01.
     assert!((after - before).length() < 2e-3, "{before} became {after}");
     let x = pollster::block_on(simulation.read(motes::POSITION)).expect("places");

@@ -3,14 +3,14 @@
 use std::f64::consts::PI;
 
 use glam::{DVec3, Vec3};
-use motes::{POSITION, Particles, VELOCITY};
+use motes::{POSITION, State, VELOCITY};
 
 use super::{at, fix, forces, gpu, setup, spring};
 use crate::support;
 use crate::support::states::{accelerations, cpu, force, phase, vector};
 
 /// Particles in a row along x, tied one to the next.
-fn row(count: usize, spacing: f64, mass: f64, rest: f64, stiffness: f64) -> Particles {
+fn row(count: usize, spacing: f64, mass: f64, rest: f64, stiffness: f64) -> State {
     let places: Vec<[f64; 3]> = (0..count).map(|i| [spacing * i as f64, 0.0, 0.0]).collect();
     let mut particles = at(&places, mass);
     let last = count as u32 - 1;
@@ -27,7 +27,7 @@ fn a_wave_comes_back_to_the_bit() {
     let mut particles = row(count, 1.0, 1.0, 0.0, 1.0);
     fix(&mut particles, [0, 255]);
     let mut random = support::Random::new(3);
-    for x in &mut particles.position[1..255] {
+    for x in &mut particles.position_mut()[1..255] {
         *x += DVec3::from(std::array::from_fn(|_| (random.next() * 512.0).round() / 1024.0));
     }
     let mut simulation = gpu(&shared, &setup(&particles, forces(0.0, 0.0), "leapfrog", 1.0));
@@ -64,7 +64,7 @@ fn dispersion() {
         let mode = |i: usize| (f64::from(n) * PI * i as f64 / (free as f64 + 1.0)).sin();
         let mut particles = row(free + 2, 1.0, 0.1, 0.0, 100.0);
         fix(&mut particles, [0, 65]);
-        for (i, x) in particles.position.iter_mut().enumerate() {
+        for (i, x) in particles.position_mut().iter_mut().enumerate() {
             *x += DVec3::new(0.03, 0.05, -0.02) * mode(i);
         }
         let amplitude = |x: &dyn Fn(usize) -> DVec3| {
@@ -93,10 +93,10 @@ fn what_a_hanging_chain_carries() {
     let (count, spacing, mass, stiffness, g) = (13usize, 0.2, 0.3, 700.0, 9.81);
     let mut particles = row(count, spacing, mass, spacing, stiffness);
     let mut depth = 0.0;
-    particles.position[0] = DVec3::ZERO;
+    particles.position_mut()[0] = DVec3::ZERO;
     for i in 1..count {
         depth += spacing + (count - i) as f64 * mass * g / stiffness;
-        particles.position[i] = DVec3::new(0.0, 0.0, -depth);
+        particles.position_mut()[i] = DVec3::new(0.0, 0.0, -depth);
     }
     let n = (count - 1) as f64;
     assert!((depth - (n * spacing + mass * g / stiffness * n * (n + 1.0) / 2.0)).abs() < 1e-12);
@@ -113,7 +113,7 @@ fn an_elastic_catenary() {
     let (stiffness, rest, mass) = (1000.0, 0.075, 0.01);
     let mut particles = row(21, 0.05, mass, rest, stiffness);
     // Along half an ellipse, so that nothing is crumpled.
-    for (i, x) in particles.position.iter_mut().enumerate() {
+    for (i, x) in particles.position_mut().iter_mut().enumerate() {
         let angle = PI * (1.0 - i as f64 / 20.0);
         *x = DVec3::new(0.5 + 0.5 * angle.cos(), 0.0, -0.45 * angle.sin());
     }

@@ -3,14 +3,14 @@
 use glam::{DVec3, Vec4};
 use motes::links::Link;
 use motes::settings::Value;
-use motes::{POSITION, Particles, VELOCITY};
+use motes::{POSITION, State, VELOCITY};
 
 use super::{at, forces, gpu, made, setup};
 use crate::support;
 use crate::support::states::{accelerations, force};
 
 /// A rumpled sheet on its way.
-fn sheet() -> Particles {
+fn sheet() -> State {
     let number = Value::Number;
     let mut sheet = made(
         "cloth",
@@ -27,7 +27,7 @@ fn sheet() -> Particles {
         ],
     );
     let mut random = support::Random::new(9);
-    sheet.velocity.iter_mut().for_each(|v| *v = random.vector() * 0.3 + DVec3::new(0.2, -0.1, 0.4));
+    sheet.velocity_mut().iter_mut().for_each(|v| *v = random.vector() * 0.3 + DVec3::new(0.2, -0.1, 0.4));
     sheet
 }
 
@@ -43,12 +43,12 @@ fn momentum_is_kept_and_time_turns_back() {
     let (x, v) = (read(&mut simulation, POSITION), read(&mut simulation, VELOCITY));
     let momentum = |v: &mut dyn Iterator<Item = DVec3>| 0.02 * v.sum::<DVec3>();
     let (before, after) =
-        (momentum(&mut sheet.velocity.iter().copied()), momentum(&mut v.iter().map(|v| v.truncate().as_dvec3())));
+        (momentum(&mut sheet.velocity().iter().copied()), momentum(&mut v.iter().map(|v| v.truncate().as_dvec3())));
     // Both ends round alike; sums of twelve round by 6e-8 of a force of 1: a walk of 150 · 143 steps of 0.004.
     assert!((after - before).length() < 2e-7, "{before} became {after}");
     let turn = |r: &dyn Fn(usize) -> (DVec3, DVec3)| (0..143).map(|i| 0.02 * r(i).0.cross(r(i).1)).sum::<DVec3>();
     let (before, after) = (
-        turn(&|i| (sheet.position[i], sheet.velocity[i])),
+        turn(&|i| (sheet.position()[i], sheet.velocity()[i])),
         turn(&|i| (x[i].truncate().as_dvec3(), v[i].truncate().as_dvec3())),
     );
     assert!((after - before).length() < 1e-6, "angular momentum {before} became {after}");
@@ -58,8 +58,8 @@ fn momentum_is_kept_and_time_turns_back() {
     simulation.step(150).expect("steps");
     let home = read(&mut simulation, POSITION);
     let far =
-        home.iter().zip(&sheet.position).map(|(x, y)| (x.truncate().as_dvec3() - *y).length()).fold(0.0, f64::max);
-    let gone = x.iter().zip(&sheet.position).map(|(x, y)| (x.truncate().as_dvec3() - *y).length()).fold(0.0, f64::max);
+        home.iter().zip(sheet.position()).map(|(x, y)| (x.truncate().as_dvec3() - *y).length()).fold(0.0, f64::max);
+    let gone = x.iter().zip(sheet.position()).map(|(x, y)| (x.truncate().as_dvec3() - *y).length()).fold(0.0, f64::max);
     assert!(far < 1e-5 && gone > 0.1, "it was {gone} away and comes back to {far:e}");
 }
 
@@ -69,7 +69,8 @@ fn damping_lets_a_body_fall_and_turn() {
     let felt = |damping: f64, velocity: &dyn Fn(DVec3) -> DVec3| {
         let mut sheet = sheet();
         sheet.links.springs.iter_mut().for_each(|link| link.damping = damping);
-        sheet.velocity = sheet.position.iter().map(|x| velocity(*x)).collect();
+        let (positions, velocities) = sheet.phase_mut();
+        velocities.iter_mut().zip(positions).for_each(|(v, x)| *v = velocity(*x));
         accelerations(&[force("spring", &[])], &sheet, 0.0)
     };
     let (fall, spin) = (DVec3::new(3.0, -2.0, 9.0), DVec3::new(2.0, -5.0, 1.0));
@@ -92,8 +93,8 @@ fn names_do_not_matter() {
     let name = |id: u32| (5 * id + 17) % count;
     let mut renamed = at(&vec![[0.0; 3]; sheet.len()], 0.02);
     for id in 0..count {
-        renamed.position[name(id) as usize] = sheet.position[id as usize];
-        renamed.velocity[name(id) as usize] = sheet.velocity[id as usize];
+        renamed.position_mut()[name(id) as usize] = sheet.position()[id as usize];
+        renamed.velocity_mut()[name(id) as usize] = sheet.velocity()[id as usize];
     }
     renamed.links.springs = sheet.links.springs.iter().map(|l| Link { ends: l.ends.map(name), ..*l }).collect();
     let (a, b) = (accelerations(&forces(9.81, 0.0), &sheet, 0.0), accelerations(&forces(9.81, 0.0), &renamed, 0.0));
@@ -109,7 +110,7 @@ fn names_do_not_matter() {
 fn ropes_only_pull() {
     for (length, speed, pulls) in [(0.9, 0.0, false), (0.9, 3.0, false), (1.1, 0.0, true), (1.1, -30.0, false)] {
         let mut two = at(&[[0.0; 3], [0.0, length, 0.0]], 2.0);
-        two.velocity[1] = DVec3::Y * speed;
+        two.velocity_mut()[1] = DVec3::Y * speed;
         let rope = Link { ends: [0, 1], rest: 1.0, stiffness: 10.0, damping: 0.5, rope: true };
         two.links.springs = vec![rope];
         let felt = accelerations(&[force("spring", &[])], &two, 0.0);
@@ -127,7 +128,7 @@ fn ropes_only_pull() {
 fn air_on_a_triangle() {
     let air = |v: [f64; 3], settings: &[(&'static str, Value)]| {
         let mut sail = at(&[[0.0; 3], [2.0, 0.0, 0.0], [0.0, 1.0, 0.0]], 0.5);
-        sail.velocity = vec![DVec3::from(v); 3];
+        sail.velocity_mut().copy_from_slice(&[DVec3::from(v); 3]);
         sail.links.triangles.push([0, 1, 2]);
         let felt = accelerations(&[force("air", settings)], &sail, 0.0);
         assert!(felt.iter().all(|a| *a == felt[0]), "corners bear alike");

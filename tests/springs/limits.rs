@@ -2,7 +2,7 @@
 //! oscillators to the bit, a pair for every y = hω, side by side.
 
 use glam::{DVec3, DVec4};
-use motes::{POSITION, Particles, VELOCITY};
+use motes::{POSITION, State, VELOCITY};
 
 use super::{at, forces, gpu, setup, spring};
 use crate::support::{self, Shared};
@@ -11,15 +11,15 @@ const H: f64 = 0.5;
 const MASS: f64 = 0.75;
 
 /// A pair for each y. What they are to each other starts at x = (1, 0, 0), v = (0.3 ω, ω, 0).
-fn pairs(ys: &[f64]) -> Particles {
-    let mut particles = Particles::default();
+fn pairs(ys: &[f64]) -> State {
+    let mut particles = State::default();
     for (n, y) in ys.iter().enumerate() {
         let (omega, first) = (y / H, 2 * n as u32);
         let way = DVec3::new(0.3, 1.0, 0.0) * omega / 2.0;
         let mut pair = at(&[[-0.5, 0.0, 0.0], [0.5, 0.0, 0.0]], MASS);
-        pair.velocity = vec![-way, way];
+        pair.velocity_mut().copy_from_slice(&[-way, way]);
         pair.links.springs.push(spring([0, 1], 0.0, omega * omega * MASS / 2.0));
-        particles.append(&pair);
+        particles.append(&pair).expect("one kind");
         assert_eq!(particles.links.springs[n].ends, [first, first + 1]);
     }
     particles
@@ -111,13 +111,13 @@ fn limits_of_stability() {
 
 /// Dampers without stiffness, far apart along x: u = v₂ − v₁ decays, u′ = −a u with a = 2 c / m. What a step makes of u.
 fn decay(shared: &Shared, name: &str, zs: &[f64], steps: u32) -> Vec<f64> {
-    let mut particles = Particles::default();
+    let mut particles = State::default();
     for (n, z) in zs.iter().enumerate() {
         let mut pair = at(&[[0.0, n as f64, 0.0], [1024.0, n as f64, 0.0]], MASS);
-        pair.velocity = vec![DVec3::X * -0.5, DVec3::X * 0.5];
+        pair.velocity_mut().copy_from_slice(&[DVec3::X * -0.5, DVec3::X * 0.5]);
         let damping = z / H * MASS / 2.0;
         pair.links.springs.push(motes::links::Link { damping, ..spring([0, 1], 1000.0, 0.0) });
-        particles.append(&pair);
+        particles.append(&pair).expect("one kind");
     }
     let mut simulation = gpu(shared, &setup(&particles, forces(0.0, 0.0), name, H));
     simulation.step(steps).expect("steps");

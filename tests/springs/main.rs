@@ -25,7 +25,7 @@ use motes::links::Link;
 use motes::motion::{Held, Hold};
 use motes::particles::shape;
 use motes::settings::{Settings, Value};
-use motes::{Bounds, Gpu, Particles, Setup, Simulation};
+use motes::{Bounds, Gpu, Setup, Simulation, State};
 use support::Shared;
 use support::states::{force, integrator, vector};
 
@@ -47,8 +47,8 @@ fn forces(weight: f64, drag: f64) -> Vec<Box<dyn Force>> {
 }
 
 /// Particles at rest.
-fn at(places: &[[f64; 3]], mass: f64) -> Particles {
-    let mut particles = Particles::default();
+fn at(places: &[[f64; 3]], mass: f64) -> State {
+    let mut particles = State::default();
     for x in places {
         particles.push(DVec3::from(*x), DVec3::ZERO, mass, 0.0);
     }
@@ -56,21 +56,21 @@ fn at(places: &[[f64; 3]], mass: f64) -> Particles {
 }
 
 /// Fixes some of them.
-fn fix(particles: &mut Particles, ids: impl IntoIterator<Item = u32>) {
+fn fix(particles: &mut State, ids: impl IntoIterator<Item = u32>) {
     particles.held.extend(ids.into_iter().map(|id| Held { id, by: Hold::Fixed }));
 }
 
 /// A shape with some settings.
-fn made(name: &str, settings: &[(&'static str, Value)]) -> Particles {
+fn made(name: &str, settings: &[(&'static str, Value)]) -> State {
     let shape = shape(name).expect("a shape");
     let settings = settings.iter().fold(Settings::defaults(shape.keys), |s, (key, value)| s.with(key, value.clone()));
     (shape.build)(&settings).expect("particles")
 }
 
 /// What runs on the device.
-fn setup(particles: &Particles, forces: Vec<Box<dyn Force>>, name: &str, dt: f64) -> Setup {
+fn setup(particles: &State, forces: Vec<Box<dyn Force>>, name: &str, dt: f64) -> Setup {
     Setup {
-        particles: particles.clone(),
+        state: particles.clone(),
         forces,
         integrator: integrator(name),
         dt,

@@ -1,21 +1,21 @@
 //! Elastic moduli of lattices: homogenised, exact.
 
 use glam::{DMat3, DVec3};
-use motes::Particles;
+use motes::State;
 use motes::settings::Value;
 
 use super::{at, made, spring};
 use crate::support::states::{accelerations, force, vector};
 
 /// The elastic energy after every place x has gone to (1 + ε) x.
-fn energy(mut particles: Particles, strain: DMat3) -> f64 {
-    particles.position.iter_mut().for_each(|x| *x += strain * *x);
+fn energy(mut particles: State, strain: DMat3) -> f64 {
+    particles.position_mut().iter_mut().for_each(|x| *x += strain * *x);
     let felt = accelerations(&[force("spring", &[])], &particles, 0.0);
-    felt.iter().zip(&particles.mass).map(|(a, m)| a.w * m).sum()
+    felt.iter().zip(particles.mass()).map(|(a, m)| a.w * m).sum()
 }
 
 /// C₁₁ and C₄₄ out of the energies of a stretch and a shear of a volume.
-fn moduli(particles: &Particles, volume: f64) -> (f64, f64) {
+fn moduli(particles: &State, volume: f64) -> (f64, f64) {
     let e = 1e-3;
     // The mean of both signs leaves out the third order.
     let mean = |strain: DMat3| f64::midpoint(energy(particles.clone(), strain), energy(particles.clone(), -strain));
@@ -43,7 +43,7 @@ fn jelly_is_the_same_stuff_throughout() {
         // Beyond the second order there are strains squared, and f32 holds the diagonals to 6e-8 / 1e-3.
         assert!((c11 * a / k - 3.0).abs() < 3e-4, "{size:?}: C11 is {c11}");
         assert!((c44 * a / k - 1.0).abs() < 3e-4, "{size:?}: C44 is {c44}");
-        assert!((block.mass.iter().sum::<f64>() - 0.5 * cells).abs() < 1e-9, "a mass for each cell");
+        assert!((block.mass().iter().sum::<f64>() - 0.5 * cells).abs() < 1e-9, "a mass for each cell");
         assert!(
             block.links.triangles.len()
                 == 4 * ((size[0] - 1.0) * (size[1] - 1.0)
@@ -54,7 +54,7 @@ fn jelly_is_the_same_stuff_throughout() {
 }
 
 /// The bonds of one cell, spread out so that each is alone.
-fn cell(bonds: &[([f64; 2], f64)]) -> Particles {
+fn cell(bonds: &[([f64; 2], f64)]) -> State {
     let mut places = Vec::new();
     for (n, (way, _)) in bonds.iter().enumerate() {
         // A homogeneous strain does the same to a bond wherever it is.

@@ -1,7 +1,7 @@
 //! A mass on a spring, and two on two: high-order solutions, and what each integrator makes of them.
 
 use glam::{DVec3, DVec4};
-use motes::{POSITION, Particles, VELOCITY};
+use motes::{POSITION, State, VELOCITY};
 
 use super::{at, fix, forces, gpu, setup, spring};
 use crate::support;
@@ -10,7 +10,7 @@ use crate::support::states::{cpu, phase};
 const WEIGHT: f64 = 9.81;
 
 /// m = 1, L = 1, at rest beside its anchor.
-fn elastic() -> Particles {
+fn elastic() -> State {
     let mut particles = at(&[[0.0; 3], [1.0, 0.0, 0.0]], 1.0);
     particles.links.springs.push(spring([0, 1], 1.0, 100.0));
     fix(&mut particles, [0]);

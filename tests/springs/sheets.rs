@@ -35,7 +35,7 @@ fn a_net_under_its_load() {
         // From where it hangs about, so that there is less to swing.
         let sag = |i: usize| (1 + i % n).min(n - i % n).min(1 + i / n).min(n - i / n) - 1;
         for i in 0..n * n {
-            net.position[i].z -= mass * g / stiffness * sag(i) as f64 * 2.0;
+            net.position_mut()[i].z -= mass * g / stiffness * sag(i) as f64 * 2.0;
         }
         // The lowest mode is the slowest, 2 √(k/m) √2 sin (π / 2 (n − 1)); critically damped, e⁻³⁰ is left.
         let omega = 2.0 * (2.0 * stiffness / mass).sqrt() * (std::f64::consts::PI / (2.0 * (n as f64 - 1.0))).sin();

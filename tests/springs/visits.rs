@@ -5,13 +5,13 @@ use motes::forces::{Custom, Over};
 use motes::kernel::Backend;
 use motes::lockstep::compare;
 use motes::settings::Value;
-use motes::{POSITION, Particles, Setup};
+use motes::{POSITION, Setup, State};
 
 use super::{at, forces, gpu, made, setup, spring};
 use crate::support;
 use crate::support::states::{cpu, force, phase};
 
-fn cloth(side: usize, damping: f64) -> Particles {
+fn cloth(side: usize, damping: f64) -> State {
     let number = Value::Number;
     let side = number(side as f64);
     made(
@@ -97,7 +97,7 @@ fn a_hub_and_a_hermit() {
     let mut places = vec![[0.0; 3], [9.0; 3]];
     places.extend((0..spokes).map(|i| [2.0 + 1e-3 * f64::from(i % 7), 0.0, f64::from(i % 3)]));
     let mut particles = at(&places, 1.0);
-    particles.mass[0] = 1e4;
+    particles.mass_mut()[0] = 1e4;
     particles.links.springs = (0..spokes).map(|i| spring([0, i + 2], 1.0 + f64::from(i % 6) / 8.0, 2.0)).collect();
     let ends: Vec<Vec4> = {
         let mut simulation = gpu(&shared, &setup(&particles, forces(0.0, 0.0), "leapfrog", 0.01));
@@ -138,5 +138,5 @@ fn a_law_of_ones_own_over_links() {
     let ours = run(&setup(&cloth(9, 0.0), forces(0.0, 0.0), "leapfrog", 0.002));
     let apart = ours.iter().zip(&theirs).map(|(a, b)| (*a - *b).length()).fold(0.0, f32::max);
     assert!(apart < 1e-5, "{apart:e} apart");
-    assert!(ours.iter().zip(&cloth(9, 0.0).position).any(|(a, b)| (a.truncate().as_dvec3() - *b).length() > 1e-3));
+    assert!(ours.iter().zip(cloth(9, 0.0).position()).any(|(a, b)| (a.truncate().as_dvec3() - *b).length() > 1e-3));
 }

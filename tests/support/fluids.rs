@@ -4,7 +4,7 @@ use glam::DVec3;
 use motes::forces::Force;
 use motes::motion::{Held, Hold};
 use motes::settings::Value;
-use motes::{Bounds, Particles, Side};
+use motes::{Bounds, Side, State};
 
 use super::Random;
 use super::states::force;
@@ -31,10 +31,10 @@ pub fn fluid(more: &[(&'static str, Value)]) -> Box<dyn Force> {
 }
 
 /// Particles about a lattice, on their way; in a plane where `flat` says so. Every fifth is held, where `walls` says so.
-pub fn cloud(count: usize, flat: bool, walls: bool) -> Particles {
+pub fn cloud(count: usize, flat: bool, walls: bool) -> State {
     let mut random = Random::new(29);
     let side = side(count, flat);
-    let mut particles = Particles::default();
+    let mut particles = State::default();
     let round = |v: DVec3| v.as_vec3().as_dvec3();
     for i in 0..count {
         let place = DVec3::new((i % side) as f64, (i / side % side) as f64, (i / side / side) as f64);

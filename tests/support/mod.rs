@@ -13,9 +13,9 @@ pub mod states;
 use std::sync::{Mutex, MutexGuard, OnceLock};
 
 use glam::DVec3;
+use motes::State;
 use motes::gpu;
 use motes::links::{Joint, Link, Links};
-use motes::particles::Particles;
 
 /// One device for a whole test binary, used by one test at a time: a software device has only these cores.
 pub struct Shared {
@@ -53,8 +53,8 @@ pub async fn limited(
 }
 
 /// The radius that holds a part of the particles.
-pub fn lagrangian(particles: &Particles, share: f64) -> f64 {
-    let mut radii: Vec<f64> = particles.position.iter().map(|x| x.length()).collect();
+pub fn lagrangian(particles: &State, share: f64) -> f64 {
+    let mut radii: Vec<f64> = particles.position().iter().map(|x| x.length()).collect();
     radii.sort_by(f64::total_cmp);
     #[expect(clippy::cast_sign_loss, reason = "a part of a small number")]
     let place = (radii.len() as f64 * share) as usize;
@@ -88,16 +88,16 @@ pub fn species(count: usize) -> Vec<u32> {
 }
 
 /// Particles in a cube of side 2 with masses about 1 / n, as f32 holds them, of three species.
-pub fn cloud(count: usize, seed: u64) -> Particles {
+pub fn cloud(count: usize, seed: u64) -> State {
     let mut random = Random::new(seed);
-    let mut particles = Particles::default();
+    let mut particles = State::default();
     for _ in 0..count {
         let round = |v: DVec3| v.as_vec3().as_dvec3();
         let (x, v) = (round(random.vector()), round(random.vector() * 0.7));
         let mass = f64::from(((1.3 + 0.4 * random.next()) / count as f64) as f32);
         particles.push(x, v, mass, 0.01);
     }
-    particles.species = species(count);
+    particles.species_mut().copy_from_slice(&species(count));
     particles.links = links(count);
     particles
 }
@@ -127,7 +127,7 @@ pub fn links(count: usize) -> Links {
 }
 
 /// The same with nothing that damps.
-pub fn elastic(mut particles: Particles) -> Particles {
+pub fn elastic(mut particles: State) -> State {
     particles.links.springs.iter_mut().for_each(|link| link.damping = 0.0);
     particles
 }

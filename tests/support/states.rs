@@ -5,7 +5,7 @@ use motes::forces::{self, Force};
 use motes::integrators::{self, Integrator, Step};
 use motes::kernel::{ACCELERATION, Array, Backend, POSITION, SPECIES, VELOCITY, World};
 use motes::settings::{Settings, Value};
-use motes::{Bounds, Cpu, Particles, Setup, Simulation};
+use motes::{Bounds, Cpu, Setup, Simulation, State};
 
 /// A force by its name, its defaults changed by some settings.
 pub fn force(name: &str, settings: &[(&'static str, Value)]) -> Box<dyn Force> {
@@ -32,28 +32,22 @@ pub fn integrator(name: &str) -> Box<dyn Integrator> {
 }
 
 /// One particle of mass 1.
-pub fn one(position: DVec3, velocity: DVec3) -> Particles {
-    let mut particles = Particles::default();
+pub fn one(position: DVec3, velocity: DVec3) -> State {
+    let mut particles = State::default();
     particles.push(position, velocity, 1.0, 0.0);
     particles
 }
 
 /// A simulation by the twins.
-pub fn cpu(particles: &Particles, forces: Vec<Box<dyn Force>>, name: &str, dt: f64) -> Simulation<Cpu> {
+pub fn cpu(particles: &State, forces: Vec<Box<dyn Force>>, name: &str, dt: f64) -> Simulation<Cpu> {
     cpu_in(&Bounds::default(), particles, forces, name, dt)
 }
 
 /// The same in a box.
-pub fn cpu_in(
-    bounds: &Bounds,
-    particles: &Particles,
-    forces: Vec<Box<dyn Force>>,
-    name: &str,
-    dt: f64,
-) -> Simulation<Cpu> {
+pub fn cpu_in(bounds: &Bounds, particles: &State, forces: Vec<Box<dyn Force>>, name: &str, dt: f64) -> Simulation<Cpu> {
     let count = u32::try_from(particles.len()).expect("few");
     let setup = Setup {
-        particles: particles.clone(),
+        state: particles.clone(),
         forces,
         integrator: integrator(name),
         dt,
@@ -73,12 +67,12 @@ pub fn phase(simulation: &mut Simulation<Cpu>) -> (Vec<DVec4>, Vec<DVec4>) {
 }
 
 /// What the twins of some forces say at a state: acceleration, and potential per unit mass.
-pub fn accelerations(forces: &[Box<dyn Force>], particles: &Particles, time: f64) -> Vec<DVec4> {
+pub fn accelerations(forces: &[Box<dyn Force>], particles: &State, time: f64) -> Vec<DVec4> {
     accelerations_in(&Bounds::default(), forces, particles, time)
 }
 
 /// The same in a box.
-pub fn accelerations_in(bounds: &Bounds, forces: &[Box<dyn Force>], particles: &Particles, time: f64) -> Vec<DVec4> {
+pub fn accelerations_in(bounds: &Bounds, forces: &[Box<dyn Force>], particles: &State, time: f64) -> Vec<DVec4> {
     felt(forces, particles, World { time, dt: 0.01, bounds: *bounds, ..World::default() }).0
 }
 
@@ -86,7 +80,7 @@ pub fn accelerations_in(bounds: &Bounds, forces: &[Box<dyn Force>], particles: &
 /// then allow; and what is left of the links.
 pub fn felt(
     forces: &[Box<dyn Force>],
-    particles: &Particles,
+    particles: &State,
     world: World,
 ) -> (Vec<DVec4>, [Vec<DVec4>; 2], Option<Array>) {
     felt_after(forces, particles, world, &vec![DVec4::ZERO; particles.len()])
@@ -95,14 +89,14 @@ pub fn felt(
 /// The same where the particles have felt something before.
 pub fn felt_after(
     forces: &[Box<dyn Force>],
-    particles: &Particles,
+    particles: &State,
     world: World,
     before: &[DVec4],
 ) -> (Vec<DVec4>, [Vec<DVec4>; 2], Option<Array>) {
     let count = u32::try_from(particles.len()).expect("few");
     let mut cpu = Cpu::new(count).expect("some");
     let problem = motes::forces::Problem::new(count, cpu.machine())
-        .at(&particles.position, world.bounds)
+        .at(particles.position(), world.bounds)
         .tied(&particles.links, &particles.held)
         .moved(&[super::choices::swing()], world.dt);
     let mut step = Step::new(forces, problem.clone());
@@ -115,11 +109,11 @@ pub fn felt_after(
     }
     let program = cpu.compile(&plan).expect("twins");
     let join = |v: &[DVec3], w: &[f64]| Array::Vec4(v.iter().zip(w).map(|(v, w)| v.extend(*w)).collect());
-    cpu.write(POSITION.name, &join(&particles.position, &particles.mass)).expect("position");
-    cpu.write(VELOCITY.name, &join(&particles.velocity, &particles.radius)).expect("velocity");
+    cpu.write(POSITION.name, &join(particles.position(), particles.mass())).expect("position");
+    cpu.write(VELOCITY.name, &join(particles.velocity(), particles.size())).expect("velocity");
     cpu.write(ACCELERATION.name, &Array::Vec4(before.to_vec())).expect("acceleration");
     if cpu.host().contains(SPECIES.name) {
-        cpu.write(SPECIES.name, &Array::Uint(particles.species.clone())).expect("species");
+        cpu.write(SPECIES.name, &Array::Uint(particles.species().to_vec())).expect("species");
     }
     cpu.set_world(World { count, ..world }).expect("clock");
     cpu.run(&program, 1).expect("twins run");

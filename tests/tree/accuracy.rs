@@ -14,7 +14,7 @@ fn shape(name: &str, count: usize, more: &[(&'static str, f64)]) -> Vec<Vec4> {
     let words = Words::defaults(shape.keys).with("count", Value::Number(count as f64));
     let words = more.iter().fold(words, |words, (key, x)| words.with(key, Value::Number(*x)));
     let all = (shape.build)(&words).expect("particles");
-    all.position.iter().zip(&all.mass).map(|(x, m)| x.extend(*m).as_vec4()).collect()
+    all.position().iter().zip(all.mass()).map(|(x, m)| x.extend(*m).as_vec4()).collect()
 }
 
 /// Errors relative to the force on each target: root mean square, and 99th percentile.

@@ -7,7 +7,7 @@ use motes::kernel::{ACCELERATION, Backend, Machine, Pass, Plan, Problem};
 use motes::lockstep::{Verdict, compare};
 use motes::settings::Value;
 use motes::tree::Opening;
-use motes::{Bounds, Gpu, Particles, Setup, Simulation, Solver};
+use motes::{Bounds, Gpu, Setup, Simulation, Solver, State};
 
 use crate::support::Shared;
 use crate::support::machines;
@@ -60,8 +60,8 @@ pub fn over(theta: f64) -> Over {
 }
 
 /// Bodies at rest.
-pub fn particles(bodies: &[Vec4]) -> Particles {
-    let mut all = Particles::default();
+pub fn particles(bodies: &[Vec4]) -> State {
+    let mut all = State::default();
     bodies.iter().map(|b| b.as_dvec4()).for_each(|b| all.push(b.truncate(), DVec3::ZERO, b.w, 0.01));
     all
 }
@@ -91,11 +91,11 @@ impl Walk {
         let count = u32::try_from(bodies.len()).expect("few");
         let forces = [force];
         let particles = particles(bodies);
-        let mut step = Step::new(&forces, Problem::new(count, machine).at(&particles.position, bounds));
+        let mut step = Step::new(&forces, Problem::new(count, machine).at(particles.position(), bounds));
         step.evaluate();
         let plan = step.finished().expect("a plan");
         let setup = Setup {
-            particles,
+            state: particles,
             forces: Vec::new(),
             integrator: integrator("symplectic_euler"),
             dt: 0.37,

@@ -26,7 +26,7 @@ fn dispatches_fold_over_two_dimensions() {
             let forces = || vec![force("gravity", &[("softening", motes::settings::Value::Number(0.17))])];
             let mut simulation = moving(gpu, count, forces(), "rk4");
             let setup = Setup {
-                particles: support::cloud(count, 7),
+                state: support::cloud(count, 7),
                 forces: forces(),
                 integrator: integrator("rk4"),
                 dt: DT,
@@ -82,7 +82,7 @@ fn more_than_one_dispatch_can_meet() {
     let kernel = machines::kernel(law().as_ref(), count, &machine);
     assert_eq!(kernel.passes.len(), 6, "five dispatches, and one that adds them up");
     let setup = Setup {
-        particles,
+        state: particles,
         forces: Vec::new(),
         integrator: integrator("symplectic_euler"),
         dt: DT,
@@ -94,15 +94,15 @@ fn more_than_one_dispatch_can_meet() {
     simulation.backend().run(&program, 1).expect("a run");
     let got = pollster::block_on(simulation.read(ACCELERATION)).expect("accelerations");
     // The twin would meet four billion: look at some, among them those at the seams.
-    let all = &setup.particles;
+    let all = &setup.state;
     let change = got.iter().map(|a| f64::from(a.truncate().length_squared())).sum::<f64>() / count as f64;
     for i in [0usize, 1, 63, 64, 255, 256, 32_767, 32_768, 40_000, 65_535, 65_536] {
         let (mut a, mut w) = (glam::DVec3::ZERO, 0.0);
         for j in (0..count).filter(|j| *j != i) {
-            let r = all.position[j] - all.position[i];
+            let r = all.position()[j] - all.position()[i];
             let d = (r.length_squared() + softening * softening).sqrt();
-            a += r * (all.mass[j] / d.powi(3));
-            w -= 0.5 * all.mass[j] / d;
+            a += r * (all.mass()[j] / d.powi(3));
+            w -= 0.5 * all.mass()[j] / d;
         }
         let (error, error_w) = ((got[i].as_dvec4().truncate() - a).length(), (f64::from(got[i].w) - w).abs());
         // The tolerance of lockstep: parts of the usual change.

@@ -22,7 +22,7 @@ const DT: f64 = 0.37;
 /// A cloud a few steps on its way, so that the clock and all fields hold something.
 fn moving(gpu: Gpu, count: usize, forces: Vec<Box<dyn forces::Force>>, name: &str) -> Simulation<Gpu> {
     let setup = Setup {
-        particles: support::cloud(count, 7),
+        state: support::cloud(count, 7),
         forces,
         integrator: integrator(name),
         dt: DT,
@@ -81,17 +81,17 @@ fn every_law_alone() {
                     let law = [pick().1];
                     let cloud = support::cloud(count, 7);
                     let problem = forces::Problem::new(simulation.count(), machine)
-                        .at(&cloud.position, motes::Bounds::default())
-                        .of_species(&cloud.species)
+                        .at(cloud.position(), motes::Bounds::default())
+                        .of_species(cloud.species())
                         .tied(&cloud.links, &cloud.held);
                     let mut step = Step::new(&law, problem.clone());
                     step.evaluate();
                     let mut plan = step.finished().expect("a plan");
                     // Back to where they began: what pushes away leaves nobody to be pushed, and what brakes in steps as long
                     // as these throws them away.
-                    let places = cloud.position.iter().zip(&cloud.mass).map(|(x, m)| x.extend(*m).as_vec4());
+                    let places = cloud.position().iter().zip(cloud.mass()).map(|(x, m)| x.extend(*m).as_vec4());
                     simulation.write(POSITION, &places.collect::<Vec<_>>()).expect("places");
-                    let ways = cloud.velocity.iter().zip(&cloud.radius).map(|(v, r)| v.extend(*r).as_vec4());
+                    let ways = cloud.velocity().iter().zip(cloud.size()).map(|(v, r)| v.extend(*r).as_vec4());
                     simulation.write(VELOCITY, &ways.collect::<Vec<_>>()).expect("velocities");
                     let laws = plan.order.len();
                     law[0].limit(&mut plan, &problem).expect("limits");
@@ -125,7 +125,7 @@ fn every_integrator_whole() {
             let machine = gpu.machine();
             let mut simulation = moving(gpu, count, forces(), entry.name);
             let setup = Setup {
-                particles: support::cloud(count, 7),
+                state: support::cloud(count, 7),
                 forces: forces(),
                 integrator: (entry.build)(),
                 dt: DT,
@@ -157,7 +157,7 @@ fn what_surrounds_a_measurement() {
         let machine = gpu.machine();
         let mut simulation = moving(gpu, count, forces(), "leapfrog");
         let setup = Setup {
-            particles: support::cloud(count, 7),
+            state: support::cloud(count, 7),
             forces: forces(),
             integrator: integrator("leapfrog"),
             dt: DT,
@@ -179,7 +179,7 @@ fn the_watch_sees_what_is_broken() {
         for (case, bad) in broken.into_iter().enumerate() {
             let mut simulation = moving(gpu(&shared, count), count, vec![force("uniform", &[])], "symplectic_euler");
             let setup = Setup {
-                particles: support::cloud(count, 7),
+                state: support::cloud(count, 7),
                 forces: vec![force("uniform", &[])],
                 integrator: integrator("symplectic_euler"),
                 dt: DT,

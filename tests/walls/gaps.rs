@@ -90,7 +90,7 @@ fn across_a_periodic_side_neighbours_are_found() {
     // An edge of four sides is a quarter of space, a corner an eighth.
     let (edge, corner) = (thinnest("x = \"periodic\"\n"), thinnest(""));
     let face = made("block", &[("size", vector(1.0, 1.0, 1.0)), ("spacing", number(0.125))]).expect("a block");
-    assert_eq!(face.position[0], DVec3::splat(-0.4375));
+    assert_eq!(face.position()[0], DVec3::splat(-0.4375));
     // The sums of the kernel: 0.850 in half of space, so 0.850 squared and cubed where sides part (not quite: it is no product).
     assert!((0.70..0.75).contains(&edge) && (0.59..0.65).contains(&corner), "{edge} {corner}");
 }

@@ -92,8 +92,8 @@ fn a_paddle_makes_waves_and_lets_nobody_by() {
     let setup = builtin("wave_tank", &["force.1.spacing=0.0625", "simulation.dt=0.001", "particles.0.jitter=0.05"]);
     let count = 64 * 8;
     let (paddle, motion) =
-        (setup.particles.held.iter().map(|one| one.id as usize).max().expect("held"), &setup.particles.motions[0]);
-    let home = setup.particles.position[paddle];
+        (setup.state.held.iter().map(|one| one.id as usize).max().expect("held"), &setup.state.motions[0]);
+    let home = setup.state.position()[paddle];
     let mut crest = 0.0f64;
     watched(&setup, 50, |time, places| {
         let face = places[paddle];

@@ -16,13 +16,14 @@ mod told;
 use std::path::PathBuf;
 
 use glam::DVec3;
-use motes::particles::{Particles, shape};
+use motes::State;
+use motes::particles::shape;
 use motes::scene::{Diagnostics, Options, Scene, Source};
 use motes::settings::{Settings, Value};
 use motes::{Gpu, POSITION, Setup, Simulation};
 
 /// A shape by its settings.
-fn made(name: &str, values: &[(&'static str, Value)]) -> Result<Particles, motes::Error> {
+fn made(name: &str, values: &[(&'static str, Value)]) -> Result<State, motes::Error> {
     let shape = shape(name).expect("a shape");
     let start = Settings::defaults(shape.keys);
     let settings = values.iter().fold(start, |all, (key, value)| all.with(key, value.clone()));
@@ -48,7 +49,7 @@ fn load(text: &str) -> Result<Scene, Diagnostics> {
 
 fn setup_of(scene: Scene) -> Setup {
     Setup {
-        particles: scene.particles,
+        state: scene.particles,
         forces: scene.forces,
         integrator: (scene.integrator.build)(),
         dt: scene.dt,

@@ -15,7 +15,7 @@ const CUBE: &str = "# a cube\no cube\nv -1 -1 -1\nv 1 -1 -1 1.0\nv 1 1 -1\nv -1 
 
 fn mesh(text: &str, values: &[(&'static str, Value)]) -> Result<Vec<DVec3>, motes::Error> {
     let base = [("surface", word("mesh")), ("mesh", word(text)), ("spacing", number(0.1)), ("scale", number(0.5))];
-    Ok(made("wall", &[&base, values].concat())?.position)
+    Ok(made("wall", &[&base, values].concat())?.position().to_vec())
 }
 
 fn least(places: &[DVec3]) -> f64 {
@@ -132,7 +132,7 @@ fn scenes_name_meshes() {
     let scene = load(&SCENE.replace("NAME", "pyramid.obj")).unwrap_or_else(|faults| panic!("{faults}"));
     let text = include_str!("pyramid.obj");
     let wanted = mesh(text, &[("scale", number(1.0)), ("spacing", number(0.25))]).expect("a pyramid");
-    assert_eq!(scene.particles.position, wanted);
+    assert_eq!(scene.particles.position(), wanted);
     assert_eq!(scene.particles.held.len(), wanted.len());
     // Written back it names the file, and not what is in it.
     assert!(scene.resolved.contains("pyramid.obj\"") && !scene.resolved.contains("f 1 2"), "{}", scene.resolved);
@@ -141,7 +141,7 @@ fn scenes_name_meshes() {
     let again = Scene::load(&again, &[], &outside).unwrap_or_else(|faults| panic!("{faults}"));
     assert_eq!(again.particles, scene.particles);
     let carried = Scene::load(&Source::Builtin(&EMBEDDED), &[], &Options::default());
-    assert_eq!(carried.unwrap_or_else(|faults| panic!("{faults}")).particles.position, wanted);
+    assert_eq!(carried.unwrap_or_else(|faults| panic!("{faults}")).particles.position(), wanted);
     let faults = load(&SCENE.replace("NAME", "piramid.obj")).err().expect("no such file");
     assert!(faults.to_string().contains("did you mean \"pyramid.obj\"?") && faults.exit_code() == 4, "{faults}");
     let faults = load(&SCENE.replace("NAME", "../mutants/main.rs")).err().expect("another folder");

@@ -9,7 +9,7 @@ use motes::kernel::{Backend, Plan};
 use motes::neighbors::Cells;
 use motes::particles::random::Random;
 use motes::settings::{Settings, Value};
-use motes::{Bounds, Error, POSITION, Particles, Setup, Side, Simulation, gpu, integrators};
+use motes::{Bounds, Error, POSITION, Setup, Side, Simulation, State, gpu, integrators};
 use serde_json::json;
 
 use super::water::Water;
@@ -66,7 +66,7 @@ pub fn bench(args: &BenchArgs, found: &gpu::Found) -> Result<serde_json::Value, 
 fn setup(count: u32, support: f64, kernel: &'static str) -> Result<(Setup, Medium), Failure> {
     let number = f64::from(count).cbrt().round().max(3.0 * support);
     let mut random = Random::new(42);
-    let mut particles = Particles::default();
+    let mut particles = State::default();
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small whole number")]
     let line = || (0..number as u32).map(f64::from);
     for z in line() {
@@ -87,7 +87,7 @@ fn setup(count: u32, support: f64, kernel: &'static str) -> Result<(Setup, Mediu
         .with("sound_speed", Value::Number(SOUND))
         .with("alpha", Value::Number(ALPHA));
     let setup = Setup {
-        particles,
+        state: particles,
         forces: vec![(entry.build)(&settings)],
         integrator: Box::new(integrators::SymplecticEuler),
         dt: DT,
@@ -118,7 +118,7 @@ fn measure(
     let count = setup.check()?;
     let friction = Friction { alpha: ALPHA, viscosity: 0.0, wall: 1.0 };
     let mut simulation = Simulation::new(&found.device, &found.queue, &setup)?;
-    let positions: Vec<_> = setup.particles.position.iter().map(|x| x.as_vec3().to_array()).collect();
+    let positions: Vec<_> = setup.state.position().iter().map(|x| x.as_vec3().to_array()).collect();
     let mut water = Water::new(positions, setup.bounds.high.x, &medium, friction);
     let plain = last.is_none_or(|row| 2.0 * median(&row.plain) <= args.longest && !row.plain.is_empty());
     let apart = if plain { apart(&mut simulation, &mut water)? } else { f64::NAN };
@@ -129,7 +129,7 @@ fn measure(
     };
     let (device, plain) = super::in_turns(args, &mut simulation, plain.then_some(&mut baseline))?;
     let sweep = sweep(args, &mut simulation, &setup, &medium, friction)?;
-    let cells = Cells::new(&setup.particles.position, setup.bounds, medium.range())?;
+    let cells = Cells::new(setup.state.position(), setup.bounds, medium.range())?;
     let mut neighbors = 0_u64;
     let sample = (0..count as usize).step_by((count as usize / 1000).max(1));
     let asked = sample.clone().count();

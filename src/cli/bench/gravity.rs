@@ -2,7 +2,7 @@
 
 use motes::kernel::Backend;
 use motes::settings::{Settings, Value};
-use motes::{Bounds, Error, Particles, Setup, Simulation, forces, gpu, integrators, lockstep, particles};
+use motes::{Bounds, Error, Setup, Simulation, State, forces, gpu, integrators, lockstep, particles};
 use serde_json::json;
 
 use super::bodies::Bodies;
@@ -42,13 +42,8 @@ pub async fn bench(args: &BenchArgs, found: &gpu::Found) -> Result<serde_json::V
 fn measure(args: &BenchArgs, found: &gpu::Found, count: u32, last: Option<&Row>) -> Result<Row, Failure> {
     let setup = setup(count, "leapfrog")?;
     let mut simulation = Simulation::new(&found.device, &found.queue, &setup)?;
-    let bodies: Vec<[f32; 4]> = setup
-        .particles
-        .position
-        .iter()
-        .zip(&setup.particles.mass)
-        .map(|(x, m)| x.extend(*m).as_vec4().to_array())
-        .collect();
+    let bodies: Vec<[f32; 4]> =
+        setup.state.position().iter().zip(setup.state.mass()).map(|(x, m)| x.extend(*m).as_vec4().to_array()).collect();
     let bodies = Bodies::new(&bodies);
     let plain = last.is_none_or(|row| 4.0 * median(&row.plain) <= args.longest && !row.plain.is_empty());
     let mut baseline = |turns| (0..turns).for_each(|_| drop(std::hint::black_box(bodies.evaluate(SOFTENING_F32))));
@@ -106,11 +101,11 @@ fn setup(count: u32, integrator: &str) -> Result<Setup, Error> {
     let gravity = forces::entry("gravity").ok_or_else(|| absent("gravity"))?;
     let settings = Settings::defaults(gravity.keys).with("softening", Value::Number(SOFTENING));
     let plummer = particles::shape("plummer").ok_or_else(|| absent("plummer"))?;
-    let particles: Particles =
+    let particles: State =
         (plummer.build)(&Settings::defaults(plummer.keys).with("count", Value::Number(f64::from(count))))?;
     let integrator = integrators::entry(integrator).ok_or_else(|| absent(integrator))?;
     Ok(Setup {
-        particles,
+        state: particles,
         forces: vec![(gravity.build)(&settings)],
         integrator: (integrator.build)(),
         dt: 1e-3,

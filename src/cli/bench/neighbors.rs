@@ -9,7 +9,7 @@ use motes::measure::Flock;
 use motes::neighbors::Cells;
 use motes::particles::random::Random;
 use motes::settings::{Settings, Value};
-use motes::{Bounds, Error, POSITION, Particles, Setup, Side, Simulation, Snapshot, gpu, integrators};
+use motes::{Bounds, Error, POSITION, Setup, Side, Simulation, State, gpu, integrators};
 use serde_json::json;
 
 use super::agents::{Agents, RADIUS};
@@ -81,9 +81,9 @@ pub async fn bench(args: &BenchArgs, found: &gpu::Found) -> Result<serde_json::V
         "boids": boids.iter().map(Row::json).collect::<Vec<_>>(), "by_force": forced }))
 }
 
-fn scattered(count: u32, side: f64, speed: f64) -> Particles {
+fn scattered(count: u32, side: f64, speed: f64) -> State {
     let mut random = Random::new(42);
-    let mut particles = Particles::default();
+    let mut particles = State::default();
     for _ in 0..count {
         let mut vector = || DVec3::new(random.uniform(), random.uniform(), random.uniform());
         let (x, v) = (vector() * side, (vector() - 0.5) * speed);
@@ -92,9 +92,9 @@ fn scattered(count: u32, side: f64, speed: f64) -> Particles {
     particles
 }
 
-fn setup(particles: Particles, force: Box<dyn Force>, bounds: Bounds) -> Setup {
+fn setup(particles: State, force: Box<dyn Force>, bounds: Bounds) -> Setup {
     Setup {
-        particles,
+        state: particles,
         forces: vec![force],
         integrator: Box::new(integrators::SymplecticEuler),
         dt: DT,
@@ -130,7 +130,7 @@ fn measure(
     let count = setup.check()?;
     let mut simulation = Simulation::new(&found.device, &found.queue, setup)?;
     let side = setup.bounds.high.x;
-    let positions = setup.particles.position.iter().map(|x| x.as_vec3().to_array()).collect();
+    let positions = setup.state.position().iter().map(|x| x.as_vec3().to_array()).collect();
     #[expect(clippy::cast_possible_truncation, reason = "the baseline is in single precision")]
     let mut agents = Agents::new(positions, side as f32);
     let plain = plain && last.is_none_or(|row| 2.0 * median(&row.plain) <= args.longest && !row.plain.is_empty());
@@ -146,10 +146,8 @@ fn measure(
 
 /// Candidates and neighbours of an agent, on average.
 fn company(setup: &Setup, range: f64) -> Result<(f64, f64), Failure> {
-    let particles = setup.particles.clone();
-    let cells = Cells::new(&particles.position, setup.bounds, range)?;
-    let snapshot = Snapshot { step: 0, time: 0.0, potential: Vec::new(), particles };
-    Ok((cells.candidates(), Flock::of(&snapshot, setup.bounds, Some(range), None)?.neighbors))
+    let cells = Cells::new(setup.state.position(), setup.bounds, range)?;
+    Ok((cells.candidates(), Flock::of(&setup.state, setup.bounds, Some(range), None)?.neighbors))
 }
 
 /// The search by force, at one size: how much longer it takes, and how much longer it should by what both look at.

@@ -1,7 +1,7 @@
 //! A sheet of springs in plain Rust, in f32 on one thread: forces are scattered from edge to ends, then everybody moves.
 //! Nothing by hand; the instruction set is the one cargo compiled for.
 
-use motes::Particles;
+use motes::State;
 
 /// A net of springs under gravity.
 pub struct Sheet {
@@ -23,7 +23,7 @@ struct Edge {
 #[expect(clippy::cast_possible_truncation, reason = "the baseline is in single precision")]
 impl Sheet {
     /// The same as a simulation has, ropes left out.
-    pub fn new(particles: &Particles) -> Self {
+    pub fn new(particles: &State) -> Self {
         let narrow = |v: &glam::DVec3, w: f64| v.extend(w).as_vec4().to_array();
         let edge = |link: &motes::links::Link| Edge {
             a: link.ends[0],
@@ -33,8 +33,8 @@ impl Sheet {
             damping: link.damping as f32,
         };
         Self {
-            position: particles.position.iter().zip(&particles.mass).map(|(x, m)| narrow(x, 1.0 / m)).collect(),
-            velocity: particles.velocity.iter().map(|v| narrow(v, 0.0)).collect(),
+            position: particles.position().iter().zip(particles.mass()).map(|(x, m)| narrow(x, 1.0 / m)).collect(),
+            velocity: particles.velocity().iter().map(|v| narrow(v, 0.0)).collect(),
             force: vec![[0.0; 4]; particles.len()],
             edges: particles.links.springs.iter().map(edge).collect(),
         }

@@ -126,7 +126,7 @@ fn setup(count: u32) -> Result<Setup, Failure> {
     };
     let weight = [("acceleration", Value::Vector(DVec3::Z * GRAVITY))];
     Ok(Setup {
-        particles: (cloth.build)(&settings)?,
+        state: (cloth.build)(&settings)?,
         forces: vec![build("uniform", &weight)?, build("spring", &[])?],
         integrator: Box::new(integrators::SymplecticEuler),
         dt: DT,
@@ -139,7 +139,7 @@ async fn measure(args: &BenchArgs, found: &gpu::Found, count: u32, last: Option<
     let setup = setup(count)?;
     let count = setup.check()?;
     let mut simulation = Simulation::new(&found.device, &found.queue, &setup)?;
-    let mut sheet = Sheet::new(&setup.particles);
+    let mut sheet = Sheet::new(&setup.state);
     #[expect(clippy::cast_possible_truncation, reason = "the baseline is in single precision")]
     let mut step = |turns| (0..turns).for_each(|_| sheet.step(DT as f32, GRAVITY as f32));
     // That they agree is for the tests; here a slip of the bench would show.
@@ -148,12 +148,12 @@ async fn measure(args: &BenchArgs, found: &gpu::Found, count: u32, last: Option<
     let there: Vec<Vec4> = simulation.read(POSITION).await?;
     let plain = last.is_none_or(|row| 2.0 * median(&row.plain) <= args.longest && !row.plain.is_empty());
     let (device, plain) = super::in_turns(args, &mut simulation, if plain { Some(&mut step) } else { None })?;
-    let mut again = Sheet::new(&setup.particles);
+    let mut again = Sheet::new(&setup.state);
     #[expect(clippy::cast_possible_truncation, reason = "the baseline is in single precision")]
     (0..20).for_each(|_| again.step(DT as f32, GRAVITY as f32));
     let apart = there.iter().zip(again.positions()).map(|(a, b)| (a.truncate() - Vec4::from(*b).truncate()).length());
     let apart = f64::from(apart.fold(0.0, f32::max));
-    let (springs, iteration) = (setup.particles.links.springs.len(), iteration(args, found, setup)?);
+    let (springs, iteration) = (setup.state.links.springs.len(), iteration(args, found, setup)?);
     Ok(Row { count, springs, device, plain, iteration, apart })
 }
 

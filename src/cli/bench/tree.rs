@@ -173,8 +173,7 @@ fn build(
     setup: &Setup,
     simulation: &mut Simulation<Gpu>,
 ) -> Result<Vec<f64>, Failure> {
-    let problem =
-        Problem::new(setup.check()?, simulation.backend().machine()).at(&setup.particles.position, setup.bounds);
+    let problem = Problem::new(setup.check()?, simulation.backend().machine()).at(setup.state.position(), setup.bounds);
     let theta = variant.theta;
     let opening = match variant.alpha {
         alpha if alpha > 0.0 => Opening::Relative { alpha, g: 1.0, theta },
@@ -211,7 +210,7 @@ fn setup(set: &Set, count: u32) -> Result<Setup, Error> {
     let start = Settings::defaults(shape.keys).with("count", Value::Number(f64::from(count)));
     let settings = set.values.iter().fold(start, |all, (key, x)| all.with(key, Value::Number(*x)));
     Ok(Setup {
-        particles: (shape.build)(&settings)?,
+        state: (shape.build)(&settings)?,
         forces: Vec::new(),
         integrator: Box::new(integrators::Leapfrog),
         dt: 1e-3,

@@ -79,7 +79,7 @@ async fn course<B: Backend>(
     let swing = oscillator((entry.build)(), 1.0, 0.0, y);
     let energy = run(Simulation::on(backend()?, &swing)?, args.steps, |x, v| x.length_squared() + v.length_squared());
     let mut decay = oscillator((entry.build)(), 0.0, 1.0, z);
-    decay.particles.velocity = vec![DVec3::X];
+    decay.state.velocity_mut().copy_from_slice(&[DVec3::X]);
     let size = run(Simulation::on(backend()?, &decay)?, args.steps, |_, v| v.length());
     let swings = Oscillator::on(backend()?, (entry.build)(), 1.0, 0.0)?.growth(y).await?;
     let mut step = Oscillator::on(backend()?, (entry.build)(), 0.0, 1.0)?.step(z).await?;

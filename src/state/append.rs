@@ -1,0 +1,58 @@
+//! One state behind another, and some particles of one.
+
+use super::State;
+use crate::error::Error;
+use crate::life::Birth;
+use crate::motion::{Held, Hold};
+
+impl State {
+    /// Adds all particles of another state; their ids follow on. Columns that one of them lacks get their initial values there.
+    /// Time and step stay.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] when both have a column of one name and different kinds.
+    pub fn append(&mut self, other: &Self) -> Result<(), Error> {
+        let before = self.len();
+        let first = u32::try_from(before).unwrap_or(u32::MAX);
+        other.columns().try_for_each(|(column, _)| self.declare(column))?;
+        for filled in self.particle_columns() {
+            match other.get(&filled.column.name) {
+                Some(values) => filled.values.extend(values),
+                None => {
+                    let len = filled.values.len() + filled.column.shape.len(other.len());
+                    filled.values.resize(len, filled.column.initial.unwrap_or_default());
+                }
+            }
+        }
+        self.links.append(&other.links, first);
+        let motions = u32::try_from(self.motions.len()).unwrap_or(u32::MAX);
+        let by = |by| if let Hold::Motion(n) = by { Hold::Motion(n.saturating_add(motions)) } else { by };
+        let held = |held: &Held| Held { id: held.id.saturating_add(first), by: by(held.by) };
+        self.held.extend(other.held.iter().map(held));
+        self.motions.extend_from_slice(&other.motions);
+        let emitters = self.births.iter().map(|birth| birth.emitter.saturating_add(1)).max().unwrap_or(0);
+        let later = |birth: &Birth| {
+            let (id, emitter) = (birth.id.saturating_add(first), birth.emitter.saturating_add(emitters));
+            Birth { id, emitter, ..*birth }
+        };
+        self.births.extend(other.births.iter().map(later));
+        self.drains.extend_from_slice(&other.drains);
+        Ok(())
+    }
+    /// The particles of these ids, each named once, in this order, which becomes that of their ids; and of what ties, moves
+    /// and spawns particles all that concerns only these.
+    #[must_use]
+    pub fn picked(&self, order: &[usize]) -> Self {
+        let mut picked = self.clone();
+        for filled in picked.particle_columns() {
+            filled.values = filled.values.picked(order, filled.column.shape.len(1));
+        }
+        let mut places = vec![u32::MAX; self.len()];
+        order.iter().zip(0..).for_each(|(old, new)| places[*old] = new);
+        let new = |id: u32| places.get(id as usize).copied().filter(|new| *new < u32::MAX);
+        picked.links = self.links.renumbered(&new);
+        picked.held = self.held.iter().filter_map(|one| Some(Held { id: new(one.id)?, ..*one })).collect();
+        picked.births = self.births.iter().filter_map(|one| Some(Birth { id: new(one.id)?, ..*one })).collect();
+        picked
+    }
+}

@@ -1,0 +1,53 @@
+//! Which particles of a state take part.
+
+use super::State;
+use crate::error::Error;
+use crate::kernel::{Array, Columns, LIFE};
+use crate::life::{Life, Population};
+
+impl State {
+    /// Whether each takes part; nothing where that is not said, and all are active.
+    #[must_use]
+    pub fn life(&self) -> Vec<Life> {
+        let words = self.whole(LIFE.name).unwrap_or_default();
+        words.iter().map(|word| Life::of(*word).unwrap_or_default()).collect()
+    }
+    /// Says whether each takes part.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] when it is not said of every particle.
+    pub fn set_lives(&mut self, life: &[Life]) -> Result<(), Error> {
+        if let Some(column) = Columns::default().get(LIFE.name) {
+            self.declare(column)?;
+        }
+        self.set(LIFE.name, Array::Uint(life.iter().map(|life| life.word()).collect()))
+    }
+    /// Says whether one takes part.
+    pub fn set_life(&mut self, id: usize, life: Life) {
+        let mut list = self.life();
+        list.resize(self.len(), Life::Living);
+        if let Some(place) = list.get_mut(id) {
+            *place = life;
+        }
+        // As many as there are particles.
+        let _ = self.set_lives(&list);
+    }
+    /// Whether one takes part.
+    #[must_use]
+    pub fn lives(&self, id: usize) -> bool {
+        self.whole(LIFE.name).and_then(|words| words.get(id)).is_none_or(|word| *word == Life::Living.word())
+    }
+    /// Whether not all take part, all the time.
+    #[must_use]
+    pub fn is_mortal(&self) -> bool {
+        let idle = |word: &u32| *word != Life::Living.word();
+        !self.births.is_empty()
+            || !self.drains.is_empty()
+            || self.whole(LIFE.name).is_some_and(|words| words.iter().any(idle))
+    }
+    /// How many are pending, active and removed.
+    #[must_use]
+    pub fn population(&self) -> Population {
+        Population::of(&self.life(), self.len())
+    }
+}
