@@ -54,7 +54,7 @@ fn law() -> Setup {
     let params = vec![("n".to_owned(), Value::Number(4.0)), ("s".to_owned(), Value::Number(2.0))];
     let law = Custom { name: "loop".into(), over: Over::Each, wgsl: LOOP.into(), file: "loop.wgsl".into(), params };
     Setup {
-        particles: support::cloud(64, 7),
+        state: support::cloud(64, 7),
         forces: vec![Box::new(law)],
         integrator: Box::new(Leapfrog),
         dt: 1e-4,
@@ -79,7 +79,7 @@ fn memory_does_not_grow_with_steps() {
     // The fluids' references look at all pairs: so many steps of them take as long as those of the device.
     let by_reference = |name: &str| if name == "flag" || name == "fish_school" { 1000 } else { 60 };
     for (name, setup) in families() {
-        let count = u32::try_from(setup.particles.len()).expect("few");
+        let count = u32::try_from(setup.state.len()).expect("few");
         let steps = by_reference(name);
         let grown = growth(Simulation::on(Cpu::new(count).expect("some"), &setup).expect("a simulation"), steps);
         println!("{name}, {count} particles, reference: {grown:.1} MB in {steps} steps");

@@ -34,7 +34,9 @@ pub fn validation(sources: &[Source], error: &WithSpan<ValidationError>) -> Erro
     }
     // The last span is the narrowest; a span in the user's own file says more than one in ours.
     let spans: Vec<_> = error.spans().collect();
-    let theirs = spans.iter().rev().find(|(span, _)| span.to_range().and_then(|r| place(sources, r.start)).is_some_and(|(source, _)| !source.ours));
+    let theirs = spans.iter().rev().find(|(span, _)| {
+        span.to_range().and_then(|r| place(sources, r.start)).is_some_and(|(source, _)| !source.ours)
+    });
     if let Some((span, label)) = theirs.or(spans.last()) {
         message = with_place(&message, sources, *span, label);
     }

@@ -27,7 +27,8 @@ pub fn machines() -> Vec<(&'static str, Machine)> {
 /// Every kernel for a machine, with the name of what it belongs to.
 pub fn every(machine: Machine) -> Vec<(String, Kernel)> {
     let mut all = Vec::new();
-    let mut add = |of: &str, kernels: Vec<Kernel>| all.extend(kernels.into_iter().map(|kernel| (of.to_owned(), kernel)));
+    let mut add =
+        |of: &str, kernels: Vec<Kernel>| all.extend(kernels.into_iter().map(|kernel| (of.to_owned(), kernel)));
     for builtin in SCENES {
         let scene = small(builtin.name);
         let scenery = Scenery::of(&scene.particles);
@@ -41,8 +42,8 @@ pub fn every(machine: Machine) -> Vec<(String, Kernel)> {
     }
     let cloud = support::cloud(100, 7);
     let problem = Problem::new(100, machine)
-        .at(&cloud.position, Bounds::default())
-        .of_species(&cloud.species)
+        .at(cloud.position(), Bounds::default())
+        .of_species(cloud.species())
         .tied(&cloud.links, &cloud.held)
         .moved(&[choices::swing()], 0.01);
     for entry in choices::entries() {
@@ -52,7 +53,7 @@ pub fn every(machine: Machine) -> Vec<(String, Kernel)> {
     }
     for entry in INTEGRATORS {
         let setup = Setup {
-            particles: support::cloud(100, 7),
+            state: support::cloud(100, 7),
             forces: vec![states::force("uniform", &[])],
             integrator: (entry.build)(),
             dt: 0.01,

@@ -37,7 +37,7 @@ pub fn setup(scene: Scene) -> Setup {
             Some(pace) => Box::new(Paced { integrator: (scene.integrator.build)(), pace }),
             None => (scene.integrator.build)(),
         },
-        particles: scene.particles,
+        state: scene.particles,
         forces: scene.forces,
         dt: scene.dt,
         bounds: scene.bounds,
