@@ -107,7 +107,7 @@ fn force(me: Particle) -> vec4f {
 
 fn custom(over: Over, wgsl: &str, params: &[(&str, Value)]) -> Vec<Box<dyn Force>> {
     let params = params.iter().map(|(name, value)| ((*name).to_owned(), value.clone())).collect();
-    vec![Box::new(Custom { name: "swirl".into(), over, wgsl: wgsl.into(), file: "my/swirl.wgsl".into(), params })]
+    vec![Box::new(Custom { params, ..Custom::new("swirl", "my/swirl.wgsl", wgsl, over) })]
 }
 
 fn good() -> [(&'static str, Value); 2] {
@@ -133,13 +133,7 @@ fn a_force_may_be_called_anything() {
     let shared = support::device();
     let wgsl = "fn force(me: Particle) -> vec4f { return vec4f(1.0 + world.time, 0.0, 0.0, 0.0); }";
     for name in ["clear", "drift", "at", "attic", "tick", "watch", "each", "rk_save"] {
-        let custom = Custom {
-            name: name.to_owned(),
-            over: Over::Each,
-            wgsl: wgsl.to_owned(),
-            file: format!("{name}.wgsl"),
-            params: Vec::new(),
-        };
+        let custom = Custom::new(name, &format!("{name}.wgsl"), wgsl, Over::Each);
         let mut setup = setup(one(DVec3::ZERO, DVec3::ZERO), vec![Box::new(custom)], 0.5);
         setup.integrator = integrator("rk4");
         let mut simulation = on_gpu(&shared, &setup).expect("a simulation");

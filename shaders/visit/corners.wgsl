@@ -3,7 +3,6 @@
 // An element is stored with each of its three corners, so nothing is written twice.
 struct Corner { first: u32, second: u32, third: u32, place: u32, stiffness: f32 } // `place` says which of the three I am: 0, 1, 2
 
-@group(1) @binding(2) var<storage, read_write> acceleration: array<vec4f>;
 @group(2) @binding(0) var<storage, read> corner_start: array<u32>; // one for each particle, and the end
 @group(2) @binding(1) var<storage, read> corner: array<Corner>;
 
@@ -18,5 +17,5 @@ fn corners(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups:
     let end = corner_start[i + 1u];
     for (var k = corner_start[i]; k < end; k += 1u) { gather(me, corner[k], &sum); }
     // Each of the three holds a third of the energy.
-    acceleration[i] += vec4f(1.0, 1.0, 1.0, 1.0 / 3.0) * finish(me, sum);
+    conclude(me, 1.0 / 3.0, sum);
 }

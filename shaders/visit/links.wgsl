@@ -1,10 +1,6 @@
 // Each particle meets those that it is linked to, in the order of their ids. The law says:
 // fn gather(me, you, r: vec3f, link: Link, sum: ptr<function, Sum>), with r from me to you, and fn finish(me, sum: Sum) -> vec4f,
 // acceleration and potential per unit mass. A link is stored from both of its ends, so nothing is written twice.
-@group(1) @binding(2) var<storage, read_write> acceleration: array<vec4f>;
-
-// Whether this is the first law: nothing has been felt yet.
-override FIRST: bool = false;
 const WORKGROUP: u32 = 64u;
 
 @compute @workgroup_size(WORKGROUP)
@@ -20,6 +16,5 @@ fn links(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: v
         gather(me, you, shortest(you.position - me.position), one, &sum);
     }
     // Each of the two holds half of the energy.
-    let felt = vec4f(1.0, 1.0, 1.0, 0.5) * finish(me, sum);
-    if FIRST { acceleration[i] = felt; } else { acceleration[i] += felt; }
+    conclude(me, 0.5, sum);
 }

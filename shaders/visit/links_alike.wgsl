@@ -2,13 +2,10 @@
 // other, by the ids of the partners, and a link is no more than its partner. What a law says is as in shaders/visit/links.wgsl.
 struct Link { partner: u32, rest: f32, stiffness: f32, damping: f32 }
 
-@group(1) @binding(2) var<storage, read_write> acceleration: array<vec4f>;
 @group(2) @binding(0) var<storage, read> partner_start: array<vec4u>; // of each kind, for each particle, and the end
 @group(2) @binding(1) var<storage, read> partner: array<u32>;
 @group(2) @binding(2) var<storage, read> link_kind: array<Link>;
 
-// Whether this is the first law: nothing has been felt yet.
-override FIRST: bool = false;
 const WORKGROUP: u32 = 64u;
 
 @compute @workgroup_size(WORKGROUP)
@@ -34,6 +31,5 @@ fn links_alike(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gro
         gather(me, you, shortest(you.position - me.position), one, &sum);
     }
     // Each of the two holds half of the energy.
-    let felt = vec4f(1.0, 1.0, 1.0, 0.5) * finish(me, sum);
-    if FIRST { acceleration[i] = felt; } else { acceleration[i] += felt; }
+    conclude(me, 0.5, sum);
 }

@@ -8,7 +8,6 @@ struct Span { unused_word: u32, first: u32, end: u32, slice: u32 }
 
 @group(2) @binding(0) var<uniform> span: Span;
 @group(2) @binding(1) var<storage, read_write> parts: array<Sum>;
-@group(1) @binding(2) var<storage, read_write> acceleration: array<vec4f>;
 
 // This dispatch sees all sources in one layer: nothing is kept.
 override WHOLE: bool = true;
@@ -29,7 +28,7 @@ fn deliver(layer: u32, i: u32, sum: Sum) {
 
 // Each of a pair holds half of its potential energy.
 fn add(i: u32, sum: Sum) {
-    acceleration[i] += vec4f(1.0, 1.0, 1.0, 0.5) * finish(particle(i), sum);
+    conclude(particle(i), 0.5, sum);
 }
 
 // Nobody meets itself. Both ways are computed and one is kept: a branch would cost more.

@@ -12,7 +12,6 @@ struct Tree { unused_word: u32, first: u32, end: u32, count: u32, leaves: u32, h
 @group(2) @binding(4) var<storage, read> tree_mass: array<vec4f>; // second moments xx, xy, xz about the centre of mass; mass
 @group(2) @binding(5) var<storage, read> tree_shape: array<vec4f>; // second moments yy, yz, zz; the longest side of its box
 @group(2) @binding(7) var<storage, read_write> alarm: array<atomic<u32>>;
-@group(1) @binding(2) var<storage, read_write> acceleration: array<vec4f>;
 
 // Particles of a leaf, and of a group.
 override LEAF: u32;
@@ -84,5 +83,5 @@ fn exists(node: u32, depth: u32) -> bool {
 
 fn deliver(me: Particle, sum: Sum) {
     // Each of a pair holds half of its potential energy.
-    acceleration[me.index] += vec4f(1.0, 1.0, 1.0, 0.5) * finish(me, sum);
+    conclude(me, 0.5, sum);
 }

@@ -27,7 +27,8 @@ pub fn density(medium: &Medium, problem: &Problem) -> Result<Kernel, Error> {
                 *sum += you.mass * me.kernel(r);
             },
         )?;
-        let bodies = crate::visit::bodies(host)?;
+        let view = crate::visit::View::of(host)?;
+        let bodies = view.particles();
         let mut density = host.write(DENSITY)?;
         for (body, sum) in bodies.iter().zip(weights) {
             if let Some(sum) = sum {

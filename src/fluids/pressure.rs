@@ -8,7 +8,7 @@ use super::{FLOW, Medium};
 use crate::error::Error;
 use crate::kernel::{ACCELERATION, Host, Kernel, Problem, Scalar};
 use crate::neighbors::Grid;
-use crate::visit::{Body, Sweep, gathered};
+use crate::visit::{Particle, Sweep, gathered};
 
 /// How a fluid rubs.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -49,7 +49,7 @@ pub fn pressure(medium: &Medium, friction: Friction, walls: Walls, problem: &Pro
     let (me, slots) = (*medium, grid.clone());
     let twin = move |host: &Host| {
         let states = states(host, &slots)?;
-        let flows = |body: &Body| states[body.index].x > 0.0;
+        let flows = |body: &Particle| states[body.index].x > 0.0;
         let felt = gathered(host, me.range(), flows, |a, b, r, sum: &mut DVec3| {
             *sum += push(&me, friction, walls, [a, b], [states[a.index], states[b.index]], r);
         })?;
@@ -92,7 +92,7 @@ fn push(
     medium: &Medium,
     friction: Friction,
     walls: Walls,
-    [me, you]: [&Body; 2],
+    [me, you]: [&Particle; 2],
     [mine, yours]: [DVec3; 2],
     r: DVec3,
 ) -> DVec3 {

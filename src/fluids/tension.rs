@@ -9,7 +9,7 @@ use super::pressure::{by_id, flowing, states};
 use super::{Medium, NORMAL};
 use crate::error::Error;
 use crate::kernel::{ACCELERATION, Host, Kernel, Problem, Scalar};
-use crate::visit::{Body, Sweep, gathered};
+use crate::visit::{Particle, Sweep, gathered};
 
 /// How a surface pulls.
 ///
@@ -41,7 +41,7 @@ fn normals(medium: &Medium, problem: &Problem) -> Result<Kernel, Error> {
     let (me, slots) = (*medium, grid.clone());
     let twin = move |host: &Host| {
         let states = states(host, &slots)?;
-        let flows = |body: &Body| states[body.index].x > 0.0;
+        let flows = |body: &Particle| states[body.index].x > 0.0;
         let normals = gathered(host, me.range(), flows, |_, you, r, sum: &mut DVec3| {
             if flows(you) {
                 *sum -= you.mass / states[you.index].x * me.gradient(r) * me.range() * r;
@@ -75,7 +75,7 @@ fn pull(medium: &Medium, tension: Tension, problem: &Problem) -> Result<Kernel, 
     let (me, slots) = (*medium, grid.clone());
     let twin = move |host: &Host| {
         let (states, normals) = (states(host, &slots)?, by_id(host, &slots, NORMAL)?);
-        let flows = |body: &Body| states[body.index].x > 0.0;
+        let flows = |body: &Particle| states[body.index].x > 0.0;
         let felt = gathered(host, me.range(), flows, |a, b, r, sum: &mut DVec3| {
             let (q, way) = (r.length() / me.range(), r.try_normalize().unwrap_or_default());
             if flows(b) {

@@ -8,7 +8,7 @@ use super::{Force, Law, Over, Problem, SPECIES, species, speed_limit};
 use crate::error::Error;
 use crate::kernel::{Plan, Scalar};
 use crate::settings::{Key, Kind, Settings, Value};
-use crate::visit::Body;
+use crate::visit::Particle;
 
 /// What a scene may say.
 pub const KEYS: &[Key] = &[
@@ -70,7 +70,7 @@ impl Force for Boids {
             "nearest" => Over::Nearest { count: u32::try_from(self.0.whole("neighbors")).unwrap_or(u32::MAX) },
             _ => super::over(&self.0, None),
         };
-        let gather = move |me: &Body, you: &Body, r: DVec3, seen: &mut Seen| {
+        let gather = move |me: &Particle, you: &Particle, r: DVec3, seen: &mut Seen| {
             if !(in_view(me.velocity, r, cosine) && kind.has(me) && kind.has(you)) {
                 return;
             }
@@ -82,7 +82,7 @@ impl Force for Boids {
             seen.velocity += you.velocity;
             seen.displacement += r;
         };
-        let finish = move |me: &Body, seen: &Seen, _: &crate::kernel::World| {
+        let finish = move |me: &Particle, seen: &Seen, _: &crate::kernel::World| {
             if seen.neighbors == 0.0 {
                 return glam::DVec4::ZERO;
             }

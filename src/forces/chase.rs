@@ -5,7 +5,7 @@ use glam::{DVec3, DVec4};
 use super::{Force, Law, SEE_NEAR, params, species};
 use crate::kernel::World;
 use crate::settings::{Key, Kind, Settings, Value};
-use crate::visit::Body;
+use crate::visit::Particle;
 
 /// What a scene may say.
 pub const KEYS: &[Key] = &[
@@ -35,12 +35,12 @@ impl Force for Chase {
         let (prey, prey_value) = species(&self.0, "prey");
         let mut values = params(&self.0, &["max_speed", "max_force"]);
         values.extend([("species".to_owned(), predators_value), ("prey".to_owned(), prey_value)]);
-        let gather = move |me: &Body, you: &Body, r: DVec3, displacement: &mut DVec3| {
+        let gather = move |me: &Particle, you: &Particle, r: DVec3, displacement: &mut DVec3| {
             if predators.has(me) && prey.has(you) {
                 *displacement += r;
             }
         };
-        let finish = move |me: &Body, displacement: &DVec3, _: &World| match displacement.try_normalize() {
+        let finish = move |me: &Particle, displacement: &DVec3, _: &World| match displacement.try_normalize() {
             Some(way) => (speed * way - me.velocity).clamp_length_max(force).extend(0.0),
             None => DVec4::ZERO,
         };

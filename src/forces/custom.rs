@@ -1,8 +1,9 @@
 //! A user's own law: a WGSL file that is the equal of ours, with no Rust and no compiler.
 
 use super::{Distant, Force, Law, Over};
-use crate::kernel::{Scalar, Source};
+use crate::kernel::{ACCELERATION, Name, Scalar, Source, Table};
 use crate::settings::Value;
+use crate::visit::PairTable;
 
 /// A user's law. It has no twin, so the CPU backend cannot run it and nothing checks it.
 pub struct Custom {
@@ -16,26 +17,50 @@ pub struct Custom {
     pub file: String,
     /// The members of its `Params`.
     pub params: Vec<(String, Value)>,
+    /// Parameters of pairs of species.
+    pub pairs: Option<PairTable>,
+    /// Tables of data, by the names under which the file binds them.
+    pub tables: Vec<Table>,
+    /// The columns that it writes: see [`Law::into`].
+    pub into: Vec<Name>,
+}
+
+impl Custom {
+    /// A law of such a text that gives an acceleration and has no parameters.
+    #[must_use]
+    pub fn new(name: &str, file: &str, wgsl: &str, over: Over) -> Self {
+        let (name, wgsl, file) = (name.to_owned(), wgsl.to_owned(), file.to_owned());
+        let (params, pairs, tables) = (Vec::new(), None, Vec::new());
+        Self { name, over, wgsl, file, params, pairs, tables, into: vec![ACCELERATION.name.into()] }
+    }
 }
 
 impl Force for Custom {
     fn laws(&self) -> Vec<Law> {
-        let scalar = |value: &Value| match value {
-            Value::Number(x) => Scalar::Float(*x),
-            Value::Vector(v) => Scalar::Vector(*v),
-            Value::Flag(on) => Scalar::Uint(u32::from(*on)),
-            Value::Text(_) => Scalar::Float(f64::NAN),
-        };
         vec![Law {
             name: self.name.clone(),
             over: self.over,
             wgsl: Source::theirs(self.file.clone(), self.wgsl.clone()),
             params: self.params.iter().map(|(name, value)| (name.clone(), scalar(value))).collect(),
+            pairs: self.pairs.clone(),
+            tables: self.tables.clone(),
+            into: self.into.clone(),
             twin: None,
             reciprocal: false,
             jacobian: None,
             distant: Distant::default(),
             tied: None,
         }]
+    }
+}
+
+/// A value as a member of a struct takes it.
+#[must_use]
+pub fn scalar(value: &Value) -> Scalar {
+    match value {
+        Value::Number(x) => Scalar::Float(*x),
+        Value::Vector(v) => Scalar::Vector(*v),
+        Value::Flag(on) => Scalar::Uint(u32::from(*on)),
+        Value::Text(_) => Scalar::Float(f64::NAN),
     }
 }

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::{Force, Law, SEE_NEAR, params, species};
 use crate::kernel::World;
 use crate::settings::{Key, Kind, Settings, Value};
-use crate::visit::Body;
+use crate::visit::Particle;
 
 /// What a scene may say.
 pub const KEYS: &[Key] = &[
@@ -34,12 +34,12 @@ impl Force for Flee {
         let (predators, predators_value) = species(&self.0, "predators");
         let mut values = params(&self.0, &["range", "strength"]);
         values.extend([("species".to_owned(), prey_value), ("predators".to_owned(), predators_value)]);
-        let gather = move |me: &Body, you: &Body, r: DVec3, sum: &mut DVec3| {
+        let gather = move |me: &Particle, you: &Particle, r: DVec3, sum: &mut DVec3| {
             if prey.has(me) && predators.has(you) {
                 *sum -= (1.0 - r.length() / range) * r.normalize_or_zero();
             }
         };
-        let finish = move |_: &Body, sum: &DVec3, _: &World| (strength * *sum).extend(0.0);
+        let finish = move |_: &Particle, sum: &DVec3, _: &World| (strength * *sum).extend(0.0);
         let over = super::over(&self.0, predators.0);
         vec![Law::gathering("flee", over, crate::shader!("forces/flee.wgsl"), values, gather, finish)]
     }

@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::kernel::{Plan, Side, Source, World};
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::tree::Opening;
-use crate::visit::{Body, Group};
+use crate::visit::{Particle, Group};
 
 /// What a scene may say.
 pub const KEYS: &[Key] = &[
@@ -85,10 +85,10 @@ impl Force for Gravity {
                 self.distant(crate::shader!("forces/gravity_ewald_distant.wgsl")),
             );
             let frequency = |world: &World| world.bounds.frequency().x;
-            let rule = move |_: &Body, you: &Body, r, world: &World| {
+            let rule = move |_: &Particle, you: &Particle, r, world: &World| {
                 ewald::pair(g * you.mass, softening, r, frequency(world))
             };
-            let far = move |_: &Body, you: &Group, r, world: &World| {
+            let far = move |_: &Particle, you: &Group, r, world: &World| {
                 if quadrupole {
                     ewald::group((g, you.mass, you.moments), softening, r, frequency(world))
                 } else {
@@ -102,15 +102,15 @@ impl Force for Gravity {
                 crate::shader!("forces/gravity_spline.wgsl"),
                 self.distant(crate::shader!("forces/gravity_distant.wgsl")),
             );
-            let rule = move |_: &Body, you: &Body, r, _: &World| spline(g * you.mass, h, r);
+            let rule = move |_: &Particle, you: &Particle, r, _: &World| spline(g * you.mass, h, r);
             // Beyond its support the spline is Newton's law.
-            let far = move |_: &Body, you: &Group, r, _: &World| multipole(g, you, 0.0, r, quadrupole);
+            let far = move |_: &Particle, you: &Group, r, _: &World| multipole(g, you, 0.0, r, quadrupole);
             Law::attracting("gravity_spline", self.over(h), files, values, rule, far)
         } else {
             let files =
                 (crate::shader!("forces/gravity.wgsl"), self.distant(crate::shader!("forces/gravity_distant.wgsl")));
-            let rule = move |_: &Body, you: &Body, r, _: &World| plummer(g * you.mass, softening, r);
-            let far = move |_: &Body, you: &Group, r, _: &World| multipole(g, you, softening, r, quadrupole);
+            let rule = move |_: &Particle, you: &Particle, r, _: &World| plummer(g * you.mass, softening, r);
+            let far = move |_: &Particle, you: &Group, r, _: &World| multipole(g, you, softening, r, quadrupole);
             Law::attracting("gravity", self.over(0.0), files, values, rule, far)
         }]
     }

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use crate::kernel::Scalar;
 use crate::settings::{self, Key, Settings, Value};
-use crate::visit::Body;
+use crate::visit::Particle;
 
 /// One species, or everybody.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -20,8 +20,8 @@ pub const SPECIES: Key = Key::new(
 
 impl Kind {
     /// Whether a particle is of it.
-    pub fn has(self, body: &Body) -> bool {
-        self.is(body.species)
+    pub fn has(self, body: &Particle) -> bool {
+        self.is(body.species())
     }
     /// Whether a species is.
     pub fn is(self, species: u32) -> bool {

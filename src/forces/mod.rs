@@ -4,7 +4,7 @@ mod custom;
 mod ewald;
 mod kind;
 
-pub use custom::Custom;
+pub use custom::{Custom, scalar};
 use kind::{Kind, SPECIES, species};
 
 use crate::error::Error;
@@ -14,7 +14,7 @@ use crate::kernel::{Column, Plan, Scalar};
 use crate::neighbors::Grid;
 use crate::settings::{Key, Settings, Value};
 use crate::solids::Standing;
-pub use crate::visit::{Body, Distant, Jacobian, Law, Over};
+pub use crate::visit::{Distant, Jacobian, Law, Over, Particle};
 
 /// What pushes particles.
 pub trait Force: Send + Sync {

@@ -181,10 +181,11 @@ fn kernel(wall: Wall, problem: &Problem, factor: f64) -> Result<Kernel, Error> {
     let who = problem.clone();
     let twin = move |host: &Host| {
         let world = host.world();
-        let bodies = crate::visit::bodies(host)?;
+        let view = crate::visit::View::of(host)?;
+        let bodies = view.particles();
         let (mut position, mut velocity) = (host.write(POSITION)?, host.write(VELOCITY)?);
         let frame = wall.frame(if wall.motion.is_some() { time(host, &who, who.reached)? } else { 0.0 });
-        for body in bodies.iter().filter(|body| wall.who.has(body) && body.lives && !who.is_held(body.index)) {
+        for body in bodies.iter().filter(|body| wall.who.has(body) && body.lives() && !who.is_held(body.index)) {
             let (way, change) = wall.meet(&frame, body.position, body.velocity, factor * world.dt, &world);
             position[body.index] += way.extend(0.0);
             velocity[body.index] += change.extend(0.0);

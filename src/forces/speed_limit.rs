@@ -7,7 +7,7 @@ use glam::DVec4;
 use super::{Force, Kind as Who, Law, Problem, SPECIES, species};
 use crate::error::Error;
 use crate::kernel::{Host, Kernel, Pass, Plan, Scalar, Shader, VELOCITY};
-use crate::visit::Body;
+use crate::visit::Particle;
 use crate::settings::{Key, Kind, Settings, Value};
 
 /// What a scene may say.
@@ -61,9 +61,10 @@ pub fn kernel(problem: &Problem, [least, most]: [f64; 2], who: Who) -> Result<Ke
     let pass = Pass { uniforms: vec![("params", params)], ..Pass::new(shader, problem.count) };
     let problem = problem.clone();
     let twin = move |host: &Host| {
-        let bodies = crate::visit::bodies(host)?;
+        let view = crate::visit::View::of(host)?;
+        let bodies = view.particles();
         let mut velocity = host.write(VELOCITY)?;
-        let has = |body: &Body| who.has(body) && body.lives && !problem.is_held(body.index);
+        let has = |body: &Particle| who.has(body) && body.lives() && !problem.is_held(body.index);
         for (v, _) in velocity.iter_mut().zip(&bodies).filter(|(_, body)| has(body)) {
             let speed = v.truncate().length();
             if speed > most {

@@ -50,7 +50,8 @@ impl StrainLimit {
         let pass = Pass { constants, work, ..Pass::new(shader, problem.count) };
         let (strain, whole) = (self.strain, problem.clone());
         let twin = move |host: &Host| {
-            let (bodies, bounds) = (visit::bodies(host)?, host.world().bounds);
+            let view = visit::View::of(host)?;
+            let (bodies, bounds) = (view.particles(), host.world().bounds);
             let tied = visit::Tied::of(host, visit::Tables::Each)?;
             let lightness = |id: usize| if whole.is_held(id) { 0.0 } else { 1.0 / bodies[id].mass };
             let halves: Vec<_> = (0..bodies.len()).map(|id| tied.halves(id)).collect();

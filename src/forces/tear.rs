@@ -29,7 +29,8 @@ impl Tear {
         #[expect(clippy::cast_possible_truncation, reason = "as the device holds it")]
         let strain = self.0 as f32;
         Arc::new(move |host| {
-            let (bodies, bounds) = (visit::bodies(host)?, host.world().bounds);
+            let view = visit::View::of(host)?;
+        let (bodies, bounds) = (view.particles(), host.world().bounds);
             let (start, mut link) = (host.reading::<u32>(LINK_START)?, host.writing::<u32>(LINK)?);
             for (me, row) in bodies.iter().zip(start.windows(2)) {
                 for words in link[row[0] as usize * WORDS..row[1] as usize * WORDS].chunks_exact_mut(WORDS) {

@@ -8,7 +8,7 @@ use glam::{DVec2, DVec3};
 use super::{Force, Law, SEED, SEE_NEAR};
 use crate::kernel::{Scalar, World};
 use crate::settings::{Key, Kind, Settings, Value};
-use crate::visit::Body;
+use crate::visit::Particle;
 use crate::visit::random::{fraction, pcg4d, words};
 
 /// What a scene may say.
@@ -62,11 +62,11 @@ impl Force for Vicsek {
         values.push(("eta".to_owned(), Scalar::Float(eta)));
         values.push(("vectorial".to_owned(), Scalar::Uint(u32::from(vectorial))));
         values.extend(super::seed(&self.0));
-        let gather = |_: &Body, you: &Body, _: DVec3, seen: &mut Seen| {
+        let gather = |_: &Particle, you: &Particle, _: DVec3, seen: &mut Seen| {
             seen.heading += heading(you.velocity);
             seen.neighbors += 1.0;
         };
-        let finish = move |me: &Body, seen: &Seen, world: &World| {
+        let finish = move |me: &Particle, seen: &Seen, world: &World| {
             let own = heading(me.velocity);
             let id = u32::try_from(me.index).unwrap_or(u32::MAX);
             let xi = fraction(pcg4d([id, world.step, low, high])[0]) - 0.5;

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 use std::marker::PhantomData;
-use std::sync::{RwLock, RwLockReadGuard, RwLockWriteGuard};
+use std::sync::{Arc, RwLock, RwLockReadGuard, RwLockWriteGuard};
 
 use super::{Array, Element, Field, LIFE, World};
 use crate::error::Error;
@@ -12,14 +12,14 @@ use crate::life::Life;
 /// Named arrays, and what every kernel knows.
 #[derive(Debug, Default)]
 pub struct Host {
-    arrays: BTreeMap<String, RwLock<Array>>,
+    arrays: BTreeMap<String, RwLock<Arc<Array>>>,
     world: RwLock<World>,
 }
 
 /// An array that is being read.
-pub struct Reading<'a, T>(RwLockReadGuard<'a, Array>, PhantomData<T>);
+pub struct Reading<'a, T>(RwLockReadGuard<'a, Arc<Array>>, PhantomData<T>);
 /// An array that is being written.
-pub struct Writing<'a, T>(RwLockWriteGuard<'a, Array>, PhantomData<T>);
+pub struct Writing<'a, T>(RwLockWriteGuard<'a, Arc<Array>>, PhantomData<T>);
 
 impl<T: Element> std::ops::Deref for Reading<'_, T> {
     type Target = [T::Twin];
@@ -35,14 +35,14 @@ impl<T: Element> std::ops::Deref for Writing<'_, T> {
 }
 impl<T: Element> std::ops::DerefMut for Writing<'_, T> {
     fn deref_mut(&mut self) -> &mut [T::Twin] {
-        T::view_mut(&mut self.0).map_or(&mut [], Vec::as_mut_slice)
+        T::view_mut(Arc::make_mut(&mut self.0)).map_or(&mut [], Vec::as_mut_slice)
     }
 }
 
 impl Host {
     /// Puts an array under a name, in place of what was there.
     pub fn insert(&mut self, name: &str, array: Array) {
-        self.arrays.insert(name.to_owned(), RwLock::new(array));
+        self.arrays.insert(name.to_owned(), RwLock::new(Arc::new(array)));
     }
     /// Drops an array.
     pub fn remove(&mut self, name: &str) {
@@ -62,7 +62,7 @@ impl Host {
                 values.len()
             )));
         }
-        match (array, values) {
+        match (Arc::make_mut(array), values) {
             (Array::Vec4(to), Array::Vec4(from)) => to[..from.len()].copy_from_slice(from),
             (Array::Vec3(to), Array::Vec3(from)) => to[..from.len()].copy_from_slice(from),
             (Array::Vec4(to), Array::Vec3(from)) => {
@@ -74,10 +74,33 @@ impl Host {
         }
         Ok(())
     }
+    /// Puts an array in place of another of the same kind and length.
+    ///
+    /// # Errors
+    /// When there is none such, or it is open.
+    pub fn replace(&self, name: &str, array: Array) -> Result<(), Error> {
+        let lock = self.arrays.get(name).ok_or_else(|| missing(name))?;
+        let mut old = lock.try_write().map_err(|_| aliased(name))?;
+        if std::mem::discriminant(&**old) != std::mem::discriminant(&array) || old.len() != array.len() {
+            return Err(missing(name));
+        }
+        *old = Arc::new(array);
+        Ok(())
+    }
     /// A copy of an array.
     #[must_use]
     pub fn get(&self, name: &str) -> Option<Array> {
-        Some(self.arrays.get(name)?.read().ok()?.clone())
+        Some(Array::clone(&*self.arrays.get(name)?.read().ok()?))
+    }
+    /// All arrays as they are now, by name. What is written later does not change them.
+    ///
+    /// # Errors
+    /// When one is being written.
+    pub fn arrays(&self) -> Result<BTreeMap<&str, Arc<Array>>, Error> {
+        let shared = |(name, lock): (&'_ String, &'_ RwLock<Arc<Array>>)| {
+            lock.try_read().map(|array| Arc::clone(&array)).map_err(|_| aliased(name))
+        };
+        self.arrays.iter().map(|entry| Ok((entry.0.as_str(), shared(entry)?))).collect()
     }
     /// Whether there is an array of that name.
     #[must_use]
@@ -116,8 +139,8 @@ impl Host {
     /// When there is none of that name and kind, or when it is open already.
     pub fn writing<T: Element>(&self, name: &str) -> Result<Writing<'_, T>, Error> {
         let lock = self.arrays.get(name).ok_or_else(|| missing(name))?;
-        let mut guard = lock.try_write().map_err(|_| aliased(name))?;
-        if T::view_mut(&mut guard).is_none() {
+        let guard = lock.try_write().map_err(|_| aliased(name))?;
+        if T::view(&guard).is_none() {
             return Err(missing(name));
         }
         Ok(Writing(guard, PhantomData))

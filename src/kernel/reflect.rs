@@ -162,7 +162,7 @@ fn binding(module: &Module, variable: &naga::GlobalVariable) -> Option<Binding> 
     let same = if array { alike(module, element) } else { None };
     let float = same.is_some() || element.scalar_kind() == Some(naga::ScalarKind::Float);
     let parts = same.unwrap_or(1);
-    let packed = match inner {
+    let packed = match element {
         TypeInner::Struct { members, span } => {
             Packed { size: *span as usize, members: members.iter().filter_map(|m| member(module, m)).collect() }
         }

@@ -3,10 +3,11 @@
 use std::path::Path;
 
 use crate::forces::{self, Custom, FORCES, Force, Over, Problem};
-use crate::kernel::{Machine, Pace, Plan};
+use crate::kernel::{Machine, Pace, Plan, Scalar};
 use crate::motion::Motion;
 use crate::settings::{Kind, Settings, Value};
 use crate::tree::Opening;
+use crate::visit::{PairRow, PairTable};
 
 use super::files::Files;
 use super::held;
@@ -16,7 +17,8 @@ use super::tree::{Data, Entry};
 use super::value;
 use super::walk::{self, Table};
 
-pub(super) const OWN: &[&str] = &["kind", "wgsl", "over", "range", "neighbors", "theta", "params"];
+pub(super) const OWN: &[&str] =
+    &["kind", "wgsl", "over", "range", "neighbors", "theta", "params", "pairs", "tables", "into"];
 
 /// A force as the scene gives it.
 pub(super) enum Chosen {
@@ -45,6 +47,9 @@ fn read_own(table: &Table<'_>, wgsl: &Entry, files: &Files, report: &mut Report)
     table.settings(&[], &OWN[1..], report);
     let over = over(table, report);
     let params = table.get("params").map_or_else(Vec::new, |entry| params(entry, report));
+    let pairs = table.get("pairs").and_then(|entry| pairs(entry, report));
+    let tables = table.get("tables").map_or_else(Vec::new, |entry| tables(entry, report));
+    let into = table.get("into").map_or_else(|| vec!["acceleration".into()], |entry| into(entry, report));
     let name = value::text(&wgsl.node, "wgsl", "the name of a file", report)?;
     let text = files
         .locate("wgsl", name, &wgsl.node.place)
@@ -54,7 +59,7 @@ fn read_own(table: &Table<'_>, wgsl: &Entry, files: &Files, report: &mut Report)
             let stem =
                 Path::new(name).file_stem().map_or_else(|| name.to_owned(), |s| s.to_string_lossy().into_owned());
             Some(Chosen::Own {
-                law: Custom { name: stem, over: over?, wgsl: text, file: name.to_owned(), params },
+                law: Custom { name: stem, over: over?, wgsl: text, file: name.to_owned(), params, pairs, tables, into },
                 path,
             })
         }
@@ -127,6 +132,73 @@ fn params(entry: &Entry, report: &mut Report) -> Vec<(String, Value)> {
     list.iter().filter_map(|e| Some((e.key.clone(), param(e, report)?))).collect()
 }
 
+/// The parameters of pairs of species: `[{ species = [0, 1], epsilon = 1.0 }, …]`.
+fn pairs(entry: &Entry, report: &mut Report) -> Option<PairTable> {
+    const WANTED: &str = "a list of tables, as in [{ species = [0, 1], epsilon = 1.0 }]";
+    let Data::List(rows) = &entry.node.data else {
+        return value::refuse(&entry.node, "pairs", WANTED, report);
+    };
+    let row = |row: &super::tree::Node, report: &mut Report| {
+        let Data::Table(list) = &row.data else { return value::refuse(row, "pairs", WANTED, report) };
+        let Some(species) = list.iter().find(|entry| entry.key == "species") else {
+            report.push(Fault::at(&row.place, "a pair of species has no `species`").label("say species = [0, 1]"));
+            return None;
+        };
+        let Data::List(two) = &species.node.data else {
+            return value::refuse(&species.node, "species", "two whole numbers", report);
+        };
+        let whole = |node: &super::tree::Node, report: &mut Report| {
+            let number = value::number(node, "species", Kind::Whole, "a whole number from 0 on", report)?;
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a whole number of 32 bits")]
+            (0.0..=f64::from(u32::MAX)).contains(&number).then_some(number as u32)
+        };
+        let [a, b] = &two[..] else { return value::refuse(&species.node, "species", "two whole numbers", report) };
+        let species = [whole(a, report)?, whole(b, report)?];
+        let others = list.iter().filter(|entry| entry.key != "species");
+        let values = others.filter_map(|entry| Some((entry.key.clone(), forces::scalar(&param(entry, report)?))));
+        Some(PairRow { species, values: values.collect() })
+    };
+    let rows: Vec<_> = rows.iter().map(|node| row(node, report)).collect();
+    Some(PairTable { rows: rows.into_iter().collect::<Option<_>>()? })
+}
+
+/// Tables of data: `{ lookup = [0.0, 0.5, 1.0] }`, each an `array<f32>`.
+fn tables(entry: &Entry, report: &mut Report) -> Vec<crate::kernel::Table> {
+    let Data::Table(list) = &entry.node.data else {
+        value::refuse::<()>(
+            &entry.node,
+            "tables",
+            "a table of lists of numbers, as in { lookup = [0.0, 1.0] }",
+            report,
+        );
+        return Vec::new();
+    };
+    let words = |entry: &Entry, report: &mut Report| {
+        let Data::List(list) = &entry.node.data else {
+            return value::refuse(&entry.node, &entry.key, "a list of numbers", report);
+        };
+        #[expect(clippy::cast_possible_truncation, reason = "rounding to f32 is what the device does")]
+        let word = |node: &super::tree::Node, report: &mut Report| {
+            value::number(node, &entry.key, Kind::Number, "a number", report).map(|x| (x as f32).to_bits())
+        };
+        list.iter().map(|node| word(node, report)).collect::<Option<Vec<u32>>>()
+    };
+    let table = |entry: &Entry| Some((entry.key.clone().into(), std::sync::Arc::new(words(entry, report)?)));
+    list.iter().filter_map(table).collect()
+}
+
+/// The columns that a law writes.
+fn into(entry: &Entry, report: &mut Report) -> Vec<crate::kernel::Name> {
+    let Data::List(list) = &entry.node.data else {
+        value::refuse::<()>(&entry.node, "into", "a list of columns, as in [\"density\"]", report);
+        return Vec::new();
+    };
+    list.iter()
+        .filter_map(|node| value::text(node, "into", "the name of a column", report))
+        .map(|name| name.to_owned().into())
+        .collect()
+}
+
 fn param(entry: &Entry, report: &mut Report) -> Option<Value> {
     let kind = match entry.node.data {
         Data::Integer(_) | Data::Float(_) => Kind::Number,
@@ -163,6 +235,7 @@ impl Chosen {
                 let params: Vec<_> =
                     law.params.iter().map(|(k, v)| format!("{} = {}", resolved::bare(k), resolved::value(v))).collect();
                 out.line("params", &format!("{{ {} }}", params.join(", ")));
+                own_tables(law, out);
             }
         }
     }
@@ -180,5 +253,38 @@ pub(super) fn paced(forces: &[Box<dyn Force>], (pace, place): (Pace, &Place), re
     if !forces.iter().any(|force| offers(force.as_ref())) {
         let fault = Fault::at(place, "no force says how long a step may be, so that its length cannot be adaptive");
         report.push(fault.label("leave this out, or add a fluid"));
+    }
+}
+
+/// The lines of a law's tables and columns.
+fn own_tables(law: &Custom, out: &mut Writer) {
+    let number = |scalar: &Scalar| match scalar {
+        Scalar::Float(x) => resolved::value(&Value::Number(*x)),
+        Scalar::Uint(n) => n.to_string(),
+        Scalar::Vector(v) => resolved::value(&Value::Vector(*v)),
+        Scalar::Uints(v) => format!("{v:?}"),
+        Scalar::Vector4(v) => format!("{v:?}"),
+    };
+    if let Some(pairs) = &law.pairs {
+        let row = |row: &PairRow| {
+            let values =
+                row.values.iter().map(|(name, value)| format!(", {} = {}", resolved::bare(name), number(value)));
+            format!("{{ species = {:?}{} }}", row.species, values.collect::<String>())
+        };
+        out.line("pairs", &format!("[{}]", pairs.rows.iter().map(row).collect::<Vec<_>>().join(", ")));
+    }
+    if !law.tables.is_empty() {
+        let words = |words: &[u32]| {
+            let cells = words.iter().map(|word| resolved::value(&Value::Number(f64::from(f32::from_bits(*word)))));
+            cells.collect::<Vec<_>>().join(", ")
+        };
+        let tables = law.tables.iter().map(|(name, list)| format!("{} = [{}]", resolved::bare(name), words(list)));
+        out.line("tables", &format!("{{ {} }}", tables.collect::<Vec<_>>().join(", ")));
+    }
+    if law.into.len() != 1 || law.into[0] != "acceleration" {
+        out.line(
+            "into",
+            &format!("[{}]", law.into.iter().map(|name| format!("{name:?}")).collect::<Vec<_>>().join(", ")),
+        );
     }
 }

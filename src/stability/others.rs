@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 
-use crate::kernel::World;
+use crate::kernel::{Array, Host, POSITION, SPECIES, VELOCITY, World};
 use crate::simulation::Setup;
-use crate::visit::{Body, Jacobian};
+use crate::visit::{Jacobian, View};
 
 /// The largest ω² of the joints by Gershgorin's theorem, with their lengths at the start: each is k g gᵀ, with g the change of
 /// its angle by the places of the three, across the way 1 / l₁, 1 / l₁ + 1 / l₂ and 1 / l₂.
@@ -38,18 +38,16 @@ pub fn each(setup: &Setup) -> (f64, f64) {
     });
     let count = u32::try_from(particles.len()).unwrap_or(u32::MAX);
     let world = World { time: 0.0, dt: setup.dt, step: 0, count, bounds: setup.bounds };
+    let mut host = Host::default();
+    let masses = particles.position().iter().zip(particles.mass()).map(|(x, mass)| x.extend(*mass));
+    host.insert(POSITION.name, Array::Vec4(masses.collect()));
+    host.insert(VELOCITY.name, Array::Vec4(particles.velocity().iter().map(|v| v.extend(0.0)).collect()));
+    host.insert(SPECIES.name, Array::Uint(particles.species().to_vec()));
+    host.set_world(world);
+    let Ok(view) = View::of(&host) else { return (0.0, 0.0) };
     let (mut stiffness, mut damping) = (0.0, 0.0);
     for jvp in jacobians {
-        let norms = (0..particles.len()).map(|index| {
-            let me = Body {
-                lives: true,
-                index,
-                position: particles.position()[index],
-                velocity: particles.velocity()[index],
-                mass: particles.mass()[index],
-                radius: particles.size()[index],
-                species: particles.species()[index],
-            };
+        let norms = view.particles().into_iter().map(|me| {
             let norm = |product: &dyn Fn(DVec3) -> DVec3| {
                 [DVec3::X, DVec3::Y, DVec3::Z]
                     .map(|axis| product(axis).abs().element_sum())

@@ -5,13 +5,14 @@ use crate::error::Error;
 use crate::kernel::{Kernel, Pass, Problem, Shader};
 
 pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
-    law.requires(&[("force", "fn force(me: Particle) -> vec4f")])?;
-    let mut files = vec![
-        crate::shader!("world.wgsl"),
-        crate::shader!("fields.wgsl"),
-        crate::shader!("particle.wgsl"),
-        crate::shader!("visit/each.wgsl"),
-    ];
+    let (own, visit) = if law.accelerates() {
+        (("force", "fn force(me: Particle) -> vec4f"), crate::shader!("visit/each.wgsl"))
+    } else {
+        (("update", "fn update(me: Particle)"), crate::shader!("visit/each_columns.wgsl"))
+    };
+    law.requires(&[own])?;
+    let mut files =
+        vec![crate::shader!("world.wgsl"), crate::shader!("fields.wgsl"), crate::shader!("particle.wgsl"), visit];
     files.extend(law.files());
     let shader = Shader::join(&files)?;
     let uniforms = law.uniforms(&shader)?;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DVec3, DVec4, Vec4};
 use rayon::prelude::*;
 
-use super::body::{Body, bodies};
+use super::particle::{Particle, View};
 use super::{Law, Over};
 use crate::error::Error;
 use crate::kernel::{Field, Host, Kernel, Pass, Problem, Shader, Source, World};
@@ -18,8 +18,8 @@ pub const ROW: usize = 4;
 
 /// Contents of uniform blocks, by name.
 pub type Uniforms = Vec<(&'static str, Vec<u8>)>;
-type OfEach = dyn Fn(&Body, &World, DVec3, DVec3) -> DVec3 + Send + Sync;
-type OfLinks = dyn Fn(&Body, &Body, DVec3, &Half, DVec3, DVec3) -> DVec3 + Send + Sync;
+type OfEach = dyn Fn(&Particle, &World, DVec3, DVec3) -> DVec3 + Send + Sync;
+type OfLinks = dyn Fn(&Particle, &Particle, DVec3, &Half, DVec3, DVec3) -> DVec3 + Send + Sync;
 
 /// The product of a law's Jacobian with a change of position and a change of velocity. Its WGSL has it as `fn jvp`.
 #[derive(Clone)]
@@ -52,7 +52,8 @@ impl Law {
         let mut constants = problem.constants(&shader);
         constants.extend([("FACTOR", factor), ("START", f64::from(u8::from(start)))]);
         let twin = move |host: &Host| {
-            let (bodies, world) = (bodies(host)?, host.world());
+            let view = View::of(host)?;
+            let (bodies, world) = (view.particles(), host.world());
             let h = factor * world.dt;
             let mut rows = host.write(ROWS)?;
             rows.par_chunks_mut(ROW).zip(&bodies).for_each(|(row, me)| {
@@ -90,7 +91,7 @@ impl Law {
         let mut all =
             vec![crate::shader!("world.wgsl"), crate::shader!("fields.wgsl"), crate::shader!("particle.wgsl")];
         all.extend_from_slice(files);
-        all.extend(self.files().into_iter().filter(|file| file.file != "shaders/visit/everybody.wgsl"));
+        all.extend(self.files());
         let shader = Shader::join(&all)?;
         // A Jacobian may have no use for the parameters.
         let uniforms = match shader.reflection().binding("params") {

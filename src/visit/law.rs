@@ -5,9 +5,11 @@ use std::sync::Arc;
 use glam::{DVec3, DVec4};
 
 use super::twin::{ByTables, Sample};
-use super::{Body, Group, Jacobian, Over, Tables, each, links, near, pairs, tree, twin, walk};
+use super::{
+    Group, Jacobian, Outcome, Over, PAIR_TABLE, PairTable, Particle, Tables, each, links, near, pairs, tree, twin, walk,
+};
 use crate::error::Error;
-use crate::kernel::{Kernel, Problem, Scalar, Shader, Side, Source, Twin, World};
+use crate::kernel::{ACCELERATION, Access, Kernel, Name, Problem, Scalar, Shader, Side, Source, Table, Twin, World};
 use crate::links::{Corner, Half};
 use crate::neighbors::Grid;
 use crate::tree::Tree;
@@ -24,6 +26,14 @@ pub struct Law {
     pub wgsl: Source,
     /// The members of its `Params`, by name.
     pub params: Vec<(String, Scalar)>,
+    /// Parameters of pairs of species, where it has any: `var<storage, read> pair_table: array<Pair>`.
+    pub pairs: Option<PairTable>,
+    /// Tables of data, by the names under which its WGSL binds them.
+    pub tables: Vec<Table>,
+    /// The columns that it writes; `acceleration` unless said otherwise. Every other one it binds as
+    /// `var<storage, read_write>` under its name. Without `acceleration` its `finish` returns nothing, and over `each` it has
+    /// `fn update(me: Particle)` in place of `force`.
+    pub into: Vec<Name>,
     /// The visit's twin around the law's; `None` only for a user's law.
     pub twin: Option<Twin>,
     /// Whether what two do to each other adds up to nothing, so that momentum is kept.
@@ -50,22 +60,27 @@ pub struct Distant {
 }
 
 /// Files that a law has by calling a function of theirs, and not having one of that name itself.
-const ON_CALL: [(&str, Source); 5] = [
+const ON_CALL: [(&str, Source); 6] = [
     ("is_of", crate::shader!("law/species.wgsl")),
     ("unit", crate::shader!("law/steering.wgsl")),
     ("truncated", crate::shader!("law/steering.wgsl")),
     ("signed_distance", crate::shader!("solids/distance.wgsl")),
     ("pcg4d", crate::shader!("law/random.wgsl")),
+    ("pair_index", crate::shader!("law/pair_index.wgsl")),
 ];
 
 impl Law {
-    /// A law of which nothing more is known than what happens.
-    fn plain(name: &str, over: Over, wgsl: Source, params: Vec<(String, Scalar)>, twin: Twin) -> Self {
+    /// A law of which nothing more is known than its WGSL and its reference: it gives an acceleration.
+    #[must_use]
+    pub fn plain(name: &str, over: Over, wgsl: Source, params: Vec<(String, Scalar)>, twin: Twin) -> Self {
         Self {
             name: name.to_owned(),
             over,
             wgsl,
             params,
+            pairs: None,
+            tables: Vec::new(),
+            into: vec![ACCELERATION.name.into()],
             twin: Some(twin),
             reciprocal: false,
             jacobian: None,
@@ -78,7 +93,7 @@ impl Law {
         name: &str,
         wgsl: Source,
         params: Vec<(String, Scalar)>,
-        rule: impl Fn(&Body, &World) -> DVec4 + Send + Sync + 'static,
+        rule: impl Fn(&Particle, &World) -> DVec4 + Send + Sync + 'static,
     ) -> Self {
         Self::plain(name, Over::Each, wgsl, params, twin::each(rule))
     }
@@ -87,7 +102,7 @@ impl Law {
         name: &str,
         wgsl: Source,
         params: Vec<(String, Scalar)>,
-        rule: impl Fn(&Body, &Body, DVec3) -> DVec4 + Send + Sync + 'static,
+        rule: impl Fn(&Particle, &Particle, DVec3) -> DVec4 + Send + Sync + 'static,
     ) -> Self {
         Self::between(name, Over::Pairs, wgsl, params, rule)
     }
@@ -98,9 +113,9 @@ impl Law {
         over: Over,
         wgsl: Source,
         params: Vec<(String, Scalar)>,
-        rule: impl Fn(&Body, &Body, DVec3) -> DVec4 + Send + Sync + 'static,
+        rule: impl Fn(&Particle, &Particle, DVec3) -> DVec4 + Send + Sync + 'static,
     ) -> Self {
-        let gather = move |me: &Body, you: &Body, r, sum: &mut DVec4| *sum += rule(me, you, r);
+        let gather = move |me: &Particle, you: &Particle, r, sum: &mut DVec4| *sum += rule(me, you, r);
         Self { reciprocal: true, ..Self::gathering(name, over, wgsl, params, gather, |_, sum, _| *sum) }
     }
     /// A law between two that depends on the box too, and that knows what a far group does: `rule(me, you, r, world)` and
@@ -112,13 +127,14 @@ impl Law {
         over: Over,
         files: (Source, Option<Source>),
         params: Vec<(String, Scalar)>,
-        rule: impl Fn(&Body, &Body, DVec3, &World) -> DVec4 + Send + Sync + 'static,
-        far: impl Fn(&Body, &Group, DVec3, &World) -> DVec4 + Send + Sync + 'static,
+        rule: impl Fn(&Particle, &Particle, DVec3, &World) -> DVec4 + Send + Sync + 'static,
+        far: impl Fn(&Particle, &Group, DVec3, &World) -> DVec4 + Send + Sync + 'static,
     ) -> Self {
         let rule = Arc::new(rule);
         let (wgsl, distant) = files;
         let (every, sample) = (rule.clone(), Some(twin::sample(rule.clone())));
-        let gather = move |me: &Body, you: &Body, r, world: &World, sum: &mut DVec4| *sum += every(me, you, r, world);
+        let gather =
+            move |me: &Particle, you: &Particle, r, world: &World, sum: &mut DVec4| *sum += every(me, you, r, world);
         let walk = match over {
             Over::Tree { opening, core, .. } => Some(walk::twin(opening, core, rule, far)),
             _ => None,
@@ -137,11 +153,36 @@ impl Law {
         over: Over,
         wgsl: Source,
         params: Vec<(String, Scalar)>,
-        gather: impl Fn(&Body, &Body, DVec3, &mut S) + Send + Sync + 'static,
-        finish: impl Fn(&Body, &S, &World) -> DVec4 + Send + Sync + 'static,
+        gather: impl Fn(&Particle, &Particle, DVec3, &mut S) + Send + Sync + 'static,
+        finish: impl Fn(&Particle, &S, &World) -> DVec4 + Send + Sync + 'static,
     ) -> Self {
-        let gather = move |me: &Body, you: &Body, r, _: &World, sum: &mut S| gather(me, you, r, sum);
+        let gather = move |me: &Particle, you: &Particle, r, _: &World, sum: &mut S| gather(me, you, r, sum);
         Self::plain(name, over, wgsl, params, twin::meetings(over, gather, finish))
+    }
+    /// The same of a law that writes columns: `finish(me, sum, world, outcome)` says which values they get. `into` names all
+    /// that it writes, `acceleration` too where it gives one.
+    pub fn computing<S: Default>(
+        name: &str,
+        over: Over,
+        wgsl: Source,
+        params: Vec<(String, Scalar)>,
+        into: &[&'static str],
+        gather: impl Fn(&Particle, &Particle, DVec3, &World, &mut S) + Send + Sync + 'static,
+        finish: impl Fn(&Particle, &S, &World, &mut Outcome) + Send + Sync + 'static,
+    ) -> Self {
+        let into = into.iter().map(|name| Name::from(*name)).collect();
+        Self { into, ..Self::plain(name, over, wgsl, params, twin::computing(over, gather, finish)) }
+    }
+    /// A law of each particle alone that writes columns; `rule(me, world, outcome)` says which values they get.
+    pub fn updating(
+        name: &str,
+        wgsl: Source,
+        params: Vec<(String, Scalar)>,
+        into: &[&'static str],
+        rule: impl Fn(&Particle, &World, &mut Outcome) + Send + Sync + 'static,
+    ) -> Self {
+        let into = into.iter().map(|name| Name::from(*name)).collect();
+        Self { into, ..Self::plain(name, Over::Each, wgsl, params, twin::updating(rule)) }
     }
     /// A law of springs; `gather(me, you, r, link, sum)` takes one in, with r from me to you, and `finish(me, sum)` gives
     /// acceleration and potential per unit mass, of which each end holds half.
@@ -149,8 +190,8 @@ impl Law {
         name: &str,
         wgsl: Source,
         params: Vec<(String, Scalar)>,
-        gather: impl Fn(&Body, &Body, DVec3, &Half, &mut S) + Send + Sync + 'static,
-        finish: impl Fn(&Body, &S) -> DVec4 + Send + Sync + 'static,
+        gather: impl Fn(&Particle, &Particle, DVec3, &Half, &mut S) + Send + Sync + 'static,
+        finish: impl Fn(&Particle, &S) -> DVec4 + Send + Sync + 'static,
     ) -> Self {
         let tied = twin::links(gather, finish);
         let twin = tied(Tables::None);
@@ -163,7 +204,7 @@ impl Law {
         over: Over,
         wgsl: Source,
         params: Vec<(String, Scalar)>,
-        rule: impl Fn([&Body; 3], &Corner, &World) -> DVec4 + Send + Sync + 'static,
+        rule: impl Fn([&Particle; 3], &Corner, &World) -> DVec4 + Send + Sync + 'static,
     ) -> Self {
         Self::plain(name, over, wgsl, params, twin::corners(over, rule))
     }
@@ -172,6 +213,13 @@ impl Law {
     /// # Errors
     /// [`Error::Shader`] when the WGSL does not compile, [`Error::Scene`] when a parameter is missing or unknown.
     pub fn kernel(self, problem: &Problem) -> Result<Kernel, Error> {
+        let law = self.clone();
+        let mut kernel = self.visiting(problem)?;
+        law.bind_tables(&mut kernel, problem)?;
+        law.check_columns(&mut kernel, problem)?;
+        Ok(kernel)
+    }
+    fn visiting(self, problem: &Problem) -> Result<Kernel, Error> {
         match self.chosen(problem) {
             Over::Each => each::kernel(self, problem),
             Over::Pairs | Over::Within { .. } => pairs::kernel(self, problem),
@@ -221,12 +269,122 @@ impl Law {
             ))),
         }
     }
+    /// Whether it gives an acceleration.
+    #[must_use]
+    pub fn accelerates(&self) -> bool {
+        self.into.iter().any(|name| name == ACCELERATION.name)
+    }
+    /// How its WGSL ends.
+    pub(super) fn finish(&self) -> (&'static str, &'static str) {
+        let text = if self.accelerates() {
+            "fn finish(me: Particle, sum: Sum) -> vec4f"
+        } else {
+            "fn finish(me: Particle, sum: Sum)"
+        };
+        ("finish", text)
+    }
+    /// What becomes of what it gives.
+    pub(super) fn result(&self) -> Source {
+        match (self.accelerates(), self.over) {
+            (false, _) => crate::shader!("slots/result/columns.wgsl"),
+            (true, Over::Links) => crate::shader!("slots/result/first.wgsl"),
+            (true, _) => crate::shader!("slots/result/added.wgsl"),
+        }
+    }
     /// The functions of a law over any visit but `each`.
     pub(super) fn requires_meetings(&self) -> Result<(), Error> {
         self.requires(&[
             ("gather", "fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>)"),
-            ("finish", "fn finish(me: Particle, sum: Sum) -> vec4f"),
+            self.finish(),
         ])
+    }
+    /// The tables that its WGSL binds, of pairs of species and of data.
+    fn bind_tables(&self, kernel: &mut Kernel, problem: &Problem) -> Result<(), Error> {
+        let passes = kernel.passes.clone();
+        let binding = |name: &str| {
+            let mut all = passes.iter().flat_map(|pass| &pass.shader.reflection().bindings);
+            all.find(|binding| binding.name == name)
+        };
+        let mut tables = Vec::new();
+        if let Some(pairs) = &self.pairs {
+            let present: Vec<u32> = if problem.species.is_empty() {
+                vec![0]
+            } else {
+                problem.species.iter().map(|(species, _)| *species).collect()
+            };
+            let Some(binding) = binding(PAIR_TABLE) else {
+                return Err(Error::Scene(format!(
+                    "`{}` is given parameters of pairs of species, but {} reads no `var<storage, read> {PAIR_TABLE}: array<Pair>`",
+                    self.name, self.wgsl.file
+                )));
+            };
+            tables.push((pairs.words(&self.name, &binding, &present)?, binding.stride));
+            let side = f64::from(pairs.side(&present));
+            let tells = |pass: &&mut crate::kernel::Pass| pass.shader.reflection().overrides.contains_key("SPECIES");
+            kernel.passes.iter_mut().filter(tells).for_each(|pass| pass.constants.push(("SPECIES", side)));
+        }
+        for table in &self.tables {
+            let Some(binding) = binding(&table.0) else {
+                return Err(Error::Scene(format!(
+                    "`{}` is given the table `{}`, but {} reads no storage buffer of that name",
+                    self.name, table.0, self.wgsl.file
+                )));
+            };
+            tables.push((table.clone(), binding.stride));
+        }
+        for (table, stride) in tables {
+            kernel.sizes.push((table.0.clone(), 4 * table.1.len() as u64 / stride.max(1)));
+            kernel.tables.push(table);
+        }
+        Ok(())
+    }
+    /// Whether it writes what it says, and every column that it binds is of the kind that is declared.
+    fn check_columns(&self, kernel: &mut Kernel, problem: &Problem) -> Result<(), Error> {
+        let file = &self.wgsl.file;
+        let mut sizes = Vec::new();
+        for name in &self.into {
+            let known = problem.columns.get(name);
+            if known.is_none() {
+                return Err(Error::Scene(format!(
+                    "`{}` writes `{name}`, which is no column of this simulation: declare it (in a scene: [[column]] name = \"{name}\")",
+                    self.name
+                )));
+            }
+            if !kernel.writes().iter().any(|written| written == name) {
+                return Err(Error::Scene(format!(
+                    "`{}` is to write the column `{name}`, but {file} binds no `var<storage, read_write> {name}` that it uses",
+                    self.name
+                )));
+            }
+        }
+        for (name, binding) in kernel.bindings() {
+            let Some(column) = problem.columns.get(name).filter(|column| !column.is_packed()) else { continue };
+            let shared = problem.columns.of_buffer(name).count() > 1;
+            let right = match column.kind {
+                crate::kernel::Kind::Whole => !binding.float && binding.stride == 4,
+                crate::kernel::Kind::Scalar if !shared => binding.float && binding.stride == 4,
+                _ => binding.float && binding.stride == 16,
+            };
+            if !right {
+                return Err(Error::Scene(format!(
+                    "{file} binds the column `{name}` with elements of {} bytes; it is a {}, which is `array<{}>`",
+                    binding.stride,
+                    column.kind.name(),
+                    column.kind.wgsl()
+                )));
+            }
+            if binding.access == Access::Write && !self.into.iter().any(|written| written == name) {
+                return Err(Error::Scene(format!(
+                    "{file} binds the column `{name}` as read_write, and `{}` does not say that it writes it: add it to `into`",
+                    self.name
+                )));
+            }
+            if column.shape != crate::kernel::Shape::Particle {
+                sizes.push((column.name.clone(), column.shape.len(problem.count as usize) as u64));
+            }
+        }
+        kernel.sizes.extend(sizes);
+        Ok(())
     }
     pub(super) fn requires(&self, functions: &[(&str, &str)]) -> Result<(), Error> {
         for (name, signature) in functions {
@@ -241,14 +399,15 @@ impl Law {
         }
         Ok(())
     }
-    /// What the law leaves to the usual: a sum of accelerations, and that it acts on everybody; and what it calls for.
+    /// Whether it leaves particles out of a search; without `acts_on` of its own it acts on all.
+    pub(super) fn choice(&self) -> Option<Source> {
+        (!self.wgsl.says(&["fn", "acts_on", "("])).then_some(crate::shader!("visit/everybody.wgsl"))
+    }
+    /// What the law leaves to the usual: a sum of accelerations; and what it calls for.
     pub(super) fn files(&self) -> Vec<Source> {
         let mut files = Vec::new();
         if self.over != Over::Each && !self.wgsl.says(&["struct", "Sum", "{"]) {
             files.push(crate::shader!("visit/sum.wgsl"));
-        }
-        if self.over != Over::Each && !self.wgsl.says(&["fn", "acts_on", "("]) {
-            files.push(crate::shader!("visit/everybody.wgsl"));
         }
         for (function, file) in ON_CALL {
             let called = self.wgsl.says(&[function, "("]) && !self.wgsl.says(&["fn", function, "("]);

@@ -56,7 +56,7 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
     } else {
         "fn gather(me: Particle, you: Particle, r: vec3f, link: Link, sum: ptr<function, Sum>)"
     };
-    law.requires(&[("gather", gather), ("finish", "fn finish(me: Particle, sum: Sum) -> vec4f")])?;
+    law.requires(&[("gather", gather), law.finish()])?;
     let mut files = vec![crate::shader!("world.wgsl"), crate::shader!("fields.wgsl"), crate::shader!("particle.wgsl")];
     let tables = Tables::of(problem);
     match (corners, tables) {
@@ -66,7 +66,8 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
             files.extend([crate::shader!("visit/link_table.wgsl"), crate::shader!("visit/links.wgsl")]);
         }
     }
-    files.extend(law.files().into_iter().filter(|file| file.file != "shaders/visit/everybody.wgsl"));
+    files.push(law.result());
+    files.extend(law.files());
     let shader = Shader::join(&files)?;
     let (uniforms, mut constants) = (law.uniforms(&shader)?, problem.constants(&shader));
     let has = |name: &str| shader.reflection().overrides.contains_key(name);

@@ -1,25 +1,29 @@
 //! Who meets whom. A law says what happens; a visit says between whom, and joins the law's WGSL with its own.
 
-mod body;
 mod each;
 mod jacobian;
 mod law;
 mod links;
 mod near;
 mod over;
+mod pair_table;
 mod pairs;
+mod particle;
 pub mod random;
+mod result;
 mod sweep;
 mod tied;
 mod tree;
 mod twin;
 mod walk;
 
-pub use body::{Body, bodies};
 pub use jacobian::{Jacobian, ROW, ROWS};
 pub use law::{Distant, Law};
 pub use links::{LINK, LINK_START, bind};
 pub use over::Over;
+pub use pair_table::{MOST_SPECIES, PAIR_TABLE, PairRow, PairTable};
+pub use particle::{Particle, View};
+pub use result::{Cell, Outcome};
 pub use sweep::{Sweep, blocks, gathered};
 pub use tied::Tables;
 pub(crate) use tied::Tied;

@@ -67,11 +67,13 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
     };
     let mut sources = ground();
     sources.push(grid.present(problem));
-    sources.push(crate::shader!("visit/near_feel.wgsl"));
+    sources.push(crate::shader!("visit/near_conclude.wgsl"));
     sources.extend(particles(&law, moving));
     if let Over::Near { .. } = law.over {
         sources.extend(search(&grid, &problem.machine));
     }
+    sources.push(law.result());
+    sources.extend(law.choice());
     sources.extend(law.files());
     let shader = Shader::join(&sources)?;
     let (params, mut constants) = (law.uniforms(&shader)?, problem.constants(&shader));

@@ -60,6 +60,8 @@ fn join(visit: Source, law: &Law) -> Result<Arc<Shader>, Error> {
         if law.over.range().is_some() { crate::shader!("visit/within.wgsl") } else { crate::shader!("visit/all.wgsl") },
         visit,
     ];
+    files.push(law.result());
+    files.extend(law.choice());
     files.extend(law.files());
     Shader::join(&files)
 }

@@ -3,8 +3,8 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::body::{Body, bodies};
 use super::near;
+use super::particle::{Particle, View};
 use crate::error::Error;
 use crate::kernel::{Host, Kernel, Pass, Problem, Scalar, Shader, Source, Twin};
 use crate::neighbors::Grid;
@@ -90,13 +90,14 @@ pub fn blocks(
 pub fn gathered<S: Default + Send>(
     host: &Host,
     range: f64,
-    chosen: impl Fn(&Body) -> bool + Sync,
-    gather: impl Fn(&Body, &Body, DVec3, &mut S) + Sync,
+    chosen: impl Fn(&Particle) -> bool + Sync,
+    gather: impl Fn(&Particle, &Particle, DVec3, &mut S) + Sync,
 ) -> Result<Vec<Option<S>>, Error> {
-    let (bodies, bounds) = (bodies(host)?, host.world().bounds);
-    let gathered = |me: &Body| {
+    let view = View::of(host)?;
+    let (bodies, bounds) = (view.particles(), host.world().bounds);
+    let gathered = |me: &Particle| {
         let mut sum = S::default();
-        for you in bodies.iter().filter(|you| you.lives && you.index != me.index) {
+        for you in bodies.iter().filter(|you| you.lives() && you.index != me.index) {
             let way = you.position - me.position;
             if bounds.within(way, range) {
                 gather(me, you, bounds.shortest(way), &mut sum);
@@ -104,5 +105,5 @@ pub fn gathered<S: Default + Send>(
         }
         sum
     };
-    Ok(bodies.par_iter().map(|me| (me.lives && chosen(me)).then(|| gathered(me))).collect())
+    Ok(bodies.par_iter().map(|me| (me.lives() && chosen(me)).then(|| gathered(me))).collect())
 }

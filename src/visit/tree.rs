@@ -48,6 +48,8 @@ fn join(law: &Law, tree: &Tree, machine: &Machine) -> Result<std::sync::Arc<Shad
         law.distant.wgsl.clone().unwrap_or(crate::shader!("visit/tree_monopole.wgsl")),
     ];
     files.extend(variant(machine));
+    files.push(law.result());
+    files.extend(law.choice());
     files.extend(law.files());
     Shader::join(&files)
 }

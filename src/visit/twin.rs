@@ -5,43 +5,71 @@ use std::sync::Arc;
 use glam::{DVec3, DVec4, Vec3};
 use rayon::prelude::*;
 
-use super::Over;
-use super::body::{Body, bodies};
+use super::particle::{Particle, View};
 use super::tied::{Tables, Tied, row};
+use super::{Outcome, Over, result};
 use crate::error::Error;
 use crate::kernel::{ACCELERATION, Bounds, Host, Twin, World};
 use crate::links::{Corner, Half};
 
 /// Each particle alone.
-pub fn each(rule: impl Fn(&Body, &World) -> DVec4 + Send + Sync + 'static) -> Twin {
+pub fn each(rule: impl Fn(&Particle, &World) -> DVec4 + Send + Sync + 'static) -> Twin {
     Arc::new(move |host| {
-        let (bodies, world) = (bodies(host)?, host.world());
+        let view = View::of(host)?;
+        let (bodies, world) = (view.particles(), host.world());
         let mut acceleration = host.write(ACCELERATION)?;
         acceleration.par_iter_mut().zip(&bodies).for_each(|(a, me)| *a += rule(me, &world));
         Ok(())
     })
 }
 
-/// Those that meet, in the order of their ids.
+/// Each particle alone, for a law that writes columns.
+pub fn updating(rule: impl Fn(&Particle, &World, &mut Outcome) + Send + Sync + 'static) -> Twin {
+    Arc::new(move |host| {
+        let view = View::of(host)?;
+        let (bodies, world) = (view.particles(), host.world());
+        let outcome = |me: &Particle| {
+            let mut outcome = Outcome::default();
+            rule(me, &world, &mut outcome);
+            (me.index, outcome)
+        };
+        let outcomes: Vec<_> = bodies.par_iter().map(outcome).collect();
+        result::write(host, 1.0, outcomes)
+    })
+}
+
+/// Pairs of particles, the partners in the order of their ids.
 pub fn meetings<S: Default>(
     over: Over,
-    gather: impl Fn(&Body, &Body, DVec3, &World, &mut S) + Send + Sync + 'static,
-    finish: impl Fn(&Body, &S, &World) -> DVec4 + Send + Sync + 'static,
+    gather: impl Fn(&Particle, &Particle, DVec3, &World, &mut S) + Send + Sync + 'static,
+    finish: impl Fn(&Particle, &S, &World) -> DVec4 + Send + Sync + 'static,
+) -> Twin {
+    let finish = move |me: &Particle, sum: &S, world: &World, outcome: &mut Outcome| {
+        *outcome = Outcome::of_acceleration(finish(me, sum, world));
+    };
+    computing(over, gather, finish)
+}
+
+/// The same for a law that writes columns.
+pub fn computing<S: Default>(
+    over: Over,
+    gather: impl Fn(&Particle, &Particle, DVec3, &World, &mut S) + Send + Sync + 'static,
+    finish: impl Fn(&Particle, &S, &World, &mut Outcome) + Send + Sync + 'static,
 ) -> Twin {
     Arc::new(move |host| {
-        let (bodies, world) = (bodies(host)?, host.world());
-        let mut acceleration = host.write(ACCELERATION)?;
-        acceleration.par_iter_mut().zip(&bodies).for_each(|(a, me)| {
+        let view = View::of(host)?;
+        let (bodies, world) = (view.particles(), host.world());
+        let outcome = |me: &Particle| {
             let mut sum = S::default();
-            let mut meet = |you: &Body| {
+            let mut meet = |you: &Particle| {
                 gather(me, you, world.bounds.shortest(you.position - me.position), &world, &mut sum);
             };
-            // Who does not live is in no grid; where all are met, it has no mass.
+            // A particle that takes no part is in no cell list; where all pairs are evaluated, it has no mass.
             let in_grid = matches!(over, Over::Near { .. } | Over::Nearest { .. });
-            if !me.lives && in_grid && !matches!(over, Over::Near { of: Some(_), .. }) {
-                return;
+            if !me.lives() && in_grid && !matches!(over, Over::Near { of: Some(_), .. }) {
+                return None;
             }
-            let others = bodies.iter().filter(|you| you.index != me.index && (you.lives || !in_grid));
+            let others = bodies.iter().filter(|you| you.index != me.index && (you.lives() || !in_grid));
             match (over, over.range()) {
                 (Over::Nearest { count }, _) => {
                     nearest(me, others, count as usize, &world.bounds).into_iter().for_each(&mut meet);
@@ -51,10 +79,13 @@ pub fn meetings<S: Default>(
                 }
                 (_, None) => others.for_each(meet),
             }
-            // Each of a pair holds half of its potential energy.
-            *a += finish(me, &sum, &world) * DVec4::new(1.0, 1.0, 1.0, 0.5);
-        });
-        Ok(())
+            let mut outcome = Outcome::default();
+            finish(me, &sum, &world, &mut outcome);
+            Some((me.index, outcome))
+        };
+        let outcomes: Vec<_> = bodies.par_iter().filter_map(outcome).collect();
+        // Each of a pair holds half of its potential energy.
+        result::write(host, 0.5, outcomes)
     })
 }
 
@@ -62,9 +93,10 @@ pub fn meetings<S: Default>(
 pub type Sample = Arc<dyn Fn(&Host, &[usize]) -> Result<Vec<DVec4>, Error> + Send + Sync>;
 
 /// The same as [`meetings`] of a law that adds up, for some targets alone.
-pub fn sample(rule: Arc<impl Fn(&Body, &Body, DVec3, &World) -> DVec4 + Send + Sync + 'static>) -> Sample {
+pub fn sample(rule: Arc<impl Fn(&Particle, &Particle, DVec3, &World) -> DVec4 + Send + Sync + 'static>) -> Sample {
     Arc::new(move |host, targets| {
-        let (bodies, world) = (bodies(host)?, host.world());
+        let view = View::of(host)?;
+        let (bodies, world) = (view.particles(), host.world());
         let felt = |id: &usize| -> Option<DVec4> {
             let me = bodies.get(*id)?;
             let others = bodies.iter().filter(|you| you.index != me.index);
@@ -80,8 +112,8 @@ pub type ByTables = Arc<dyn Fn(Tables) -> Twin + Send + Sync>;
 
 /// Those that are linked, in the order of the tables.
 pub fn links<S: Default>(
-    gather: impl Fn(&Body, &Body, DVec3, &Half, &mut S) + Send + Sync + 'static,
-    finish: impl Fn(&Body, &S) -> DVec4 + Send + Sync + 'static,
+    gather: impl Fn(&Particle, &Particle, DVec3, &Half, &mut S) + Send + Sync + 'static,
+    finish: impl Fn(&Particle, &S) -> DVec4 + Send + Sync + 'static,
 ) -> ByTables {
     let rule = Arc::new((gather, finish));
     Arc::new(move |tables| linked(tables, rule.clone()))
@@ -90,12 +122,13 @@ pub fn links<S: Default>(
 fn linked<S: Default>(
     tables: Tables,
     rule: Arc<(
-        impl Fn(&Body, &Body, DVec3, &Half, &mut S) + Send + Sync + 'static,
-        impl Fn(&Body, &S) -> DVec4 + Send + Sync + 'static,
+        impl Fn(&Particle, &Particle, DVec3, &Half, &mut S) + Send + Sync + 'static,
+        impl Fn(&Particle, &S) -> DVec4 + Send + Sync + 'static,
     )>,
 ) -> Twin {
     Arc::new(move |host| {
-        let (bodies, bounds) = (bodies(host)?, host.world().bounds);
+        let view = View::of(host)?;
+        let (bodies, bounds) = (view.particles(), host.world().bounds);
         let (tied, (gather, finish)) = (Tied::of(host, tables)?, &*rule);
         let mut acceleration = host.write(ACCELERATION)?;
         acceleration.par_iter_mut().zip(&bodies).for_each(|(a, me)| {
@@ -111,10 +144,11 @@ fn linked<S: Default>(
 }
 
 /// Those that are corners of a joint or a triangle, in the order of the table.
-pub fn corners(over: Over, rule: impl Fn([&Body; 3], &Corner, &World) -> DVec4 + Send + Sync + 'static) -> Twin {
+pub fn corners(over: Over, rule: impl Fn([&Particle; 3], &Corner, &World) -> DVec4 + Send + Sync + 'static) -> Twin {
     let names = if over == Over::Joints { ["joint_start", "joint"] } else { ["triangle_start", "triangle"] };
     Arc::new(move |host| {
-        let (bodies, world) = (bodies(host)?, host.world());
+        let view = View::of(host)?;
+        let (bodies, world) = (view.particles(), host.world());
         if !host.contains(names[1]) {
             return Ok(());
         }
@@ -130,8 +164,13 @@ pub fn corners(over: Over, rule: impl Fn([&Body; 3], &Corner, &World) -> DVec4 +
 }
 
 /// The nearest by the device's own distances, the lower id first where two are the same.
-fn nearest<'a>(me: &Body, others: impl Iterator<Item = &'a Body>, count: usize, bounds: &Bounds) -> Vec<&'a Body> {
-    let mut near: Vec<(f32, &Body)> = Vec::with_capacity(count + 1);
+fn nearest<'a, 'b: 'a>(
+    me: &Particle,
+    others: impl Iterator<Item = &'a Particle<'b>>,
+    count: usize,
+    bounds: &Bounds,
+) -> Vec<&'a Particle<'b>> {
+    let mut near: Vec<(f32, &Particle<'_>)> = Vec::with_capacity(count + 1);
     for you in others {
         let r: Vec3 = bounds.shortest_single(you.position - me.position);
         let distance = r.x * r.x + r.y * r.y + r.z * r.z;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DMat3, DVec3, DVec4, Vec3};
 use rayon::prelude::*;
 
-use super::body::{Body, bodies};
+use super::particle::{Particle, View};
 use crate::error::Error;
 use crate::kernel::{ACCELERATION, Bounds, Twin, World};
 use crate::tree::{GROUP, Nodes, Opening, Tree};
@@ -56,17 +56,18 @@ impl Place {
 pub fn twin(
     opening: Opening,
     core: f64,
-    rule: Arc<impl Fn(&Body, &Body, DVec3, &World) -> DVec4 + Send + Sync + 'static>,
-    far: impl Fn(&Body, &Group, DVec3, &World) -> DVec4 + Send + Sync + 'static,
+    rule: Arc<impl Fn(&Particle, &Particle, DVec3, &World) -> DVec4 + Send + Sync + 'static>,
+    far: impl Fn(&Particle, &Group, DVec3, &World) -> DVec4 + Send + Sync + 'static,
 ) -> Twin {
     Arc::new(move |host| {
-        let (bodies, world) = (bodies(host)?, host.world());
+        let view = View::of(host)?;
+        let (bodies, world) = (view.particles(), host.world());
         let tree = Tree { opening, core, count: world.count };
         let nodes = Nodes::of(&tree, host)?;
         if nodes.ids().iter().any(|id| *id as usize >= bodies.len()) {
             return Err(Error::Scene(format!("the tree {opening} is not one of these {} particles", bodies.len())));
         }
-        let meet = |me: &Body, met: &Met| -> DVec4 {
+        let meet = |me: &Particle, met: &Met| -> DVec4 {
             let near = met.leaves.iter().flat_map(|leaf| nodes.range(*leaf)).filter_map(|slot| {
                 let you = &bodies[nodes.ids()[slot] as usize];
                 let r = world.bounds.shortest(you.position - me.position);

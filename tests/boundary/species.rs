@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use glam::{DVec3, DVec4};
-use motes::forces::{Distant, Force, Law, Over};
+use motes::forces::{Force, Law, Over};
 use motes::kernel::{ACCELERATION, Backend, Host, Source};
 use motes::{Bounds, Cpu, SPECIES, Setup, Simulation, State, VELOCITY};
 
@@ -24,17 +24,7 @@ impl Force for Sorting {
             Ok(())
         };
         let wgsl = Source::ours("sorting", wgsl);
-        vec![Law {
-            name: "sorting".into(),
-            over: Over::Each,
-            wgsl,
-            params: Vec::new(),
-            twin: Some(Arc::new(twin)),
-            reciprocal: false,
-            jacobian: None,
-            distant: Distant::default(),
-            tied: None,
-        }]
+        vec![Law::plain("sorting", Over::Each, wgsl, Vec::new(), Arc::new(twin))]
     }
 }
 

@@ -1,7 +1,7 @@
 //! Laws that look at all that a search passes to them, and vanish at no edge.
 
 use glam::{DVec3, DVec4};
-use motes::forces::{Body, Law, Over};
+use motes::forces::{Law, Over, Particle};
 use motes::kernel::{Source, World};
 
 /// Who is not put into a filtered grid.
@@ -42,14 +42,14 @@ fn finish(me: Particle, sum: Sum) -> vec4f { return vec4f(sum.acceleration, sum.
 
 /// The law of such a text.
 pub fn law(text: &'static str, over: Over) -> Law {
-    let gather = move |me: &Body, you: &Body, r: DVec3, sum: &mut DVec4| {
+    let gather = move |me: &Particle, you: &Particle, r: DVec3, sum: &mut DVec4| {
         let near = you.mass / (1.0 + r.length_squared());
         let weight = (you.index % 7) as f64;
-        let met = text != CHOOSY || you.species == OTHERS + 1;
+        let met = text != CHOOSY || you.species() == OTHERS + 1;
         let part = if text == MOVING { you.velocity - me.velocity + weight * r } else { (weight + 1.0) * r };
         *sum += f64::from(u8::from(met)) * (near * part).extend(me.mass * near);
     };
-    let finish = move |me: &Body, sum: &DVec4, _: &World| {
+    let finish = move |me: &Particle, sum: &DVec4, _: &World| {
         if text == STILL && me.index % 5 == 2 { DVec4::ZERO } else { *sum }
     };
     Law::gathering("curious", over, Source::ours("curious", text), Vec::new(), gather, finish)

@@ -6,7 +6,7 @@ use std::cell::RefCell;
 use std::rc::Rc;
 
 use glam::{DVec3, DVec4, Vec4};
-use motes::forces::{Force, Law, Over};
+use motes::forces::{Force, Law, Over, Particle};
 use motes::integrators::Step;
 use motes::kernel::{ACCELERATION, ALARM, Backend, Kernel, Machine, POSITION, Plan, Problem, QUIET, Source};
 use motes::settings::Value;
@@ -129,7 +129,7 @@ impl Force for Counted {
             }
             fn finish(me: Particle, sum: Sum) -> vec4f { return vec4f(sum.mass, sum.index, 0.0, 0.0); }";
         let over = Over::Tree { opening: self.0, core: 0.0, auto: false };
-        let none = |_: &_, _: &_, _, (): &mut ()| ();
+        let none = |_: &Particle, _: &Particle, _, (): &mut ()| ();
         let wgsl = Source::ours("counted", wgsl);
         vec![Law::gathering("counted", over, wgsl, Vec::new(), none, |_, (), _| DVec4::ZERO)]
     }

@@ -26,7 +26,9 @@ pub fn whole(id: usize, r: DVec3) -> DVec4 {
 
 impl Force for Whole {
     fn laws(&self) -> Vec<Law> {
-        let rule = |_: &_, you: &motes::forces::Body, r: DVec3| whole(you.index, r.as_vec3().as_dvec3());
+        let rule = |_: &motes::forces::Particle, you: &motes::forces::Particle, r: DVec3| {
+            whole(you.index, r.as_vec3().as_dvec3())
+        };
         vec![Law::between("whole", self.0, Source::ours("whole", WHOLE), Vec::new(), rule)]
     }
 }

@@ -122,13 +122,7 @@ fn a_law_of_ones_own_over_links() {
             (*sum).acceleration += link.stiffness * (l - link.rest) / l * r / me.mass;
         }
         fn finish(me: Particle, sum: Sum) -> vec4f { return vec4f(sum.acceleration, sum.potential); }";
-    let own = Custom {
-        name: "own".to_owned(),
-        over: Over::Links,
-        wgsl: wgsl.to_owned(),
-        file: "own.wgsl".to_owned(),
-        params: Vec::new(),
-    };
+    let own = Custom::new("own", "own.wgsl", wgsl, Over::Links);
     let run = |setup: &Setup| {
         let mut simulation = gpu(&shared, setup);
         simulation.step(50).expect("steps");

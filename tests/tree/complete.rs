@@ -1,7 +1,7 @@
 //! Nobody is forgotten and nobody is met twice: a law that adds up the mass it sees, in whole numbers, which f32 holds.
 
 use glam::{DVec3, Vec4};
-use motes::forces::{Body, Law, Over};
+use motes::forces::{Law, Over, Particle};
 use motes::kernel::Source;
 use motes::tree::Opening;
 
@@ -23,7 +23,7 @@ const WGSL: &str = "struct Sum { mass: f32, met: f32 }
     fn finish(me: Particle, sum: Sum) -> vec4f { return vec4f(sum.mass, sum.met, me.mass, 0.0); }";
 
 fn counted(over: Over) -> Law {
-    let gather = |_: &Body, _: &Body, _: DVec3, (): &mut ()| ();
+    let gather = |_: &Particle, _: &Particle, _: DVec3, (): &mut ()| ();
     Law::gathering("counted", over, Source::ours("counted", WGSL), Vec::new(), gather, |_, (), _| glam::DVec4::ZERO)
 }
 

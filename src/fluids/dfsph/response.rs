@@ -47,7 +47,8 @@ pub fn kernel(of: &Dfsph<'_>) -> Result<Kernel, Error> {
                 sum.neighbors += 1.0;
             },
         )?;
-        let bodies = crate::visit::bodies(host)?;
+        let view = crate::visit::View::of(host)?;
+        let bodies = view.particles();
         let (mut density, mut responses) = (host.write(DENSITY)?, host.writing::<f32>(&responses)?);
         for (k, id) in slots(host)?.into_iter().enumerate() {
             let (Some(sum), Some(me)) = (&sums[id], bodies.get(id)) else { continue };

@@ -86,12 +86,13 @@ fn drain(problem: &Problem, drain: Drain, number: u32) -> Result<Kernel, Error> 
     let params = params.map_or(Ok(Vec::new()), |binding| binding.packed.pack("a drain", &values))?;
     let who = problem.clone();
     let twin = move |host: &Host| {
-        let (bodies, world) = (crate::visit::bodies(host)?, host.world());
+        let view = crate::visit::View::of(host)?;
+        let (bodies, world) = (view.particles(), host.world());
         let mut life = host.write(LIFE)?;
         let (mut position, mut velocity) = (host.write(POSITION)?, host.write(VELOCITY)?);
         let mut acceleration = host.write(ACCELERATION)?;
-        let free = bodies.iter().filter(|body| body.lives && !who.is_held(body.index));
-        for body in free.filter(|body| drain.species.is_none_or(|kind| kind == body.species)) {
+        let free = bodies.iter().filter(|body| body.lives() && !who.is_held(body.index));
+        for body in free.filter(|body| drain.species.is_none_or(|kind| kind == body.species())) {
             if takes(&drain, body.position, &world) {
                 let id = body.index;
                 life[id] = Life::Dead.word();

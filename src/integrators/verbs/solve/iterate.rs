@@ -7,7 +7,7 @@ use super::rows::Ties;
 use super::{ALONE, DIRECTIONS, DOTS, RESIDUALS, State, System, names, on_states, twin, with};
 use crate::error::Error;
 use crate::kernel::{Host, Kernel, Shader};
-use crate::visit::{LINK, LINK_START, ROW, ROWS, bodies};
+use crate::visit::{LINK, LINK_START, ROW, ROWS, View};
 
 /// A z and the parts of the sums; `turned` where the states have changed places.
 pub fn product(system: &System<'_>, turned: bool) -> Result<Kernel, Error> {
@@ -17,7 +17,8 @@ pub fn product(system: &System<'_>, turned: bool) -> Result<Kernel, Error> {
         if State::of(&host.reading::<f32>(names(turned).0)?).code > 0.0 {
             return Ok(());
         }
-        let (bodies, world) = (bodies(host)?, host.world());
+        let view = View::of(host)?;
+        let (bodies, world) = (view.particles(), host.world());
         let h = factor * world.dt;
         let residuals = host.read(RESIDUALS)?;
         let tables = match &jacobian {

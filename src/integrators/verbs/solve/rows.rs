@@ -5,15 +5,15 @@ use rayon::prelude::*;
 
 use super::{ALONE, HELD, System, TIED, twin, with};
 use crate::error::Error;
-use crate::forces::Body;
+use crate::forces::Particle;
 use crate::kernel::{Bounds, Host, Kernel};
 use crate::links::{Half, WORDS};
-use crate::visit::{Jacobian, LINK, LINK_START, ROW, ROWS, bodies};
+use crate::visit::{Jacobian, LINK, LINK_START, ROW, ROWS, View};
 
 /// What ties particles, as the twins read it.
 pub struct Ties<'a> {
     pub jacobian: &'a Jacobian,
-    pub bodies: &'a [Body],
+    pub bodies: &'a [Particle<'a>],
     pub bounds: Bounds,
     pub start: &'a [u32],
     pub link: &'a [u32],
@@ -42,7 +42,8 @@ pub fn kernel(system: &System<'_>, start: bool) -> Result<Kernel, Error> {
     let mask = system.problem.mask.clone();
     let (factor, jacobian) = (system.factor, system.links.as_ref().and_then(|law| law.jacobian.clone()));
     let run = move |host: &Host| {
-        let (bodies, world) = (bodies(host)?, host.world());
+        let view = View::of(host)?;
+        let (bodies, world) = (view.particles(), host.world());
         let h = factor * world.dt;
         let tables = match &jacobian {
             Some(_) => Some((host.reading::<u32>(LINK_START)?, host.reading::<u32>(LINK)?)),

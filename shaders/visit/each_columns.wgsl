@@ -1,0 +1,8 @@
+// Each particle alone, for a law that gives no acceleration. The law says: fn update(me: Particle), and writes its columns itself.
+const WORKGROUP: u32 = 64u;
+
+@compute @workgroup_size(WORKGROUP)
+fn each(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let i = folded(group, groups) * WORKGROUP + lane;
+    if i < world.count { update(particle(i)); }
+}

@@ -1,0 +1,80 @@
+//! Parameters of pairs of species: a symmetric table, whose every pair must be given.
+
+use std::sync::Arc;
+
+use crate::error::Error;
+use crate::kernel::{Binding, Scalar, Table};
+
+/// The name of the table in WGSL: `var<storage, read> pair_table: array<Pair>`. The row of species a and b stands at
+/// `a * species + b`, with `species` the number of rows on a side: `pair_index(a, b)` gives it.
+pub const PAIR_TABLE: &str = "pair_table";
+/// Species that a table may tell apart, at most.
+pub const MOST_SPECIES: u32 = 256;
+
+/// Parameters of pairs of species.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct PairTable {
+    /// The two species, in any order, and the members of `Pair` by name.
+    pub rows: Vec<PairRow>,
+}
+
+/// The parameters of one pair of species.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PairRow {
+    /// The two species, in any order.
+    pub species: [u32; 2],
+    /// The members of `Pair`, by name.
+    pub values: Vec<(String, Scalar)>,
+}
+
+impl PairTable {
+    /// Rows on a side: one more than the highest species of the table or of the particles.
+    #[must_use]
+    pub fn side(&self, present: &[u32]) -> u32 {
+        self.rows
+            .iter()
+            .flat_map(|row| row.species)
+            .chain(present.iter().copied())
+            .max()
+            .map_or(1, |n| n.saturating_add(1))
+    }
+    /// The words of the table, for the species that particles have.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] that names a pair that is missing, given twice, or beyond the largest species.
+    pub fn words(&self, law: &str, binding: &Binding, present: &[u32]) -> Result<Table, Error> {
+        let side = self.side(present);
+        if side > MOST_SPECIES {
+            return Err(Error::Scene(format!(
+                "`{law}` has a table over pairs of {side} species: {MOST_SPECIES} are the most; number species from 0 on"
+            )));
+        }
+        let size = binding.packed.size;
+        let mut bytes = vec![0u8; size * (side * side) as usize];
+        let mut given = vec![false; (side * side) as usize];
+        for row in &self.rows {
+            let [a, b] = row.species;
+            let values: Vec<_> = row.values.iter().map(|(name, value)| (name.as_str(), *value)).collect();
+            let packed = binding.packed.pack(&format!("the pair of species {a} and {b} of `{law}`"), &values)?;
+            let place = (a * side + b) as usize;
+            if given[place] {
+                return Err(Error::Scene(format!("`{law}` is given the pair of species {a} and {b} twice: leave one")));
+            }
+            for place in [a * side + b, b * side + a].map(|place| place as usize) {
+                given[place] = true;
+                bytes[place * size..(place + 1) * size].copy_from_slice(&packed);
+            }
+        }
+        let missing = present.iter().flat_map(|a| present.iter().map(move |b| [*a, *b]));
+        let missing: Vec<_> = missing.filter(|[a, b]| a <= b && !given[(a * side + b) as usize]).collect();
+        if let Some([a, b]) = missing.first() {
+            return Err(Error::Scene(format!(
+                "`{law}` has no parameters for particles of species {a} and {b} ({} such pairs): add {{ species = [{a}, {b}], … }} to its pairs",
+                missing.len()
+            )));
+        }
+        let words =
+            bytes.chunks_exact(4).map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]])).collect();
+        Ok((PAIR_TABLE.into(), Arc::new(words)))
+    }
+}

@@ -1,0 +1,94 @@
+//! A particle as a law's reference sees it: what `Particle` is in WGSL, and every column by its name.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use glam::{DVec3, DVec4, Vec4};
+
+use crate::error::Error;
+use crate::kernel::{Array, Element, Host, LIFE, POSITION, SPECIES, VELOCITY};
+use crate::life::Life;
+
+/// All particles of a host as they are at a moment: what is written later does not change them.
+pub struct View<'a> {
+    arrays: BTreeMap<&'a str, Arc<Array>>,
+    count: usize,
+}
+
+/// A particle as a law's reference sees it.
+#[derive(Clone, Copy)]
+pub struct Particle<'a> {
+    /// Its index.
+    pub index: usize,
+    /// Where it is \[length\].
+    pub position: DVec3,
+    /// How it moves \[length / time\]; 0 where the host has no velocities.
+    pub velocity: DVec3,
+    /// How heavy it is \[mass\].
+    pub mass: f64,
+    species: u32,
+    lives: bool,
+    view: &'a View<'a>,
+}
+
+impl<'a> View<'a> {
+    /// The particles of a host.
+    ///
+    /// # Errors
+    /// When it lacks positions, or something is being written.
+    pub fn of(host: &'a Host) -> Result<Self, Error> {
+        let arrays = host.arrays()?;
+        let count = host.read(POSITION)?.len().min(host.world().count as usize);
+        Ok(Self { arrays, count })
+    }
+    fn slice<T: Element>(&self, name: &str) -> &[T::Twin] {
+        self.arrays.get(name).and_then(|array| T::view(array)).map_or(&[], Vec::as_slice)
+    }
+    /// The particles, by index.
+    #[must_use]
+    pub fn particles(&self) -> Vec<Particle<'_>> {
+        let (position, velocity) = (self.slice::<Vec4>(POSITION.name), self.slice::<Vec4>(VELOCITY.name));
+        let (species, life) = (self.slice::<u32>(SPECIES.name), self.slice::<u32>(LIFE.name));
+        let particle = |index: usize| {
+            let (x, v) = (position[index], velocity.get(index).copied().unwrap_or(DVec4::ZERO));
+            Particle {
+                index,
+                position: x.truncate(),
+                velocity: v.truncate(),
+                mass: x.w,
+                species: species.get(index).copied().unwrap_or(0),
+                lives: life.get(index).is_none_or(|word| *word == Life::Living.word()),
+                view: self,
+            }
+        };
+        (0..self.count).map(particle).collect()
+    }
+}
+
+impl Particle<'_> {
+    /// Of which kind it is; 0 where the host has no species.
+    #[must_use]
+    pub fn species(&self) -> u32 {
+        self.species
+    }
+    /// Whether it takes part.
+    #[must_use]
+    pub fn lives(&self) -> bool {
+        self.lives
+    }
+    /// Its value of a scalar column; `None` where the host has none of that name and kind.
+    #[must_use]
+    pub fn scalar(&self, column: &str) -> Option<f64> {
+        self.view.slice::<f32>(column).get(self.index).copied()
+    }
+    /// Its value of a vector column, or all four numbers of a quaternion.
+    #[must_use]
+    pub fn vector(&self, column: &str) -> Option<DVec4> {
+        self.view.slice::<Vec4>(column).get(self.index).copied()
+    }
+    /// Its value of a column of whole numbers.
+    #[must_use]
+    pub fn whole(&self, column: &str) -> Option<u32> {
+        self.view.slice::<u32>(column).get(self.index).copied()
+    }
+}
