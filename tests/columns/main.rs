@@ -1,4 +1,4 @@
-//! Laws that read and write columns, over every visit, against their references; and what is refused of them.
+//! Laws that read and write columns, over every visit of pairs, against their references; and what is refused of them.
 
 #[path = "../support/mod.rs"]
 mod support;
@@ -31,7 +31,7 @@ fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
     let near = 1.0 / (1.0 + dot(r, r));
     (*sum).field += charge[you.index] * near;
     (*sum).torque += (charge[you.index] * near) * cross(r, vec3f(0.3, -0.7, 0.2));
-    (*sum).push += (charge[me.index] * charge[you.index] * near) * r;
+    (*sum).push += (charge[me.index] * charge[you.index] * near) * r + (0.25 * near) * velocity_of(you);
 }
 fn finish(me: Particle, sum: Sum) -> vec4f {
     field[me.index] = sum.field;
@@ -52,7 +52,7 @@ fn charged(over: Over) -> Law {
         let near = 1.0 / (1.0 + r.length_squared());
         sum.field += charge(you) * near;
         sum.torque += charge(you) * near * r.cross(DVec3::new(0.3, -0.7, 0.2));
-        sum.push += charge(me) * charge(you) * near * r;
+        sum.push += charge(me) * charge(you) * near * r + 0.25 * near * you.velocity;
     };
     let finish = move |me: &Particle, sum: &Sum, _: &World, outcome: &mut Outcome| {
         outcome.set("field", sum.field);
@@ -101,7 +101,7 @@ fn check(shared: &Shared, plan: &Plan, count: usize, machine: Machine, what: &st
     let place = cloud.position.iter().zip(&cloud.mass).map(|(x, m)| x.extend(*m));
     gpu.write(POSITION.name, &Array::Vec4(place.collect())).expect("positions");
     let way = cloud.velocity.iter().map(|v| v.extend(0.01)).collect();
-    gpu.write(VELOCITY.name, &Array::Vec4(way)).ok();
+    gpu.write(VELOCITY.name, &Array::Vec4(way)).expect("velocities");
     gpu.write(ALARM.name, &Array::Uint(QUIET.to_vec())).ok();
     let mut random = support::Random::new(9);
     let charges: Vec<f64> = (0..count).map(|_| f64::from(random.narrow()) + 0.1).collect();
