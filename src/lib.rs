@@ -1,6 +1,7 @@
 //! Particles moved by forces, on any GPU, checked against a second opinion in f64.
 
 pub mod boundary;
+pub mod component;
 pub mod cpu;
 pub mod error;
 pub mod fluids;

@@ -4,7 +4,7 @@ mod support;
 
 use std::time::Duration;
 
-use motes::forces::Force;
+use motes::forces::Component;
 use motes::integrators::INTEGRATORS;
 use motes::kernel::{ACCELERATION, Backend, POSITION, VELOCITY};
 use motes::settings::Value;
@@ -16,7 +16,7 @@ const COUNT: u32 = 300;
 const STEPS: u32 = 30;
 
 /// Everybody, everywhere, at every velocity and time.
-fn forces() -> Vec<Box<dyn Force>> {
+fn forces() -> Vec<Box<dyn Component>> {
     vec![
         force("gravity", &[("softening", Value::Number(0.17))]),
         force(

@@ -5,14 +5,14 @@ mod support;
 use std::time::{Duration, Instant};
 
 use glam::DVec3;
-use motes::forces::{Custom, Force, Over};
+use motes::forces::{Component, Custom, Over};
 use motes::kernel::{Backend, POSITION};
 use motes::settings::Value;
 use motes::{Cpu, Error, Gpu, Setup, Simulation, State};
 use support::Shared;
 use support::states::{force, integrator, one};
 
-fn setup(particles: State, forces: Vec<Box<dyn Force>>, dt: f64) -> Setup {
+fn setup(particles: State, forces: Vec<Box<dyn Component>>, dt: f64) -> Setup {
     Setup {
         state: particles,
         forces,
@@ -105,7 +105,7 @@ fn force(me: Particle) -> vec4f {
 }
 ";
 
-fn custom(over: Over, wgsl: &str, params: &[(&str, Value)]) -> Vec<Box<dyn Force>> {
+fn custom(over: Over, wgsl: &str, params: &[(&str, Value)]) -> Vec<Box<dyn Component>> {
     let params = params.iter().map(|(name, value)| ((*name).to_owned(), value.clone())).collect();
     vec![Box::new(Custom { params, ..Custom::new("swirl", "my/swirl.wgsl", wgsl, over) })]
 }

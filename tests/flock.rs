@@ -3,7 +3,7 @@
 mod support;
 
 use glam::{DMat3, DVec3, DVec4};
-use motes::forces::Force;
+use motes::forces::Component;
 use motes::integrators::INTEGRATORS;
 use motes::kernel::World;
 use motes::settings::Value;
@@ -13,7 +13,7 @@ use support::states::{accelerations, cpu, felt, force, integrator, one, phase, v
 const NUMBER: fn(f64) -> Value = Value::Number;
 
 /// One flock with a weight for each rule, the range 1 and force enough.
-fn boids(weights: [f64; 3], more: &[(&'static str, Value)]) -> Vec<Box<dyn Force>> {
+fn boids(weights: [f64; 3], more: &[(&'static str, Value)]) -> Vec<Box<dyn Component>> {
     let mut settings = vec![
         ("range", NUMBER(1.0)),
         ("separation_range", NUMBER(0.5)),

@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 
 use glam::{DVec3, DVec4};
 use motes::State;
-use motes::forces::{self, Entry, Force, Over};
+use motes::forces::{self, Component, Entry, Over};
 use motes::kernel::{Access, Machine, World};
 use motes::settings::{Kind, Settings, Value};
 use support::choices::{self, nudged};
@@ -16,7 +16,7 @@ use support::states::{accelerations, felt, felt_after, force, one, vector, word}
 const TIME: f64 = 0.83;
 
 /// Every force of the register in all its variants.
-fn every(mut look: impl FnMut(&str, &'static Entry, &Settings, Box<dyn Force>)) {
+fn every(mut look: impl FnMut(&str, &'static Entry, &Settings, Box<dyn Component>)) {
     for entry in choices::entries() {
         for settings in choices::variants(entry.keys) {
             look(&format!("{} {:?}", entry.name, settings.0), entry, &settings, (entry.build)(&settings));
@@ -24,12 +24,12 @@ fn every(mut look: impl FnMut(&str, &'static Entry, &Settings, Box<dyn Force>)) 
     }
 }
 
-fn is_reciprocal(force: &dyn Force) -> bool {
+fn is_reciprocal(force: &dyn Component) -> bool {
     force.laws().iter().any(|law| law.reciprocal)
 }
 
 /// Σ m w: each of a pair holds its half.
-fn potential(force: &[Box<dyn Force>], particles: &State) -> f64 {
+fn potential(force: &[Box<dyn Component>], particles: &State) -> f64 {
     accelerations(force, particles, TIME).iter().zip(particles.mass()).map(|(a, m)| a.w * m).sum()
 }
 
@@ -71,7 +71,7 @@ fn forces_are_gradients_or_depend_on_velocity() {
 }
 
 /// m a = −∂U/∂x for every particle and direction, by central differences.
-fn gradient(name: &str, force: &[Box<dyn Force>], particles: &State) {
+fn gradient(name: &str, force: &[Box<dyn Component>], particles: &State) {
     let h = 1e-5;
     for (i, acceleration) in accelerations(force, particles, TIME).iter().enumerate() {
         for k in 0..3 {

@@ -52,7 +52,7 @@ fn force(me: Particle) -> vec4f {
 
 fn law() -> Setup {
     let params = vec![("n".to_owned(), Value::Number(4.0)), ("s".to_owned(), Value::Number(2.0))];
-    let law = Custom { name: "loop".into(), over: Over::Each, wgsl: LOOP.into(), file: "loop.wgsl".into(), params };
+    let law = Custom { params, ..Custom::new("loop", "loop.wgsl", LOOP, Over::Each) };
     Setup {
         state: support::cloud(64, 7),
         forces: vec![Box::new(law)],

@@ -3,7 +3,7 @@
 mod support;
 
 use glam::DVec3;
-use motes::forces::Force;
+use motes::forces::Component;
 use motes::integrators::INTEGRATORS;
 use motes::settings::Value;
 use support::states::{self, cpu, force, one, vector, word};
@@ -23,7 +23,7 @@ fn kepler(eccentricity: f64, time: f64) -> (DVec3, DVec3) {
 
 /// The error of the whole phase, so that no single component can pass through zero and fake an order.
 fn error(
-    forces: Vec<Box<dyn Force>>,
+    forces: Vec<Box<dyn Component>>,
     name: &str,
     start: (DVec3, DVec3),
     end: (DVec3, DVec3),
@@ -96,7 +96,7 @@ fn orders_with_velocity() {
 #[test]
 fn orders_with_velocity_and_time() {
     // Gusts and quadratic drag: no closed form, so the reference is the method of order 4 with steps 16 times finer.
-    let gusts = || -> Vec<Box<dyn Force>> {
+    let gusts = || -> Vec<Box<dyn Component>> {
         vec![
             force(
                 "wind",

@@ -3,7 +3,7 @@
 mod support;
 
 use glam::DVec3;
-use motes::forces::Force;
+use motes::forces::Component;
 use motes::settings::Value;
 use support::states::{cpu, force, one, phase, word};
 
@@ -23,7 +23,7 @@ fn matrix(name: &str, y: f64, damping: f64) -> [[f64; 2]; 2] {
     [[a[0], b[0]], [a[1], b[1]]]
 }
 
-fn spring(damping: f64) -> Vec<Box<dyn Force>> {
+fn spring(damping: f64) -> Vec<Box<dyn Component>> {
     let spring = force("attractor", &[("profile", word("harmonic")), ("strength", Value::Number(STRENGTH))]);
     let drag = force("drag", &[("linear", Value::Number(damping))]);
     if damping > 0.0 { vec![spring, drag] } else { vec![spring] }

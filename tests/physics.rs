@@ -5,13 +5,13 @@ mod support;
 use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
-use motes::forces::Force;
+use motes::forces::Component;
 use motes::settings::Value;
 use motes::{Measure, POSITION, Setup, Simulation, State, VELOCITY};
 use support::states::{cpu, force, integrator, one, phase};
 use support::{Random, Shared};
 
-fn gravity(softening: f64) -> Vec<Box<dyn Force>> {
+fn gravity(softening: f64) -> Vec<Box<dyn Component>> {
     vec![force("gravity", &[("softening", Value::Number(softening))])]
 }
 

@@ -3,7 +3,7 @@
 mod support;
 
 use glam::DVec3;
-use motes::forces::Force;
+use motes::forces::Component;
 use motes::scene::{Options, Scene, Source};
 use motes::settings::Value;
 use motes::{Cpu, Error, Setup, Simulation, State};
@@ -11,7 +11,7 @@ use pollster::block_on;
 use support::states::{cpu, force, integrator, one, word};
 use support::{Random, Shared};
 
-fn spring(strength: f64) -> Vec<Box<dyn Force>> {
+fn spring(strength: f64) -> Vec<Box<dyn Component>> {
     vec![force("attractor", &[("profile", word("harmonic")), ("strength", Value::Number(strength))])]
 }
 
@@ -99,8 +99,8 @@ fn what_stays_is_left_alone() {
 #[test]
 fn what_grows_for_a_reason_is_left_alone() {
     let weight = || force("uniform", &[("acceleration", Value::Vector(DVec3::NEG_Z * 9.81))]);
-    let fall: Vec<Box<dyn Force>> = vec![weight()];
-    let drag: Vec<Box<dyn Force>> = vec![weight(), force("drag", &[("linear", Value::Number(0.1))])];
+    let fall: Vec<Box<dyn Component>> = vec![weight()];
+    let drag: Vec<Box<dyn Component>> = vec![weight(), force("drag", &[("linear", Value::Number(0.1))])];
     let mut random = Random::new(3);
     let mut ball = State::default();
     while ball.len() < 60 {
@@ -109,9 +109,9 @@ fn what_grows_for_a_reason_is_left_alone() {
             ball.push(x, DVec3::ZERO, 1.0 / 60.0, 0.0);
         }
     }
-    let gravity: Vec<Box<dyn Force>> = vec![force("gravity", &[("softening", Value::Number(1e-3))])];
+    let gravity: Vec<Box<dyn Component>> = vec![force("gravity", &[("softening", Value::Number(1e-3))])];
     // Away from a hill, from almost the top of it.
-    let hill: Vec<Box<dyn Force>> = spring(-1.0);
+    let hill: Vec<Box<dyn Component>> = spring(-1.0);
     let top = one(DVec3::X * 1e-9, DVec3::ZERO);
     let start = one(DVec3::ZERO, DVec3::ZERO);
     for (what, particles, forces, dt) in [

@@ -216,7 +216,7 @@ fn a_setup_is_judged() {
     }
     let link = |i: u32| Link { ends: [i, i + 1], rest: 1.0, stiffness: 100.0, damping: 0.2, rope: false };
     particles.links.springs = (0..11).map(link).collect();
-    let judged = |forces: Vec<Box<dyn motes::forces::Force>>, name: &str, dt: f64| {
+    let judged = |forces: Vec<Box<dyn motes::forces::Component>>, name: &str, dt: f64| {
         let entry = motes::integrators::entry(name).expect("an integrator");
         let (particles, bounds) = (particles.clone(), Bounds::default());
         let setup = motes::Setup {

@@ -3,7 +3,7 @@
 mod support;
 
 use glam::{DVec3, DVec4};
-use motes::forces::Force;
+use motes::forces::Component;
 use motes::kernel::World;
 use motes::settings::Value;
 use motes::{Bounds, Side, State};
@@ -11,7 +11,7 @@ use support::states::{accelerations, cpu, felt, force, one, phase, vector, word}
 
 const NUMBER: fn(f64) -> Value = Value::Number;
 
-fn alone(force: Box<dyn Force>, x: [f64; 3], v: [f64; 3]) -> DVec4 {
+fn alone(force: Box<dyn Component>, x: [f64; 3], v: [f64; 3]) -> DVec4 {
     accelerations(&[force], &one(x.into(), v.into()), 0.0)[0]
 }
 

@@ -3,7 +3,7 @@
 use glam::{DVec3, DVec4};
 use motes::forces::{Law, Over, Problem};
 use motes::kernel::{
-    ACCELERATION, Access, Array, Host, Kernel, Machine, POSITION, Pass, Plan, SPECIES, Twin, VELOCITY, World,
+    ACCELERATION, Access, Array, Host, Kernel, Machine, POSITION, Pass, SPECIES, Twin, VELOCITY, World,
 };
 use motes::links::Links;
 use motes::motion::Hold;
@@ -146,21 +146,16 @@ pub fn conserved(setup: &Setup) -> Result<Conserved, Error> {
     conserved.momentum &= held.is_empty();
     conserved.angular_momentum &= held.is_empty();
     conserved.energy &= held.iter().all(|one| one.by == Hold::Fixed);
-    // Who holds a speed takes energy and momentum, or gives some; so does who is born or dies.
-    let mut limits = Plan::default();
-    for force in &setup.forces {
-        let problem = Problem::new(1, MACHINE).moved(&setup.state.motions, setup.dt);
-        let takes = force.takes(!held.is_empty());
-        conserved.angular_momentum &= !takes.angular_momentum;
-        conserved.takers.extend(takes.energy);
-        force.limit(&mut limits, &problem)?;
-        // What follows a drift of a fluid is its density.
-        if force.fluid(&problem)?.is_none() {
-            force.confine(&mut limits, &problem, 1.0)?;
-        }
+    // What projects velocities or positions conserves neither energy nor momentum; nor do births and deaths.
+    let mut constrained = setup.state.is_mortal();
+    for properties in setup.forces.iter().map(|force| force.properties()) {
+        conserved.angular_momentum &= !properties.turns;
+        conserved.takers.extend(properties.dissipates);
+        conserved.takers.extend(properties.dissipates_at_walls.into_iter().filter(|_| !held.is_empty()));
+        constrained |= properties.constrains;
     }
     conserved.energy &= conserved.takers.is_empty();
-    if !limits.order.is_empty() || setup.state.is_mortal() {
+    if constrained {
         conserved = Conserved { energy: false, momentum: false, angular_momentum: false, ..conserved };
     }
     Ok(conserved)
@@ -202,7 +197,7 @@ pub fn advice(scene: &Scene, setup: &Setup) -> Result<Vec<String>, Error> {
         )
     };
     for force in &setup.forces {
-        let rates = force.rates(&Problem::new(1, MACHINE))?.unwrap_or_default();
+        let rates = force.resolved(&Problem::new(1, MACHINE))?.rates.unwrap_or_default();
         remarks.extend((loses && rates.friction.max(rates.drawn) > 0.0).then(|| depends("fluid")));
     }
     for law in laws {
@@ -241,10 +236,20 @@ pub fn advice(scene: &Scene, setup: &Setup) -> Result<Vec<String>, Error> {
         }
     }
     let name = scene.integrator.name;
-    for (force, its) in setup.forces.iter().map(|force| (force, force.integrators())).filter(|(_, its)| !its.is_empty())
-    {
-        if force.answers() {
-            remarks.extend(force.remark(setup.dt));
+    for (force, properties) in setup.forces.iter().map(|force| (force, force.properties())) {
+        if let Some(length) = properties.largest_move {
+            let caution = properties.caution.map_or_else(String::new, |text| format!("; {text}"));
+            remarks.push(format!(
+                "the fluid's dt = {} is for speeds up to {:.3}: in a step no particle should go farther than {length:.3e}{caution}",
+                setup.dt,
+                length / setup.dt
+            ));
+        }
+        let its = properties.integrators;
+        if its.is_empty() {
+            continue;
+        }
+        if properties.evaluated_last {
             if !its.contains(&name) {
                 remarks.push(format!(
                     "the fluid solves for the pressure of a whole step, felt where it begins: it wants {}, not {name}",
@@ -267,7 +272,7 @@ pub fn advice(scene: &Scene, setup: &Setup) -> Result<Vec<String>, Error> {
     if !setup.state.links.rods.is_empty() && order > 2 {
         remarks.push(format!("with rods {name} is of order 2, as leapfrog is, which costs less"));
     }
-    if name == "forward_euler" && setup.forces.iter().all(|force| !force.integrators().contains(&name)) {
+    if name == "forward_euler" && setup.forces.iter().all(|force| !force.properties().integrators.contains(&name)) {
         remarks
             .push("forward_euler gains energy in every step, whatever the step: it is here to show why not".to_owned());
     }

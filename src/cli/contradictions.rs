@@ -66,7 +66,11 @@ fn mouths(setup: &Setup, medium: &Medium) -> Option<String> {
 /// A weight that the fluid is told, and another that forces give.
 fn weighed(setup: &Setup, weight: DVec3) -> Result<Option<String>, Error> {
     let problem = setup.problem(Machine::HOST)?;
-    let fluid = setup.forces.iter().find_map(|force| force.fluid(&problem).transpose()).transpose()?;
+    let fluid = setup
+        .forces
+        .iter()
+        .find_map(|force| force.resolved(&problem).map(|resolved| resolved.fluid).transpose())
+        .transpose()?;
     let Some(told) = fluid.and_then(|fluid| fluid.weight) else { return Ok(None) };
     let off = (told - weight).length();
     Ok((off > ALIKE * told.length().max(weight.length())).then(|| {

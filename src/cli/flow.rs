@@ -2,7 +2,7 @@
 
 use motes::Error;
 use motes::fluids::Medium;
-use motes::forces::{Force, Problem};
+use motes::forces::{Component, Problem};
 use motes::kernel::Machine;
 use motes::scene::Scene;
 use motes::stability::{Asks, Flow};
@@ -15,9 +15,9 @@ const COURANT: f64 = 0.25;
 const PRESSED: f64 = 0.05;
 
 /// Whether one of these forces makes a fluid.
-pub fn flows(forces: &[Box<dyn Force>]) -> bool {
+pub fn flows(forces: &[Box<dyn Component>]) -> bool {
     let problem = Problem::new(1, Machine::HOST);
-    forces.iter().any(|force| force.rates(&problem).is_ok_and(|rates| rates.is_some()))
+    forces.iter().any(|force| force.resolved(&problem).is_ok_and(|resolved| resolved.rates.is_some()))
 }
 
 /// A line of how far from its limit a step is.

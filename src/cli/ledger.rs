@@ -33,7 +33,7 @@ impl Book {
     pub fn of(setup: &Setup) -> Result<Option<Self>, Error> {
         let problem = setup.problem(Machine::HOST)?;
         for force in &setup.forces {
-            if let Some(fluid) = force.fluid(&problem)? {
+            if let Some(fluid) = force.resolved(&problem)?.fluid {
                 let held = (0..setup.state.len()).map(|id| problem.is_held(id)).collect();
                 let (table, first, last, worst) = (None, None, Ledger::default(), Ledger::default());
                 let (bounds, dt, mean) = (setup.bounds, setup.dt, 0.0);

@@ -100,7 +100,7 @@ struct Run {
 impl Run {
     fn new(args: &RunArgs, scene: Scene, setup: &Setup, engine: &Engine) -> Result<Self, Failure> {
         let progress = Progress::new(args, scene.steps);
-        let standing = setup.forces.iter().filter_map(|force| force.standing()).collect();
+        let standing = setup.forces.iter().filter_map(|force| force.properties().pictured).collect();
         let scenery = Scenery::of(&setup.state).within(&scene.bounds).beside(standing, &setup.state);
         Picture::with(&scene.picture, &setup.state, &[], Trail::new(0), &scenery)?;
         let device = engine.describe();
@@ -123,7 +123,7 @@ impl Run {
             progress.say(&format!("note: {remark}"));
             progress.event("remark", json!({ "text": remark }));
         }
-        let company = setup.forces.iter().find_map(|force| force.company());
+        let company = setup.forces.iter().find_map(|force| force.properties().statistics_radius);
         let (conserved, stop) = (conserved(setup)?, Stop::listen());
         let (springs, last, torn) = (setup.state.links.springs.len(), None, None);
         Ok(Self {

@@ -1,6 +1,6 @@
 //! What a run says of its implicit solves, and which laws are solved for.
 
-use motes::forces::Force;
+use motes::forces::Component;
 use motes::integrators::implicit;
 use motes::simulation::{Outcome, PressureSolves, Solves};
 use serde_json::json;
@@ -57,7 +57,7 @@ fn tell_pressures(progress: &Progress, solves: Option<[PressureSolves; 2]>) {
 }
 
 /// Which laws an implicit integrator solves for, and which it takes as they are where the solve begins.
-pub fn remark(forces: &[Box<dyn Force>], integrator: &str) -> String {
+pub fn remark(forces: &[Box<dyn Component>], integrator: &str) -> String {
     let mut names = [Vec::new(), Vec::new()];
     for (force, solved) in forces.iter().zip(implicit(forces)) {
         names[usize::from(solved)].extend(force.laws().into_iter().map(|law| format!("`{}`", law.name)));

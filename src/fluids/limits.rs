@@ -25,8 +25,6 @@ pub struct Limits {
     pub sound: Option<f64>,
     /// α of the artificial viscosity, which goes with sound (Monaghan 1992).
     pub alpha: f64,
-    /// The kinematic viscosity, where it is explicit \[length² / time\].
-    pub viscosity: f64,
 }
 
 /// What the urges of everybody are multiplied by.
@@ -39,12 +37,19 @@ struct Shares {
     speed: f64,
 }
 
-/// Adds kernels that fill [`URGES`], and gives what viscosity wants; nothing where steps are all alike.
+/// How many steps viscosity asks for in a longest one; nothing where steps are all alike.
+#[must_use]
+pub fn viscous_steps(medium: &Medium, viscosity: f64, problem: &Problem) -> Option<f64> {
+    let length = 0.5 * medium.range();
+    problem.pace.map(|_| problem.dt * 8.0 * viscosity / (length * length))
+}
+
+/// Adds kernels that fill [`URGES`]; none where steps are all alike.
 ///
 /// # Errors
 /// When the range is none, or a shader does not compile.
-pub fn limits(medium: &Medium, limits: Limits, plan: &mut Plan, problem: &Problem) -> Result<Option<f64>, Error> {
-    let Some(pace) = problem.pace else { return Ok(None) };
+pub fn limits(medium: &Medium, limits: Limits, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
+    let Some(pace) = problem.pace else { return Ok(()) };
     let (length, longest) = (0.5 * medium.range(), problem.dt / pace.courant);
     if limits.sound.is_some() {
         plan.add(closing(medium, problem)?);
@@ -56,7 +61,7 @@ pub fn limits(medium: &Medium, limits: Limits, plan: &mut Plan, problem: &Proble
         speed: if limits.sound.is_some() { 0.0 } else { longest / (COURANT * medium.spacing) },
     };
     plan.add(urge(&shares, problem)?);
-    Ok(Some(problem.dt * 8.0 * limits.viscosity / (length * length)))
+    Ok(())
 }
 
 fn closing(medium: &Medium, problem: &Problem) -> Result<Kernel, Error> {

@@ -24,7 +24,7 @@ pub use continuity::{Continuity, advance, rate, rest};
 pub use density::density;
 pub use dfsph::{Asked, DFSPH_ERRORS, DFSPH_REPORT, DFSPH_WORDS, Dfsph};
 pub use gap::gap;
-pub use limits::{COURANT, Limits, limits};
+pub use limits::{COURANT, Limits, limits, viscous_steps};
 pub use medium::Medium;
 pub use pressure::{Friction, Walls, pressure};
 pub use rates::Rates;

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use glam::{DVec3, DVec4};
 
 use super::wind::Gusts;
-use super::{Force, Law, Over, params};
+use super::{Component, Law, Over, params};
 use crate::settings::{Key, Kind, Settings, Value};
 
 /// What a scene may say.
@@ -37,7 +37,7 @@ impl Air {
     }
 }
 
-impl Force for Air {
+impl Component for Air {
     fn laws(&self) -> Vec<Law> {
         let [density, drag, lift] = ["density", "drag", "lift"].map(|name| self.0.number(name));
         let gusts = Gusts::new(self.0.vector("wind"), &self.0);

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{EACH, Force, Jacobian, Law};
+use super::{Component, EACH, Jacobian, Law};
 use crate::kernel::Scalar;
 use crate::settings::{Key, Kind, Settings, Value};
 
@@ -33,7 +33,7 @@ impl Attractor {
     }
 }
 
-impl Force for Attractor {
+impl Component for Attractor {
     fn laws(&self) -> Vec<Law> {
         let (position, velocity) = (self.0.vector("position"), self.0.vector("velocity"));
         let (strength, softening) = (self.0.number("strength"), self.0.number("softening"));

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use glam::{DVec3, Vec3};
 
-use super::{Force, Law, Over, Problem, SPECIES, species, speed_limit};
+use super::{Component, Law, Over, Problem, Properties, SPECIES, Stage, evaluate, species, speed_limit};
 use crate::error::Error;
 use crate::kernel::{Plan, Scalar};
 use crate::settings::{Key, Kind, Settings, Value};
@@ -53,9 +53,10 @@ impl Boids {
     }
 }
 
-impl Force for Boids {
-    fn company(&self) -> Option<(f64, Option<u32>)> {
-        Some((self.0.number("range"), self.0.species("species")))
+impl Component for Boids {
+    fn properties(&self) -> Properties {
+        let statistics_radius = Some((self.0.number("range"), self.0.species("species")));
+        Properties { statistics_radius, constrains: true, ..Properties::default() }
     }
     fn laws(&self) -> Vec<Law> {
         let number = |name| self.0.number(name);
@@ -96,7 +97,13 @@ impl Force for Boids {
         };
         vec![Law::gathering("boids", over, crate::shader!("forces/boids.wgsl"), values, gather, finish)]
     }
-    fn limit(&self, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
+    fn stage(&self, stage: Stage, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
+        if let Stage::Evaluate { earlier } = stage {
+            return evaluate(self.laws(), earlier, plan, problem);
+        }
+        if stage != Stage::AfterKick {
+            return Ok(());
+        }
         let (least, most) = (self.0.number("min_speed"), self.0.number("max_speed"));
         speed_limit::kernel(problem, [least, most], species(&self.0, "species").0).map(|kernel| plan.add(kernel))
     }

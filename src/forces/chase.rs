@@ -2,7 +2,7 @@
 
 use glam::{DVec3, DVec4};
 
-use super::{Force, Law, SEE_NEAR, params, species};
+use super::{Component, Law, SEE_NEAR, params, species};
 use crate::kernel::World;
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::visit::Particle;
@@ -28,7 +28,7 @@ impl Chase {
     }
 }
 
-impl Force for Chase {
+impl Component for Chase {
     fn laws(&self) -> Vec<Law> {
         let (speed, force) = (self.0.number("max_speed"), self.0.number("max_force"));
         let (predators, predators_value) = species(&self.0, "species");

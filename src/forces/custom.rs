@@ -1,6 +1,6 @@
 //! A user's own law: a WGSL file that is the equal of ours, with no Rust and no compiler.
 
-use super::{Distant, Force, Law, Over};
+use super::{Component, Distant, Law, Over};
 use crate::kernel::{ACCELERATION, Name, Scalar, Source, Table};
 use crate::settings::Value;
 use crate::visit::PairTable;
@@ -35,7 +35,7 @@ impl Custom {
     }
 }
 
-impl Force for Custom {
+impl Component for Custom {
     fn laws(&self) -> Vec<Law> {
         vec![Law {
             name: self.name.clone(),

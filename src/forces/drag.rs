@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{EACH, Force, Jacobian, Law, params};
+use super::{Component, EACH, Jacobian, Law, params};
 use crate::settings::{Key, Kind, Settings, Value};
 
 /// What a scene may say.
@@ -26,7 +26,7 @@ impl Drag {
     }
 }
 
-impl Force for Drag {
+impl Component for Drag {
     fn laws(&self) -> Vec<Law> {
         let (linear, quadratic, wind) = (self.0.number("linear"), self.0.number("quadratic"), self.0.vector("wind"));
         let values = params(&self.0, &["linear", "quadratic", "wind"]);

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{Force, Law, SEE_NEAR, params, species};
+use super::{Component, Law, SEE_NEAR, params, species};
 use crate::kernel::World;
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::visit::Particle;
@@ -27,7 +27,7 @@ impl Flee {
     }
 }
 
-impl Force for Flee {
+impl Component for Flee {
     fn laws(&self) -> Vec<Law> {
         let (range, strength) = (self.0.number("range"), self.0.number("strength"));
         let (prey, prey_value) = species(&self.0, "species");

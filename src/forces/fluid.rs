@@ -4,13 +4,12 @@ use std::borrow::Cow;
 
 use glam::DVec3;
 
-use super::{Force, Law, Problem, Takes};
+use super::{Component, Problem, Properties, Resolved, Stage};
 use crate::error::Error;
 use crate::fluids::{
     self, Asked, COURANT, Continuity, Continuum, Dfsph, Friction, Limits, Medium, Rates, Smoothing, Tension, WallMass, Walls,
 };
 use crate::kernel::Plan;
-use crate::neighbors::Grid;
 use crate::settings::{Key, Kind, Settings, Value};
 
 /// What a scene may say.
@@ -146,23 +145,58 @@ impl Fluid {
     }
 }
 
-impl Force for Fluid {
-    fn laws(&self) -> Vec<Law> {
-        Vec::new()
+impl Component for Fluid {
+    fn properties(&self) -> Properties {
+        let on = |name| self.0.number(name) > 0.0;
+        let (rubs, solves) = (on("viscosity") || on("xsph"), self.solves());
+        // Pressure by summation is the slope of the internal energy, and the equation of continuity goes along with it; nothing
+        // else is. Friction along the difference of two velocities, and the curvature of a surface, turn a fluid.
+        let all = [
+            (rubs || on("alpha") && !solves, "viscosity"),
+            (self.tension().is_some(), "surface tension, which is not counted"),
+            (on("diffusion"), "diffusion"),
+            (solves, "pressure that is solved for"),
+        ];
+        let caution = "alpha goes with the speed of sound, which is none where pressure is solved for: give viscosity instead";
+        Properties {
+            evaluated_last: solves,
+            dissipates: all.into_iter().filter(|(is, _)| *is).map(|(_, what)| what).collect(),
+            dissipates_at_walls: vec!["walls"],
+            turns: rubs || self.tension().is_some(),
+            integrators: if solves { &["symplectic_euler"] } else { &[] },
+            largest_move: solves.then(|| COURANT * self.0.number("spacing")),
+            caution: (solves && on("alpha")).then_some(caution),
+            ..Properties::default()
+        }
     }
-    fn grids(&self, problem: &Problem) -> Result<Vec<(Grid, bool)>, Error> {
-        Ok(vec![(self.medium(problem)?.grid(problem)?, true)])
-    }
-    fn fluid(&self, problem: &Problem) -> Result<Option<Continuum>, Error> {
+    fn resolved(&self, problem: &Problem) -> Result<Resolved, Error> {
         let (medium, continuity) = (self.medium(problem)?, self.continuity()?);
         medium.fits(&problem.bounds)?;
         let weighs = self.walls() != Walls::Mirror || continuity.is_some_and(|its| its.diffusion > 0.0);
         let weight = weighs.then(|| self.0.vector("weight"));
-        Ok(Some(Continuum { medium, walls: self.wall_mass(), summed: continuity.is_none(), weight }))
+        let fluid = Continuum { medium, walls: self.wall_mass(), summed: continuity.is_none(), weight };
+        Ok(Resolved {
+            cell_lists: vec![(medium.grid(problem)?, true)],
+            fluid: Some(fluid),
+            rates: Some(Rates::of(&medium, self.friction(), self.0.number("xsph"))),
+            viscous_steps: fluids::viscous_steps(&medium, self.friction().viscosity, problem),
+            ..Resolved::default()
+        })
     }
-    fn rates(&self, problem: &Problem) -> Result<Option<Rates>, Error> {
-        Ok(Some(Rates::of(&self.medium(problem)?, self.friction(), self.0.number("xsph"))))
+    fn stage(&self, stage: Stage, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
+        match stage {
+            Stage::Start => self.begin(plan, problem),
+            Stage::Evaluate { .. } => self.evaluate(plan, problem),
+            Stage::AfterDrift { factor } => self.advance_density(plan, problem, factor),
+            Stage::AfterAdvance { .. } => self.refuse_stages(),
+            Stage::StepLimit => self.limit_steps(plan, problem),
+            Stage::EndOfStep if self.solves() => self.dfsph(self.medium(problem)?, problem)?.conclude(plan),
+            Stage::AfterKick | Stage::EndOfStep => Ok(()),
+        }
     }
+}
+
+impl Fluid {
     fn begin(&self, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
         let medium = self.medium(problem)?;
         if !problem.held.is_empty() {
@@ -174,13 +208,12 @@ impl Force for Fluid {
         }
         Ok(())
     }
-    fn paces(&self, plan: &mut Plan, problem: &Problem) -> Result<Option<f64>, Error> {
+    fn limit_steps(&self, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
         let medium = self.medium(problem)?;
-        let Friction { alpha, viscosity, .. } = self.friction();
-        let limits = Limits { sound: (!self.solves()).then_some(medium.sound), alpha, viscosity };
+        let limits = Limits { sound: (!self.solves()).then_some(medium.sound), alpha: self.friction().alpha };
         fluids::limits(&medium, limits, plan, problem)
     }
-    fn evaluate(&self, plan: &mut Plan, _: usize, problem: &Problem) -> Result<(), Error> {
+    fn evaluate(&self, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
         let medium = self.medium(problem)?;
         let (friction, solves) = (self.friction(), self.solves());
         let (xsph, tension) = (self.0.number("xsph"), self.tension());
@@ -211,7 +244,7 @@ impl Force for Fluid {
         Ok(())
     }
     /// Density goes along with positions, where it is a state: the neighbours are those where the drift has led.
-    fn confine(&self, plan: &mut Plan, problem: &Problem, factor: f64) -> Result<(), Error> {
+    fn advance_density(&self, plan: &mut Plan, problem: &Problem, factor: f64) -> Result<(), Error> {
         if let Some(continuity) = self.continuity()? {
             let medium = self.medium(problem)?;
             plan.add(medium.grid(problem)?.kernel(problem, true)?);
@@ -220,7 +253,7 @@ impl Force for Fluid {
         }
         Ok(())
     }
-    fn settle(&self, _: &mut Plan, _: &Problem, _: f64) -> Result<(), Error> {
+    fn refuse_stages(&self) -> Result<(), Error> {
         if self.continuity()?.is_none() {
             return Ok(());
         }
@@ -230,43 +263,5 @@ impl Force for Fluid {
              density_by = \"summation\""
                 .to_owned(),
         ))
-    }
-    fn conclude(&self, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
-        if self.solves() {
-            self.dfsph(self.medium(problem)?, problem)?.conclude(plan)?;
-        }
-        Ok(())
-    }
-    fn remark(&self, dt: f64) -> Option<String> {
-        let speed = COURANT * self.0.number("spacing") / dt;
-        let alpha = if self.0.number("alpha") > 0.0 {
-            "; alpha goes with the speed of sound, which is none where pressure is solved for: give viscosity instead"
-        } else {
-            ""
-        };
-        self.solves().then(|| {
-            format!("the fluid's dt = {dt} is for speeds up to {speed:.3}: in a step nobody should go farther than {COURANT} spacings{alpha}")
-        })
-    }
-    fn answers(&self) -> bool {
-        self.solves()
-    }
-    /// Pressure by summation is the slope of the internal energy, and the equation of continuity goes along with it; nothing else
-    /// is. Friction along the difference of two velocities, and the curvature of a surface, turn a fluid.
-    fn takes(&self, held: bool) -> Takes {
-        let on = |name| self.0.number(name) > 0.0;
-        let rubs = on("viscosity") || on("xsph");
-        let all = [
-            (rubs || on("alpha") && !self.solves(), "viscosity"),
-            (self.tension().is_some(), "surface tension, which is not counted"),
-            (on("diffusion"), "diffusion"),
-            (self.solves(), "pressure that is solved for"),
-            (held, "walls"),
-        ];
-        let energy = all.into_iter().filter(|(is, _)| *is).map(|(_, what)| what).collect();
-        Takes { energy, angular_momentum: rubs || self.tension().is_some() }
-    }
-    fn integrators(&self) -> &'static [&'static str] {
-        if self.solves() { &["symplectic_euler"] } else { &[] }
     }
 }

@@ -2,7 +2,7 @@
 
 use glam::{DVec3, DVec4};
 
-use super::{EACH, Force, Law, SPECIES, params, species};
+use super::{Component, EACH, Law, SPECIES, params, species};
 use crate::settings::{Key, Kind, Settings, Value};
 
 /// What a scene may say.
@@ -28,7 +28,7 @@ impl Goal {
     }
 }
 
-impl Force for Goal {
+impl Component for Goal {
     fn laws(&self) -> Vec<Law> {
         let (position, velocity) = (self.0.vector("position"), self.0.vector("velocity"));
         let number = |name| self.0.number(name);

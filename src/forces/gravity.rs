@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use glam::{DVec3, DVec4};
 
-use super::{Force, Law, Over, Problem, ewald, params};
+use super::{Component, Law, Over, Problem, Properties, Stage, evaluate, ewald, numbered, params};
 use crate::error::Error;
 use crate::kernel::{Plan, Side, Source, World};
 use crate::settings::{Key, Kind, Settings, Value};
@@ -74,7 +74,7 @@ impl Gravity {
     }
 }
 
-impl Force for Gravity {
+impl Component for Gravity {
     fn laws(&self) -> Vec<Law> {
         let values = params(&self.0, &["g", "softening"]);
         let (g, softening) = (self.0.number("g"), self.0.number("softening"));
@@ -114,15 +114,13 @@ impl Force for Gravity {
             Law::attracting("gravity", self.over(0.0), files, values, rule, far)
         }]
     }
-    fn goes_by_mass(&self) -> bool {
-        true
+    fn properties(&self) -> Properties {
+        Properties { ignores_massless: true, ..Properties::default() }
     }
-    fn evaluate(&self, plan: &mut Plan, earlier: usize, problem: &Problem) -> Result<(), Error> {
+    fn stage(&self, stage: Stage, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
+        let Stage::Evaluate { earlier } = stage else { return Ok(()) };
         self.fits(problem)?;
-        let name = |name: &str| if earlier == 0 { name.to_owned() } else { format!("{name} {}", earlier + 1) };
-        for law in self.laws() {
-            plan.push(&name(&law.name), || law.kernel(problem))?;
-        }
+        evaluate(self.laws(), earlier, plan, problem)?;
         if self.all_images() {
             let sources = [
                 crate::shader!("forces/gravity_waves.wgsl"),
@@ -132,8 +130,8 @@ impl Force for Gravity {
             ];
             let world = [crate::shader!("world.wgsl"), crate::shader!("fields.wgsl")];
             let [structure, images] = ewald::kernels(self.0.number("g"), &world, sources, problem)?;
-            plan.push(&name("gravity structure"), || Ok(structure))?;
-            plan.push(&name("gravity images"), || Ok(images))?;
+            plan.push(&numbered("gravity structure", earlier), || Ok(structure))?;
+            plan.push(&numbered("gravity images", earlier), || Ok(images))?;
         }
         Ok(())
     }

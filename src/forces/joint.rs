@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use glam::{DVec3, DVec4};
 
-use super::{Force, Law, Over};
+use super::{Component, Law, Over};
 use crate::settings::{Key, Kind, Settings, Value};
 
 /// What a scene may say.
@@ -27,7 +27,7 @@ impl Joint {
     }
 }
 
-impl Force for Joint {
+impl Component for Joint {
     fn laws(&self) -> Vec<Law> {
         let law = Law::corners("joint", Over::Joints, crate::shader!("forces/joint.wgsl"), Vec::new(), |at, corner, world| {
             let [there, on] = [(0, 1), (1, 2)].map(|(a, b)| world.bounds.shortest(at[b].position - at[a].position));

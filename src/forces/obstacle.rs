@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use glam::{DVec3, DVec4};
 
-use super::{EACH, Force, Law, SPECIES, params, species};
+use super::{Component, EACH, Law, SPECIES, params, species};
 use crate::kernel::Scalar;
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::solids::Solid;
@@ -40,7 +40,7 @@ impl Obstacle {
     }
 }
 
-impl Force for Obstacle {
+impl Component for Obstacle {
     fn laws(&self) -> Vec<Law> {
         let number = |name| self.0.number(name);
         let (ahead, clearance, force) = (number("look_ahead"), number("clearance"), number("max_force"));

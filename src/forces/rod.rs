@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::{Force, Law, Problem};
+use super::{Component, Problem, Properties, Stage};
 use crate::error::Error;
 use crate::kernel::{Bounds, Host, Kernel, POSITION, Plan, Shader, VELOCITY};
 use crate::links::{Chains, Node};
@@ -41,24 +41,18 @@ impl Rod {
     }
 }
 
-impl Force for Rod {
-    fn keeps_to_even_steps(&self) -> Option<&'static str> {
-        Some("rods are kept by velocities that were made for the step before")
+impl Component for Rod {
+    fn properties(&self) -> Properties {
+        let why = "rods are kept by velocities that were made for the step before";
+        Properties { fixed_step: Some(why), keeps_rods: true, constrains: true, ..Properties::default() }
     }
-    fn laws(&self) -> Vec<Law> {
-        Vec::new()
-    }
-    fn limit(&self, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
-        add(plan, problem, 0.0, false)
-    }
-    fn confine(&self, plan: &mut Plan, problem: &Problem, factor: f64) -> Result<(), Error> {
-        add(plan, problem, factor, false)
-    }
-    fn settle(&self, plan: &mut Plan, problem: &Problem, factor: f64) -> Result<(), Error> {
-        add(plan, problem, factor, true)
-    }
-    fn keeps_rods(&self) -> bool {
-        true
+    fn stage(&self, stage: Stage, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
+        match stage {
+            Stage::AfterKick => add(plan, problem, 0.0, false),
+            Stage::AfterDrift { factor } => add(plan, problem, factor, false),
+            Stage::AfterAdvance { factor } => add(plan, problem, factor, true),
+            _ => Ok(()),
+        }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use glam::{DVec3, DVec4};
 
-use super::{EACH, Force, Law, SPECIES, params, species};
+use super::{Component, EACH, Law, SPECIES, params, species};
 use crate::settings::{Key, Kind, Settings, Value};
 
 /// What a scene may say.
@@ -27,7 +27,7 @@ impl SoftTurn {
     }
 }
 
-impl Force for SoftTurn {
+impl Component for SoftTurn {
     fn laws(&self) -> Vec<Law> {
         let (low, high) = (self.0.vector("low"), self.0.vector("high"));
         let (margin, acceleration) = (self.0.number("margin"), self.0.number("acceleration"));

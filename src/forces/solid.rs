@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{EACH, Force, Keeper, Kind as Who, Law, Problem, SPECIES, species};
+use super::{Component, EACH, Kind as Who, Problem, Projection, Properties, Resolved, SPECIES, Stage, species};
 use crate::error::Error;
 use crate::kernel::{Host, Kernel, POSITION, Plan, Scalar, Shader, Source, VELOCITY, World, time};
 use crate::motion::{Motion, Pose};
@@ -103,11 +103,8 @@ impl Solid {
     }
 }
 
-impl Force for Solid {
-    fn laws(&self) -> Vec<Law> {
-        Vec::new()
-    }
-    fn standing(&self) -> Option<Standing> {
+impl Component for Solid {
+    fn properties(&self) -> Properties {
         let (radius, position) = (self.0.number("radius"), self.0.vector("position"));
         let solid = match self.0.text("shape") {
             "plane" => Shape::Plane(self.0.vector("normal").normalize_or(DVec3::Z)),
@@ -116,17 +113,20 @@ impl Force for Solid {
             _ => Shape::Sphere(radius),
         };
         let inside = self.0.flag("inside") && !matches!(solid, Shape::Plane(_));
-        Some(Standing { solid, position, motion: self.0.text("motion").to_owned(), inside })
+        let pictured = Some(Standing { solid, position, motion: self.0.text("motion").to_owned(), inside });
+        Properties { pictured, constrains: true, ..Properties::default() }
     }
-    fn keeper(&self, problem: &Problem) -> Result<Option<Keeper>, Error> {
+    fn resolved(&self, problem: &Problem) -> Result<Resolved, Error> {
         let wall = self.wall(problem)?;
         let (frame, bounds) = (wall.frame(0.0), problem.bounds);
-        Ok(Some(Box::new(move |kind, x| {
+        let projection: Projection = Box::new(move |kind, x| {
             let world = World { time: 0.0, dt: 0.0, step: 0, count: 1, bounds };
             if wall.who.is(kind) { x + wall.meet(&frame, x, DVec3::ZERO, 0.0, &world).0 } else { x }
-        })))
+        });
+        Ok(Resolved { initial_projection: Some(projection), ..Resolved::default() })
     }
-    fn confine(&self, plan: &mut Plan, problem: &Problem, factor: f64) -> Result<(), Error> {
+    fn stage(&self, stage: Stage, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
+        let (Stage::AfterDrift { factor } | Stage::AfterAdvance { factor }) = stage else { return Ok(()) };
         plan.add(kernel(self.wall(problem)?, problem, factor)?);
         Ok(())
     }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec4;
 
-use super::{Force, Kind as Who, Law, Problem, SPECIES, species};
+use super::{Component, Kind as Who, Problem, Properties, SPECIES, Stage, species};
 use crate::error::Error;
 use crate::kernel::{Host, Kernel, Pass, Plan, Scalar, Shader, VELOCITY};
 use crate::visit::Particle;
@@ -28,11 +28,14 @@ impl SpeedLimit {
     }
 }
 
-impl Force for SpeedLimit {
-    fn laws(&self) -> Vec<Law> {
-        Vec::new()
+impl Component for SpeedLimit {
+    fn properties(&self) -> Properties {
+        Properties { constrains: true, ..Properties::default() }
     }
-    fn limit(&self, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
+    fn stage(&self, stage: Stage, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
+        if stage != Stage::AfterKick {
+            return Ok(());
+        }
         let limits = [self.0.number("min"), self.0.number("max")];
         kernel(problem, limits, species(&self.0, "species").0).map(|kernel| plan.add(kernel))
     }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::{DVec3, DVec4};
 
-use super::{Force, Jacobian, Law};
+use super::{Component, Jacobian, Law};
 use crate::settings::{Key, Kind, Settings, Value};
 
 /// What a scene may say.
@@ -28,7 +28,7 @@ impl Spring {
     }
 }
 
-impl Force for Spring {
+impl Component for Spring {
     fn laws(&self) -> Vec<Law> {
         vec![Law::links(
             "spring",

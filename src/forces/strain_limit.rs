@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::{DVec3, Vec4};
 
-use super::{Force, Law, Over, Problem};
+use super::{Component, Over, Problem, Properties, Stage};
 use crate::error::Error;
 use crate::kernel::{Field, Host, Kernel, POSITION, Pass, Plan, Shader, VELOCITY};
 use crate::settings::{Key, Kind, Settings, Value};
@@ -91,14 +91,13 @@ fn apply(problem: &Problem, factor: f64) -> Result<Kernel, Error> {
     Ok(Kernel::new("limited", shader, vec![("FACTOR", factor)], problem.count, Arc::new(twin)))
 }
 
-impl Force for StrainLimit {
-    fn keeps_to_even_steps(&self) -> Option<&'static str> {
-        Some("strain_limit corrects velocities by what a step of a known length makes of them")
+impl Component for StrainLimit {
+    fn properties(&self) -> Properties {
+        let why = "strain_limit corrects velocities by what a step of a known length makes of them";
+        Properties { fixed_step: Some(why), constrains: true, ..Properties::default() }
     }
-    fn laws(&self) -> Vec<Law> {
-        Vec::new()
-    }
-    fn confine(&self, plan: &mut Plan, problem: &Problem, factor: f64) -> Result<(), Error> {
+    fn stage(&self, stage: Stage, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
+        let (Stage::AfterDrift { factor } | Stage::AfterAdvance { factor }) = stage else { return Ok(()) };
         let (sweep, apply) = (self.sweep(problem)?, apply(problem, factor)?);
         for _ in 0..self.sweeps {
             plan.add(sweep.clone());

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use super::{Force, Law, Over, Problem};
+use super::{Component, Over, Problem, Properties, Stage};
 use crate::error::Error;
 use crate::kernel::{Kernel, Pass, Plan, Shader, Twin};
 use crate::links::{Half, WORDS};
@@ -49,14 +49,14 @@ impl Tear {
     }
 }
 
-impl Force for Tear {
-    fn laws(&self) -> Vec<Law> {
-        Vec::new()
+impl Component for Tear {
+    fn properties(&self) -> Properties {
+        Properties { breaks_bonds: true, ..Properties::default() }
     }
-    fn breaks(&self) -> bool {
-        true
-    }
-    fn conclude(&self, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
+    fn stage(&self, stage: Stage, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
+        if stage != Stage::EndOfStep {
+            return Ok(());
+        }
         let shader = Shader::join(&[
             crate::shader!("world.wgsl"),
             crate::shader!("fields.wgsl"),

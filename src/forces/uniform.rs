@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{EACH, Force, Law, params};
+use super::{Component, EACH, Law, params};
 use crate::settings::{Key, Kind, Settings, Value};
 
 /// What a scene may say.
@@ -22,7 +22,7 @@ impl Uniform {
     }
 }
 
-impl Force for Uniform {
+impl Component for Uniform {
     fn laws(&self) -> Vec<Law> {
         let g = self.0.vector("acceleration");
         let values = params(&self.0, &["acceleration"]);

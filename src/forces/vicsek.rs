@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use glam::{DVec2, DVec3};
 
-use super::{Force, Law, SEED, SEE_NEAR};
+use super::{Component, Law, Properties, SEED, SEE_NEAR};
 use crate::kernel::{Scalar, World};
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::visit::Particle;
@@ -48,12 +48,14 @@ fn heading(v: DVec3) -> DVec2 {
     v.truncate().normalize_or_zero()
 }
 
-impl Force for Vicsek {
-    fn keeps_to_even_steps(&self) -> Option<&'static str> {
-        Some("vicsek sets headings once in a step, and its noise is told by steps")
-    }
-    fn company(&self) -> Option<(f64, Option<u32>)> {
-        Some((self.0.number("range"), None))
+impl Component for Vicsek {
+    fn properties(&self) -> Properties {
+        Properties {
+            statistics_radius: Some((self.0.number("range"), None)),
+            fixed_step: Some("vicsek sets headings once in a step, and its noise is told by steps"),
+            integrators: &["forward_euler", "symplectic_euler"],
+            ..Properties::default()
+        }
     }
     fn laws(&self) -> Vec<Law> {
         let (speed, eta, vectorial) = (self.0.number("speed"), self.0.number("noise"), self.0.text("noise_kind") == "vectorial");
@@ -81,8 +83,5 @@ impl Force for Vicsek {
         };
         let over = super::over(&self.0, None);
         vec![Law::gathering("vicsek", over, crate::shader!("forces/vicsek.wgsl"), values, gather, finish)]
-    }
-    fn integrators(&self) -> &'static [&'static str] {
-        &["forward_euler", "symplectic_euler"]
     }
 }

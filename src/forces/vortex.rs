@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{EACH, Force, Jacobian, Law};
+use super::{Component, EACH, Jacobian, Law};
 use crate::kernel::Scalar;
 use crate::settings::{Key, Kind, Settings, Value};
 
@@ -29,7 +29,7 @@ impl Vortex {
     }
 }
 
-impl Force for Vortex {
+impl Component for Vortex {
     fn laws(&self) -> Vec<Law> {
         let (center, axis) = (self.0.vector("center"), self.0.vector("axis").normalize_or_zero());
         let (circulation, core, rate) = (self.0.number("circulation"), self.0.number("core"), self.0.number("rate"));

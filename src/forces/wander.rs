@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use glam::{DVec3, DVec4};
 
-use super::{EACH, Force, Law, SEED, SPECIES, params, species};
+use super::{Component, EACH, Law, Properties, SEED, SPECIES, params, species};
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::visit::random::{fraction, pcg4d, words};
 
@@ -28,9 +28,9 @@ impl Wander {
     }
 }
 
-impl Force for Wander {
-    fn keeps_to_even_steps(&self) -> Option<&'static str> {
-        Some("a random walk has as many kicks as steps, of a strength that goes with their length")
+impl Component for Wander {
+    fn properties(&self) -> Properties {
+        Properties { fixed_step: Some("a random walk has as many kicks as steps, of a strength that goes with their length"), ..Properties::default() }
     }
     fn laws(&self) -> Vec<Law> {
         let strength = self.0.number("strength");

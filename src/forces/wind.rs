@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{EACH, Force, Jacobian, Law, params};
+use super::{Component, EACH, Jacobian, Law, params};
 use crate::settings::{Key, Kind, Settings, Value};
 
 /// What a scene may say.
@@ -57,7 +57,7 @@ impl Gusts {
     }
 }
 
-impl Force for Wind {
+impl Component for Wind {
     fn laws(&self) -> Vec<Law> {
         let (gusts, rate) = (Gusts::new(self.0.vector("velocity"), &self.0), self.0.number("rate"));
         let values = params(&self.0, &["velocity", "rate", "gust", "period", "wavelength"]);

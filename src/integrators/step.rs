@@ -13,13 +13,13 @@ use glam::DVec4;
 use super::verbs::{at, clear, drift, held, keep, kick, kick_drift, life, pace, runge_kutta, tick, watch};
 use crate::boundary;
 use crate::error::Error;
-use crate::forces::{Force, Problem};
+use crate::forces::{Component, Problem, Stage};
 use crate::kernel::{ACCELERATION, Kernel, Plan, Twin};
 use crate::tree::Opening;
 
 /// Writes a plan in verbs. The first error is kept and given at the end, so that an integrator reads like its textbook.
 pub struct Step<'a> {
-    forces: &'a [Box<dyn Force>],
+    forces: &'a [Box<dyn Component>],
     problem: Problem,
     plan: Plan,
     evaluated: bool,
@@ -37,7 +37,7 @@ pub struct Step<'a> {
 impl<'a> Step<'a> {
     /// An empty step of particles under some forces.
     #[must_use]
-    pub fn new(forces: &'a [Box<dyn Force>], problem: Problem) -> Self {
+    pub fn new(forces: &'a [Box<dyn Component>], problem: Problem) -> Self {
         Self {
             forces,
             problem,
@@ -80,15 +80,16 @@ impl<'a> Step<'a> {
         self.moved = false;
         self.neighbors(&chosen);
         let mut laws = Plan::default();
-        let name = |force: &dyn Force| force.laws().first().map(|law| law.name.clone());
+        let name = |force: &dyn Component| force.laws().first().map(|law| law.name.clone());
         let all = || self.forces.iter().enumerate().filter(|(place, _)| chosen(*place));
-        let ordered = all().filter(|(_, force)| !force.answers()).chain(all().filter(|(_, force)| force.answers()));
+        let last = |force: &Box<dyn Component>| force.properties().evaluated_last;
+        let ordered = all().filter(|(_, force)| !last(*force)).chain(all().filter(|(_, force)| last(*force)));
         for (place, force) in ordered {
             // Two forces of one kind are two kernels.
             let earlier =
                 self.forces[..place].iter().filter(|other| name(other.as_ref()) == name(force.as_ref())).count();
             if self.error.is_none() {
-                self.error = force.evaluate(&mut laws, earlier, &self.problem).err();
+                self.error = force.stage(Stage::Evaluate { earlier }, &mut laws, &self.problem).err();
             }
         }
         laws.steps().cloned().collect()
@@ -116,7 +117,7 @@ impl<'a> Step<'a> {
     }
     /// What forces do once, before the first step.
     pub fn begin(&mut self) {
-        self.each_force(|force, plan, problem| force.begin(plan, problem));
+        self.each(Stage::Start);
     }
     /// v ← v + c a dt, within the limits of speed
     pub fn kick(&mut self, factor: f64) {
@@ -165,7 +166,7 @@ impl<'a> Step<'a> {
         self.enclose();
         self.drifted = 1.0;
         self.problem.reached = self.drifted;
-        self.each_force(|force, plan, problem| force.settle(plan, problem, 1.0));
+        self.each(Stage::AfterAdvance { factor: 1.0 });
     }
 
     /// The plan of what is done once: what the integrator wrote, and a look for numbers that are broken from the start,
@@ -195,7 +196,7 @@ impl<'a> Step<'a> {
     /// # Errors
     /// The first thing that went wrong while the step was written.
     pub fn done(mut self) -> Result<Plan, Error> {
-        self.each_force(|force, plan, problem| force.conclude(plan, problem));
+        self.each(Stage::EndOfStep);
         self.add(if self.problem.pace.is_some() { pace::tick(&self.problem) } else { tick::kernel() });
         self.populate();
         // Who has just been born has a say in the length of its first step.
@@ -227,7 +228,7 @@ impl<'a> Step<'a> {
     ///
     /// # Errors
     /// The first thing that went wrong while they were written.
-    pub fn measurement(forces: &'a [Box<dyn Force>], problem: Problem) -> Result<(Plan, Plan), Error> {
+    pub fn measurement(forces: &'a [Box<dyn Component>], problem: Problem) -> Result<(Plan, Plan), Error> {
         let count = problem.count;
         let mut before = Self::new(forces, problem.clone());
         before.add(keep::keep(count));
@@ -240,19 +241,20 @@ impl<'a> Step<'a> {
     /// What forces make of positions that are not allowed, after an advance by a part of the step.
     fn confine(&mut self, factor: f64) {
         self.problem.reached = self.drifted;
-        self.each_force(|force, plan, problem| force.confine(plan, problem, factor));
+        self.each(Stage::AfterDrift { factor });
     }
     /// What forces make of velocities that are not allowed.
     fn limit(&mut self) {
-        self.each_force(|force, plan, problem| force.limit(plan, problem));
+        self.each(Stage::AfterKick);
     }
-    fn each_force(&mut self, write: impl Fn(&dyn Force, &mut Plan, &Problem) -> Result<(), Error>) {
+    /// What all components do at a stage.
+    fn each(&mut self, stage: Stage) {
         let mut plan = Plan::default();
         // Rods have the last word, wherever a scene names them: what moves one end after them stretches them.
-        let (rods, others): (Vec<_>, Vec<_>) = self.forces.iter().partition(|force| force.keeps_rods());
+        let (rods, others): (Vec<_>, Vec<_>) = self.forces.iter().partition(|force| force.properties().keeps_rods);
         for force in others.into_iter().chain(rods) {
             if self.error.is_none() {
-                self.error = write(force.as_ref(), &mut plan, &self.problem).err();
+                self.error = force.stage(stage, &mut plan, &self.problem).err();
             }
         }
         plan.steps().for_each(|kernel| self.add(Ok(kernel.clone())));

@@ -3,7 +3,7 @@
 use glam::DVec4;
 
 use crate::error::Error;
-use crate::forces::{Force, Problem};
+use crate::forces::{Component, Problem};
 use crate::gpu::Gpu;
 use crate::integrators::Step;
 use crate::kernel::{ACCELERATION, Array, Backend, Host, Plan};
@@ -32,7 +32,7 @@ pub struct Truncation {
 /// What the device says.
 pub async fn truncation(
     gpu: &mut Gpu,
-    forces: &[Box<dyn Force>],
+    forces: &[Box<dyn Component>],
     problem: &Problem,
     targets: usize,
 ) -> Result<Vec<Truncation>, Error> {

@@ -102,7 +102,7 @@ impl Grid {
     }
     /// The twin.
     fn sort(&self, host: &Host, problem: &Problem, moving: bool) -> Result<(), Error> {
-        let (position, velocity) = (host.read(POSITION)?, host.read(VELOCITY)?);
+        let position = host.read(POSITION)?;
         let count = (host.world().count as usize).min(position.len());
         let species = if self.of.is_some() { host.read(SPECIES)?.to_vec() } else { Vec::new() };
         let lives = host.lives()?;
@@ -118,6 +118,7 @@ impl Grid {
             (ids[slot], positions[slot]) = (*id, cells.homes[i].as_dvec3().extend(position[i].w));
         }
         if moving {
+            let velocity = host.read(VELOCITY)?;
             let mut velocities = host.writing::<Vec4>(&self.field(SORTED_VELOCITY).1)?;
             for (to, id) in velocities.iter_mut().zip(&cells.ids) {
                 *to = velocity[*id as usize];

@@ -1,7 +1,7 @@
 //! What the force of a fluid says for the shapes and emitters that make it: one lattice for all.
 
 use crate::error::Error;
-use crate::forces::{self, Force, Problem};
+use crate::forces::{self, Component, Problem};
 use crate::kernel::{Bounds, Machine};
 use crate::particles::SHAPES;
 use crate::settings::{Key, Value};
@@ -81,13 +81,13 @@ fn given(table: &Table<'_>, keys: &[Key], name: &str) -> Option<Value> {
 /// says whether there is one already.
 pub(super) fn check(
     table: &Table<'_>,
-    force: &dyn Force,
+    force: &dyn Component,
     (bounds, particles, earlier): (&Bounds, &State, bool),
     report: &mut Report,
 ) -> bool {
     let machine = Machine::HOST;
     let problem = Problem::new(1, machine).at(&[], *bounds);
-    let why = match force.fluid(&problem) {
+    let why = match force.resolved(&problem).map(|resolved| resolved.fluid) {
         Ok(None) => return false,
         Ok(Some(_)) if earlier => "there are two forces that make a fluid of everybody: leave one of them".to_owned(),
         Ok(Some(_)) if !particles.is_empty() && particles.held.len() == particles.len() => {

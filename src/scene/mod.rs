@@ -39,7 +39,7 @@ mod walk;
 
 use std::ops::Range;
 
-use crate::forces::Force;
+use crate::forces::Component;
 use crate::integrators;
 use crate::kernel::{Bounds, Pace, Solver};
 use crate::render;
@@ -89,7 +89,7 @@ pub struct Scene {
     /// id.
     pub groups: Vec<Group>,
     /// The forces, in the order of the scene; there may be none.
-    pub forces: Vec<Box<dyn Force>>,
+    pub forces: Vec<Box<dyn Component>>,
     /// What is written.
     pub output: Output,
     /// How pictures are made: the values of [`render::KEYS`].
@@ -215,7 +215,7 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
         links::read(table, &mut particles, &bounds, files, &mut out, report);
     }
 
-    let mut forces: Vec<Box<dyn Force>> = Vec::new();
+    let mut forces: Vec<Box<dyn Component>> = Vec::new();
     let mut flows = false;
     for table in all("force") {
         let faults = report.len();

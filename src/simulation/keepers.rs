@@ -21,8 +21,8 @@ pub(super) struct Kept {
 /// Asks all forces.
 pub(super) fn kept(setup: &Setup, problem: &Problem) -> Result<Kept, Error> {
     let mut kept = Kept { places: setup.state.position().to_vec(), moved: Vec::new() };
-    let keepers = setup.forces.iter().filter_map(|force| force.keeper(problem).transpose());
-    let keepers = keepers.collect::<Result<Vec<_>, _>>()?;
+    let resolved = setup.forces.iter().map(|force| force.resolved(problem)).collect::<Result<Vec<_>, _>>()?;
+    let keepers: Vec<_> = resolved.into_iter().filter_map(|resolved| resolved.initial_projection).collect();
     if keepers.is_empty() {
         return Ok(kept);
     }

@@ -1,7 +1,7 @@
 //! What goes together with births and deaths, and what does not.
 
 use crate::error::Error;
-use crate::forces::{Force, Over};
+use crate::forces::{Component, Over};
 use crate::integrators::Integrator;
 use crate::state::State;
 
@@ -10,7 +10,7 @@ use crate::state::State;
 ///
 /// # Errors
 /// [`Error::Scene`] that names what does not.
-pub fn serves(particles: &State, forces: &[Box<dyn Force>], integrator: &dyn Integrator) -> Result<(), Error> {
+pub fn serves(particles: &State, forces: &[Box<dyn Component>], integrator: &dyn Integrator) -> Result<(), Error> {
     if !particles.is_mortal() {
         return Ok(());
     }
@@ -30,7 +30,7 @@ pub fn serves(particles: &State, forces: &[Box<dyn Force>], integrator: &dyn Int
                 | Over::Links
                 | Over::Joints
                 | Over::Triangles => {}
-                _ if force.goes_by_mass() => {}
+                _ if force.properties().ignores_massless => {}
                 _ => {
                     return refuse(format!(
                         "`{name}` over \"{over}\" meets everybody, and where particles are born or die, some do not live: say over = \

@@ -6,7 +6,7 @@ use super::{keepers, mortals};
 use crate::boundary;
 use crate::error::Error;
 use crate::fluids::{Start, Still};
-use crate::forces::{Force, Problem};
+use crate::forces::{Component, Problem, Stage};
 use crate::integrators::{Integrator, Step};
 use crate::kernel::{Bounds, Columns, Machine, Plan, Solver};
 use crate::life;
@@ -18,7 +18,7 @@ pub struct Setup {
     /// What moves, and where it starts.
     pub state: State,
     /// What moves it, in this order.
-    pub forces: Vec<Box<dyn Force>>,
+    pub forces: Vec<Box<dyn Component>>,
     /// How.
     pub integrator: Box<dyn Integrator>,
     /// The step size \[time\].
@@ -76,7 +76,7 @@ impl Setup {
                     .to_owned(),
             ));
         }
-        match self.forces.iter().find_map(|force| force.keeps_to_even_steps()) {
+        match self.forces.iter().find_map(|force| force.properties().fixed_step) {
             Some(why) => Err(Error::Scene(format!("steps cannot be adaptive: {why}; choose a fixed dt"))),
             None => Ok(()),
         }
@@ -121,7 +121,7 @@ impl Setup {
     /// Whether forces do something once, before the first step.
     pub(super) fn begins(&self, machine: Machine) -> Result<bool, Error> {
         let (mut plan, problem) = (Plan::default(), self.problem(machine)?);
-        self.forces.iter().try_for_each(|force| force.begin(&mut plan, &problem))?;
+        self.forces.iter().try_for_each(|force| force.stage(Stage::Start, &mut plan, &problem))?;
         Ok(!plan.order.is_empty())
     }
     /// How its fluid starts, if there is one: how dense it is before the first step, by a look at everybody, which takes as
@@ -132,8 +132,8 @@ impl Setup {
     /// [`Error::Scene`] names the particles and the cause.
     pub fn start(&self) -> Result<Option<Start>, Error> {
         let problem = self.problem(Machine::HOST)?;
-        let mut media = self.forces.iter().map(|force| force.fluid(&problem));
-        let Some(fluid) = media.find_map(Result::transpose).transpose()? else { return Ok(None) };
+        let mut media = self.forces.iter().map(|force| Ok(force.resolved(&problem)?.fluid));
+        let Some(fluid) = media.find_map(Result::<_, Error>::transpose).transpose()? else { return Ok(None) };
         // Who waits or is dead is in nobody's way; a scene has the ids of those last.
         let living: Vec<usize> = (0..self.state.len()).filter(|id| self.state.lives(*id)).collect();
         let of = |list: &[DVec3]| -> Vec<DVec3> { living.iter().map(|id| list[*id]).collect() };
@@ -169,7 +169,11 @@ impl Setup {
     /// Refuses two fluids: each would take everybody for its own.
     fn fluids(&self) -> Result<(), Error> {
         let problem = Problem::new(1, Machine::HOST).at(&[], self.bounds);
-        let fluids = self.forces.iter().map(|force| force.fluid(&problem)).filter_map(Result::transpose);
+        let fluids = self
+            .forces
+            .iter()
+            .map(|force| Ok(force.resolved(&problem)?.fluid))
+            .filter_map(Result::<_, Error>::transpose);
         let count = fluids.collect::<Result<Vec<_>, _>>()?.len();
         if count > 1 {
             return Err(Error::Scene(format!(
@@ -181,7 +185,7 @@ impl Setup {
     /// Whether links may change as it runs.
     #[must_use]
     pub fn breaks(&self) -> bool {
-        self.forces.iter().any(|force| force.breaks())
+        self.forces.iter().any(|force| force.properties().breaks_bonds)
     }
     /// The number of particles, if all is well.
     ///
@@ -222,7 +226,7 @@ impl Setup {
         motion::check(held, motions, count, self.bounds.dimensions, self.dt)?;
         life::check((life, births, drains), held, count, self.bounds.dimensions)?;
         mortals::serves(&self.state, &self.forces, self.integrator.as_ref())?;
-        if !links.rods.is_empty() && !self.forces.iter().any(|force| force.keeps_rods()) {
+        if !links.rods.is_empty() && !self.forces.iter().any(|force| force.properties().keeps_rods) {
             let text = format!(
                 "nothing keeps the lengths of the rods (of which there are {}): add a [[force]] of kind = \"rod\"",
                 links.rods.len()

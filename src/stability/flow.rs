@@ -46,7 +46,12 @@ impl Flow {
     /// When there is no such fluid, or what a simulation of one particle by the twins says.
     pub async fn of(setup: &Setup, build: Build) -> Result<Option<Self>, Error> {
         let problem = setup.problem(Machine::HOST)?;
-        let Some(rates) = setup.forces.iter().find_map(|force| force.rates(&problem).transpose()).transpose()? else {
+        let Some(rates) = setup
+            .forces
+            .iter()
+            .find_map(|force| force.resolved(&problem).map(|resolved| resolved.rates).transpose())
+            .transpose()?
+        else {
             return Ok(None);
         };
         // What is not solved for goes by the step of an explicit method.

@@ -8,7 +8,7 @@ use glam::{DMat3, DVec3, DVec4};
 
 use crate::cpu::Cpu;
 use crate::error::Error;
-use crate::forces::{self, Force};
+use crate::forces::{self, Component};
 use crate::integrators::Integrator;
 use crate::kernel::{ACCELERATION, Array, Backend, Bounds, POSITION, Solver, VELOCITY, World};
 use crate::settings::{Settings, Value};
@@ -165,13 +165,13 @@ pub fn oscillator(integrator: Box<dyn Integrator>, omega: f64, damping: f64, dt:
     particles.push(DVec3::X, DVec3::ZERO, 1.0, 0.0);
     let spring = [("profile", Value::Text(Cow::Borrowed("harmonic"))), ("strength", Value::Number(omega * omega))];
     let drag = [("linear", Value::Number(damping))];
-    let mut forces: Vec<Box<dyn Force>> = Vec::new();
+    let mut forces: Vec<Box<dyn Component>> = Vec::new();
     forces.extend(force("attractor", &spring).filter(|_| omega != 0.0));
     forces.extend(force("drag", &drag).filter(|_| damping != 0.0));
     Setup { state: particles, forces, integrator, dt, bounds: Bounds::default(), solver: Solver::default() }
 }
 
-fn force(name: &str, settings: &[(&'static str, Value)]) -> Option<Box<dyn Force>> {
+fn force(name: &str, settings: &[(&'static str, Value)]) -> Option<Box<dyn Component>> {
     let entry = forces::entry(name)?;
     let all = settings.iter().fold(Settings::defaults(entry.keys), |all, (key, value)| all.with(key, value.clone()));
     Some((entry.build)(&all))

@@ -155,7 +155,7 @@ fn who_waits_is_not_looked_at_as_a_start() {
     let mut setup = pool(drains());
     // Its solid stands in the middle of the fluid, and would press it together.
     assert!(setup.start().is_err_and(|why| why.to_string().contains("stand within solids")));
-    setup.forces.retain(|force| force.standing().is_none());
+    setup.forces.retain(|force| force.properties().pictured.is_none());
     let start = setup.start().expect("no explosion").expect("a fluid");
     assert_eq!(start.fluid as usize, 60);
 }

@@ -10,7 +10,7 @@ mod schedule;
 mod support;
 
 use glam::DVec3;
-use motes::forces::Force;
+use motes::forces::Component;
 use motes::kernel::Backend;
 use motes::life::Drain;
 use motes::particles::emitter;
@@ -56,7 +56,7 @@ fn spray(end: f64) -> State {
 }
 
 /// What is to run.
-fn setup(particles: State, forces: Vec<Box<dyn Force>>, bounds: Bounds) -> Setup {
+fn setup(particles: State, forces: Vec<Box<dyn Component>>, bounds: Bounds) -> Setup {
     Setup {
         state: particles,
         forces,
@@ -68,12 +68,12 @@ fn setup(particles: State, forces: Vec<Box<dyn Force>>, bounds: Bounds) -> Setup
 }
 
 /// A fluid of that spacing in the plane, slow enough for [`DT`].
-fn fluid() -> Box<dyn Force> {
+fn fluid() -> Box<dyn Component> {
     fluid_with(&[])
 }
 
 /// The same, and some more.
-fn fluid_with(more: &[(&'static str, Value)]) -> Box<dyn Force> {
+fn fluid_with(more: &[(&'static str, Value)]) -> Box<dyn Component> {
     let known =
         [("spacing", 0.1), ("sound_speed", 2.0), ("alpha", 0.1)].map(|(key, value)| (key, Value::Number(value)));
     force("fluid", &[&known, more].concat())

@@ -1,7 +1,7 @@
 //! Forces in a periodic box: the nearest image, on every machine.
 
 use glam::{DVec3, DVec4};
-use motes::forces::{FORCES, Force, Problem};
+use motes::forces::{Component, FORCES, Problem};
 use motes::integrators::Step;
 use motes::kernel::Backend;
 use motes::lockstep::{Verdict, compare};
@@ -72,7 +72,7 @@ fn cube(length: f64) -> Bounds {
     Bounds::new(DVec3::ZERO, DVec3::splat(length), Side::Periodic)
 }
 
-fn gravity() -> Vec<Box<dyn Force>> {
+fn gravity() -> Vec<Box<dyn Component>> {
     vec![force("gravity", &[("softening", Value::Number(0.05))])]
 }
 
@@ -131,7 +131,7 @@ fn a_lattice_is_the_same_everywhere() {
 #[test]
 fn forces_are_gradients() {
     let bounds = odd([Side::Periodic, Side::Open, Side::Periodic]);
-    let laws: [Vec<Box<dyn Force>>; 4] = [
+    let laws: [Vec<Box<dyn Component>>; 4] = [
         gravity(),
         vec![force("gravity", &[("softening", Value::Number(0.3)), ("kernel", word("spline"))])],
         vec![force("attractor", &[("softening", Value::Number(0.2))])],

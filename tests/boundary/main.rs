@@ -11,7 +11,7 @@ mod refusals;
 mod species;
 
 use glam::DVec3;
-use motes::forces::Force;
+use motes::forces::Component;
 use motes::{Bounds, Setup, Side, State};
 
 use crate::support::Random;
@@ -46,6 +46,6 @@ fn inside(count: usize, bounds: &Bounds, seed: u64) -> State {
     particles
 }
 
-fn setup(particles: State, forces: Vec<Box<dyn Force>>, name: &str, dt: f64, bounds: Bounds) -> Setup {
+fn setup(particles: State, forces: Vec<Box<dyn Component>>, name: &str, dt: f64, bounds: Bounds) -> Setup {
     Setup { state: particles, forces, integrator: integrator(name), dt, bounds, solver: motes::Solver::default() }
 }

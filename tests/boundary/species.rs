@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use glam::{DVec3, DVec4};
-use motes::forces::{Force, Law, Over};
+use motes::forces::{Component, Law, Over};
 use motes::kernel::{ACCELERATION, Backend, Host, Source};
 use motes::{Bounds, Cpu, SPECIES, Setup, Simulation, State, VELOCITY};
 
@@ -13,7 +13,7 @@ use crate::support;
 /// Pushes by species.
 struct Sorting;
 
-impl Force for Sorting {
+impl Component for Sorting {
     fn laws(&self) -> Vec<Law> {
         let wgsl = "fn force(me: Particle) -> vec4f { return vec4f(f32(species[me.index]), 0.0, 0.0, 0.0); }";
         let twin = |host: &Host| {

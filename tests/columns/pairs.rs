@@ -58,9 +58,9 @@ fn both_orders_of_a_pair_find_its_row() {
         let number = u32::try_from(count).expect("few");
         gpu.set_world(World { time: 0.0, dt: 1e-3, step: 0, count: number, bounds: motes::Bounds::default() })
             .expect("a world");
-        let place = cloud.position.iter().zip(&cloud.mass).map(|(x, m)| x.extend(*m));
+        let place = cloud.position().iter().zip(cloud.mass()).map(|(x, m)| x.extend(*m));
         gpu.write(POSITION.name, &Array::Vec4(place.collect())).expect("positions");
-        gpu.write(SPECIES.name, &Array::Uint(cloud.species.clone())).expect("species");
+        gpu.write(SPECIES.name, &Array::Uint(cloud.species().to_vec())).expect("species");
         gpu.write(VELOCITY.name, &Array::Vec4(vec![DVec4::ZERO; count])).ok();
         let verdicts = pollster::block_on(compare(&mut gpu, &plan, number)).expect("verdicts");
         assert!(verdicts.iter().all(|v| v.sound() && v.changed) && !verdicts.is_empty(), "{name}: {verdicts:?}");

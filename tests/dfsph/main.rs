@@ -14,7 +14,7 @@ mod solve;
 mod support;
 
 use glam::DVec3;
-use motes::forces::Force;
+use motes::forces::Component;
 use motes::motion::{Held, Hold};
 use motes::settings::Value;
 use motes::{Bounds, Gpu, Setup, Side, Simulation, State};
@@ -88,13 +88,13 @@ impl Tank {
     }
 }
 
-fn fluid(settings: &[(&'static str, Value)]) -> Box<dyn Force> {
+fn fluid(settings: &[(&'static str, Value)]) -> Box<dyn Component> {
     let mut all = vec![("spacing", Value::Number(SPACING)), ("solver", word("dfsph"))];
     all.extend_from_slice(settings);
     force("fluid", &all)
 }
 
-fn setup(particles: &State, bounds: Bounds, forces: Vec<Box<dyn Force>>, dt: f64) -> Setup {
+fn setup(particles: &State, bounds: Bounds, forces: Vec<Box<dyn Component>>, dt: f64) -> Setup {
     let particles = particles.clone();
     Setup {
         state: particles,

@@ -1,7 +1,7 @@
 //! States in which there is nothing to solve, or no solution; and what is refused.
 
 use glam::DVec3;
-use motes::forces::Force;
+use motes::forces::Component;
 use motes::kernel::Machine;
 use motes::settings::Value;
 use motes::{Bounds, Setup, Simulation, State, VELOCITY};
@@ -44,7 +44,7 @@ fn who_is_all_at_one_place_is_not_solved_for_and_that_is_told() {
     assert!(velocity.iter().all(|v| v.distance(DVec3::new(0.3, -0.2, 0.1)) < 1e-7), "{velocity:?}");
 }
 
-fn refused(force: Box<dyn Force>) -> String {
+fn refused(force: Box<dyn Component>) -> String {
     let mut particles = State::default();
     particles.push(DVec3::ZERO, DVec3::ZERO, 1.0, 0.0);
     let setup: Setup = setup(&particles, Bounds::default(), vec![force], 0.004);
@@ -62,10 +62,10 @@ fn what_cannot_be_had_is_refused() {
     assert!(one("max_iterations", 2.0).is_empty());
     let weak = force("fluid", &[("spacing", Value::Number(SPACING)), ("solver", word("wcsph"))]);
     assert!(refused(weak).contains("sound_speed"));
-    assert!(fluid(&[]).integrators() == ["symplectic_euler"] && fluid(&[]).answers());
-    let remark = fluid(&[]).remark(0.004).unwrap_or_default();
-    // 0.4 of 0.02 in 0.004.
-    assert!(remark.contains("speeds up to 2.000") && !remark.contains("alpha"), "{remark}");
-    let remark = fluid(&[("alpha", Value::Number(0.1))]).remark(0.004).unwrap_or_default();
-    assert!(remark.contains("give viscosity instead"), "{remark}");
+    let properties = fluid(&[]).properties();
+    assert!(properties.integrators == ["symplectic_euler"] && properties.evaluated_last);
+    // 0.4 of a spacing.
+    assert!(properties.largest_move == Some(0.4 * SPACING) && properties.caution.is_none(), "{properties:?}");
+    let caution = fluid(&[("alpha", Value::Number(0.1))]).properties().caution.unwrap_or_default();
+    assert!(caution.contains("give viscosity instead"), "{caution}");
 }

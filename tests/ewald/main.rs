@@ -9,7 +9,7 @@ mod told;
 mod worlds;
 
 use glam::{DVec3, DVec4};
-use motes::forces::Force;
+use motes::forces::Component;
 use motes::settings::Value;
 use motes::{Bounds, Side, State};
 use support::states::{force, word};
@@ -25,7 +25,7 @@ fn cube(side: f64) -> Bounds {
     Bounds::new(low, low + DVec3::splat(side), Side::Periodic)
 }
 
-fn gravity(g: f64, softening: f64, over: &'static str) -> Vec<Box<dyn Force>> {
+fn gravity(g: f64, softening: f64, over: &'static str) -> Vec<Box<dyn Component>> {
     let settings = [
         ("g", Value::Number(g)),
         ("softening", Value::Number(softening)),

@@ -1,7 +1,7 @@
 //! Boxes in which there is no such sum, and trees that meet nearest images.
 
 use glam::DVec3;
-use motes::forces::{Force, Problem};
+use motes::forces::{Component, Problem, Stage};
 use motes::kernel::{Machine, Plan};
 use motes::settings::Value;
 use motes::{Bounds, Side};
@@ -11,9 +11,9 @@ use crate::{cube, gravity};
 
 const MACHINE: Machine = Machine { software: true, subgroup: 8, invocations: 1, ..Machine::HOST };
 
-fn refused(force: &dyn Force, bounds: Bounds) -> Option<String> {
+fn refused(force: &dyn Component, bounds: Bounds) -> Option<String> {
     let problem = Problem::new(100, MACHINE).at(&[], bounds);
-    force.evaluate(&mut Plan::default(), 0, &problem).err().map(|error| error.to_string())
+    force.stage(Stage::Evaluate { earlier: 0 }, &mut Plan::default(), &problem).err().map(|error| error.to_string())
 }
 
 #[test]

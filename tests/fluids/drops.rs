@@ -1,7 +1,7 @@
 //! Drops with free surfaces, against ordinary differential equations.
 
 use glam::DVec3;
-use motes::forces::Force;
+use motes::forces::Component;
 use motes::settings::Value;
 use motes::{Bounds, Gpu, Simulation, State};
 
@@ -25,7 +25,7 @@ fn disk(spacing: f64, strain: f64) -> State {
     particles
 }
 
-fn fluid(spacing: f64, sound: f64) -> Box<dyn Force> {
+fn fluid(spacing: f64, sound: f64) -> Box<dyn Component> {
     let settings = [
         ("spacing", Number(spacing)),
         ("sound_speed", Number(sound)),

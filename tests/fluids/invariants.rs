@@ -12,7 +12,7 @@ use crate::support::states::{accelerations_in, cpu_in, word};
 use crate::{gpu, setup};
 use Value::{Flag, Number};
 
-fn smooth(more: &[(&'static str, Value)]) -> Box<dyn motes::forces::Force> {
+fn smooth(more: &[(&'static str, Value)]) -> Box<dyn motes::forces::Component> {
     fluid(&[&[("alpha", Number(0.0)), ("viscosity", Number(0.0))], more].concat())
 }
 

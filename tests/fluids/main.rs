@@ -21,13 +21,13 @@ mod vortices;
 mod walls;
 
 use glam::DVec3;
-use motes::forces::Force;
+use motes::forces::Component;
 use motes::scene::{Options, Scene, Source};
 use motes::{Bounds, Gpu, POSITION, Setup, Simulation, State, VELOCITY};
 use support::Shared;
 use support::states::integrator;
 
-fn setup(particles: &State, forces: Vec<Box<dyn Force>>, name: &str, dt: f64, bounds: Bounds) -> Setup {
+fn setup(particles: &State, forces: Vec<Box<dyn Component>>, name: &str, dt: f64, bounds: Bounds) -> Setup {
     Setup {
         state: particles.clone(),
         forces,

@@ -32,7 +32,7 @@ fn layers(flat: bool, gap: f64, fluid: usize) -> (State, Bounds, usize) {
     (particles, Bounds { low, high, sides, dimensions: if flat { 2 } else { 3 } }, count)
 }
 
-fn fluid(kernel: &'static str, support: f64) -> Box<dyn motes::forces::Force> {
+fn fluid(kernel: &'static str, support: f64) -> Box<dyn motes::forces::Component> {
     let settings =
         [("spacing", Number(D)), ("support", Number(support)), ("sound_speed", Number(3.0)), ("kernel", word(kernel))];
     force("fluid", &settings)

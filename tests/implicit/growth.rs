@@ -2,7 +2,7 @@
 //! by the twins: through the block of each particle alone, and through conjugate gradients.
 
 use glam::DVec3;
-use motes::forces::Force;
+use motes::forces::Component;
 use motes::settings::Value;
 use motes::{Setup, Solver, State};
 
@@ -16,7 +16,7 @@ const STRENGTH: f64 = 1.69;
 const SOLVER: Solver = Solver { tolerance: 1e-6, iterations: 20, solves: 3 };
 
 /// A particle about the origin, drawn back by a law of each alone, or by a spring of no length to one that is held.
-fn oscillator(by_spring: bool) -> (State, Vec<Box<dyn Force>>) {
+fn oscillator(by_spring: bool) -> (State, Vec<Box<dyn Component>>) {
     let (x, v) = (DVec3::new(0.8, -0.3, 0.4), DVec3::new(0.2, 0.7, -0.5));
     let mut particles = one(x, v);
     if !by_spring {

@@ -12,7 +12,7 @@ mod support;
 mod twins;
 
 use glam::DVec3;
-use motes::forces::Force;
+use motes::forces::Component;
 use motes::kernel::Backend;
 use motes::links::Link;
 use motes::motion::{Held, Hold};
@@ -30,7 +30,7 @@ const ALL: [&str; 6] = [
     "implicit_midpoint",
 ];
 
-fn setup(particles: &State, forces: Vec<Box<dyn Force>>, name: &str, dt: f64, solver: Solver) -> Setup {
+fn setup(particles: &State, forces: Vec<Box<dyn Component>>, name: &str, dt: f64, solver: Solver) -> Setup {
     Setup { state: particles.clone(), forces, integrator: integrator(name), dt, bounds: Bounds::default(), solver }
 }
 

@@ -1,7 +1,7 @@
 //! A mass on a spring that swings: the golden row of the linear backward Euler method, and energy over long times.
 
 use glam::DVec3;
-use motes::forces::Force;
+use motes::forces::Component;
 use motes::{Setup, Solver, State};
 
 use crate::support::states::{force, phase as wide, vector};
@@ -12,7 +12,7 @@ const SOLVER: Solver = Solver { tolerance: 1e-6, iterations: 10, solves: 8 };
 const GRAVITY: f64 = 9.81;
 const STIFFNESS: f64 = 100.0;
 
-fn pendulum() -> (State, Vec<Box<dyn Force>>) {
+fn pendulum() -> (State, Vec<Box<dyn Component>>) {
     let mut particles = State::default();
     particles.push(DVec3::X, DVec3::ZERO, 1.0, 0.0);
     particles.push(DVec3::ZERO, DVec3::ZERO, 1.0, 0.0);

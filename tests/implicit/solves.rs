@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use glam::{DVec3, Vec4};
-use motes::forces::{Force, Jacobian, Law};
+use motes::forces::{Component, Jacobian, Law};
 use motes::kernel::{Array, Backend, Source};
 use motes::simulation::{Outcome, Solves};
 use motes::{ACCELERATION, Gpu, POSITION, Simulation, Solver, State};
@@ -16,7 +16,7 @@ use crate::{on_device, on_twins, phase, setup};
 /// A frame of a film.
 const H: f64 = 1.0 / 60.0;
 
-fn forces() -> Vec<Box<dyn Force>> {
+fn forces() -> Vec<Box<dyn Component>> {
     vec![force("uniform", &[("acceleration", vector(0.0, 0.0, -9.81))]), force("spring", &[])]
 }
 
@@ -130,7 +130,7 @@ fn newton_converges_on_a_cloth() {
 /// A spring whose Jacobian is exact, as it should not be.
 struct Exact;
 
-impl Force for Exact {
+impl Component for Exact {
     fn laws(&self) -> Vec<Law> {
         let law = force("spring", &[]).laws().swap_remove(0);
         let text = law.wgsl.text.replace("max(0.0, 1.0 - abs(link.rest) * inverse)", "1.0 - abs(link.rest) * inverse");

@@ -1,6 +1,6 @@
 //! Every kernel of an implicit step with springs against its f64 twin.
 
-use motes::forces::Force;
+use motes::forces::Component;
 use motes::kernel::Machine;
 use motes::lockstep::compare;
 use motes::settings::Value;
@@ -11,7 +11,7 @@ use crate::support;
 use crate::support::states::{force, vector};
 use crate::{ALL, setup};
 
-fn forces() -> Vec<Box<dyn Force>> {
+fn forces() -> Vec<Box<dyn Component>> {
     vec![
         force("uniform", &[("acceleration", vector(0.3, -0.2, -9.81))]),
         force("spring", &[]),

@@ -148,8 +148,10 @@ fn passing_by(device: &Device, held: &[Held], stages: &mut Vec<Stage>) {
         let problem = mortal(MACHINE, mirrors, held);
         let mut plan = Plan::default();
         let limits = [("min", Value::Number(0.3)), ("max", Value::Number(0.6))];
-        force("speed_limit", &limits).limit(&mut plan, &problem).expect("a kernel");
-        force("solid", &[("radius", Value::Number(0.9))]).confine(&mut plan, &problem, 0.7).expect("a kernel");
+        force("speed_limit", &limits).stage(motes::component::Stage::AfterKick, &mut plan, &problem).expect("a kernel");
+        force("solid", &[("radius", Value::Number(0.9))])
+            .stage(motes::component::Stage::AfterDrift { factor: 0.7 }, &mut plan, &problem)
+            .expect("a kernel");
         plan.kernels.extend(motes::boundary::kernels(&problem).expect("kernels"));
         for kernel in plan.kernels {
             let name = format!("{} of mortals", kernel.name);

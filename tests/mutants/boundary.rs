@@ -2,7 +2,7 @@
 #![allow(clippy::cast_possible_truncation, reason = "numbers are rounded to what f32 holds")]
 
 use glam::{DVec3, Vec4};
-use motes::forces::{Force, Problem};
+use motes::forces::{Component, Problem};
 use motes::kernel::{Backend, Machine, World};
 use motes::settings::Value;
 use motes::{Bounds, Gpu, POSITION, Side, Simulation};
@@ -61,7 +61,7 @@ pub fn boundary(device: &Device, stages: &mut Vec<Stage>) {
             stages.push(stage(&name, in_a_box(device, bounds), kernel));
         }
     }
-    let gravity: Box<dyn Force> = force("gravity", &[("softening", Value::Number(0.17))]);
+    let gravity: Box<dyn Component> = force("gravity", &[("softening", Value::Number(0.17))]);
     let bounds = box_of([Periodic, Open, Periodic]);
     let kernel = kernel_in(bounds, gravity.as_ref(), FEW, &machine);
     stages.push(stage("nearest image", in_a_box(device, bounds), kernel));

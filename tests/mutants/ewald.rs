@@ -2,7 +2,7 @@
 #![allow(clippy::cast_possible_truncation, reason = "numbers are rounded to what f32 holds")]
 
 use glam::{DVec3, Vec4};
-use motes::forces::{Force, Problem};
+use motes::forces::{Component, Problem};
 use motes::integrators::Step;
 use motes::kernel::{Backend, Machine, Plan, World};
 use motes::settings::Value;
@@ -20,7 +20,7 @@ fn cube() -> Bounds {
     Bounds::new(low, low + SIDE, Side::Periodic)
 }
 
-fn gravity(over: &'static str) -> Vec<Box<dyn Force>> {
+fn gravity(over: &'static str) -> Vec<Box<dyn Component>> {
     let settings = [
         ("g", Value::Number(1.3)),
         ("softening", Value::Number(0.17)),
@@ -48,7 +48,9 @@ pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
     let machine = Machine::HOST;
     let problem = |machine, count: usize| Problem::new(u32::try_from(count).expect("few"), machine).at(&[], cube());
     let mut plan = Plan::default();
-    gravity("pairs")[0].evaluate(&mut plan, 0, &problem(machine, FEW)).expect("a plan");
+    gravity("pairs")[0]
+        .stage(motes::component::Stage::Evaluate { earlier: 0 }, &mut plan, &problem(machine, FEW))
+        .expect("a plan");
     for kernel in plan.kernels {
         stages.push(stage(&format!("all images, {}", kernel.name), spread(device, FEW, machine), kernel));
     }

@@ -122,7 +122,9 @@ pub fn all(device: &Device, stages: &mut Vec<Stage>) {
     for axis in [vector(0.0, 0.0, 0.9), vector(0.3, 0.4, 0.2)] {
         let mut plan = Plan::default();
         let capsule = force("solid", &[("shape", word("capsule")), ("axis", axis), ("radius", Value::Number(0.3))]);
-        capsule.confine(&mut plan, &problem(&[], Bounds::default()), 0.7).expect("a kernel");
+        capsule
+            .stage(motes::component::Stage::AfterDrift { factor: 0.7 }, &mut plan, &problem(&[], Bounds::default()))
+            .expect("a kernel");
         for kernel in plan.kernels {
             stages.push(staged("capsule", resting(device, MACHINE, Bounds::default()), kernel));
         }
@@ -154,7 +156,9 @@ fn solids(device: &Device, some: &[Held], periodic: Bounds, stages: &mut Vec<Sta
         let bounds = if case % 3 == 1 { periodic } else { Bounds::default() };
         let problem = Problem { reached: [0.3, 1.0][case % 2], ..problem(held, bounds) };
         let mut plan = Plan::default();
-        force("solid", &settings).confine(&mut plan, &problem, [0.7, -0.4][case % 2]).expect("a kernel");
+        force("solid", &settings)
+            .stage(motes::component::Stage::AfterDrift { factor: [0.7, -0.4][case % 2] }, &mut plan, &problem)
+            .expect("a kernel");
         for kernel in plan.kernels {
             let mut simulation = resting(device, MACHINE, bounds);
             // Fast, so that a bounce goes a good part of the way.

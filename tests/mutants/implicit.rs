@@ -4,7 +4,7 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
-use motes::forces::Force;
+use motes::forces::Component;
 use motes::kernel::{Backend, Kernel, Machine, Plan, Scalar};
 use motes::links::{Link, Links};
 use motes::motion::{Held, Hold};
@@ -52,7 +52,7 @@ const CROWD: u32 = 300;
 /// A state of a solve: first, gamma, alpha, residual; iterations, total, code, settled, broken.
 const DONE: [f32; 9] = [1.5, 2.5, 3.5, 4.5, 1.0, 5.0, 1.0, 0.0, 0.0];
 
-fn forces() -> Vec<Box<dyn Force>> {
+fn forces() -> Vec<Box<dyn Component>> {
     vec![
         force("uniform", &[("acceleration", vector(0.3, -0.2, -1.7))]),
         force("spring", &[]),
@@ -84,7 +84,7 @@ fn forces() -> Vec<Box<dyn Force>> {
 /// What is wrong in the later begins of Newton's method: the difference of impulses that are up to a hundred times as large.
 const LATER: f64 = 10.0;
 
-type Forces<'a> = &'a dyn Fn() -> Vec<Box<dyn Force>>;
+type Forces<'a> = &'a dyn Fn() -> Vec<Box<dyn Component>>;
 
 /// Steps that run out of iterations, that converge, that settle, and that break down; with ties and without.
 pub fn all(device: &Device, stages: &mut Vec<Stage>) {

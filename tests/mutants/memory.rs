@@ -33,7 +33,6 @@ fn remember(kernel: &mut Kernel) {
                     Array::Vec3(_) => panic!("{name} is an array of the host"),
                     Array::Float(made) => host.writing::<f32>(name)?.copy_from_slice(made),
                     Array::Uint(made) => host.writing::<u32>(name)?.copy_from_slice(made),
-                    Array::Vec3(_) => host.replace(name, array.clone())?,
                 }
             }
             host.set_world(*world);

@@ -3,7 +3,7 @@
 use glam::Vec4;
 use motes::error::Error;
 use motes::fluids::{self, Limits, Medium, Smoothing};
-use motes::forces::{Force, Law, Problem};
+use motes::forces::{Component, Law, Problem, Resolved};
 use motes::integrators::{Paced, Step};
 use motes::kernel::{Backend, HOME, Machine, Pace, Plan, TARGET, World};
 use motes::motion::{Held, Hold};
@@ -22,15 +22,26 @@ use crate::{fluids as stages_of_fluids, held};
 /// The limits of a fluid without sound.
 struct Silent;
 
-impl Force for Silent {
+impl Silent {
+    fn medium() -> Medium {
+        let (density, spacing, support, smoothing) = (1.3, SPACING, 2.0, Smoothing::Cubic);
+        Medium { density, spacing, support, smoothing, sound: 0.0, exponent: 7, negative: false, dimensions: 3 }
+    }
+}
+
+impl Component for Silent {
     fn laws(&self) -> Vec<Law> {
         Vec::new()
     }
-    fn paces(&self, plan: &mut Plan, problem: &Problem) -> Result<Option<f64>, Error> {
-        let (density, spacing, support, smoothing) = (1.3, SPACING, 2.0, Smoothing::Cubic);
-        let medium =
-            Medium { density, spacing, support, smoothing, sound: 0.0, exponent: 7, negative: false, dimensions: 3 };
-        fluids::limits(&medium, Limits { sound: None, alpha: 0.0, viscosity: 0.0 }, plan, problem)
+    fn resolved(&self, problem: &Problem) -> Result<Resolved, Error> {
+        let viscous_steps = fluids::viscous_steps(&Self::medium(), 0.0, problem);
+        Ok(Resolved { viscous_steps, ..Resolved::default() })
+    }
+    fn stage(&self, stage: motes::component::Stage, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
+        if stage != motes::component::Stage::StepLimit {
+            return Ok(());
+        }
+        fluids::limits(&Self::medium(), Limits { sound: None, alpha: 0.0 }, plan, problem)
     }
 }
 
@@ -68,7 +79,9 @@ fn motions(device: &Device, stages: &mut Vec<Stage>) {
             ("restitution", Value::Number(0.3)),
         ];
         let mut plan = Plan::default();
-        force("solid", &settings).confine(&mut plan, &problem, 0.7).expect("a kernel");
+        force("solid", &settings)
+            .stage(motes::component::Stage::AfterDrift { factor: 0.7 }, &mut plan, &problem)
+            .expect("a kernel");
         for kernel in plan.kernels {
             staged(stages, "solid, paced", resting(device, MACHINE, Bounds::default()), kernel, &clock, |_| ());
             // The time is rounded to a tick, which moves the fastest by a place in the last digit.
@@ -97,7 +110,7 @@ fn wants(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
     for machine in machines {
         for silent in [false, true] {
             let pace = Pace { least: 1e-4, courant: 0.3, before: None };
-            let forces = if silent { vec![Box::new(Silent) as Box<dyn Force>] } else { vec![fluid(&[])] };
+            let forces = if silent { vec![Box::new(Silent) as Box<dyn Component>] } else { vec![fluid(&[])] };
             let setup = Setup {
                 // Where nobody is held, who writes behind the last is seen.
                 state: cloud(FEW, false, !silent),

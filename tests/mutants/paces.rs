@@ -3,9 +3,9 @@
 
 use glam::Vec4;
 use motes::error::Error;
-use motes::forces::{Force, Law, Problem};
+use motes::forces::{Component, Law, Problem, Resolved};
 use motes::integrators::Paced;
-use motes::kernel::{ALARM, Backend, Kernel, Machine, PACE, PACE_WORDS, Pace, Plan, STOP, URGENT, URGES, World};
+use motes::kernel::{ALARM, Backend, Kernel, Machine, PACE, PACE_WORDS, Pace, STOP, URGENT, URGES, World};
 use motes::{Bounds, Gpu, Setup, Simulation, Solver};
 
 use crate::stages::{Device, FEW, Stage, fill, moving};
@@ -39,16 +39,16 @@ pub const NOBODY: u32 = u32::MAX;
 /// Wants so many steps for viscosity.
 struct Thick(f64);
 
-impl Force for Thick {
+impl Component for Thick {
     fn laws(&self) -> Vec<Law> {
         Vec::new()
     }
-    fn paces(&self, _: &mut Plan, _: &Problem) -> Result<Option<f64>, Error> {
-        Ok(Some(self.0))
+    fn resolved(&self, _: &Problem) -> Result<Resolved, Error> {
+        Ok(Resolved { viscous_steps: Some(self.0), ..Resolved::default() })
     }
 }
 
-fn setup(force: Box<dyn Force>, least: f64) -> Setup {
+fn setup(force: Box<dyn Component>, least: f64) -> Setup {
     let pace = Pace { least, courant: 0.3, before: None };
     Setup {
         state: support::cloud(FEW, 11),

@@ -64,8 +64,12 @@ pub fn rods(device: &Device, stages: &mut Vec<Stage>) {
         // As if a part of the step had gone otherwise.
         let (simulation, links, held) = tied(device, if settles { 0.9 } else { factor });
         let kernel = kernel(&links, &held, |plan, problem| {
-            if settles { rod.settle(plan, problem, 1.0) } else { rod.confine(plan, problem, factor) }
-                .expect("a kernel");
+            if settles {
+                rod.stage(motes::component::Stage::AfterAdvance { factor: 1.0 }, plan, problem)
+            } else {
+                rod.stage(motes::component::Stage::AfterDrift { factor }, plan, problem)
+            }
+            .expect("a kernel");
         });
         stages.push(Stage::new(&format!("rods, {factor}"), simulation, kernel));
     }
@@ -82,7 +86,9 @@ pub fn rods(device: &Device, stages: &mut Vec<Stage>) {
         // One has gone nine lengths in a step, the other was nine away before.
         velocity[4].y = if first == 3 { (9.0 / clock.dt) as f32 } else { 0.0 };
         simulation.write(VELOCITY, &velocity).expect("velocities");
-        let kernel = kernel(&links, &held, |plan, problem| rod.confine(plan, problem, 1.0).expect("a kernel"));
+        let kernel = kernel(&links, &held, |plan, problem| {
+            rod.stage(motes::component::Stage::AfterDrift { factor: 1.0 }, plan, problem).expect("a kernel")
+        });
         let mut told: Vec<f32> = position.iter().flat_map(Vec4::to_array).collect();
         let lost = 4 * (7 - first);
         told[lost..lost + 3].fill(f32::NAN);

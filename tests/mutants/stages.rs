@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 use std::time::Duration;
 
-use motes::forces::{Force, Law};
+use motes::forces::{Component, Law};
 use motes::integrators::INTEGRATORS;
 use motes::kernel::{ALARM, Backend, Kernel, Machine, POSITION, Plan, SPECIES, Shader, Source, VELOCITY, World};
 use motes::lockstep::{Verdict, compare};
@@ -235,7 +235,7 @@ fn integrators(device: &Device, stages: &mut Vec<Stage>) {
 /// A law that looks at everything that a visit passes to it: whom it meets, by index too, and where.
 struct Curious;
 
-impl Force for Curious {
+impl Component for Curious {
     fn laws(&self) -> Vec<Law> {
         let wgsl = "fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
             let v = velocity[you.index].xyz - velocity[me.index].xyz;
@@ -253,7 +253,8 @@ impl Force for Curious {
 
 /// Each file of `pairs`: in one dispatch, and in two of three layers each.
 fn pairs(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
-    let gravity: Box<dyn Force> = force("gravity", &[("softening", Value::Number(0.17)), ("g", Value::Number(1.3))]);
+    let gravity: Box<dyn Component> =
+        force("gravity", &[("softening", Value::Number(0.17)), ("g", Value::Number(1.3))]);
     for (name, machine) in machines(shared).into_iter().filter(|(name, _)| !name.contains("layers")) {
         let whole = kernel(gravity.as_ref(), MANY, &machine);
         let layered = kernel(gravity.as_ref(), MANY, &Machine { invocations: 1 << 18, ..machine });

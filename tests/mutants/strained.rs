@@ -21,7 +21,9 @@ pub fn all(device: &Device, stages: &mut Vec<Stage>) {
     let held: Vec<_> = ids.map(|id| Held { id, by: Hold::Fixed }).collect();
     let problem = Problem::new(u32::try_from(FEW).expect("few"), machine).tied(&links, &held);
     let mut plan = Plan::default();
-    force("strain_limit", &[]).confine(&mut plan, &problem, 0.8).expect("kernels");
+    force("strain_limit", &[])
+        .stage(motes::component::Stage::AfterDrift { factor: 0.8 }, &mut plan, &problem)
+        .expect("kernels");
     let mut simulation = resting(device, machine, Bounds::default());
     let mut places = pollster::block_on(simulation.read(POSITION)).expect("places");
     for (id, place) in places.iter_mut().enumerate() {

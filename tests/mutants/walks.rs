@@ -6,7 +6,7 @@ use std::cell::RefCell;
 use std::rc::Rc;
 
 use glam::{DVec3, DVec4, Vec4};
-use motes::forces::{Force, Law, Over, Particle};
+use motes::forces::{Component, Law, Over, Particle};
 use motes::integrators::Step;
 use motes::kernel::{ACCELERATION, ALARM, Backend, Kernel, Machine, POSITION, Plan, Problem, QUIET, Source};
 use motes::settings::Value;
@@ -108,7 +108,7 @@ fn bodies(count: usize) -> Vec<Vec4> {
     (0..count).map(|i| place(i, random.vector()).extend(mass(i)).as_vec4()).collect()
 }
 
-fn gravity(words: [&'static str; 2], theta: f64, alpha: f64) -> Box<dyn Force> {
+fn gravity(words: [&'static str; 2], theta: f64, alpha: f64) -> Box<dyn Component> {
     let numbers = [("theta", theta), ("alpha", alpha), ("softening", 0.17), ("g", 1.3)];
     let mut settings: Vec<_> = numbers.iter().map(|(key, x)| (*key, Value::Number(*x))).collect();
     settings.extend([("over", word("tree")), ("kernel", word(words[0])), ("multipoles", word(words[1]))]);
@@ -118,7 +118,7 @@ fn gravity(words: [&'static str; 2], theta: f64, alpha: f64) -> Box<dyn Force> {
 /// A law that adds up whole numbers, so that to meet somebody else, or in another way, is seen whatever it weighs.
 struct Counted(Opening);
 
-impl Force for Counted {
+impl Component for Counted {
     fn laws(&self) -> Vec<Law> {
         let wgsl = "struct Sum { mass: f32, index: f32 }
             fn merge(total: ptr<function, Sum>, part: Sum) { (*total).mass += part.mass; (*total).index += part.index; }
@@ -148,7 +148,7 @@ struct Scene {
     walk: Kernel,
 }
 
-fn scene(device: &Device, machine: Machine, bodies: &[Vec4], felt: f64, law: Box<dyn Force>) -> Scene {
+fn scene(device: &Device, machine: Machine, bodies: &[Vec4], felt: f64, law: Box<dyn Component>) -> Scene {
     let mut simulation = moving(device, bodies.len(), Some(machine));
     let forces = [law];
     let mut step = Step::new(&forces, Problem::new(bodies.len() as u32, machine));

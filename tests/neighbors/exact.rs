@@ -1,7 +1,7 @@
 //! A law of whole numbers: its sums are exact in any order, so that searches must agree to the bit.
 
 use glam::{DVec3, DVec4, Vec4};
-use motes::forces::{Force, Law, Over};
+use motes::forces::{Component, Law, Over};
 use motes::kernel::{Machine, Source};
 use motes::{ACCELERATION, Bounds, Gpu, Setup, Simulation, State};
 
@@ -24,7 +24,7 @@ pub fn whole(id: usize, r: DVec3) -> DVec4 {
     DVec4::new(1.0, id as f64, e.dot(DVec3::new(1.0, 3.0, 9.0)), (id % 13) as f64)
 }
 
-impl Force for Whole {
+impl Component for Whole {
     fn laws(&self) -> Vec<Law> {
         let rule = |_: &motes::forces::Particle, you: &motes::forces::Particle, r: DVec3| {
             whole(you.index, r.as_vec3().as_dvec3())

@@ -11,7 +11,7 @@ mod refusals;
 mod runs;
 mod sizes;
 
-use motes::forces::{Force, Law, Over};
+use motes::forces::{Component, Law, Over};
 use motes::integrators::Step;
 use motes::kernel::{Backend, Machine, Problem, Source};
 use motes::lockstep::compare;
@@ -23,7 +23,7 @@ use support::{Shared, machines};
 /// A law that looks at everything that a visit passes to it, and vanishes at no edge.
 pub struct Curious(pub Over);
 
-impl Force for Curious {
+impl Component for Curious {
     fn laws(&self) -> Vec<Law> {
         let wgsl = "fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
             let v = velocity_of(you) - velocity_of(me);
@@ -49,7 +49,7 @@ fn variants(shared: &Shared) -> Vec<(&'static str, Machine)> {
     all
 }
 
-fn simulation(gpu: Gpu, place: &Place, force: Box<dyn Force>) -> Simulation<Gpu> {
+fn simulation(gpu: Gpu, place: &Place, force: Box<dyn Component>) -> Simulation<Gpu> {
     let setup = Setup {
         state: place.particles.clone(),
         forces: vec![force],
@@ -90,7 +90,7 @@ fn check(gpu: Gpu, place: &Place, over: Over, of: &str) {
     let machine = gpu.machine();
     let mut simulation = simulation(gpu, place, Box::new(Curious(over)));
     let problem = Problem::new(count, machine).at(place.particles.position(), place.bounds);
-    let forces: [Box<dyn Force>; 1] = [Box::new(Curious(over))];
+    let forces: [Box<dyn Component>; 1] = [Box::new(Curious(over))];
     let mut step = Step::new(&forces, problem);
     step.evaluate();
     let plan = step.finished().expect("a plan");

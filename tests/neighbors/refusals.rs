@@ -1,7 +1,7 @@
 //! What cannot be searched is said, with the particle or the number, and spoils nothing else.
 
 use glam::{DVec3, Vec4};
-use motes::forces::{Force, Law, Over, Problem};
+use motes::forces::{Component, Law, Over, Problem};
 use motes::integrators::Step;
 use motes::kernel::{ALARM, Backend, Machine, Plan, Source};
 use motes::{ACCELERATION, Bounds, Error, POSITION, Side, VELOCITY};
@@ -17,7 +17,7 @@ fn cloud(count: usize) -> Vec<DVec3> {
 
 fn refusal(over: Over) -> String {
     let machine = Machine::HOST;
-    let forces: [Box<dyn Force>; 1] = [Box::new(Whole(over))];
+    let forces: [Box<dyn Component>; 1] = [Box::new(Whole(over))];
     let mut step = Step::new(&forces, Problem::new(10, machine));
     step.evaluate();
     match step.finished() {
@@ -57,7 +57,7 @@ fn the_shortest_and_the_longest_ranges_search() {
 /// Half of a law.
 struct Half(Over);
 
-impl Force for Half {
+impl Component for Half {
     fn laws(&self) -> Vec<Law> {
         let wgsl = "fn finish(me: Particle, sum: Sum) -> vec4f { return vec4f(); }";
         let whole = Whole(self.0).laws().remove(0);
@@ -69,7 +69,7 @@ impl Force for Half {
 fn a_law_that_meets_nobody_is_refused() {
     let machine = Machine::HOST;
     for over in [Over::Near { range: 1.0, of: None }, Over::Nearest { count: 3 }] {
-        let forces: [Box<dyn Force>; 1] = [Box::new(Half(over))];
+        let forces: [Box<dyn Component>; 1] = [Box::new(Half(over))];
         let mut step = Step::new(&forces, Problem::new(10, machine));
         step.evaluate();
         let Err(Error::Shader { message }) = step.finished() else { panic!("half of a law is a law") };

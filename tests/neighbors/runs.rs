@@ -1,7 +1,7 @@
 //! Runs: the same bits in any batches, one grid for all who search it, and no image missed on the way out of the box.
 
 use glam::{DVec3, Vec4};
-use motes::forces::{Force, Over, Problem};
+use motes::forces::{Component, Over, Problem};
 use motes::integrators::{INTEGRATORS, Step};
 use motes::kernel::{Backend, Machine};
 use motes::lockstep::compare;
@@ -21,7 +21,7 @@ fn periodic() -> Bounds {
 fn setup(overs: &[Over], bounds: Bounds, name: &str, dt: f64) -> Setup {
     let mut particles = support::cloud(COUNT, 8);
     particles.mass_mut().iter_mut().for_each(|mass| *mass = 0.3);
-    let forces = overs.iter().map(|over| Box::new(Curious(*over)) as Box<dyn Force>).collect();
+    let forces = overs.iter().map(|over| Box::new(Curious(*over)) as Box<dyn Component>).collect();
     Setup { state: particles, forces, integrator: integrator(name), dt, bounds, solver: motes::Solver::default() }
 }
 

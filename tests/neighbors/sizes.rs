@@ -1,7 +1,7 @@
 //! Sizes that no test can run: what is planned for them is arithmetic.
 
 use glam::DVec3;
-use motes::forces::{Force, Over, Problem};
+use motes::forces::{Component, Over, Problem};
 use motes::kernel::Machine;
 use motes::neighbors::{Cells, Grid};
 use motes::{Bounds, Error, Gpu, Side};

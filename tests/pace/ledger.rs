@@ -26,7 +26,7 @@ fn its_numbers_are_direct_sums() {
     let mut snapshot = pollster::block_on(simulation.snapshot()).expect("a snapshot");
     let density = pollster::block_on(simulation.read(DENSITY)).expect("densities");
     let problem = setup.problem(Machine::HOST).expect("a problem");
-    let medium = setup.forces[1].fluid(&problem).expect("a fluid").expect("a medium").medium;
+    let medium = setup.forces[1].resolved(&problem).expect("a fluid").fluid.expect("a medium").medium;
     let ledger = |snapshot: &motes::State, density: &[f32]| {
         Ledger::of(snapshot, density, &medium, &setup.bounds, |id| problem.is_held(id)).expect("energies")
     };

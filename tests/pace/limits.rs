@@ -130,7 +130,7 @@ fn too_short_a_step_ends_a_run() {
 
 #[test]
 fn what_makes_no_sense_is_refused() {
-    let refused = |forces: Vec<Box<dyn motes::forces::Force>>, name: &str, pace| {
+    let refused = |forces: Vec<Box<dyn motes::forces::Component>>, name: &str, pace| {
         let setup = paced(&few(), forces, name, pace);
         let shared = support::device();
         match motes::Simulation::new(&shared.found.device, &shared.found.queue, &setup) {
@@ -138,7 +138,7 @@ fn what_makes_no_sense_is_refused() {
             Err(error) => error.to_string(),
         }
     };
-    let free = || -> Vec<Box<dyn motes::forces::Force>> { vec![Box::new(Free)] };
+    let free = || -> Vec<Box<dyn motes::forces::Component>> { vec![Box::new(Free)] };
     let no_limit = refused(vec![force("gravity", &[])], "leapfrog", PACE);
     assert!(no_limit.contains("no force says how long"), "{no_limit}");
     let two = refused(vec![Box::new(Free), Box::new(Free)], "leapfrog", PACE);

@@ -11,10 +11,9 @@ mod support;
 use glam::DVec3;
 use motes::error::Error;
 use motes::fluids::{self, Limits, Medium, Smoothing};
-use motes::forces::{Force, Law, Problem};
+use motes::forces::{Component, Law, Problem, Resolved, Stage};
 use motes::integrators::Paced;
 use motes::kernel::{Backend, Pace, Plan};
-use motes::neighbors::Grid;
 use motes::settings::Value;
 use motes::simulation::Clock;
 use motes::{Bounds, Cpu, Gpu, Setup, Simulation, Solver, State};
@@ -30,12 +29,12 @@ const LENGTH: f64 = 0.1;
 /// A force that does nothing and limits nothing: steps end where the run stops.
 struct Free;
 
-impl Force for Free {
+impl Component for Free {
     fn laws(&self) -> Vec<Law> {
         Vec::new()
     }
-    fn paces(&self, _: &mut Plan, _: &Problem) -> Result<Option<f64>, Error> {
-        Ok(Some(0.0))
+    fn resolved(&self, _: &Problem) -> Result<Resolved, Error> {
+        Ok(Resolved { viscous_steps: Some(0.0), ..Resolved::default() })
     }
 }
 
@@ -51,22 +50,27 @@ impl Silent {
     }
 }
 
-impl Force for Silent {
+impl Component for Silent {
     fn laws(&self) -> Vec<Law> {
         Vec::new()
     }
-    fn grids(&self, problem: &Problem) -> Result<Vec<(Grid, bool)>, Error> {
-        Ok(vec![(Self::medium(problem).grid(problem)?, true)])
+    fn resolved(&self, problem: &Problem) -> Result<Resolved, Error> {
+        let medium = Self::medium(problem);
+        let viscous_steps = fluids::viscous_steps(&medium, 0.0, problem);
+        Ok(Resolved { cell_lists: vec![(medium.grid(problem)?, true)], viscous_steps, ..Resolved::default() })
     }
-    fn paces(&self, plan: &mut Plan, problem: &Problem) -> Result<Option<f64>, Error> {
-        fluids::limits(&Self::medium(problem), Limits { sound: None, alpha: 0.0, viscosity: 0.0 }, plan, problem)
+    fn stage(&self, stage: Stage, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
+        if stage != Stage::StepLimit {
+            return Ok(());
+        }
+        fluids::limits(&Self::medium(problem), Limits { sound: None, alpha: 0.0 }, plan, problem)
     }
 }
 
 /// Steps down to a thousandth, with C = 0.3.
 const PACE: Pace = Pace { least: DT / 1000.0, courant: 0.3, before: None };
 
-fn paced(particles: &State, forces: Vec<Box<dyn Force>>, name: &str, pace: Pace) -> Setup {
+fn paced(particles: &State, forces: Vec<Box<dyn Component>>, name: &str, pace: Pace) -> Setup {
     Setup {
         state: particles.clone(),
         forces,
@@ -91,7 +95,7 @@ fn clock<B: Backend>(simulation: &mut Simulation<B>) -> Clock {
 }
 
 /// `fluid` with a speed of sound, and some more.
-fn fluid(sound: f64, more: &[(&'static str, Value)]) -> Box<dyn Force> {
+fn fluid(sound: f64, more: &[(&'static str, Value)]) -> Box<dyn Component> {
     let mut settings = vec![("spacing", Value::Number(SPACING)), ("sound_speed", Value::Number(sound))];
     settings.extend_from_slice(more);
     force("fluid", &settings)

@@ -117,7 +117,6 @@ pub fn stages(scene: &Scene, canvas: &Canvas) -> Vec<Stage> {
             None => continue,
             Some(Array::Vec3(v)) => Array::Vec3(v.iter().map(|_| random.vector()).collect()),
             Some(Array::Vec4(v)) => Array::Vec4(v.iter().map(|_| random.vector().extend(random.next())).collect()),
-            Some(Array::Vec3(v)) => Array::Vec3(v.iter().map(|_| random.vector()).collect()),
             Some(Array::Float(v)) => Array::Float(v.iter().map(|_| f64::from(random.narrow())).collect()),
             Some(Array::Uint(v)) => Array::Uint(v.iter().map(|_| random.narrow().to_bits()).collect()),
         };

@@ -2,7 +2,7 @@
 
 use glam::{DVec3, DVec4};
 use motes::State;
-use motes::forces::{Force, Law};
+use motes::forces::{Component, Law};
 use motes::kernel::Source;
 use motes::links::Rod;
 use motes::settings::Value;
@@ -34,7 +34,7 @@ fn a_chain_comes_to_hang_in_the_catenary() {
     let shared = support::device();
     for (links, lowest, second) in CATENARIES {
         let start = valley(links);
-        let drag = || -> Vec<Box<dyn Force>> {
+        let drag = || -> Vec<Box<dyn Component>> {
             [forces(), vec![force("drag", &[("linear", Value::Number(6.0))])]].into_iter().flatten().collect()
         };
         let check = |x: &[DVec4], allowed: f64| {
@@ -112,7 +112,7 @@ fn a_free_chain_keeps_momentum_and_spin() {
 /// The first particle is pulled, and nobody else.
 struct Pull;
 
-impl Force for Pull {
+impl Component for Pull {
     fn laws(&self) -> Vec<Law> {
         let wgsl =
             "fn force(me: Particle) -> vec4f { return select(vec4f(), vec4f(3.0, 0.0, 4.0, 0.0), me.index == 0u); }";
@@ -131,7 +131,7 @@ fn each_rod_pulls_what_is_behind_it() {
     chain(&mut particles, &(0..13).map(|n| along * 0.25 * f64::from(n)).collect::<Vec<_>>(), [false, false]);
     particles.mass_mut().copy_from_slice(&(0..13).map(|n| f64::from(1 + n * n % 7)).collect::<Vec<_>>());
     let want = -along * 5.0 * particles.mass()[0] / particles.mass().iter().sum::<f64>();
-    let forces = || -> Vec<Box<dyn Force>> { vec![Box::new(Pull), force("rod", &[])] };
+    let forces = || -> Vec<Box<dyn Component>> { vec![Box::new(Pull), force("rod", &[])] };
     let mut simulation = twins(&particles, forces(), "leapfrog", 0.125);
     simulation.step(16).expect("steps");
     for v in phase(&mut simulation).1 {

@@ -11,7 +11,7 @@ mod refusals;
 mod support;
 
 use glam::{DVec3, DVec4};
-use motes::forces::{Force, Law};
+use motes::forces::{Component, Law};
 use motes::kernel::Source;
 use motes::links::Rod;
 use motes::motion::{Held, Hold};
@@ -26,7 +26,7 @@ const HELD: f64 = 4096.0;
 /// Weight of all that is not held.
 struct Weight;
 
-impl Force for Weight {
+impl Component for Weight {
     fn laws(&self) -> Vec<Law> {
         let wgsl = "fn force(me: Particle) -> vec4f {
             return select(vec4f(), vec4f(0.0, 0.0, -9.81, 9.81 * me.position.z), me.mass < 4096.0);
@@ -37,7 +37,7 @@ impl Force for Weight {
     }
 }
 
-fn forces() -> Vec<Box<dyn Force>> {
+fn forces() -> Vec<Box<dyn Component>> {
     vec![Box::new(Weight), force("rod", &[])]
 }
 
@@ -87,11 +87,11 @@ fn angles(x: &[DVec4], v: &[DVec4]) -> Vec<[f64; 2]> {
     rods.map(angle).collect()
 }
 
-fn twins(particles: &State, forces: Vec<Box<dyn Force>>, name: &str, dt: f64) -> Simulation<Cpu> {
+fn twins(particles: &State, forces: Vec<Box<dyn Component>>, name: &str, dt: f64) -> Simulation<Cpu> {
     cpu(particles, forces, name, dt)
 }
 
-fn setup(particles: &State, forces: Vec<Box<dyn Force>>, name: &str, dt: f64) -> Setup {
+fn setup(particles: &State, forces: Vec<Box<dyn Component>>, name: &str, dt: f64) -> Setup {
     Setup {
         state: particles.clone(),
         forces,
@@ -102,7 +102,7 @@ fn setup(particles: &State, forces: Vec<Box<dyn Force>>, name: &str, dt: f64) ->
     }
 }
 
-fn device(shared: &Shared, particles: &State, forces: Vec<Box<dyn Force>>, name: &str, dt: f64) -> Simulation<Gpu> {
+fn device(shared: &Shared, particles: &State, forces: Vec<Box<dyn Component>>, name: &str, dt: f64) -> Simulation<Gpu> {
     let gpu::Found { device, queue, .. } = &shared.found;
     Simulation::new(device, queue, &setup(particles, forces, name, dt)).expect("a simulation")
 }

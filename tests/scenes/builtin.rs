@@ -187,7 +187,7 @@ fn smaller(name: &str, overrides: &[&str], steps: u32) -> [motes::measure::Flock
     let overrides: Vec<_> = overrides.iter().map(|text| (*text).to_owned()).collect();
     let source = Source::find(name).expect("a built-in scene");
     let scene = Scene::load(&source, &overrides, &Options::default()).unwrap_or_else(|faults| panic!("{faults}"));
-    let (range, species) = scene.forces.iter().find_map(|force| force.company()).expect("a flock");
+    let (range, species) = scene.forces.iter().find_map(|force| force.properties().statistics_radius).expect("a flock");
     let setup = Setup {
         state: scene.particles,
         forces: scene.forces,

@@ -6,7 +6,7 @@ mod support;
 mod touch;
 
 use glam::DVec3;
-use motes::forces::Force;
+use motes::forces::Component;
 use motes::kernel::{Backend, Bounds, POSITION, Side, VELOCITY};
 use motes::lockstep::compare;
 use motes::motion::{Held, Hold, Keyframe, Motion};
@@ -18,7 +18,7 @@ use support::states::{force, integrator, one, phase, vector, word};
 
 const G: f64 = 9.81;
 
-pub(crate) fn setup(particles: State, forces: Vec<Box<dyn Force>>, name: &str, dt: f64) -> Setup {
+pub(crate) fn setup(particles: State, forces: Vec<Box<dyn Component>>, name: &str, dt: f64) -> Setup {
     Setup {
         state: particles,
         forces,
@@ -34,11 +34,11 @@ fn twins(setup: &Setup) -> Simulation<Cpu> {
     Simulation::on(Cpu::new(count).expect("some"), setup).expect("a simulation")
 }
 
-fn weight() -> Box<dyn Force> {
+fn weight() -> Box<dyn Component> {
     force("uniform", &[("acceleration", vector(0.0, 0.0, -G))])
 }
 
-pub(crate) fn solid(shape: &'static str, settings: &[(&'static str, Value)]) -> Box<dyn Force> {
+pub(crate) fn solid(shape: &'static str, settings: &[(&'static str, Value)]) -> Box<dyn Component> {
     force("solid", &[&[("shape", word(shape))], settings].concat())
 }
 

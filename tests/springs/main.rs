@@ -20,7 +20,7 @@ mod sheets;
 mod visits;
 
 use glam::DVec3;
-use motes::forces::Force;
+use motes::forces::Component;
 use motes::links::Link;
 use motes::motion::{Held, Hold};
 use motes::particles::shape;
@@ -35,7 +35,7 @@ fn spring(ends: [u32; 2], rest: f64, stiffness: f64) -> Link {
 }
 
 /// Springs, and weight along z unless it is zero; and some drag.
-fn forces(weight: f64, drag: f64) -> Vec<Box<dyn Force>> {
+fn forces(weight: f64, drag: f64) -> Vec<Box<dyn Component>> {
     let mut all = vec![force("spring", &[])];
     if weight > 0.0 {
         all.push(force("uniform", &[("acceleration", vector(0.0, 0.0, -weight))]));
@@ -68,7 +68,7 @@ fn made(name: &str, settings: &[(&'static str, Value)]) -> State {
 }
 
 /// What runs on the device.
-fn setup(particles: &State, forces: Vec<Box<dyn Force>>, name: &str, dt: f64) -> Setup {
+fn setup(particles: &State, forces: Vec<Box<dyn Component>>, name: &str, dt: f64) -> Setup {
     Setup {
         state: particles.clone(),
         forces,

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use glam::DVec3;
-use motes::forces::{Entry, FORCES, Force};
+use motes::forces::{Component, Entry, FORCES};
 use motes::motion::{Keyframe, Motion};
 use motes::settings::{Key, Kind, Settings, Value};
 
@@ -25,7 +25,7 @@ pub fn variants(keys: &[Key]) -> Vec<Settings> {
 }
 
 /// The forces of an entry in all its variants, each with a name for messages.
-pub fn forces(entry: &Entry) -> Vec<(String, Box<dyn Force>)> {
+pub fn forces(entry: &Entry) -> Vec<(String, Box<dyn Component>)> {
     let named = |s: &Settings| (format!("{} {}", entry.name, words(s)), (entry.build)(s));
     variants(entry.keys).iter().map(named).collect()
 }

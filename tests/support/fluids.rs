@@ -1,7 +1,7 @@
 //! Fluids that are none in particular.
 
 use glam::DVec3;
-use motes::forces::Force;
+use motes::forces::Component;
 use motes::motion::{Held, Hold};
 use motes::settings::Value;
 use motes::{Bounds, Side, State};
@@ -17,7 +17,7 @@ pub const SPACING: f64 = 0.1;
 pub const DENSITY: f64 = 1.3;
 
 /// A fluid that is none in particular, with all that a fluid may have.
-pub fn fluid(more: &[(&'static str, Value)]) -> Box<dyn Force> {
+pub fn fluid(more: &[(&'static str, Value)]) -> Box<dyn Component> {
     let all = [
         ("density", Number(DENSITY)),
         ("spacing", Number(SPACING)),

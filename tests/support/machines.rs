@@ -1,6 +1,6 @@
 //! The variants of `pairs`: machines to pretend to be, and cuts that only very many particles would bring about.
 
-use motes::forces::{Force, Problem};
+use motes::forces::{Component, Problem, Stage};
 use motes::gpu::Gpu;
 use motes::kernel::{Bounds, Kernel, Machine, Pass, Plan, Scalar};
 
@@ -47,26 +47,26 @@ pub fn gpu(shared: &Shared, count: usize) -> Gpu {
 }
 
 /// The kernels of a force's first law on a machine.
-pub fn kernel(force: &dyn Force, count: usize, machine: &Machine) -> Kernel {
+pub fn kernel(force: &dyn Component, count: usize, machine: &Machine) -> Kernel {
     let law = force.laws().into_iter().next().expect("a law");
     law.kernel(&Problem::new(u32::try_from(count).expect("few"), *machine).tied(&super::links(count), &[]))
         .expect("a kernel")
 }
 
 /// The kernels of a force: those of its laws, those that keep velocities and positions lawful, and those that end a step.
-pub fn kernels(force: &dyn Force, problem: &Problem) -> Vec<Kernel> {
+pub fn kernels(force: &dyn Component, problem: &Problem) -> Vec<Kernel> {
     let mut all: Vec<_> = force.laws().into_iter().map(|law| law.kernel(problem).expect("a kernel")).collect();
     let mut limits = Plan::default();
-    force.limit(&mut limits, problem).expect("limits");
+    force.stage(Stage::AfterKick, &mut limits, problem).expect("limits");
     // A setting that a test makes up may be refused, and then runs nowhere.
-    let _ = force.confine(&mut limits, problem, 0.8);
-    force.conclude(&mut limits, problem).expect("an end");
+    let _ = force.stage(Stage::AfterDrift { factor: 0.8 }, &mut limits, problem);
+    force.stage(Stage::EndOfStep, &mut limits, problem).expect("an end");
     all.extend(limits.kernels);
     all
 }
 
 /// The same in a box.
-pub fn kernel_in(bounds: Bounds, force: &dyn Force, count: usize, machine: &Machine) -> Kernel {
+pub fn kernel_in(bounds: Bounds, force: &dyn Component, count: usize, machine: &Machine) -> Kernel {
     let law = force.laws().into_iter().next().expect("a law");
     let problem =
         Problem::new(u32::try_from(count).expect("few"), *machine).at(&[], bounds).tied(&super::links(count), &[]);

@@ -1,14 +1,14 @@
 //! Simulations to test with, and forces looked at alone.
 
 use glam::{DVec3, DVec4};
-use motes::forces::{self, Force};
+use motes::forces::{self, Component, Stage};
 use motes::integrators::{self, Integrator, Step};
 use motes::kernel::{ACCELERATION, Array, Backend, POSITION, SPECIES, VELOCITY, World};
 use motes::settings::{Settings, Value};
 use motes::{Bounds, Cpu, Setup, Simulation, State};
 
 /// A force by its name, its defaults changed by some settings.
-pub fn force(name: &str, settings: &[(&'static str, Value)]) -> Box<dyn Force> {
+pub fn force(name: &str, settings: &[(&'static str, Value)]) -> Box<dyn Component> {
     let entry = forces::entry(name).unwrap_or_else(|| panic!("no force is called {name}"));
     let known = |key: &str| entry.keys.iter().any(|k| k.name == key);
     assert!(settings.iter().all(|(key, _)| known(key)), "{name} has not all of these keys: {settings:?}");
@@ -39,12 +39,18 @@ pub fn one(position: DVec3, velocity: DVec3) -> State {
 }
 
 /// A simulation by the twins.
-pub fn cpu(particles: &State, forces: Vec<Box<dyn Force>>, name: &str, dt: f64) -> Simulation<Cpu> {
+pub fn cpu(particles: &State, forces: Vec<Box<dyn Component>>, name: &str, dt: f64) -> Simulation<Cpu> {
     cpu_in(&Bounds::default(), particles, forces, name, dt)
 }
 
 /// The same in a box.
-pub fn cpu_in(bounds: &Bounds, particles: &State, forces: Vec<Box<dyn Force>>, name: &str, dt: f64) -> Simulation<Cpu> {
+pub fn cpu_in(
+    bounds: &Bounds,
+    particles: &State,
+    forces: Vec<Box<dyn Component>>,
+    name: &str,
+    dt: f64,
+) -> Simulation<Cpu> {
     let count = u32::try_from(particles.len()).expect("few");
     let setup = Setup {
         state: particles.clone(),
@@ -67,19 +73,19 @@ pub fn phase(simulation: &mut Simulation<Cpu>) -> (Vec<DVec4>, Vec<DVec4>) {
 }
 
 /// What the twins of some forces say at a state: acceleration, and potential per unit mass.
-pub fn accelerations(forces: &[Box<dyn Force>], particles: &State, time: f64) -> Vec<DVec4> {
+pub fn accelerations(forces: &[Box<dyn Component>], particles: &State, time: f64) -> Vec<DVec4> {
     accelerations_in(&Bounds::default(), forces, particles, time)
 }
 
 /// The same in a box.
-pub fn accelerations_in(bounds: &Bounds, forces: &[Box<dyn Force>], particles: &State, time: f64) -> Vec<DVec4> {
+pub fn accelerations_in(bounds: &Bounds, forces: &[Box<dyn Component>], particles: &State, time: f64) -> Vec<DVec4> {
     felt(forces, particles, World { time, dt: 0.01, bounds: *bounds, ..World::default() }).0
 }
 
 /// The same with all that is to be known of the world; the velocities and places that the forces
 /// then allow; and what is left of the links.
 pub fn felt(
-    forces: &[Box<dyn Force>],
+    forces: &[Box<dyn Component>],
     particles: &State,
     world: World,
 ) -> (Vec<DVec4>, [Vec<DVec4>; 2], Option<Array>) {
@@ -88,7 +94,7 @@ pub fn felt(
 
 /// The same where the particles have felt something before.
 pub fn felt_after(
-    forces: &[Box<dyn Force>],
+    forces: &[Box<dyn Component>],
     particles: &State,
     world: World,
     before: &[DVec4],
@@ -103,9 +109,9 @@ pub fn felt_after(
     step.evaluate();
     let mut plan = step.finished().expect("a plan");
     for force in forces {
-        force.limit(&mut plan, &problem).expect("a limit");
-        force.confine(&mut plan, &problem, 0.8).expect("a place");
-        force.conclude(&mut plan, &problem).expect("an end");
+        force.stage(Stage::AfterKick, &mut plan, &problem).expect("a limit");
+        force.stage(Stage::AfterDrift { factor: 0.8 }, &mut plan, &problem).expect("a place");
+        force.stage(Stage::EndOfStep, &mut plan, &problem).expect("an end");
     }
     let program = cpu.compile(&plan).expect("twins");
     let join = |v: &[DVec3], w: &[f64]| Array::Vec4(v.iter().zip(w).map(|(v, w)| v.extend(*w)).collect());

@@ -1,7 +1,7 @@
 //! Walks to look at: a law over a tree of some bodies, on a machine that brings about a variant.
 
 use glam::{DVec3, DVec4, Vec4};
-use motes::forces::{Force, Law, Over};
+use motes::forces::{Component, Law, Over};
 use motes::integrators::Step;
 use motes::kernel::{ACCELERATION, Backend, Machine, Pass, Plan, Problem};
 use motes::lockstep::{Verdict, compare};
@@ -30,7 +30,7 @@ pub const USUAL: Settings =
     Settings { theta: 0.5, alpha: 0.0, kernel: "plummer", multipoles: "quadrupole", softening: SOFTENING };
 
 /// Gravity over a tree, or over what a word says.
-pub fn gravity(over: &'static str, settings: Settings) -> Box<dyn Force> {
+pub fn gravity(over: &'static str, settings: Settings) -> Box<dyn Component> {
     let number = Value::Number;
     let Settings { theta, alpha, kernel, multipoles, softening } = settings;
     force(
@@ -49,7 +49,7 @@ pub fn gravity(over: &'static str, settings: Settings) -> Box<dyn Force> {
 /// One law as a force.
 pub struct Alone(pub Law);
 
-impl Force for Alone {
+impl Component for Alone {
     fn laws(&self) -> Vec<Law> {
         vec![self.0.clone()]
     }
@@ -79,14 +79,14 @@ pub struct Walk {
 }
 
 impl Walk {
-    pub fn new(shared: &Shared, machine: Machine, bodies: &[Vec4], force: Box<dyn Force>) -> Self {
+    pub fn new(shared: &Shared, machine: Machine, bodies: &[Vec4], force: Box<dyn Component>) -> Self {
         Self::on(machines::gpu(shared, bodies.len()), machine, bodies, force)
     }
-    pub fn on(gpu: Gpu, machine: Machine, bodies: &[Vec4], force: Box<dyn Force>) -> Self {
+    pub fn on(gpu: Gpu, machine: Machine, bodies: &[Vec4], force: Box<dyn Component>) -> Self {
         Self::within(gpu, machine, bodies, Bounds::default(), force)
     }
     /// The same in a box.
-    pub fn within(mut gpu: Gpu, machine: Machine, bodies: &[Vec4], bounds: Bounds, force: Box<dyn Force>) -> Self {
+    pub fn within(mut gpu: Gpu, machine: Machine, bodies: &[Vec4], bounds: Bounds, force: Box<dyn Component>) -> Self {
         gpu.pretend(machine);
         let count = u32::try_from(bodies.len()).expect("few");
         let forces = [force];

@@ -6,6 +6,7 @@ mod support;
 
 use std::fmt::Display;
 
+use motes::forces::Stage;
 use motes::gpu::Gpu;
 use motes::integrators::{INTEGRATORS, Step};
 use motes::kernel::{ACCELERATION, Backend, POSITION, Plan, VELOCITY};
@@ -20,7 +21,7 @@ const SIZES: [usize; 6] = [1, 2, 63, 64, 65, 1000];
 const DT: f64 = 0.37;
 
 /// A cloud a few steps on its way, so that the clock and all fields hold something.
-fn moving(gpu: Gpu, count: usize, forces: Vec<Box<dyn forces::Force>>, name: &str) -> Simulation<Gpu> {
+fn moving(gpu: Gpu, count: usize, forces: Vec<Box<dyn forces::Component>>, name: &str) -> Simulation<Gpu> {
     let setup = Setup {
         state: support::cloud(count, 7),
         forces,
@@ -94,8 +95,8 @@ fn every_law_alone() {
                     let ways = cloud.velocity().iter().zip(cloud.size()).map(|(v, r)| v.extend(*r).as_vec4());
                     simulation.write(VELOCITY, &ways.collect::<Vec<_>>()).expect("velocities");
                     let laws = plan.order.len();
-                    law[0].limit(&mut plan, &problem).expect("limits");
-                    law[0].confine(&mut plan, &problem, 0.8).expect("places");
+                    law[0].stage(Stage::AfterKick, &mut plan, &problem).expect("limits");
+                    law[0].stage(Stage::AfterDrift { factor: 0.8 }, &mut plan, &problem).expect("places");
                     if plan.order.len() > laws {
                         // Faster than the limit has left them, and back to where a solid has turned them away.
                         let mut velocity = pollster::block_on(simulation.read(VELOCITY)).expect("velocities");

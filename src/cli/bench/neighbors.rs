@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use glam::{DVec3, Vec4};
-use motes::forces::{self, Force, Law, Over};
+use motes::forces::{self, Component, Law, Over};
 use motes::kernel::Source;
 use motes::measure::Flock;
 use motes::neighbors::Cells;
@@ -25,7 +25,7 @@ const FORCED: u32 = 100_000;
 /// FLAME GPU's benchmark of neighbours, one agent per unit of volume.
 struct Circles(Over);
 
-impl Force for Circles {
+impl Component for Circles {
     fn laws(&self) -> Vec<Law> {
         let source = Source::ours("benches/circles.wgsl", include_str!("../../../benches/circles.wgsl"));
         vec![Law::between("circles", self.0, source, Vec::new(), |_, _, r| {
@@ -92,7 +92,7 @@ fn scattered(count: u32, side: f64, speed: f64) -> State {
     particles
 }
 
-fn setup(particles: State, force: Box<dyn Force>, bounds: Bounds) -> Setup {
+fn setup(particles: State, force: Box<dyn Component>, bounds: Bounds) -> Setup {
     Setup {
         state: particles,
         forces: vec![force],

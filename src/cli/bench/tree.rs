@@ -193,7 +193,7 @@ fn absent(what: &str) -> Error {
     Error::Scene(format!("there is no {what}"))
 }
 
-fn gravity(over: &'static str, variant: &Variant) -> Result<Box<dyn forces::Force>, Error> {
+fn gravity(over: &'static str, variant: &Variant) -> Result<Box<dyn forces::Component>, Error> {
     let entry = forces::entry("gravity").ok_or_else(|| absent("gravity"))?;
     let settings = Settings::defaults(entry.keys)
         .with("softening", Value::Number(SOFTENING))

@@ -2,6 +2,7 @@
 
 use super::Step;
 use crate::error::Error;
+use crate::forces::Stage;
 use crate::integrators::verbs::pace;
 use crate::kernel::Plan;
 
@@ -34,7 +35,8 @@ impl Step<'_> {
         let mut plan = Plan::default();
         let mut offered = Vec::new();
         for force in self.forces {
-            offered.extend(force.paces(&mut plan, &self.problem)?);
+            force.stage(Stage::StepLimit, &mut plan, &self.problem)?;
+            offered.extend(force.resolved(&self.problem)?.viscous_steps);
         }
         match offered[..] {
             [viscous] => Ok((plan, viscous)),

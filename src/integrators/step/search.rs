@@ -16,8 +16,8 @@ impl Step<'_> {
                     trees.push(tree);
                 }
             });
-            match force.grids(&self.problem) {
-                Ok(searched) => searched.into_iter().for_each(|(grid, moving)| {
+            match force.resolved(&self.problem) {
+                Ok(resolved) => resolved.cell_lists.into_iter().for_each(|(grid, moving)| {
                     match grids.iter_mut().find(|(known, _)| *known == grid) {
                         Some((_, also)) => *also |= moving,
                         None => grids.push((grid, moving)),

@@ -1,7 +1,7 @@
 //! The verbs of implicit integrators.
 
 use super::Step;
-use crate::forces::{Force, Law, Over};
+use crate::forces::{Component, Law, Over, Stage};
 use crate::integrators::verbs::keep::copy;
 use crate::integrators::verbs::solve::{
     EXPLICIT, START_POSITION, START_VELOCITY, System, begin, iterate, report, rows, update,
@@ -46,9 +46,9 @@ const INNER: f64 = 0.25;
 /// Which of some forces enter the matrix of an implicit solve: those of which every law offers its Jacobian. Of laws of
 /// links that is one: the first.
 #[must_use]
-pub fn implicit(forces: &[Box<dyn Force>]) -> Vec<bool> {
+pub fn implicit(forces: &[Box<dyn Component>]) -> Vec<bool> {
     let mut tied = false;
-    let mut enters = |force: &dyn Force| {
+    let mut enters = |force: &dyn Component| {
         let laws = force.laws();
         let links = laws.iter().filter(|law| law.over == Over::Links).count();
         let good = |law: &Law| {
@@ -136,7 +136,7 @@ impl Step<'_> {
         self.limit();
         self.enclose();
         self.problem.reached = 1.0;
-        self.each_force(|force, plan, problem| force.settle(plan, problem, factor));
+        self.each(Stage::AfterAdvance { factor });
     }
 
     /// The accelerations before implicit laws add theirs.
