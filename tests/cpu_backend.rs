@@ -2,33 +2,11 @@
 
 use std::process::{Command, Stdio};
 
-use motes::scene::SCENES;
+#[path = "support/small.rs"]
+mod small;
 
-/// What makes a scene small: the reference of a search looks at all pairs.
-const SMALLER: &[(&str, &[&str])] = &[
-    ("galaxy", &["particles.0.count=120"]),
-    ("merger", &["particles.0.count=100", "particles.1.count=100"]),
-    ("plummer", &["particles.0.count=100"]),
-    ("cold_collapse", &["particles.0.count=100"]),
-    ("periodic_box", &["particles.0.size=[5, 5, 5]"]),
-    ("fountain", &["particles.0.count=100", "particles.1.count=100"]),
-    ("fountain_pool", &["force.1.spacing=0.04"]),
-    ("cloth", &["particles.0.columns=8", "particles.0.rows=8"]),
-    ("flag", &["particles.0.columns=8", "particles.0.rows=6"]),
-    ("tear", &["particles.0.columns=9", "particles.0.rows=9"]),
-    ("jelly", &["particles.0.size=[3, 3, 3]"]),
-    ("hair", &["particles.0.strands=12"]),
-    ("dam_break", &["force.1.spacing=0.12"]),
-    ("dam_break_2d", &["force.1.spacing=0.1"]),
-    ("wave_tank", &["force.1.spacing=0.0625"]),
-    ("droplet", &["force.0.spacing=0.04"]),
-    ("two_drops", &["force.0.spacing=0.05"]),
-    ("taylor_green", &["particles.0.spacing=0.05", "force.0.spacing=0.05"]),
-    ("flock", &["particles.0.count=150"]),
-    ("fish_school", &["particles.0.count=120"]),
-    ("vicsek", &["particles.0.count=150"]),
-    ("murmuration", &["particles.0.count=150"]),
-];
+use motes::scene::SCENES;
+use small::SMALLER;
 
 fn run(scene: &str, out: &str, more: &[&str]) -> (Option<i32>, String) {
     let mut command = Command::new(env!("CARGO_BIN_EXE_motes"));
@@ -65,7 +43,8 @@ fn every_built_in_scene_runs_with_pictures() {
 #[test]
 fn pictures_do_not_change_what_springs_do() {
     let folder = tempfile::tempdir().expect("a folder");
-    for (scene, sizes) in [("cloth", SMALLER[7].1), ("tear", SMALLER[9].1), ("spring_chain", &[])] {
+    for (scene, sizes) in [("cloth", small::smaller("cloth")), ("tear", small::smaller("tear")), ("spring_chain", &[])]
+    {
         let [with, without] = ["with", "without"].map(|name| folder.path().join(format!("{scene}_{name}")));
         for (out, formats) in [(&with, "[\"csv\", \"png\"]"), (&without, "[\"csv\"]")] {
             let formats = format!("output.formats={formats}");

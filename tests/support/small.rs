@@ -1,0 +1,33 @@
+//! Small versions of the built-in scenes.
+
+/// What makes a scene small: the reference of a search looks at all pairs.
+pub const SMALLER: &[(&str, &[&str])] = &[
+    ("galaxy", &["particles.0.count=120"]),
+    ("merger", &["particles.0.count=100", "particles.1.count=100"]),
+    ("plummer", &["particles.0.count=100"]),
+    ("cold_collapse", &["particles.0.count=100"]),
+    ("periodic_box", &["particles.0.size=[5, 5, 5]"]),
+    ("fountain", &["particles.0.count=100", "particles.1.count=100"]),
+    ("fountain_pool", &["force.1.spacing=0.04"]),
+    ("cloth", &["particles.0.columns=8", "particles.0.rows=8"]),
+    ("flag", &["particles.0.columns=8", "particles.0.rows=6"]),
+    ("tear", &["particles.0.columns=9", "particles.0.rows=9"]),
+    ("jelly", &["particles.0.size=[3, 3, 3]"]),
+    ("hair", &["particles.0.strands=12"]),
+    ("dam_break", &["force.1.spacing=0.12"]),
+    ("dam_break_2d", &["force.1.spacing=0.1"]),
+    ("wave_tank", &["force.1.spacing=0.0625"]),
+    ("droplet", &["force.0.spacing=0.04"]),
+    ("two_drops", &["force.0.spacing=0.05"]),
+    ("taylor_green", &["particles.0.spacing=0.05", "force.0.spacing=0.05"]),
+    ("flock", &["particles.0.count=150"]),
+    ("fish_school", &["particles.0.count=120"]),
+    ("vicsek", &["particles.0.count=150"]),
+    ("murmuration", &["particles.0.count=150"]),
+];
+
+/// The overrides that make a scene small; none where it is small as it is.
+#[allow(dead_code, reason = "each test uses a part of it")]
+pub fn smaller(scene: &str) -> &'static [&'static str] {
+    SMALLER.iter().find(|(name, _)| *name == scene).map_or(&[][..], |(_, sets)| sets)
+}
