@@ -100,6 +100,10 @@ pub struct Properties {
     pub dissipates_at_walls: Vec<&'static str>,
     /// Whether it changes the angular momentum.
     pub turns: bool,
+    /// Whether it makes a fluid of all particles that are not fixed.
+    pub makes_fluid: bool,
+    /// Whether it can say how long a step may be, so that steps can be adaptive.
+    pub limits_steps: bool,
     /// The integrators under which it is what its paper says; none: under all.
     pub integrators: &'static [&'static str],
     /// The distance that a particle may go in a step at most, where its method has such a bound \[length\].

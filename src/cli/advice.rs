@@ -196,8 +196,8 @@ pub fn advice(scene: &Scene, setup: &Setup) -> Result<Vec<String>, Error> {
             if implicit { 1 } else { reduced },
         )
     };
-    for force in &setup.forces {
-        let rates = force.resolved(&Problem::new(1, MACHINE))?.rates.unwrap_or_default();
+    for force in setup.forces.iter().filter(|force| force.properties().makes_fluid) {
+        let rates = force.resolved(&setup.problem(MACHINE)?)?.rates.unwrap_or_default();
         remarks.extend((loses && rates.friction.max(rates.drawn) > 0.0).then(|| depends("fluid")));
     }
     for law in laws {

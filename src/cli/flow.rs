@@ -2,8 +2,7 @@
 
 use motes::Error;
 use motes::fluids::Medium;
-use motes::forces::{Component, Problem};
-use motes::kernel::Machine;
+use motes::forces::Component;
 use motes::scene::Scene;
 use motes::stability::{Asks, Flow};
 
@@ -16,8 +15,7 @@ const PRESSED: f64 = 0.05;
 
 /// Whether one of these forces makes a fluid.
 pub fn flows(forces: &[Box<dyn Component>]) -> bool {
-    let problem = Problem::new(1, Machine::HOST);
-    forces.iter().any(|force| force.resolved(&problem).is_ok_and(|resolved| resolved.rates.is_some()))
+    forces.iter().any(|force| force.properties().makes_fluid)
 }
 
 /// A line of how far from its limit a step is.

@@ -162,6 +162,8 @@ impl Component for Fluid {
             evaluated_last: solves,
             dissipates: all.into_iter().filter(|(is, _)| *is).map(|(_, what)| what).collect(),
             dissipates_at_walls: vec!["walls"],
+            makes_fluid: true,
+            limits_steps: true,
             turns: rubs || self.tension().is_some(),
             integrators: if solves { &["symplectic_euler"] } else { &[] },
             largest_move: solves.then(|| COURANT * self.0.number("spacing")),

@@ -85,8 +85,10 @@ pub(super) fn check(
     (bounds, particles, earlier): (&Bounds, &State, bool),
     report: &mut Report,
 ) -> bool {
-    let machine = Machine::HOST;
-    let problem = Problem::new(1, machine).at(&[], *bounds);
+    if !force.properties().makes_fluid {
+        return false;
+    }
+    let problem = Problem::new(1, Machine::HOST).at(&[], *bounds);
     let why = match force.resolved(&problem).map(|resolved| resolved.fluid) {
         Ok(None) => return false,
         Ok(Some(_)) if earlier => "there are two forces that make a fluid of everybody: leave one of them".to_owned(),

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use crate::forces::{self, Component, Custom, FORCES, Over, Problem};
-use crate::kernel::{Machine, Pace, Scalar};
+use crate::forces::{self, Component, Custom, FORCES, Over};
+use crate::kernel::Scalar;
 use crate::motion::Motion;
 use crate::settings::{Kind, Settings, Value};
 use crate::tree::Opening;
@@ -242,16 +242,11 @@ impl Chosen {
 }
 
 /// Refuses adaptive steps that no force limits, or that one does not bear.
-pub(super) fn paced(forces: &[Box<dyn Component>], (pace, place): (Pace, &Place), report: &mut Report) {
+pub(super) fn paced(forces: &[Box<dyn Component>], place: &Place, report: &mut Report) {
     if let Some(why) = forces.iter().find_map(|force| force.properties().fixed_step) {
         report.push(Fault::at(place, "steps cannot be adaptive").label(format!("{why}: leave this out")));
     }
-    let machine = Machine::HOST;
-    let problem = Problem::new(1, machine).paced(Some(pace));
-    // What is wrong with a force by itself is told where it is built.
-    let offers =
-        |force: &dyn Component| force.resolved(&problem).map_or(true, |resolved| resolved.viscous_steps.is_some());
-    if !forces.iter().any(|force| offers(force.as_ref())) {
+    if !forces.iter().any(|force| force.properties().limits_steps) {
         let fault = Fault::at(place, "no force says how long a step may be, so that its length cannot be adaptive");
         report.push(fault.label("leave this out, or add a fluid"));
     }

@@ -235,8 +235,8 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
     {
         report.push(Fault::at(first.place, why.to_string()));
     }
-    if let Some((pace, place)) = &simulation.pace {
-        force::paced(&forces, (*pace, place), report);
+    if let Some((_, place)) = &simulation.pace {
+        force::paced(&forces, place, report);
     }
     particles.motions = motions;
     let output = output::read(one("output"), simulation.steps, report);

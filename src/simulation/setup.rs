@@ -169,12 +169,9 @@ impl Setup {
     /// Refuses two fluids: each would take everybody for its own.
     fn fluids(&self) -> Result<(), Error> {
         let problem = Problem::new(1, Machine::HOST).at(&[], self.bounds);
-        let fluids = self
-            .forces
-            .iter()
-            .map(|force| Ok(force.resolved(&problem)?.fluid))
-            .filter_map(Result::<_, Error>::transpose);
-        let count = fluids.collect::<Result<Vec<_>, _>>()?.len();
+        let fluids: Vec<_> = self.forces.iter().filter(|force| force.properties().makes_fluid).collect();
+        fluids.iter().try_for_each(|force| force.resolved(&problem).map(|_| ()))?;
+        let count = fluids.len();
         if count > 1 {
             return Err(Error::Scene(format!(
                 "there are {count} forces that make a fluid of everybody, and all pressures would be felt as often: leave one of them"

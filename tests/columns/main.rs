@@ -47,6 +47,10 @@ struct Sum {
 }
 
 fn charged(over: Over) -> Law {
+    charging(over, true)
+}
+
+fn charging(over: Over, turns: bool) -> Law {
     let charge = |p: &Particle| p.scalar("charge").unwrap_or(f64::NAN);
     let gather = move |me: &Particle, you: &Particle, r: DVec3, _: &World, sum: &mut Sum| {
         let near = 1.0 / (1.0 + r.length_squared());
@@ -56,7 +60,9 @@ fn charged(over: Over) -> Law {
     };
     let finish = move |me: &Particle, sum: &Sum, _: &World, outcome: &mut Outcome| {
         outcome.set("field", sum.field);
-        outcome.add("torque", sum.torque);
+        if turns {
+            outcome.add("torque", sum.torque);
+        }
         outcome.accelerate(sum.push.extend(charge(me) * sum.field));
     };
     let into = ["acceleration", "field", "torque"];
@@ -68,7 +74,7 @@ fn without_torque(over: Over) -> Law {
     let text = CHARGED
         .replace("@group(3) @binding(3) var<storage, read_write> torque: array<vec4f>;\n", "")
         .replace("    torque[me.index] += vec4f(sum.torque, 0.0);\n", "");
-    let mut law = charged(over);
+    let mut law = charging(over, false);
     law.wgsl = Source::ours("charged", Box::leak(text.into_boxed_str()));
     law.into.retain(|name| name != "torque");
     law

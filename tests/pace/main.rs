@@ -11,7 +11,7 @@ mod support;
 use glam::DVec3;
 use motes::error::Error;
 use motes::fluids::{self, Limits, Medium, Smoothing};
-use motes::forces::{Component, Law, Problem, Resolved, Stage};
+use motes::forces::{Component, Law, Problem, Properties, Resolved, Stage};
 use motes::integrators::Paced;
 use motes::kernel::{Backend, Pace, Plan};
 use motes::settings::Value;
@@ -30,6 +30,9 @@ const LENGTH: f64 = 0.1;
 struct Free;
 
 impl Component for Free {
+    fn properties(&self) -> Properties {
+        Properties { limits_steps: true, ..Properties::default() }
+    }
     fn laws(&self) -> Vec<Law> {
         Vec::new()
     }
