@@ -8,8 +8,8 @@ fn acts_on(me: Particle) -> bool { return !is_held(me.index); }
 
 fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
     let v = velocity[you.index].xyz - velocity[me.index].xyz;
-    let near = r.x * r.x + r.y * r.y + r.z * r.z + 0.01 * medium.smoothing * medium.smoothing;
-    (*sum).most = max((*sum).most, abs(v.x * r.x + v.y * r.y + v.z * r.z) * medium.smoothing / near);
+    let near = r.x * r.x + r.y * r.y + r.z * r.z + 0.01 * SMOOTHING * SMOOTHING;
+    (*sum).most = max((*sum).most, abs(v.x * r.x + v.y * r.y + v.z * r.z) * SMOOTHING / near);
 }
 
 fn deliver(k: u32, me: Particle, sum: Sum) { closing[me.index] = sum.most; }

@@ -20,10 +20,10 @@ fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
     if you.density > 0.0 {
         let d2 = r.x * r.x + r.y * r.y + r.z * r.z;
         let weighs = params.weight.x * r.x + params.weight.y * r.y + params.weight.z * r.z;
-        let denser = 0.5 * (me.density + you.density) - medium.density;
-        let give = medium.density - f32(medium.exponent - 2u) * denser;
-        let excess = you.density - me.density - give * weighs / (medium.sound * medium.sound);
-        let near = d2 / (d2 + 0.01 * medium.smoothing * medium.smoothing);
+        let denser = 0.5 * (me.density + you.density) - REST_DENSITY;
+        let give = REST_DENSITY - (f32(EXPONENT) - 2.0) * denser;
+        let excess = you.density - me.density - give * weighs / (SOUND * SOUND);
+        let near = d2 / (d2 + 0.01 * SMOOTHING * SMOOTHING);
         (*sum).rate -= params.diffusion * (you.mass / you.density) * excess * gradient(r) * near;
     }
 }

@@ -13,14 +13,14 @@ fn acts_on(me: Particle) -> bool { return me.density > 0.0; }
 fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
     let d2 = r.x * r.x + r.y * r.y + r.z * r.z;
     let wall = you.density == 0.0;
-    let density = select(you.density, medium.density, wall);
-    let ratio = me.density / medium.density;
+    let density = select(you.density, REST_DENSITY, wall);
+    let ratio = me.density / REST_DENSITY;
     let pressure = select(you.pressure, me.pressure * ratio * ratio, wall && params.mirror != 0u);
     let friction = select(1.0, params.wall, wall);
     let v = you.velocity - me.velocity;
-    let near = d2 + 0.01 * medium.smoothing * medium.smoothing;
-    let closing = min(v.x * r.x + v.y * r.y + v.z * r.z, 0.0) * medium.smoothing / near;
-    let artificial = params.alpha * medium.sound * closing / (0.5 * (me.density + density));
+    let near = d2 + 0.01 * SMOOTHING * SMOOTHING;
+    let closing = min(v.x * r.x + v.y * r.y + v.z * r.z, 0.0) * SMOOTHING / near;
+    let artificial = params.alpha * SOUND * closing / (0.5 * (me.density + density));
     let laminar = params.viscosity * (1.0 / me.density + 1.0 / density);
     let push = me.pressure + pressure - friction * artificial;
     (*sum).acceleration += (you.mass * gradient(r)) * (push * r - (friction * laminar) * v);

@@ -15,16 +15,16 @@ fn state(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: v
         return;
     }
     let rho = density[id];
-    let excess = (rho - medium.density) / medium.density;
-    let e = select(max(excess, 0.0), excess, medium.negative != 0u);
+    let excess = (rho - REST_DENSITY) / REST_DENSITY;
+    let e = select(max(excess, 0.0), excess, NEGATIVE);
     let x = 1.0 + e;
     // x^γ − 1 = e (1 + x + … + x^(γ−1)): no digits are lost where e is small.
     var sum = 1.0;
     var energy = 0.0;
-    for (var n = 1u; n < medium.exponent; n += 1u) {
+    for (var n = 1u; n < EXPONENT; n += 1u) {
         sum = sum * x + 1.0;
         energy = energy * x + f32(n);
     }
-    let share = f32(medium.exponent - 1u) * medium.density * x;
-    flow[k] = vec4f(rho, medium.stiffness * e * sum / (rho * rho), medium.stiffness * e * e * energy / share, 0.0);
+    let share = (f32(EXPONENT) - 1.0) * REST_DENSITY * x;
+    flow[k] = vec4f(rho, STIFFNESS * e * sum / (rho * rho), STIFFNESS * e * e * energy / share, 0.0);
 }

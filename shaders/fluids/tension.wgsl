@@ -15,12 +15,12 @@ fn acts_on(me: Particle) -> bool { return me.density > 0.0; }
 fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
     let d2 = r.x * r.x + r.y * r.y + r.z * r.z;
     let inverse = inverseSqrt(max(d2, NOTHING));
-    let q = d2 * inverse * medium.per_support;
+    let q = d2 * inverse * PER_SUPPORT;
     let p = 1.0 - q;
     if you.density > 0.0 {
         let hump = p * p * p * q * q * q;
         let pull = params.cohesion * you.mass * select(hump, 2.0 * hump - 0.015625, q <= 0.5);
-        let share = 2.0 * medium.density / (me.density + you.density);
+        let share = 2.0 * REST_DENSITY / (me.density + you.density);
         (*sum).acceleration += share * (pull * inverse * r - params.curvature * (me.normal - you.normal));
     } else {
         let hump = max(6.0 * q - 4.0 * q * q - 2.0, 0.0);

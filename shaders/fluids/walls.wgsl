@@ -14,5 +14,5 @@ fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
 }
 
 fn deliver(k: u32, me: Particle, sum: Sum) {
-    weighed[me.index].w = select(medium.density / (sum.number + kernel(vec3f())), params.mass, params.mass > 0.0);
+    weighed[me.index].w = select(REST_DENSITY / (sum.number + kernel(vec3f())), params.mass, params.mass > 0.0);
 }

@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::{DENSITY, DENSITY_RATE, Medium};
 use crate::error::Error;
 use crate::kernel::{Host, Kernel, Pass, Problem, Scalar, Shader};
-use crate::visit::{Sweep, blocks, gathered};
+use crate::visit::{Sweep, block, gathered};
 
 /// How the density of a fluid follows it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,7 +26,7 @@ pub fn rest(medium: &Medium, problem: &Problem) -> Result<Kernel, Error> {
     let (me, who) = (*medium, problem.clone());
     let source =
         [medium.smoothing.source(), crate::shader!("fluids/medium.wgsl"), crate::shader!("fluids/density_rest.wgsl")];
-    alone("fluid rest", &source, &[medium.block()], problem, move |host| {
+    alone("fluid rest", &source, &[], &medium.constants(), problem, move |host| {
         let mut density = host.write(DENSITY)?;
         density.iter_mut().enumerate().filter(|(i, _)| !who.is_held(*i)).for_each(|(_, rho)| *rho = me.density);
         Ok(())
@@ -74,12 +74,12 @@ pub fn rate(medium: &Medium, continuity: Continuity, factor: f64, problem: &Prob
         rate.iter_mut().zip(rates).for_each(|(rate, found)| *rate = found.unwrap_or(*rate));
         Ok(())
     };
-    let blocks = vec![medium.block(), ("params", params)];
     let sweep = Sweep {
         name: "fluid density rate".to_owned(),
         grid: medium.grid(problem)?,
         files,
-        blocks,
+        params,
+        constants: medium.constants(),
         twin: Arc::new(twin),
     };
     Ok(Kernel { tables, ..sweep.kernel(problem)? })
@@ -91,8 +91,8 @@ pub fn rate(medium: &Medium, continuity: Continuity, factor: f64, problem: &Prob
 /// When a shader does not compile.
 pub fn advance(factor: f64, problem: &Problem) -> Result<Kernel, Error> {
     let who = problem.clone();
-    let block = ("params", vec![("factor", Scalar::Float(factor))]);
-    alone("fluid density advance", &[crate::shader!("fluids/density_advance.wgsl")], &[block], problem, move |host| {
+    let (files, params) = ([crate::shader!("fluids/density_advance.wgsl")], [("factor", Scalar::Float(factor))]);
+    alone("fluid density advance", &files, &params, &[], problem, move |host| {
         let (mut density, rate) = (host.write(DENSITY)?, host.read(DENSITY_RATE)?);
         let each = density.iter_mut().zip(rate.iter()).enumerate();
         each.filter(|(i, _)| !who.is_held(*i)).for_each(|(_, (rho, rate))| *rho += factor * host.world().dt * rate);
@@ -100,11 +100,12 @@ pub fn advance(factor: f64, problem: &Problem) -> Result<Kernel, Error> {
     })
 }
 
-/// A kernel for each particle alone, who knows whether it is held.
+/// A kernel for each particle alone, who knows whether it is held, with such parameters and constants.
 fn alone(
     name: &str,
     files: &[crate::kernel::Source],
-    values: &[(&'static str, Vec<(&'static str, Scalar)>)],
+    params: &[(&'static str, Scalar)],
+    constants: &[(&'static str, f64)],
     problem: &Problem,
     twin: impl Fn(&Host) -> Result<(), Error> + Send + Sync + 'static,
 ) -> Result<Kernel, Error> {
@@ -112,10 +113,11 @@ fn alone(
     let mut sources = vec![holding, crate::shader!("world.wgsl"), crate::shader!("fields.wgsl")];
     sources.extend_from_slice(files);
     let shader = Shader::join(&sources)?;
-    let uniforms = blocks(name, &shader, values)?;
+    let uniforms = block(name, &shader, "params", params)?;
+    let constants = shader.reflection().known(constants);
     Ok(Kernel {
         name: name.to_owned(),
-        passes: vec![Pass { uniforms, ..Pass::new(shader, problem.count) }],
+        passes: vec![Pass { constants, uniforms, ..Pass::new(shader, problem.count) }],
         twin: Some(Arc::new(twin)),
         sizes: Vec::new(),
         scratch: Vec::new(),

@@ -41,7 +41,8 @@ pub fn density(medium: &Medium, problem: &Problem) -> Result<Kernel, Error> {
         name: "fluid density".to_owned(),
         grid: medium.grid(problem)?,
         files,
-        blocks: vec![medium.block()],
+        params: Vec::new(),
+        constants: medium.constants(),
         twin: Arc::new(twin),
     };
     Ok(Kernel { tables, ..sweep.kernel(problem)? })

@@ -9,7 +9,7 @@ use glam::{DVec4, Vec4};
 use super::Medium;
 use crate::error::Error;
 use crate::kernel::{ACCELERATION, Field, Host, Kernel, Pass, Plan, Problem, Scalar, Shader, URGES, VELOCITY};
-use crate::visit::{Sweep, blocks, gathered};
+use crate::visit::{Sweep, block, gathered};
 
 /// How far a particle may go in a step, in spacings, where no speed of sound limits it (Courant, Friedrichs & Lewy 1928; 0.4 as
 /// Bender & Koschier 2015 have it).
@@ -89,7 +89,8 @@ fn closing(medium: &Medium, problem: &Problem) -> Result<Kernel, Error> {
         name: "fluid closing".to_owned(),
         grid: medium.grid(problem)?,
         files,
-        blocks: vec![medium.block()],
+        params: Vec::new(),
+        constants: medium.constants(),
         twin: Arc::new(twin),
     };
     Ok(Kernel { tables, ..sweep.kernel(problem)? })
@@ -105,7 +106,7 @@ fn urge(shares: &Shares, problem: &Problem) -> Result<Kernel, Error> {
         ("sound", Scalar::Float(shares.sound)),
         ("speed", Scalar::Float(shares.speed)),
     ];
-    let uniforms = blocks("the limits of a fluid", &shader, &[("params", params)])?;
+    let uniforms = block("the limits of a fluid", &shader, "params", &params)?;
     let pass = Pass { uniforms, ..Pass::new(shader, problem.count) };
     let (shares, who) = (*shares, problem.clone());
     let twin = move |host: &Host| {

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::Smoothing;
 use crate::error::Error;
-use crate::kernel::{Problem, Scalar, Source};
+use crate::kernel::{Problem, Source};
 use crate::neighbors::Grid;
 
 /// A fluid: its density at rest, how compressible it is, and how its particles smooth it.
@@ -105,20 +105,19 @@ impl Medium {
     pub(super) fn asking(&self, asked: &[Source], own: Source) -> Vec<Source> {
         [asked, &[self.smoothing.source(), crate::shader!("fluids/medium.wgsl"), own]].concat()
     }
-    /// The block `medium` of shaders.
+    /// The `override`s of `shaders/fluids/medium.wgsl`: a simulation has one fluid, and kernels few enough uniform blocks.
     #[must_use]
-    pub fn block(&self) -> (&'static str, Vec<(&'static str, Scalar)>) {
-        let values = vec![
-            ("per_support", Scalar::Float(1.0 / self.range())),
-            ("weight", Scalar::Float(self.weight())),
-            ("slope", Scalar::Float(self.weight() / self.range().powi(2))),
-            ("smoothing", Scalar::Float(0.5 * self.range())),
-            ("density", Scalar::Float(self.density)),
-            ("sound", Scalar::Float(self.sound)),
-            ("stiffness", Scalar::Float(self.stiffness())),
-            ("exponent", Scalar::Uint(self.exponent)),
-            ("negative", Scalar::Uint(u32::from(self.negative))),
-        ];
-        ("medium", values)
+    pub fn constants(&self) -> Vec<(&'static str, f64)> {
+        vec![
+            ("PER_SUPPORT", 1.0 / self.range()),
+            ("WEIGHT", self.weight()),
+            ("SLOPE", self.weight() / self.range().powi(2)),
+            ("SMOOTHING", 0.5 * self.range()),
+            ("REST_DENSITY", self.density),
+            ("SOUND", self.sound),
+            ("STIFFNESS", self.stiffness()),
+            ("EXPONENT", f64::from(self.exponent)),
+            ("NEGATIVE", f64::from(u8::from(self.negative))),
+        ]
     }
 }

@@ -61,8 +61,8 @@ pub fn pressure(medium: &Medium, friction: Friction, walls: Walls, problem: &Pro
         }
         Ok(())
     };
-    let blocks = vec![medium.block(), ("params", params)];
-    let sweep = Sweep { name: "fluid pressure".to_owned(), files, blocks, twin: Arc::new(twin), grid };
+    let (name, constants) = ("fluid pressure".to_owned(), medium.constants());
+    let sweep = Sweep { name, files, params, constants, twin: Arc::new(twin), grid };
     flowing(sweep, &[], problem)
 }
 

@@ -8,7 +8,6 @@ use super::{DENSITY, FLOW, Medium};
 use crate::error::Error;
 use crate::kernel::{Host, Kernel, Pass, Problem, Shader};
 use crate::neighbors::{SORTED_ID, STARTS};
-use crate::visit::blocks;
 
 /// The kernel that writes density, pressure and energy down in the order of the grid.
 ///
@@ -27,10 +26,10 @@ pub fn state(medium: &Medium, problem: &Problem) -> Result<Kernel, Error> {
         crate::shader!("fluids/medium.wgsl"),
         crate::shader!("fluids/state.wgsl"),
     ])?;
-    let uniforms = blocks("the state of a fluid", &shader, &[medium.block()])?;
-    let constants = grid.constants(&shader);
+    let mut constants = grid.constants(&shader);
+    constants.extend(shader.reflection().known(&medium.constants()));
     let fields = [SORTED_ID, FLOW, STARTS].map(|name| grid.field(name));
-    let pass = Pass { constants, uniforms, ..Pass::new(shader, problem.count) }.on(&fields);
+    let pass = Pass { constants, ..Pass::new(shader, problem.count) }.on(&fields);
     let (starts, cells) = (grid.field(STARTS).1, u64::from(grid.bins()));
     let (me, who) = (*medium, problem.clone());
     let twin = move |host: &Host| {

@@ -55,8 +55,8 @@ fn normals(medium: &Medium, problem: &Problem) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    let blocks = vec![medium.block()];
-    let sweep = Sweep { name: "fluid normals".to_owned(), files, blocks, twin: Arc::new(twin), grid };
+    let (name, params, constants) = ("fluid normals".to_owned(), Vec::new(), medium.constants());
+    let sweep = Sweep { name, files, params, constants, twin: Arc::new(twin), grid };
     flowing(sweep, &[NORMAL], problem)
 }
 
@@ -90,8 +90,8 @@ fn pull(medium: &Medium, tension: Tension, problem: &Problem) -> Result<Kernel, 
         felt.iter().zip(acceleration.iter_mut()).for_each(|(felt, a)| *a += felt.unwrap_or_default().extend(0.0));
         Ok(())
     };
-    let blocks = vec![medium.block(), ("params", params)];
-    let sweep = Sweep { name: "fluid tension".to_owned(), files, blocks, twin: Arc::new(twin), grid };
+    let (name, constants) = ("fluid tension".to_owned(), medium.constants());
+    let sweep = Sweep { name, files, params, constants, twin: Arc::new(twin), grid };
     flowing(sweep, &[NORMAL], problem)
 }
 

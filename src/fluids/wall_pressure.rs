@@ -47,9 +47,9 @@ pub fn wall_pressure(medium: &Medium, weight: DVec3, problem: &Problem) -> Resul
         }
         Ok(())
     };
-    let blocks = vec![medium.block(), ("params", vec![("weight", Scalar::Vector(weight))])];
+    let (params, constants) = (vec![("weight", Scalar::Vector(weight))], medium.constants());
     let name = "fluid wall pressure".to_owned();
-    let sweep = Sweep { name, files, blocks, twin: Arc::new(twin), grid: grid.clone() };
+    let sweep = Sweep { name, files, params, constants, twin: Arc::new(twin), grid: grid.clone() };
     let mut find = sweep.kernel_of_all(problem)?;
     let fields = [WALL_PRESSURE, FLOW].map(|name| grid.field(name));
     find.passes.iter_mut().for_each(|pass| pass.fields.extend_from_slice(&fields));

@@ -52,7 +52,8 @@ pub fn walls(medium: &Medium, weighs: WallMass, problem: &Problem) -> Result<Ker
         name: "fluid walls".to_owned(),
         grid: medium.grid(problem)?,
         files,
-        blocks: vec![medium.block(), ("params", vec![("mass", Scalar::Float(mass))])],
+        params: vec![("mass", Scalar::Float(mass))],
+        constants: medium.constants(),
         twin: Arc::new(twin),
     };
     let mut kernel = sweep.kernel_of_all(problem)?;

@@ -37,6 +37,6 @@ pub fn xsph(medium: &Medium, strength: f64, problem: &Problem) -> Result<Kernel,
         acceleration.iter_mut().zip(drawn).for_each(|(a, drawn)| *a += (rate * drawn.unwrap_or_default()).extend(0.0));
         Ok(())
     };
-    let blocks = vec![medium.block(), ("params", vec![("xsph", Scalar::Float(strength))])];
-    flowing(Sweep { name: "fluid xsph".to_owned(), files, blocks, twin: Arc::new(twin), grid }, &[], problem)
+    let (params, constants) = (vec![("xsph", Scalar::Float(strength))], medium.constants());
+    flowing(Sweep { name: "fluid xsph".to_owned(), files, params, constants, twin: Arc::new(twin), grid }, &[], problem)
 }

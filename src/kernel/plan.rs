@@ -118,7 +118,7 @@ impl Kernel {
     #[must_use]
     pub fn new(name: &str, shader: Arc<Shader>, constants: Vec<(&'static str, f64)>, count: u32, twin: Twin) -> Self {
         let mut label = name.to_owned();
-        let default = |key: &str| shader.reflection().overrides.get(key).copied();
+        let default = |key: &str| shader.reflection().overrides.get(key).copied().flatten();
         for (key, value) in constants.iter().filter(|(key, value)| default(key) != Some(*value)) {
             let _ = write!(label, " {key}={}", short(*value));
         }

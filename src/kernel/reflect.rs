@@ -55,8 +55,8 @@ pub struct Reflection {
     pub workgroup_bytes: u64,
     /// What is bound.
     pub bindings: Vec<Binding>,
-    /// Its `override`s, with their defaults.
-    pub overrides: BTreeMap<String, f64>,
+    /// Its `override`s, with their defaults, where they have some.
+    pub overrides: BTreeMap<String, Option<f64>>,
     /// Its whole-numbered `const`s.
     pub constants: BTreeMap<String, u32>,
     /// Whether it reads `world.time`.
@@ -99,6 +99,11 @@ impl Reflection {
     pub fn binding(&self, name: &str) -> Option<&Binding> {
         self.bindings.iter().find(|b| b.name == name)
     }
+    /// Those of some values for `override`s that it has.
+    #[must_use]
+    pub fn known(&self, constants: &[(&'static str, f64)]) -> Vec<(&'static str, f64)> {
+        constants.iter().filter(|(name, _)| self.overrides.contains_key(*name)).copied().collect()
+    }
     /// A whole-numbered `const`, or 1.
     #[must_use]
     pub fn constant(&self, name: &str) -> u32 {
@@ -106,13 +111,13 @@ impl Reflection {
     }
 }
 
-fn default(module: &Module, item: &naga::Override) -> Option<(String, f64)> {
-    let value = match module.global_expressions[item.init?] {
-        Expression::Literal(Literal::F32(x)) => f64::from(x),
-        Expression::Literal(Literal::U32(n)) => f64::from(n),
-        Expression::Literal(Literal::Bool(b)) => f64::from(u8::from(b)),
-        _ => return None,
-    };
+fn default(module: &Module, item: &naga::Override) -> Option<(String, Option<f64>)> {
+    let value = item.init.and_then(|init| match module.global_expressions[init] {
+        Expression::Literal(Literal::F32(x)) => Some(f64::from(x)),
+        Expression::Literal(Literal::U32(n)) => Some(f64::from(n)),
+        Expression::Literal(Literal::Bool(b)) => Some(f64::from(u8::from(b))),
+        _ => None,
+    });
     Some((item.name.clone()?, value))
 }
 

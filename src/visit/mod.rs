@@ -24,7 +24,7 @@ pub use over::Over;
 pub use pair_table::{MOST_SPECIES, PAIR_TABLE, PairRow, PairTable};
 pub use particle::{Particle, View};
 pub use result::{Cell, Outcome};
-pub use sweep::{Sweep, blocks, gathered};
+pub use sweep::{Sweep, block, gathered};
 pub use tied::Tables;
 pub(crate) use tied::Tied;
 pub use tree::crossing;

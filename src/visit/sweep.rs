@@ -20,8 +20,10 @@ pub struct Sweep {
     pub grid: Grid,
     /// Its own files.
     pub files: Vec<Source>,
-    /// What its uniform blocks hold, by their names.
-    pub blocks: Vec<(&'static str, Vec<(&'static str, Scalar)>)>,
+    /// The members of its `Params`, by name; none where it has none.
+    pub params: Vec<(&'static str, Scalar)>,
+    /// Values for its `override`s, of which it may leave some out.
+    pub constants: Vec<(&'static str, f64)>,
     /// The same in f64.
     pub twin: Twin,
 }
@@ -52,8 +54,10 @@ impl Sweep {
         sources.extend(near::search(&self.grid, &problem.machine));
         sources.extend(self.files);
         let shader = Shader::join(&sources)?;
-        let uniforms = blocks(&self.name, &shader, &self.blocks)?;
-        let pass = Pass { constants: problem.constants(&shader), uniforms, ..Pass::new(shader, 0) };
+        let uniforms = block(&self.name, &shader, "params", &self.params)?;
+        let mut constants = problem.constants(&shader);
+        constants.extend(shader.reflection().known(&self.constants));
+        let pass = Pass { constants, uniforms, ..Pass::new(shader, 0) };
         Ok(Kernel {
             name: self.name,
             passes: near::passes(&self.grid, &pass, targets, problem)?,
@@ -65,22 +69,20 @@ impl Sweep {
     }
 }
 
-/// The contents of uniform blocks, of which a shader may leave some out.
+/// The contents of a uniform block, where the shader has it.
 ///
 /// # Errors
-/// [`Error::Scene`] when a block has other members.
-pub fn blocks(
+/// [`Error::Scene`] when the block has other members.
+pub fn block(
     whose: &str,
     shader: &Shader,
-    blocks: &[(&'static str, Vec<(&'static str, Scalar)>)],
+    name: &'static str,
+    values: &[(&'static str, Scalar)],
 ) -> Result<Vec<(&'static str, Vec<u8>)>, Error> {
-    let mut uniforms = Vec::new();
-    for (name, values) in blocks {
-        if let Some(binding) = shader.reflection().binding(name) {
-            uniforms.push((*name, binding.packed.pack(whose, values)?));
-        }
+    match shader.reflection().binding(name) {
+        Some(binding) => Ok(vec![(name, binding.packed.pack(whose, values)?)]),
+        None => Ok(Vec::new()),
     }
-    Ok(uniforms)
 }
 
 /// What everybody gathers who lives and is chosen, of all others in range, in the order of their ids: the twin of a [`Sweep`].

@@ -27,3 +27,16 @@ fn uniform_blocks_begin_with_the_unused_word() {
     });
     assert!(faults.is_empty(), "{faults:#?}");
 }
+
+/// Uniform blocks of a kernel, at most: from the fourth on lavapipe of Mesa 22.2 to 23.0 writes behind a table of its own.
+const BLOCKS: usize = 3;
+
+#[test]
+fn no_kernel_binds_more_than_three_uniform_blocks() {
+    let faults = faults(|kernel| {
+        let count = |pass: &motes::kernel::Pass| pass.bindings().filter(|(_, b)| b.access == Access::Uniform).count();
+        let most = kernel.passes.iter().map(count).max().unwrap_or(0);
+        (most > BLOCKS).then(|| format!("{most} uniform blocks"))
+    });
+    assert!(faults.is_empty(), "{faults:#?}");
+}

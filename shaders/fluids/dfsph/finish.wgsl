@@ -16,7 +16,7 @@ fn finish(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: 
     let mine = unknowns[k].stiffness;
     if mine >= 0.0 {
         stiffness[id].density = mine;
-        pressure[id] = medium.density * (stiffness[id].divergence + mine);
+        pressure[id] = REST_DENSITY * (stiffness[id].divergence + mine);
         acceleration[id] += vec4f(pushes[k].xyz, 0.0);
     }
 }

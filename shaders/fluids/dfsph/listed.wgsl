@@ -20,7 +20,7 @@ fn near(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
                 let you = candidate(u32(slot));
                 let r = shortest(you.position - me.position);
                 gather(me, you, r, &sum);
-                pairs[place] = vec4f((you.mass / medium.density * gradient(r)) * r, slot);
+                pairs[place] = vec4f((you.mass / REST_DENSITY * gradient(r)) * r, slot);
             }
             deliver(k, me, sum);
         }

@@ -12,7 +12,7 @@ const LEAST: f32 = 1e-6;
 fn acts_on(me: Particle) -> bool { return !is_held(me.index); }
 
 fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
-    let volume = you.mass / medium.density;
+    let volume = you.mass / REST_DENSITY;
     let slope = gradient(r) * r;
     let v = you.velocity - me.velocity;
     (*sum).number += volume * kernel(r);
@@ -25,10 +25,10 @@ fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
 }
 
 fn deliver(k: u32, me: Particle, sum: Sum) {
-    let volume = me.mass / medium.density;
+    let volume = me.mass / REST_DENSITY;
     let number = sum.number + volume * kernel(vec3f());
     let inverse = dot(sum.gradient + sum.walls, sum.gradient) + volume * sum.squares;
-    let resists = inverse > LEAST * medium.per_support * medium.per_support;
-    density[me.index] = medium.density * number;
+    let resists = inverse > LEAST * PER_SUPPORT * PER_SUPPORT;
+    density[me.index] = REST_DENSITY * number;
     responses[k] = Response(number - 1.0, select(0.0, 1.0 / inverse, resists), sum.change, sum.neighbors);
 }

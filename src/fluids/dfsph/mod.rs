@@ -19,7 +19,7 @@ use super::Medium;
 use crate::error::Error;
 use crate::kernel::{Host, Kernel, Name, Pass, Plan, Problem, Scalar, Shader, Source, Twin};
 use crate::neighbors::{Grid, SORTED_ID, SORTED_POSITION, SORTED_VELOCITY, STARTS};
-use crate::visit::{Sweep, blocks};
+use crate::visit::{Sweep, block};
 
 use pairs::Pairs;
 
@@ -176,7 +176,8 @@ impl<'a> Dfsph<'a> {
         Ok(self.bound(self.walk(name, all, twin)?))
     }
     fn walk(&self, name: String, files: Vec<Source>, twin: Twin) -> Result<Kernel, Error> {
-        let sweep = Sweep { name, grid: self.grid.clone(), files, blocks: vec![self.medium.block()], twin };
+        let constants = self.medium.constants();
+        let sweep = Sweep { name, grid: self.grid.clone(), files, params: Vec::new(), constants, twin };
         sweep.kernel(self.problem)
     }
     /// A kernel over slots or particles, or of so many invocations.
@@ -192,9 +193,10 @@ impl<'a> Dfsph<'a> {
         all.push(crate::shader!("neighbors/starts.wgsl"));
         all.extend(self.files(files.to_vec()));
         let shader = Shader::join(&all)?;
-        let uniforms = blocks(name, &shader, &[self.medium.block(), ("extent", extent.to_vec())])?;
-        let fluid = self.grid.of_those_ahead();
-        let pass = Pass { constants: fluid.constants(&shader), uniforms, ..Pass::new(shader.clone(), threads) };
+        let uniforms = block(name, &shader, "extent", extent)?;
+        let mut constants = self.grid.of_those_ahead().constants(&shader);
+        constants.extend(shader.reflection().known(&self.medium.constants()));
+        let pass = Pass { constants, uniforms, ..Pass::new(shader.clone(), threads) };
         let kernel = Kernel { passes: vec![pass], ..Kernel::new(name, shader, Vec::new(), threads, twin) };
         Ok(self.bound(kernel))
     }
@@ -233,8 +235,7 @@ impl Solve {
 /// The same with values for `override`s, of those that its shaders have.
 fn with(mut kernel: Kernel, constants: &[(&'static str, f64)]) -> Kernel {
     for pass in &mut kernel.passes {
-        let known = pass.shader.reflection();
-        pass.constants.extend(constants.iter().filter(|(name, _)| known.overrides.contains_key(*name)));
+        pass.constants.extend(pass.shader.reflection().known(constants));
     }
     kernel
 }

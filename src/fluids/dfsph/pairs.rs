@@ -43,8 +43,8 @@ impl Pairs {
     /// The kernel that finds them, and meets everybody once.
     pub fn find(self, of: &Dfsph<'_>, name: &str, files: Vec<Source>, twin: Twin) -> Result<Kernel, Error> {
         let own = vec![crate::shader!("fluids/dfsph/neighbors.wgsl")];
-        let (grid, blocks) = (of.grid.clone(), Vec::new());
-        let search = Sweep { name: name.to_owned(), grid, files: own, blocks, twin };
+        let (grid, params, constants) = (of.grid.clone(), Vec::new(), Vec::new());
+        let search = Sweep { name: name.to_owned(), grid, files: own, params, constants, twin };
         let mut kernel = search.kernel(of.problem)?;
         let mut all = files;
         all.push(crate::shader!("fluids/dfsph/listed.wgsl"));
@@ -66,10 +66,10 @@ impl Pairs {
         all.push(crate::shader!("neighbors/starts.wgsl"));
         all.extend_from_slice(files);
         let shader = Shader::join(&all)?;
-        let uniforms = crate::visit::blocks("pairs of a fluid", &shader, &[of.medium.block()])?;
         let mut constants = of.problem.constants(&shader);
         constants.extend(of.grid.of_those_ahead().constants(&shader));
-        let pass = Pass { constants, uniforms, ..Pass::new(shader, self.stride) };
+        constants.extend(shader.reflection().known(&of.medium.constants()));
+        let pass = Pass { constants, ..Pass::new(shader, self.stride) };
         let work = self.elements() / u64::from(ROOM);
         Ok(Pass { work, ..pass })
     }

@@ -152,7 +152,7 @@ fn plain(name: &str, system: &System<'_>, source: Source, twin: Twin) -> Result<
 fn with(mut kernel: Kernel, constants: &[(&'static str, f64)]) -> Kernel {
     for pass in &mut kernel.passes {
         let known = pass.shader.reflection();
-        pass.constants.extend(constants.iter().filter(|(name, _)| known.overrides.contains_key(*name)));
+        pass.constants.extend(known.known(constants));
     }
     kernel
 }
