@@ -211,7 +211,8 @@ fn curious(problem: &Problem) -> Kernel {
         Source::ours("curious", CURIOUS),
     ];
     let flow = grid.field("flow");
-    let sweep = Sweep { name: "told".to_owned(), grid, files, blocks: Vec::new(), twin: Arc::new(twin) };
+    let (params, constants) = (Vec::new(), Vec::new());
+    let sweep = Sweep { name: "told".to_owned(), grid, files, params, constants, twin: Arc::new(twin) };
     let mut kernel = sweep.kernel_of_all(problem).expect("a search");
     kernel.passes.iter_mut().for_each(|pass| pass.fields.push(flow.clone()));
     kernel
