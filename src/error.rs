@@ -80,6 +80,26 @@ pub enum Error {
         /// The lowest id of such a particle.
         particle: u32,
     },
+    /// The driver has ended the loops of a user's law before they were done, so that forces are wrong. Mended in that law, or by
+    /// another driver.
+    #[error(
+        "{law}: its loops and those of its visit take more turns than this driver gives them (Mesa before 25 ends the loops of an \
+         invocation after 65535 turns in all, without a word), so that its forces would be wrong: let fewer turns or a shorter range do, \
+         choose over = \"pairs\", which is cut into slices of 128 particles, or install Mesa 25 or choose another adapter"
+    )]
+    CutShort {
+        /// The law and its file.
+        law: String,
+    },
+    /// A loop of a user's law does not end. Mended in that law.
+    #[error(
+        "{law}: its loops have taken 16777216 turns in one invocation without coming to an end, and were ended: look for one that \
+         never does, or let fewer turns do"
+    )]
+    Endless {
+        /// The law and its file.
+        law: String,
+    },
     /// The device is gone (driver reset, watchdog, unplugged). Mended by starting again, with less work per submission.
     #[error("the device was lost: {0}; start again, on another adapter if it happens twice")]
     Lost(String),
@@ -118,6 +138,7 @@ impl Error {
             Self::Input { .. } => 4,
             Self::NoAdapter(_) | Self::Limit(_) => 5,
             Self::NotFinite { .. } | Self::Runaway { .. } | Self::Crowded { .. } | Self::TooShort { .. } => 6,
+            Self::CutShort { .. } | Self::Endless { .. } => 6,
             Self::Lost(_) | Self::OutOfMemory(_) | Self::Timeout { .. } | Self::Device(_) => 7,
             Self::Output { .. } => 8,
         }

@@ -43,6 +43,8 @@ pub struct Simulation<B: Backend> {
     step: B::Program,
     measure: (B::Program, B::Program),
     plan: String,
+    /// By which an alarm names users' laws.
+    marks: alarm::Marks,
     /// Whether a step keeps a report of its solves, and one of those for pressure.
     reports: [bool; 2],
     count: u32,
@@ -67,7 +69,7 @@ impl<B: Backend> Simulation<B> {
     pub fn on(mut backend: B, setup: &Setup) -> Result<Self, Error> {
         let count = setup.check()?;
         let plans = setup.plans(backend.machine())?;
-        let plan = plans.step.to_string();
+        let (plan, marks) = (plans.step.to_string(), alarm::marks(&plans));
         let reports =
             [SOLVE_REPORT, DFSPH_REPORT].map(|name| plans.step.kernels.iter().any(|kernel| kernel.names(name)));
         let start = backend.compile(&plans.start)?;
@@ -124,6 +126,7 @@ impl<B: Backend> Simulation<B> {
             step,
             measure,
             plan,
+            marks,
             reports,
             count,
             species,
@@ -188,7 +191,8 @@ impl<B: Backend> Simulation<B> {
     /// # Errors
     /// [`Error::NotFinite`], [`Error::Crowded`], or what reading says. Speeds that run away are no error here.
     pub async fn snapshot(&mut self) -> Result<State, Error> {
-        alarm::sound(&self.alarm().await?)?;
+        let alarm = self.alarm().await?;
+        self.sound(&alarm)?;
         // What a fluid's walls weigh, and its density at rest, are said there.
         if self.begins {
             self.begin()?;
@@ -199,7 +203,10 @@ impl<B: Backend> Simulation<B> {
         let position = self.backend.read(POSITION.name, &like, count).await?;
         let velocity = self.backend.read(VELOCITY.name, &like, count).await?;
         let acceleration = self.backend.read(ACCELERATION.name, &like, count).await?;
+        // Laws were asked once more.
+        let alarm = self.alarm().await?;
         self.backend.run(&self.measure.1, 1)?;
+        self.sound(&alarm)?;
         let mut state = State::default();
         let mut potential = Vec::with_capacity(count);
         if let (Array::Vec4(x), Array::Vec4(v), Array::Vec4(a)) = (position, velocity, acceleration) {

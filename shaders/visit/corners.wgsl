@@ -18,4 +18,5 @@ fn corners(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups:
     for (var k = corner_start[i]; k < end; k += 1u) { gather(me, corner[k], &sum); }
     // Each of the three holds a third of the energy.
     conclude(me, 1.0 / 3.0, sum);
+    check_turns(me);
 }

@@ -9,7 +9,9 @@ const WORKGROUP: u32 = 64u;
 fn each(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let i = folded(group, groups) * WORKGROUP + lane;
     if i < world.count {
-        let felt = force(particle(i));
+        let me = particle(i);
+        let felt = force(me);
         if FIRST { acceleration[i] = felt; } else { acceleration[i] += felt; }
+        check_turns(me);
     }
 }

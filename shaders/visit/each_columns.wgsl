@@ -4,5 +4,9 @@ const WORKGROUP: u32 = 64u;
 @compute @workgroup_size(WORKGROUP)
 fn each(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let i = folded(group, groups) * WORKGROUP + lane;
-    if i < world.count { update(particle(i)); }
+    if i < world.count {
+        let me = particle(i);
+        update(me);
+        check_turns(me);
+    }
 }

@@ -17,4 +17,5 @@ fn links(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: v
     }
     // Each of the two holds half of the energy.
     conclude(me, 0.5, sum);
+    check_turns(me);
 }

@@ -32,4 +32,5 @@ fn links_alike(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gro
     }
     // Each of the two holds half of the energy.
     conclude(me, 0.5, sum);
+    check_turns(me);
 }

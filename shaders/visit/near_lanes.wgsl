@@ -11,5 +11,6 @@ fn near(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
             walk(k, me, &sum);
             deliver(k, me, sum);
         }
+        check_turns(me);
     }
 }

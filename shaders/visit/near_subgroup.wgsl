@@ -85,4 +85,5 @@ fn near(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
         waits = waits && !with_me;
     }
     if awake { deliver(k, me, sum); }
+    check_turns(me);
 }

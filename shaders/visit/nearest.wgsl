@@ -128,5 +128,6 @@ fn nearest(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups:
             }
             deliver(k, me, sum);
         }
+        check_turns(me);
     }
 }

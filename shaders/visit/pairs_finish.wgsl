@@ -12,5 +12,6 @@ fn pairs_finish(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gr
             merge(&total, parts[layer * world.count + i]);
         }
         add(i, total);
+        check_turns(particle(i));
     }
 }

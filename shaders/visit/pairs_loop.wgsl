@@ -55,4 +55,5 @@ fn pairs(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: v
     deliver(group.z, i + WORKGROUP, total_b);
     deliver(group.z, i + 2u * WORKGROUP, total_c);
     deliver(group.z, i + 3u * WORKGROUP, total_d);
+    check_turns(a);
 }

@@ -50,5 +50,6 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
         if more || bodies > 0u { atomicMin(&alarm[2], me.index); }
         merge(&near, far);
         if acts_on(me) { deliver(me, near); }
+        check_turns(me);
     }
 }

@@ -142,4 +142,5 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
     if k + LANES < tree.end && acts_on(b) { deliver(b, sum_b); }
     if k + 2u * LANES < tree.end && acts_on(c) { deliver(c, sum_c); }
     if k + 3u * LANES < tree.end && acts_on(d) { deliver(d, sum_d); }
+    check_turns(a);
 }

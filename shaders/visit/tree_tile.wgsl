@@ -109,4 +109,5 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
     }
     if top > 0u { atomicMin(&alarm[2], me.index); }
     if k < tree.end && acts_on(me) { deliver(me, sum); }
+    check_turns(me);
 }

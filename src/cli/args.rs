@@ -11,7 +11,7 @@ Exit codes:
   3   the scene, or a WGSL file it names, is wrong
   4   a file of particles is wrong
   5   no adapter fits, or a limit of the device is too small
-  6   a number stopped being finite, or speeds ran away
+  6   a number stopped being finite, speeds ran away, or a law of one's own took too many turns
   7   the device was lost, ran out of memory or did not answer
   8   a result could not be written
   9   `compare` or `doctor` found a disagreement

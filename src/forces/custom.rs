@@ -40,7 +40,7 @@ impl Component for Custom {
         vec![Law {
             name: self.name.clone(),
             over: self.over,
-            wgsl: Source::theirs(self.file.clone(), self.wgsl.clone()),
+            wgsl: Source::law(self.file.clone(), self.wgsl.clone()),
             params: self.params.iter().map(|(name, value)| (name.clone(), scalar(value))).collect(),
             pairs: self.pairs.clone(),
             tables: self.tables.clone(),

@@ -76,6 +76,14 @@ fn with_size(error: Error, name: &str, size: u64) -> Error {
 
 fn too_large(name: &str, bytes: u64, limit: u64, count: u32) -> Error {
     let each = (bytes / u64::from(count.max(1))).max(1);
+    if each > limit {
+        return Error::Limit(format!(
+            "the field `{name}` needs {} for each of {count} particles; this device binds {}, so that not even one fits: make its \
+             elements smaller",
+            mebibytes(each),
+            mebibytes(limit)
+        ));
+    }
     Error::Limit(format!(
         "{count} particles need {} for the field `{name}`; this device binds {}: at most {} particles fit, so choose \
          another adapter with --adapter, or fewer particles",

@@ -13,6 +13,10 @@ pub struct Pipeline {
     pub groups: BTreeMap<u32, wgpu::BindGroupLayout>,
 }
 
+/// How long a driver may compile a stranger's shader.
+#[cfg(not(target_arch = "wasm32"))]
+const PATIENCE: std::time::Duration = std::time::Duration::from_mins(1);
+
 /// The text, and the constants by their bits.
 type Key = (String, Vec<(&'static str, u64)>);
 
@@ -39,7 +43,7 @@ impl Pipelines {
             return Ok(known.clone());
         }
         self.check(&pass.shader)?;
-        let made = fault::scoped(&self.device, || make(&self.device, pass));
+        let made = if pass.shader.trusted() { scoped(&self.device, pass) } else { patiently(&self.device, pass) };
         let pipeline = made.map_err(|error| blame(error, &pass.shader))?;
         self.made.insert(key, pipeline.clone());
         Ok(pipeline)
@@ -56,6 +60,10 @@ impl Pipelines {
             }
             Ok(())
         };
+        let groups = reflection.bindings.iter().map(|b| b.group + 1).max().unwrap_or(0);
+        over("bind groups", groups.into(), limits.max_bind_groups.into())?;
+        let bindings = reflection.bindings.iter().map(|b| b.binding).max().unwrap_or(0);
+        over("as the number of a binding", bindings.into(), (limits.max_bindings_per_bind_group - 1).into())?;
         over("storage buffers", storage as u64, limits.max_storage_buffers_per_shader_stage.into())?;
         over(
             "invocations in a workgroup",
@@ -64,6 +72,33 @@ impl Pipelines {
         )?;
         over("bytes of workgroup memory", reflection.workgroup_bytes, limits.max_compute_workgroup_storage_size.into())
     }
+}
+
+fn scoped(device: &wgpu::Device, pass: &Pass) -> Result<Pipeline, Error> {
+    fault::scoped(device, || make(device, pass))
+}
+
+/// The same for a stranger's text, which may take a driver for ever: then the thread that waits for it is given up.
+#[cfg(not(target_arch = "wasm32"))]
+fn patiently(device: &wgpu::Device, pass: &Pass) -> Result<Pipeline, Error> {
+    let (made, awaited) = std::sync::mpsc::channel();
+    let (device, theirs) = (device.clone(), pass.clone());
+    let make = move || {
+        // Nobody waits any more, if nobody takes it.
+        let _ = made.send(scoped(&device, &theirs));
+    };
+    let thread = std::thread::Builder::new().name("compile".to_owned()).spawn(make);
+    thread.map_err(|error| Error::Device(format!("no thread can be made to compile in: {error}")))?;
+    awaited.recv_timeout(PATIENCE).unwrap_or_else(|_| {
+        let file = pass.shader.sources().iter().find(|source| !source.ours).map_or("a shader", |source| &source.file);
+        let what = format!("the driver compiles {file}; use fewer functions and loops in it, or smaller arrays");
+        Err(Error::Timeout { what, seconds: PATIENCE.as_secs() })
+    })
+}
+
+#[cfg(target_arch = "wasm32")]
+fn patiently(device: &wgpu::Device, pass: &Pass) -> Result<Pipeline, Error> {
+    scoped(device, pass)
 }
 
 /// What the device refuses of a user's file is the file's fault.

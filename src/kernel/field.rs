@@ -23,17 +23,20 @@ pub const LIFE: Field<u32> = Field::new("life");
 pub const TARGET: Field<Vec4> = Field::new("kinematic_target");
 /// Where held particles were at the start, in the order of [`Problem::held`](super::Problem::held).
 pub const HOME: Field<Vec4> = Field::new("home");
-/// What has gone wrong, word by word; `u32::MAX` in the first five while all is well.
+/// What has gone wrong, word by word; `u32::MAX` in the first five and the last two while all is well.
 ///
 /// 0 and 1: after how many steps a particle is first seen not to be finite, and the lowest id of those; 2: the lowest id
 /// of one that has more others within reach than a search can visit; 3 and 4: after how many steps speeds are seen to run
 /// away, and the lowest id of those that do. Then what that is known by, the bits of speeds as `f32`: 5: the largest of the
-/// 16 steps at hand; 6: that of the 16 before; 7: how often in a row it has more than doubled.
+/// 16 steps at hand; 6: that of the 16 before; 7: how often in a row it has more than doubled. 8: the mark of a user's law
+/// whose loops the driver has ended early; 9: that of one whose loops have no end.
 pub const ALARM: Field<u32> = Field::new("alarm");
 /// The words of the alarm.
-pub const ALARM_WORDS: usize = 8;
+pub const ALARM_WORDS: usize = 10;
 /// The alarm before anything has gone wrong.
-pub const QUIET: [u32; ALARM_WORDS] = [u32::MAX, u32::MAX, u32::MAX, u32::MAX, u32::MAX, 0, 0, 0];
+pub const QUIET: [u32; ALARM_WORDS] = [u32::MAX, u32::MAX, u32::MAX, u32::MAX, u32::MAX, 0, 0, 0, u32::MAX, u32::MAX];
+/// The constant of a shader that holds the mark of a user's law, by which an alarm names it.
+pub const LAW: &str = "LAW";
 
 /// A named array of `T`.
 #[derive(Debug)]

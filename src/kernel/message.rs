@@ -44,7 +44,7 @@ pub fn validation(sources: &[Source], error: &WithSpan<ValidationError>) -> Erro
 }
 
 /// The file, and the place in it, of a place in the joined text.
-fn place(sources: &[Source], mut at: usize) -> Option<(&Source, usize)> {
+pub fn place(sources: &[Source], mut at: usize) -> Option<(&Source, usize)> {
     for source in sources {
         let length = source.compiled().len();
         if at <= length {
@@ -55,7 +55,8 @@ fn place(sources: &[Source], mut at: usize) -> Option<(&Source, usize)> {
     None
 }
 
-fn with_place(message: &str, sources: &[Source], span: Span, label: &str) -> String {
+/// A message with the file, the line and a caret.
+pub fn with_place(message: &str, sources: &[Source], span: Span, label: &str) -> String {
     let Some(range) = span.to_range() else { return message.to_owned() };
     let Some((source, start)) = place(sources, range.start) else { return message.to_owned() };
     let end = match place(sources, range.end) {

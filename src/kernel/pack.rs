@@ -28,8 +28,10 @@ pub struct Member {
     pub offset: usize,
     /// 1 for a number, 3 for a `vec3`; 0 for anything that a host cannot fill.
     pub components: usize,
-    /// Whether of `f32`; else of `u32` (or `i32`).
+    /// Whether of `f32`; else of whole numbers.
     pub float: bool,
+    /// Whether of whole numbers that may be below zero: `i32`.
+    pub signed: bool,
 }
 
 /// The layout of a struct.
@@ -67,10 +69,15 @@ impl Packed {
             let words: Vec<[u8; 4]> = match (*value, member.float, member.components) {
                 (Scalar::Float(x), true, 1) => vec![bytes(x)],
                 (Scalar::Uint(n), true, 1) => vec![bytes(f64::from(n))],
-                (Scalar::Uint(n), false, 1) => vec![n.to_le_bytes()],
-                (Scalar::Float(x), false, 1) if x.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(&x) => {
+                (Scalar::Uint(n), false, 1) if f64::from(n) <= member.most() => vec![n.to_le_bytes()],
+                (Scalar::Float(x), false, 1) if x.fract() == 0.0 && (0.0..=member.most()).contains(&x) => {
                     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "just checked")]
                     let n = x as u32;
+                    vec![n.to_le_bytes()]
+                }
+                (Scalar::Float(x), false, 1) if member.signed && x.fract() == 0.0 && x >= f64::from(i32::MIN) && x < 0.0 => {
+                    #[expect(clippy::cast_possible_truncation, reason = "just checked")]
+                    let n = x as i32;
                     vec![n.to_le_bytes()]
                 }
                 (Scalar::Uints(v), false, 3) => v.map(u32::to_le_bytes).to_vec(),
@@ -110,8 +117,16 @@ impl Packed {
 }
 
 impl Member {
+    /// The largest whole number that it holds.
+    fn most(&self) -> f64 {
+        if self.signed { f64::from(i32::MAX) } else { f64::from(u32::MAX) }
+    }
     fn describe(&self) -> String {
-        let scalar = if self.float { "f32" } else { "u32" };
+        let scalar = match (self.float, self.signed) {
+            (true, _) => "f32",
+            (false, true) => "i32",
+            (false, false) => "u32",
+        };
         match self.components {
             0 => "of a type that a scene cannot fill (use f32, u32, vec3f or vec4f)".to_owned(),
             1 => format!("`{scalar}`"),

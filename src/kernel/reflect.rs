@@ -194,5 +194,11 @@ fn member(module: &Module, member: &naga::StructMember) -> Option<Member> {
         _ => (0, naga::ScalarKind::Bool),
     };
     let name = member.name.clone().filter(|name| name != UNUSED_WORD)?;
-    Some(Member { name, offset: member.offset as usize, components, float: kind == naga::ScalarKind::Float })
+    Some(Member {
+        name,
+        offset: member.offset as usize,
+        components,
+        float: kind == naga::ScalarKind::Float,
+        signed: kind == naga::ScalarKind::Sint,
+    })
 }

@@ -3,11 +3,11 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use naga::valid::{Capabilities, ValidationFlags, Validator};
+use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 
-use super::message;
 use super::reflect::Reflection;
 use super::unused_word::{with_unused_word, written};
+use super::{message, own};
 use crate::error::Error;
 
 /// One file of WGSL.
@@ -19,18 +19,36 @@ pub struct Source {
     pub text: Cow<'static, str>,
     /// Whether it comes with this crate. A user's file runs with every check switched on.
     pub ours: bool,
+    /// Whether it is a user's law, which is held to what a law may do.
+    pub law: bool,
 }
 
 impl Source {
     /// A file of this crate; use [`shader!`](crate::shader).
     #[must_use]
     pub const fn ours(file: &'static str, text: &'static str) -> Self {
-        Self { file: Cow::Borrowed(file), text: Cow::Borrowed(text), ours: true }
+        Self { file: Cow::Borrowed(file), text: Cow::Borrowed(text), ours: true, law: false }
     }
     /// A user's file.
     #[must_use]
     pub fn theirs(file: String, text: String) -> Self {
-        Self { file: Cow::Owned(file), text: Cow::Owned(text), ours: false }
+        Self { file: Cow::Owned(file), text: Cow::Owned(text), ours: false, law: false }
+    }
+    /// A user's law.
+    #[must_use]
+    pub fn law(file: String, text: String) -> Self {
+        Self { law: true, ..Self::theirs(file, text) }
+    }
+    /// What is wrong with a function of this file, if it has one of that name and it is not as `signature` says: a message with
+    /// the place.
+    #[must_use]
+    pub fn mismatch(&self, signature: &str) -> Option<String> {
+        own::mismatch(self, signature)
+    }
+    /// Whether it has loops.
+    #[must_use]
+    pub fn has_loops(&self) -> bool {
+        own::has_loops(&self.text)
     }
     /// The text that is compiled: in a user's file `params` begins with a word that nothing reads.
     #[must_use]
@@ -45,13 +63,8 @@ impl Source {
     /// Whether the text, comments left out, contains these words in this order with only white space between.
     #[must_use]
     pub fn says(&self, words: &[&str]) -> bool {
-        let plain: String = self.text.lines().filter_map(|l| l.split("//").next()).collect::<Vec<_>>().join("\n");
-        let separate = |c: char| {
-            if c.is_alphanumeric() || c == '_' { c.to_string() } else { format!(" {c} ") }
-        };
-        let spaced: String = plain.chars().map(separate).collect();
-        let tokens: Vec<&str> = spaced.split_whitespace().collect();
-        tokens.windows(words.len()).any(|w| w == words)
+        let tokens = own::tokens(&self.text);
+        tokens.windows(words.len()).any(|w| w.iter().map(|token| token.text).eq(words.iter().copied()))
     }
 }
 
@@ -66,20 +79,15 @@ macro_rules! shader {
     };
 }
 
-/// Joined WGSL with what naga says of it.
-#[derive(Debug)]
-pub struct Shader {
-    sources: Vec<Source>,
+/// Joined WGSL, parsed and validated.
+struct Joined {
     text: String,
-    reflection: Reflection,
+    module: naga::Module,
+    info: ModuleInfo,
 }
 
-impl Shader {
-    /// Joins files, parses and validates them.
-    ///
-    /// # Errors
-    /// [`Error::Shader`] with file, line and caret of naga's complaint.
-    pub fn join(sources: &[Source]) -> Result<Arc<Self>, Error> {
+impl Joined {
+    fn of(sources: &[Source]) -> Result<Self, Error> {
         let mut text = String::new();
         for source in sources {
             text.push_str(&source.compiled());
@@ -89,13 +97,52 @@ impl Shader {
         let info = Validator::new(ValidationFlags::all(), Capabilities::all())
             .validate(&module)
             .map_err(|e| message::validation(sources, &e))?;
+        Ok(Self { text, module, info })
+    }
+}
+
+/// Joined WGSL with what naga says of it.
+#[derive(Debug)]
+pub struct Shader {
+    sources: Vec<Source>,
+    text: String,
+    reflection: Reflection,
+    written: Vec<String>,
+}
+
+impl Shader {
+    /// Joins files, parses and validates them.
+    ///
+    /// # Errors
+    /// [`Error::Shader`] with file, line and caret of naga's complaint.
+    pub fn join(sources: &[Source]) -> Result<Arc<Self>, Error> {
+        let given = sources;
+        let sources = &own::hoisted(given);
+        let mut joined = Joined::of(sources)?;
+        let mut written = Vec::new();
+        if sources.iter().any(|source| source.law) {
+            let Joined { module, info, .. } = &joined;
+            let own = own::Joined { module, info, sources };
+            own.check()?;
+            written = own.written();
+            let watched = own::watched_sources(sources);
+            if watched != *sources {
+                joined = Joined::of(&watched)?;
+            }
+        }
+        let Joined { text, module, info } = joined;
         let reflection = Reflection::of(&module, &info);
-        Ok(Arc::new(Self { sources: sources.to_vec(), text, reflection }))
+        Ok(Arc::new(Self { sources: given.to_vec(), text, reflection, written }))
     }
     /// The files.
     #[must_use]
     pub fn sources(&self) -> &[Source] {
         &self.sources
+    }
+    /// The storage that a user's law writes, by name.
+    #[must_use]
+    pub fn written(&self) -> &[String] {
+        &self.written
     }
     /// The joined text.
     #[must_use]

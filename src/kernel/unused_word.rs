@@ -6,6 +6,8 @@
 
 use std::borrow::Cow;
 
+use super::own::tokens;
+
 /// The name of the word. Reflection leaves it out of a block's members, so that no value is asked for.
 pub const UNUSED_WORD: &str = "unused_word";
 /// What is put into a user's struct, in the line of its brace.
@@ -32,50 +34,14 @@ pub fn written(text: &str, compiled: usize) -> usize {
 fn place(text: &str) -> Option<usize> {
     let tokens = tokens(text);
     let find = |wanted: &[&str]| {
-        tokens.windows(wanted.len()).position(|w| w.iter().zip(wanted).all(|((_, token), wanted)| token == wanted))
+        tokens.windows(wanted.len()).position(|w| w.iter().zip(wanted).all(|(token, wanted)| token.text == *wanted))
     };
     let variable = ["var", "<", "uniform", ">", "params", ":"];
-    let (_, block) = tokens.get(find(&variable)? + variable.len())?;
+    let block = tokens.get(find(&variable)? + variable.len())?.text;
     let brace = find(&["struct", block, "{"])? + 2;
-    let (_, first) = tokens.get(brace + 1)?;
-    let complete = *first == UNUSED_WORD || *first == "}" || find(&[block, "("]).is_some();
-    (!complete).then(|| tokens[brace].0 + 1)
-}
-
-/// Words and signs with the places where they begin, without white space and comments.
-fn tokens(text: &str) -> Vec<(usize, &str)> {
-    let word = |c: char| c.is_alphanumeric() || c == '_';
-    let (mut tokens, mut at) = (Vec::new(), 0);
-    while let Some(c) = text[at..].chars().next() {
-        let rest = &text[at..];
-        if rest.starts_with("//") {
-            at += rest.find('\n').unwrap_or(rest.len());
-        } else if rest.starts_with("/*") {
-            at += comment(rest);
-        } else if c.is_whitespace() {
-            at += c.len_utf8();
-        } else {
-            let end = if word(c) { rest.find(|c| !word(c)).unwrap_or(rest.len()) } else { c.len_utf8() };
-            tokens.push((at, &rest[..end]));
-            at += end;
-        }
-    }
-    tokens
-}
-
-/// The length of a block comment, which may hold others.
-fn comment(text: &str) -> usize {
-    let (mut depth, mut at) = (0usize, 0);
-    loop {
-        match (text[at..].find("/*"), text[at..].find("*/")) {
-            (Some(open), Some(close)) if open < close => (depth, at) = (depth + 1, at + open + 2),
-            (_, Some(close)) => (depth, at) = (depth.saturating_sub(1), at + close + 2),
-            (_, None) => return text.len(),
-        }
-        if depth == 0 {
-            return at;
-        }
-    }
+    let first = tokens.get(brace + 1)?.text;
+    let complete = first == UNUSED_WORD || first == "}" || find(&[block, "("]).is_some();
+    (!complete).then(|| tokens[brace].end())
 }
 
 #[cfg(test)]

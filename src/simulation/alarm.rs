@@ -1,8 +1,29 @@
 //! Whether all is well.
 
-use super::Simulation;
+use std::collections::BTreeMap;
+
+use super::{Plans, Simulation};
 use crate::error::Error;
-use crate::kernel::{ALARM, ALARM_WORDS, Array, Backend, Element, QUIET};
+use crate::kernel::{ALARM, ALARM_WORDS, Array, Backend, Element, LAW, Plan, QUIET};
+
+/// The marks by which an alarm names users' laws, and their names with their files.
+pub type Marks = BTreeMap<u32, String>;
+
+/// The marks of all laws of these plans that have one.
+pub fn marks(plans: &Plans) -> Marks {
+    plans.all().flat_map(marked).collect()
+}
+
+fn marked(plan: &Plan) -> impl Iterator<Item = (u32, String)> {
+    plan.kernels.iter().filter_map(|kernel| {
+        let pass = kernel.passes.first()?;
+        let (_, mark) = pass.constants.iter().find(|(name, _)| *name == LAW)?;
+        let file = pass.shader.sources().iter().find(|source| source.law).map(|source| &source.file)?;
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it was made of a word")]
+        let mark = *mark as u32;
+        Some((mark, format!("`{}` ({file})", kernel.name)))
+    })
+}
 
 impl<B: Backend> Simulation<B> {
     /// Looks whether any number has stopped being one, or speeds run away: whether the largest has more than doubled from
@@ -11,15 +32,16 @@ impl<B: Backend> Simulation<B> {
     ///
     /// # Errors
     /// [`Error::NotFinite`] with the first particle and step, [`Error::Runaway`] with one that is too fast and the step,
-    /// [`Error::Crowded`], [`Error::TooShort`], or what reading says.
+    /// [`Error::Crowded`], [`Error::CutShort`], [`Error::Endless`], [`Error::TooShort`], or what reading says.
     pub async fn check(&mut self) -> Result<(), Error> {
         let alarm = self.alarm().await?;
         let [done, .., fast, particle] = [alarm[0], alarm[1], alarm[3], alarm[4]];
         // Who runs away is lost in the end: what came first is told.
-        if fast != u32::MAX && fast <= done {
+        let [.., cut, endless] = alarm;
+        if fast != u32::MAX && fast <= done && cut == u32::MAX && endless == u32::MAX {
             return Err(Error::Runaway { particle, step: u64::from(fast.saturating_sub(1)) });
         }
-        sound(&alarm)?;
+        self.sound(&alarm)?;
         self.on_pace().await
     }
     pub(super) async fn alarm(&mut self) -> Result<[u32; ALARM_WORDS], Error> {
@@ -27,14 +49,21 @@ impl<B: Backend> Simulation<B> {
         let words = u32::view(&alarm).and_then(|words| <[u32; ALARM_WORDS]>::try_from(words.as_slice()).ok());
         Ok(words.unwrap_or(QUIET))
     }
-}
-
-/// Whether numbers are numbers, and searches have found everybody.
-pub(super) fn sound(alarm: &[u32; ALARM_WORDS]) -> Result<(), Error> {
-    let [done, particle, crowded, ..] = *alarm;
-    if done != u32::MAX {
-        // The first look comes before the first step, every other one after a step that is done.
-        return Err(Error::NotFinite { particle, step: u64::from(done.saturating_sub(1)) });
+    /// Whether laws have done all that they do, numbers are numbers, and searches have found all particles.
+    pub(super) fn sound(&self, alarm: &[u32; ALARM_WORDS]) -> Result<(), Error> {
+        let [done, particle, crowded, .., cut, endless] = *alarm;
+        let law = |mark: u32| self.marks.get(&mark).cloned().unwrap_or_else(|| "a law".to_owned());
+        // A law that is wrong makes numbers that are none, and searches that do not end.
+        if endless != u32::MAX {
+            return Err(Error::Endless { law: law(endless) });
+        }
+        if cut != u32::MAX {
+            return Err(Error::CutShort { law: law(cut) });
+        }
+        if done != u32::MAX {
+            // The first look comes before the first step, every other one after a step that is done.
+            return Err(Error::NotFinite { particle, step: u64::from(done.saturating_sub(1)) });
+        }
+        if crowded == u32::MAX { Ok(()) } else { Err(Error::Crowded { particle: crowded }) }
     }
-    if crowded == u32::MAX { Ok(()) } else { Err(Error::Crowded { particle: crowded }) }
 }

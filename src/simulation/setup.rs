@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::fluids::{Start, Still};
 use crate::forces::{Component, Problem, Stage};
 use crate::integrators::{Integrator, Step};
-use crate::kernel::{Bounds, Columns, Machine, Plan, Solver};
+use crate::kernel::{Bounds, Columns, Machine, Plan, Solver, claims};
 use crate::life;
 use crate::motion::{self, Hold};
 use crate::state::State;
@@ -41,7 +41,7 @@ pub struct Plans {
 
 impl Plans {
     /// All of them.
-    pub fn all(&self) -> impl Iterator<Item = &Plan> {
+    pub fn all(&self) -> impl Iterator<Item = &Plan> + Clone {
         [&self.start, &self.step, &self.measure.0, &self.measure.1].into_iter()
     }
 }
@@ -65,7 +65,9 @@ impl Setup {
         step.lead();
         self.integrator.step(&mut step);
         let measure = Step::measurement(&self.forces, problem)?;
-        Ok(Plans { start: start.begun()?, step: step.done()?, measure })
+        let plans = Plans { start: start.begun()?, step: step.done()?, measure };
+        claims(plans.all(), &self.problem(machine)?.columns)?;
+        Ok(plans)
     }
     /// Refuses what does not go with steps of different lengths.
     fn bear(&self) -> Result<(), Error> {

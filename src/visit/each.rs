@@ -13,16 +13,19 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
     law.requires(&[own])?;
     let mut files =
         vec![crate::shader!("world.wgsl"), crate::shader!("fields.wgsl"), crate::shader!("particle.wgsl"), visit];
+    files.extend(law.alarm_file());
     files.extend(law.files());
     let shader = Shader::join(&files)?;
     let uniforms = law.uniforms(&shader)?;
-    let constants = problem.constants(&shader);
+    let mut constants = problem.constants(&shader);
+    constants.extend(law.mark());
+    let sizes = law.alarm();
     let pass = Pass { constants, uniforms, ..Pass::new(shader, problem.count) };
     Ok(Kernel {
         name: law.name,
         passes: vec![pass],
         twin: law.twin,
-        sizes: Vec::new(),
+        sizes,
         scratch: Vec::new(),
         tables: Vec::new(),
     })

@@ -296,7 +296,9 @@ impl Law {
         self.requires(&[
             ("gather", "fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>)"),
             self.finish(),
-        ])
+        ])?;
+        self.agrees("fn acts_on(me: Particle) -> bool")?;
+        self.agrees("fn merge(total: ptr<function, Sum>, part: Sum)")
     }
     /// The tables that its WGSL binds, of pairs of species and of data.
     fn bind_tables(&self, kernel: &mut Kernel, problem: &Problem) -> Result<(), Error> {
@@ -396,8 +398,14 @@ impl Law {
                 );
                 return Err(Error::Shader { message });
             }
+            self.agrees(signature)?;
         }
         Ok(())
+    }
+    /// Refuses a function of a user's that is not as its visit calls it.
+    fn agrees(&self, signature: &str) -> Result<(), Error> {
+        let wrong = self.wgsl.law.then(|| self.wgsl.mismatch(signature)).flatten();
+        wrong.map_or(Ok(()), |message| Err(Error::Shader { message }))
     }
     /// Whether it leaves particles out of a search; without `acts_on` of its own it acts on all.
     pub(super) fn choice(&self) -> Option<Source> {
@@ -405,7 +413,7 @@ impl Law {
     }
     /// What the law leaves to the usual: a sum of accelerations; and what it calls for.
     pub(super) fn files(&self) -> Vec<Source> {
-        let mut files = Vec::new();
+        let mut files = vec![self.turns()];
         if self.over != Over::Each && !self.wgsl.says(&["struct", "Sum", "{"]) {
             files.push(crate::shader!("visit/sum.wgsl"));
         }

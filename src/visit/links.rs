@@ -67,9 +67,11 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
         }
     }
     files.push(law.result());
+    files.extend(law.alarm_file());
     files.extend(law.files());
     let shader = Shader::join(&files)?;
     let (uniforms, mut constants) = (law.uniforms(&shader)?, problem.constants(&shader));
+    constants.extend(law.mark());
     let has = |name: &str| shader.reflection().overrides.contains_key(name);
     if has("DAMPED") && !problem.network.damped() {
         constants.push(("DAMPED", 0.0));
@@ -82,11 +84,12 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
     };
     let work = u64::from(problem.count) + u64::from(elements.copied().unwrap_or(0));
     let pass = Pass { constants, uniforms, work, ..Pass::new(shader, problem.count) };
+    let sizes = law.alarm();
     let twin = match &law.tied {
         Some(reference) => Some(reference(tables)),
         None => law.twin,
     };
     let (name, over) = (law.name, law.over);
-    let (sizes, scratch, tables) = (Vec::new(), Vec::new(), Vec::new());
+    let (scratch, tables) = (Vec::new(), Vec::new());
     Ok(bind(Kernel { name, passes: vec![pass], twin, sizes, scratch, tables }, over, problem))
 }

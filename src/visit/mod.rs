@@ -14,6 +14,7 @@ mod result;
 mod sweep;
 mod tied;
 mod tree;
+mod turns;
 mod twin;
 mod walk;
 

@@ -77,6 +77,7 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
     sources.extend(law.files());
     let shader = Shader::join(&sources)?;
     let (params, mut constants) = (law.uniforms(&shader)?, problem.constants(&shader));
+    constants.extend(law.mark());
     if let Over::Nearest { count } = law.over {
         constants.push(("COUNT", f64::from(count)));
     }

@@ -24,16 +24,17 @@ pub struct Cut {
 }
 
 impl Cut {
-    /// Enough layers to keep the machine busy, then dispatches short enough.
+    /// Enough layers to keep the machine busy, then dispatches short enough; one invocation meets `sources` in one of them, at
+    /// most.
     #[must_use]
-    pub fn new(count: u32, targets: u32, block: u32, machine: &Machine) -> Self {
+    pub fn new(count: u32, targets: u32, block: u32, machine: &Machine, sources: u32) -> Self {
         let blocks = count.div_ceil(block).max(1);
         let invocations = count.div_ceil(targets).max(1);
         let layers = (machine.invocations / invocations).clamp(1, LAYERS).min(blocks);
         let by_layers = blocks.div_ceil(layers);
         let by_work = u32::try_from(MEETINGS / u64::from(count.max(1)) / u64::from(block) / u64::from(layers))
             .unwrap_or(u32::MAX);
-        let slice = by_layers.min(by_work.max(1)).min(SOURCES / block) * block;
+        let slice = by_layers.min(by_work.max(1)).min((sources / block).max(1)) * block;
         Self { layers, slice }
     }
     /// Sources that one dispatch meets.
@@ -62,6 +63,7 @@ fn join(visit: Source, law: &Law) -> Result<Arc<Shader>, Error> {
     ];
     files.push(law.result());
     files.extend(law.choice());
+    files.extend(law.alarm_file());
     files.extend(law.files());
     Shader::join(&files)
 }
@@ -73,10 +75,12 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
     let shader = join(variant(machine), &law)?;
     let reflection = shader.reflection();
     let (targets, block) = (reflection.constant("TARGETS"), reflection.constant("BLOCK"));
-    let cut = Cut::new(count, targets, block, machine);
+    let sources = law.sources(SOURCES, targets, machine.software);
+    let cut = Cut::new(count, targets, block, machine, sources);
     let params = law.uniforms(&shader)?;
     let mut common = problem.constants(&shader);
     common.extend(law.over.range().map(|range| ("RANGE", range)));
+    common.extend(law.mark());
     let whole = cut.sources() >= u64::from(count) && cut.layers == 1;
 
     let mut passes = Vec::new();
@@ -98,17 +102,22 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
     }
     if !whole {
         let shader = join(crate::shader!("visit/pairs_finish.wgsl"), &law)?;
-        let constants = vec![("LAYERS", f64::from(cut.layers))];
-        let uniforms = law.uniforms(&shader)?;
+        let mut constants = vec![("LAYERS", f64::from(cut.layers))];
+        constants.extend(law.mark());
+        // What the parameters are for may all be in `gather`.
+        let used = shader.reflection().binding("params").is_some();
+        let uniforms = if used { params } else { Vec::new() };
         let work = u64::from(count) * u64::from(cut.layers);
         passes.push(Pass { constants, uniforms, work, ..Pass::new(shader, count) });
     }
     let parts = if whole { 1 } else { u64::from(cut.layers) * u64::from(count) };
+    let mut sizes = law.alarm();
+    sizes.push(("parts".into(), parts));
     Ok(Kernel {
         name: law.name,
         passes,
         twin: law.twin,
-        sizes: vec![("parts".into(), parts)],
+        sizes,
         scratch: vec!["parts".into()],
         tables: Vec::new(),
     })
@@ -124,7 +133,7 @@ mod tests {
         let cpu = Machine { software: true, subgroup: 8, invocations: 1, ..Machine::HOST };
         for machine in [gpu, cpu] {
             for count in [1, 2, 127, 128, 129, 1000, 4096, 65_537, 1 << 20, 8_388_608, 134_217_728] {
-                let cut = Cut::new(count, 4, 128, &machine);
+                let cut = Cut::new(count, 4, 128, &machine, SOURCES);
                 assert_eq!(cut.slice % 128, 0, "{cut:?}");
                 assert!((1..=LAYERS).contains(&cut.layers) && cut.slice > 0 && cut.slice <= SOURCES, "{cut:?}");
                 let met = cut.sources().min(u64::from(count)) * u64::from(count);

@@ -52,6 +52,7 @@ impl Sweep {
         let mut sources = near::ground();
         sources.push(self.grid.present(problem));
         sources.extend(near::search(&self.grid, &problem.machine));
+        sources.push(crate::shader!("own/no_turns.wgsl"));
         sources.extend(self.files);
         let shader = Shader::join(&sources)?;
         let uniforms = block(&self.name, &shader, "params", &self.params)?;

@@ -83,6 +83,7 @@ pub fn kernel(law: Law, tree: &Tree, problem: &Problem) -> Result<Kernel, Error>
     let mut constants = problem.constants(&shader);
     let most = if problem.machine.software { TURNS } else { u32::MAX };
     constants.extend([("GROUP", GROUP), ("LEAF", LEAF), ("MOST", most)].map(|(name, n)| (name, f64::from(n))));
+    constants.extend(law.mark());
     let each = meetings(tree, problem);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "few")]
     let groups = (MEETINGS / each / f64::from(GROUP)).clamp(1.0, f64::from(TARGETS / GROUP)) as u32;

@@ -37,7 +37,7 @@ pub fn watches(device: &Device, stages: &mut Vec<Stage>) {
 /// The words that tell of speeds: who ran away and when, then the largest speed of now and of before, and how often doubled.
 fn words([step, id]: [u32; 2], [now, before]: [f32; 2], doubled: u32) -> [u32; QUIET.len()] {
     let mut alarm = QUIET;
-    alarm[3..].copy_from_slice(&[step, id, now.to_bits(), before.to_bits(), doubled]);
+    alarm[3..8].copy_from_slice(&[step, id, now.to_bits(), before.to_bits(), doubled]);
     alarm
 }
 

@@ -38,8 +38,8 @@ use support::Shared;
 use support::equivalents::{Equivalent, Ledger};
 use support::mutants::{Mutant, mutants};
 
-/// These have mutants of their own, in `tests/picture_mutants` and `tests/questions.rs`.
-const WITHOUT_TWINS: [&str; 2] = ["render", "selftest"];
+/// These have mutants of their own, in `tests/picture_mutants`, `tests/questions.rs` and `tests/own_laws`.
+const WITHOUT_TWINS: [&str; 3] = ["render", "selftest", "own"];
 
 /// Stages that are asked about a mutant that is known to do the same: those who noticed others the last. All of them are
 /// where one looks at chosen files.

@@ -1,4 +1,4 @@
-//! A law of one's own, over every visit, by the command.
+//! A law of one's own means the same over every visit.
 
 use std::path::Path;
 use std::process::{Command, Output};

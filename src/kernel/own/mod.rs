@@ -1,0 +1,57 @@
+//! A user's law before it comes to a driver: it is a stranger's text, and drivers believe what they are given.
+
+mod claims;
+mod directives;
+mod limits;
+mod loops;
+mod reach;
+mod signature;
+mod tokens;
+
+use naga::valid::ModuleInfo;
+use naga::{Function, Handle, Module, Span};
+
+use super::message;
+use super::shader::Source;
+use crate::error::Error;
+
+pub use claims::check as claims;
+pub use directives::hoisted;
+pub use loops::{has_loops, watched_sources};
+pub use signature::mismatch;
+pub use tokens::tokens;
+
+/// Joined sources, some of them a user's, as naga understands them.
+pub struct Joined<'a> {
+    pub module: &'a Module,
+    pub info: &'a ModuleInfo,
+    pub sources: &'a [Source],
+}
+
+impl Joined<'_> {
+    /// Refuses what a law must not do, and what no driver should be asked for.
+    ///
+    /// # Errors
+    /// [`Error::Shader`] with the place in the user's file.
+    pub fn check(&self) -> Result<(), Error> {
+        directives::check(self.sources)?;
+        reach::check(self)?;
+        limits::check(self)
+    }
+    /// The storage that the law writes, by name.
+    pub fn written(&self) -> Vec<String> {
+        reach::written(self)
+    }
+    /// Whether something stands in a user's law.
+    fn is_law(&self, span: Span) -> bool {
+        span.to_range().and_then(|range| message::place(self.sources, range.start)).is_some_and(|(source, _)| source.law)
+    }
+    /// The functions of the law.
+    fn functions(&self) -> impl Iterator<Item = (Handle<Function>, &Function)> {
+        let functions = &self.module.functions;
+        functions.iter().filter(|(handle, _)| self.is_law(functions.get_span(*handle)))
+    }
+    fn fault(&self, message: &str, span: Span, label: &str) -> Error {
+        Error::Shader { message: message::with_place(message, self.sources, span, label) }
+    }
+}
