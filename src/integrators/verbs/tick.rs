@@ -13,7 +13,7 @@ pub const NAME: &str = "tick";
 
 /// Writes down how speeds have grown, if it is time to.
 pub fn grown(alarm: &mut [u32], step: u32) {
-    if let ([.., now, before, doubled], true) = (alarm, step.is_multiple_of(WINDOW)) {
+    if let ([_, _, _, _, _, now, before, doubled, ..], true) = (alarm, step.is_multiple_of(WINDOW)) {
         let faster = f32::from_bits(*now) > 2.0 * f32::from_bits(*before);
         *doubled = if faster { *doubled + 1 } else { 0 };
         (*before, *now) = (*now, 0);

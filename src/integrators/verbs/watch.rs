@@ -25,7 +25,7 @@ pub fn kernel(count: u32) -> Result<Kernel, Error> {
         let speed = |i: usize| velocity[i].truncate().abs().max_element() as f32;
         let all = || 0..position.len();
         let mut alarm = host.write(ALARM)?;
-        let [broken, broken_id, _, fast, fast_id, now, before, doubled] = &mut alarm[..] else { return Ok(()) };
+        let [broken, broken_id, _, fast, fast_id, now, before, doubled, ..] = &mut alarm[..] else { return Ok(()) };
         let raise = |first: &mut u32, lowest: &mut u32, id: Option<usize>| {
             if let Some(id) = id.filter(|_| *first >= done) {
                 (*first, *lowest) = (done, u32::try_from(id).unwrap_or(u32::MAX).min(*lowest));
