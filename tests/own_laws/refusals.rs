@@ -21,7 +21,7 @@ fn made(
     let forces: Vec<Box<dyn Force>> = vec![Box::new(law)];
     let (particles, integrator) = (support::cloud(count, 5), integrator(method));
     let setup =
-        Setup { particles, forces, integrator, dt: 1e-3, bounds: Bounds::default(), solver: Solver::default() };
+        Setup { state: particles, forces, integrator, dt: 1e-3, bounds: Bounds::default(), solver: Solver::default() };
     let mut simulation = Simulation::new(&shared.found.device, &shared.found.queue, &setup)?;
     simulation.step(1)?;
     pollster::block_on(simulation.check())?;

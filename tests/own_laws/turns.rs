@@ -9,7 +9,7 @@ use motes::links::{Joint, Link, Links};
 use motes::selftest::{Outcome, Questions, examine};
 use motes::settings::Value;
 use motes::tree::Opening;
-use motes::{Bounds, Error, Gpu, Particles, Setup, Simulation, Solver};
+use motes::{Bounds, Error, Gpu, Setup, Simulation, Solver, State};
 
 use crate::support::equivalents::{Equivalent, Ledger, same};
 use crate::support::mutants::mutants;
@@ -71,9 +71,9 @@ fn custom(over: Over, wgsl: &str, n: Option<u32>) -> Custom {
     Custom { name: "l".into(), over, wgsl: wgsl.into(), file: "l.wgsl".into(), params }
 }
 
-fn setup(particles: Particles, force: Box<dyn Force>) -> Setup {
+fn setup(particles: State, force: Box<dyn Force>) -> Setup {
     Setup {
-        particles,
+        state: particles,
         forces: vec![force],
         integrator: integrator("symplectic_euler"),
         // All stay where they are.
@@ -84,7 +84,7 @@ fn setup(particles: Particles, force: Box<dyn Force>) -> Setup {
 }
 
 /// What is felt along x after a step of a law.
-fn felt(shared: &Shared, particles: Particles, force: Box<dyn Force>) -> Result<Vec<f32>, Error> {
+fn felt(shared: &Shared, particles: State, force: Box<dyn Force>) -> Result<Vec<f32>, Error> {
     let setup = setup(particles, force);
     let mut simulation = Simulation::<Gpu>::new(&shared.found.device, &shared.found.queue, &setup)?;
     simulation.step(1)?;
@@ -172,7 +172,7 @@ fn a_sum_that_a_driver_cuts_is_never_silent() {
 fn what_is_tied_is_never_silent_either() {
     let shared = support::device();
     let cuts = cuts(&shared);
-    let mut particles = Particles::default();
+    let mut particles = State::default();
     for x in [0.0, 1.0, 2.0] {
         particles.push(DVec3::new(x, 0.1 * x * x, 0.0), DVec3::ZERO, 1.0, 0.1);
     }
