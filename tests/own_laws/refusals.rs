@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use motes::forces::{Custom, Force, Over};
+use motes::forces::{Component, Custom, Over};
 use motes::settings::Value;
 use motes::{Bounds, Error, Gpu, Setup, Simulation, Solver};
 
@@ -17,8 +17,8 @@ fn made(
     (method, count): (&str, usize),
 ) -> Result<Simulation<Gpu>, Error> {
     let params = params.iter().map(|(name, value)| ((*name).to_owned(), value.clone())).collect();
-    let law = Custom { name: "l".into(), over, wgsl: wgsl.into(), file: "l.wgsl".into(), params };
-    let forces: Vec<Box<dyn Force>> = vec![Box::new(law)];
+    let law = Custom { params, ..Custom::new("l", "l.wgsl", wgsl, over) };
+    let forces: Vec<Box<dyn Component>> = vec![Box::new(law)];
     let (particles, integrator) = (support::cloud(count, 5), integrator(method));
     let setup =
         Setup { state: particles, forces, integrator, dt: 1e-3, bounds: Bounds::default(), solver: Solver::default() };

@@ -3,7 +3,7 @@
 use std::sync::MutexGuard;
 
 use glam::DVec3;
-use motes::forces::{Custom, Force, Law, Over, Problem};
+use motes::forces::{Component, Custom, Law, Over, Problem, Stage};
 use motes::kernel::{ACCELERATION, Plan, Shader, Source};
 use motes::links::{Joint, Link, Links};
 use motes::selftest::{Outcome, Questions, examine};
@@ -46,11 +46,14 @@ struct Changed {
     turns: String,
 }
 
-impl Force for Changed {
+impl Component for Changed {
     fn laws(&self) -> Vec<Law> {
         self.law.laws()
     }
-    fn evaluate(&self, plan: &mut Plan, _: usize, problem: &Problem) -> Result<(), Error> {
+    fn stage(&self, stage: Stage, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
+        if !matches!(stage, Stage::Evaluate { .. }) {
+            return Ok(());
+        }
         let file = "shaders/own/turns.wgsl";
         let mut kernel = self.laws().swap_remove(0).kernel(problem)?;
         for pass in &mut kernel.passes {
@@ -68,10 +71,10 @@ impl Force for Changed {
 
 fn custom(over: Over, wgsl: &str, n: Option<u32>) -> Custom {
     let params = n.map(|n| ("n".to_owned(), Value::Number(f64::from(n)))).into_iter().collect();
-    Custom { name: "l".into(), over, wgsl: wgsl.into(), file: "l.wgsl".into(), params }
+    Custom { params, ..Custom::new("l", "l.wgsl", wgsl, over) }
 }
 
-fn setup(particles: State, force: Box<dyn Force>) -> Setup {
+fn setup(particles: State, force: Box<dyn Component>) -> Setup {
     Setup {
         state: particles,
         forces: vec![force],
@@ -84,7 +87,7 @@ fn setup(particles: State, force: Box<dyn Force>) -> Setup {
 }
 
 /// What is felt along x after a step of a law.
-fn felt(shared: &Shared, particles: State, force: Box<dyn Force>) -> Result<Vec<f32>, Error> {
+fn felt(shared: &Shared, particles: State, force: Box<dyn Component>) -> Result<Vec<f32>, Error> {
     let setup = setup(particles, force);
     let mut simulation = Simulation::<Gpu>::new(&shared.found.device, &shared.found.queue, &setup)?;
     simulation.step(1)?;
