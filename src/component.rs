@@ -171,6 +171,6 @@ pub struct Entry {
     pub keys: &'static [Key],
     /// What kind of a component it is.
     pub role: Role,
-    /// Makes one, from checked settings.
+    /// Makes one, from checked settings. What they say that it has no key for is an error of every simulation with it.
     pub build: fn(&Settings) -> Box<dyn Component>,
 }

@@ -1,7 +1,27 @@
 //! The backend that runs the twins: f64 on the host, over all cores, with no driver at all.
 
+use std::sync::OnceLock;
+
 use crate::error::Error;
 use crate::kernel::{Access, Array, Backend, Host, Machine, POSITION, Plan, VELOCITY, World};
+
+/// How many threads kernels run on. They are started here, once; a program that has made rayon's global pool by itself keeps it.
+///
+/// # Errors
+/// [`Error::Threads`] when the system starts none.
+pub fn threads() -> Result<usize, Error> {
+    // There rayon makes do with the thread that there is, unless it is asked.
+    if cfg!(target_family = "wasm") {
+        return Ok(rayon::current_num_threads());
+    }
+    static POOL: OnceLock<Result<(), String>> = OnceLock::new();
+    let pool = POOL.get_or_init(|| match rayon::ThreadPoolBuilder::new().build_global() {
+        // Without a cause there is a pool already.
+        Err(why) => std::error::Error::source(&why).map_or(Ok(()), |cause| Err(cause.to_string())),
+        Ok(()) => Ok(()),
+    });
+    pool.clone().map(|()| rayon::current_num_threads()).map_err(Error::Threads)
+}
 
 /// Runs plans by their twins.
 pub struct Cpu {
@@ -13,8 +33,9 @@ impl Cpu {
     /// For `count` particles.
     ///
     /// # Errors
-    /// [`Error::Scene`] when there are none.
+    /// [`Error::Scene`] when there are none, [`Error::Threads`] when no thread can be started.
     pub fn new(count: u32) -> Result<Self, Error> {
+        threads()?;
         if count == 0 {
             return Err(Error::Scene("there are no particles: a simulation needs one or more".to_owned()));
         }

@@ -31,7 +31,7 @@ pub enum Error {
     Limit(String),
     /// A number stopped being a number. Mended by a smaller step or more softening.
     #[error(
-        "particle {particle} stopped being finite in step {step} (its position, velocity or acceleration is NaN or infinite): \
+        "particle {particle} stopped being finite in step {step} (its position, velocity or acceleration is NaN, infinite or above 3.4e38): \
          try a smaller dt, more softening where particles attract each other, or look for some that start at the same place"
     )]
     NotFinite {
@@ -114,6 +114,12 @@ pub enum Error {
         /// How long.
         seconds: u64,
     },
+    /// No thread can be started on the processor. Mended in the limits of the system.
+    #[error(
+        "the threads of the CPU backend cannot be started: {0}; allow more processes or memory (`ulimit -u`, `ulimit -v`), or \
+         fewer threads (RAYON_NUM_THREADS=1)"
+    )]
+    Threads(String),
     /// The driver or wgpu refused a call: a bug in this crate or in the driver.
     #[error(
         "the device refused a call, which is a bug in motes or in its driver; please report it with `motes doctor`: {0}"
@@ -139,7 +145,7 @@ impl Error {
             Self::NoAdapter(_) | Self::Limit(_) => 5,
             Self::NotFinite { .. } | Self::Runaway { .. } | Self::Crowded { .. } | Self::TooShort { .. } => 6,
             Self::CutShort { .. } | Self::Endless { .. } => 6,
-            Self::Lost(_) | Self::OutOfMemory(_) | Self::Timeout { .. } | Self::Device(_) => 7,
+            Self::Lost(_) | Self::OutOfMemory(_) | Self::Timeout { .. } | Self::Threads(_) | Self::Device(_) => 7,
             Self::Output { .. } => 8,
         }
     }

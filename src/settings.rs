@@ -53,6 +53,21 @@ pub enum Kind {
     Color,
 }
 
+impl Kind {
+    /// Whether a value is of the sort that it accepts, whatever its range.
+    fn takes(self, value: &Value) -> bool {
+        match self {
+            Self::Number | Self::Positive | Self::NotNegative | Self::Fraction | Self::Count | Self::Whole => {
+                matches!(value, Value::Number(_))
+            }
+            Self::Species => matches!(value, Value::Number(_) | Value::Text(_)),
+            Self::Vector | Self::Direction => matches!(value, Value::Vector(_)),
+            Self::Choice(_) | Self::Motion | Self::File | Self::Sides | Self::Color => matches!(value, Value::Text(_)),
+            Self::Flag => matches!(value, Value::Flag(_)),
+        }
+    }
+}
+
 /// The sides of a box, as scenes call them.
 pub const SIDES: &[&str] = &["-x", "+x", "-y", "+y", "-z", "+z"];
 
@@ -93,11 +108,23 @@ impl Settings {
     pub fn defaults(keys: &[Key]) -> Self {
         Self(keys.iter().filter_map(|k| Some((k.name, k.default.clone()?))).collect())
     }
-    /// The same with one value set.
+    /// The same with one value set. A name that the force, shape or picture does not have is an error where that is built.
     #[must_use]
     pub fn with(mut self, name: &'static str, value: Value) -> Self {
         self.0.insert(name, value);
         self
+    }
+    /// What is wrong with these, for who has such keys: a name that is none of them, or a value of another kind.
+    #[must_use]
+    pub fn fault(&self, keys: &[Key]) -> Option<String> {
+        self.0.iter().find_map(|(name, value)| {
+            let Some(key) = keys.iter().find(|key| key.name == *name) else {
+                let known: Vec<_> = keys.iter().map(|key| key.name).collect();
+                return Some(format!("has no key `{name}`; its keys are {}", known.join(", ")));
+            };
+            (!key.kind.takes(value))
+                .then(|| format!("has a key `{name}` of another kind than {value:?}: {}", key.about))
+        })
     }
     /// A number.
     #[must_use]

@@ -20,6 +20,7 @@ pub use solves::{Outcome, Solves};
 use glam::DVec3;
 
 use crate::boundary;
+use crate::cpu::threads;
 use crate::error::Error;
 use crate::fluids::DFSPH_REPORT;
 use crate::gpu::Gpu;
@@ -65,8 +66,9 @@ impl<B: Backend> Simulation<B> {
     /// Puts a setup on a backend.
     ///
     /// # Errors
-    /// When the setup makes no sense, a shader does not compile, or the fields do not fit the device.
+    /// When the setup makes no sense, a shader does not compile, the fields do not fit the device, or no thread can be started.
     pub fn on(mut backend: B, setup: &Setup) -> Result<Self, Error> {
+        threads()?;
         let count = setup.check()?;
         let plans = setup.plans(backend.machine())?;
         let (plan, marks) = (plans.step.to_string(), alarm::marks(&plans));

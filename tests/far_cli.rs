@@ -145,7 +145,7 @@ fn whom_auto_lets_meet_is_said_below_and_above_the_crossing() {
         ("pairs", 40, None),
     ] {
         let path = cluster(&folder, count, &format!("over = \"{over}\"\ntheta = 0.9"));
-        for args in [&["check", &path][..], &["run", &path, "-o", &out]] {
+        for args in [&["check", &path][..], &["run", &path, "-o", &out, "--overwrite"]] {
             let (code, stdout, stderr) = motes(args);
             let words = stdout + &stderr;
             assert_eq!(code, Some(0), "{args:?}: {words}");

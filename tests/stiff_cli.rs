@@ -72,7 +72,7 @@ fn lost_numbers_leave_neighbors_advice_and_the_last_good_state() {
     for (formats, file) in [("[\"csv\"]", "last_good.csv"), ("[\"npz\"]", "last_good.npz"), ("[]", "last_good.npz")] {
         let out = folder.path(file);
         let set = format!("output.formats={formats}");
-        let (code, words) = motes(&["run", &scene, "-o", &out, "--backend", "cpu", "--set", &set]);
+        let (code, words) = motes(&["run", &scene, "-o", &out, "--overwrite", "--backend", "cpu", "--set", &set]);
         assert_eq!(code, 6, "{words}");
         for said in [
             "stopped being finite",
@@ -117,7 +117,7 @@ fn divided_steps_are_run_and_written_down() {
     for said in ["dt = 0.025", "steps = 160", "every = 80"] {
         assert!(text.contains(said), "no {said} in\n{text}");
     }
-    let (code, words) = motes(&["run", &format!("{out}/scene.toml"), "-o", &out, "--backend", "cpu"]);
+    let (code, words) = motes(&["run", &format!("{out}/scene.toml"), "-o", &folder.path("again"), "--backend", "cpu"]);
     assert!(code == 0 && !words.contains("explode"), "{words}");
 }
 

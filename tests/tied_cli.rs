@@ -33,14 +33,14 @@ fn springs_depend_on_velocity_where_they_are_damped() {
         let words = motes(&[&["check", &path, "--backend", "cpu"], set].concat());
         assert_eq!(words.contains("`spring` depends on velocity: leapfrog is of order 2"), damped, "{words}");
         assert!(!words.contains("nothing comes of"), "{words}");
-        let words = motes(&[&["run", &path, "-o", &out, "--backend", "cpu"], set].concat());
+        let words = motes(&[&["run", &path, "-o", &out, "--overwrite", "--backend", "cpu"], set].concat());
         assert_eq!(words.contains("not conserved"), damped, "{words}");
         assert_eq!(words.contains(", error "), !damped, "{words}");
         assert!(words.contains("momentum changed by"), "{words}");
     }
     // Who tears a spring loses its energy, and no momentum.
     let path = scene(folder.path(), CHAIN, &(SPRING.to_owned() + "[[force]]\nkind = \"tear\"\n"));
-    let words = motes(&["run", &path, "-o", &out, "--backend", "cpu"]);
+    let words = motes(&["run", &path, "-o", &out, "--overwrite", "--backend", "cpu"]);
     assert!(words.contains("not conserved") && words.contains("momentum changed by"), "{words}");
 }
 

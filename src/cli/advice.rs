@@ -10,7 +10,7 @@ use motes::motion::Hold;
 use motes::scene::Scene;
 use motes::{Bounds, Error, Setup, Side};
 
-use super::{births, solves};
+use super::{births, jumps, rounding, solves};
 
 /// What a law's twin says to a particle at rest somewhere.
 pub fn felt(twin: &Twin, (time, step): (f64, u32), position: DVec3, bounds: Bounds) -> Result<DVec4, Error> {
@@ -179,12 +179,15 @@ fn inside(setup: &Setup) -> Result<Option<String>, Error> {
 pub fn advice(scene: &Scene, setup: &Setup) -> Result<Vec<String>, Error> {
     let mut remarks = scene.remarks.clone();
     remarks.extend(inside(setup)?);
-    remarks.extend(births::early(setup, scene.steps as f64 * scene.dt));
+    let end = scene.steps as f64 * scene.dt;
+    remarks.extend(births::early(setup, end));
+    remarks.extend(rounding::crossings(setup));
+    remarks.extend(jumps::remarks(setup, end));
     let laws: Vec<Law> = setup.forces.iter().flat_map(|force| force.laws()).collect();
     remarks.extend(idle(&setup.state.links, &laws));
     let implicit = setup.integrator.is_implicit();
     if implicit {
-        remarks.push(solves::remark(&setup.forces, scene.integrator.name));
+        remarks.push(solves::remark(setup, scene.integrator.name)?);
     }
     let (order, reduced) = (setup.integrator.order(), setup.integrator.order_with_velocity());
     let loses = reduced < order || implicit && order > 1;

@@ -12,10 +12,10 @@ Exit codes:
   4   a file of particles is wrong
   5   no adapter fits, or a limit of the device is too small
   6   a number stopped being finite, speeds ran away, or a law of one's own took too many turns
-  7   the device was lost, ran out of memory or did not answer
-  8   a result could not be written
+  7   the device was lost, ran out of memory or did not answer, or no thread could be started
+  8   a result could not be written, or stands in the way of another's
   9   `compare` or `doctor` found a disagreement
-  75  stopped by Ctrl-C after everything up to there was written
+  75  stopped by Ctrl-C, SIGTERM or SIGHUP after everything up to there was written
 
 Examples:
   motes run galaxy
@@ -102,6 +102,9 @@ pub struct RunArgs {
     /// The folder for results [default: out/NAME]
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,
+    /// Remove the results of an earlier run that the folder holds
+    #[arg(long)]
+    pub overwrite: bool,
     /// Take so many pictures, evenly spaced from the first state to the last, and join them to a film
     #[arg(long, value_name = "N")]
     pub frames: Option<u64>,
@@ -112,7 +115,7 @@ pub struct RunArgs {
     #[arg(long)]
     pub ledger: bool,
     /// Print events as lines of JSON on standard output
-    #[arg(long, conflicts_with = "quiet")]
+    #[arg(long)]
     pub json: bool,
     /// Print nothing but errors
     #[arg(short, long)]
@@ -147,7 +150,7 @@ pub struct CompareArgs {
 pub struct ScenesArgs {
     /// Print the text of this one; with --keys, the keys of this force, shape or section
     pub name: Option<String>,
-    /// Print what a scene may say: every key of forces, shapes and pictures, with its unit and default
+    /// Print what a scene may say: every key of its sections, of forces and of shapes, with its unit and default
     #[arg(long)]
     pub keys: bool,
 }

@@ -5,11 +5,16 @@ use motes::fluids::{Medium, Start};
 use motes::kernel::Machine;
 use motes::{Error, Setup};
 
+use super::fluid::Weight;
+
 /// Parts that differ by less are the same.
 const ALIKE: f64 = 0.01;
 
-/// All of them, with the acceleration that pulls everybody.
-pub fn all(setup: &Setup, start: &Start, weight: DVec3) -> Result<Vec<String>, Error> {
+/// Parts of the largest pull of a force that are rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// All of them, with the acceleration of the whole fluid.
+pub fn all(setup: &Setup, start: &Start, weight: Weight) -> Result<Vec<String>, Error> {
     let mut notes = Vec::new();
     notes.extend(births(setup, &start.medium));
     notes.extend(mouths(setup, &start.medium));
@@ -64,7 +69,7 @@ fn mouths(setup: &Setup, medium: &Medium) -> Option<String> {
 }
 
 /// A weight that the fluid is told, and another that forces give.
-fn weighed(setup: &Setup, weight: DVec3) -> Result<Option<String>, Error> {
+fn weighed(setup: &Setup, Weight { pull: weight, largest }: Weight) -> Result<Option<String>, Error> {
     let problem = setup.problem(Machine::HOST)?;
     let fluid = setup
         .forces
@@ -73,7 +78,8 @@ fn weighed(setup: &Setup, weight: DVec3) -> Result<Option<String>, Error> {
         .transpose()?;
     let Some(told) = fluid.and_then(|fluid| fluid.weight) else { return Ok(None) };
     let off = (told - weight).length();
-    Ok((off > ALIKE * told.length().max(weight.length())).then(|| {
+    let alike = off <= ALIKE * told.length().max(weight.length()) || off <= ROUNDING * largest.max(told.length());
+    Ok((!alike).then(|| {
         format!(
             "the fluid has weight = [{}, {}, {}], and forces pull everybody by [{}, {}, {}]: a fluid at rest would not stay so; give \
              both the same",

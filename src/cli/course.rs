@@ -14,8 +14,13 @@ pub fn words(scene: &Scene) -> String {
         Some(pace) => {
             format!("{} of time in steps of {} to {}", plain(scene.until), plain(pace.least), plain(scene.dt))
         }
-        None => format!("{} steps of {}", scene.steps, plain(scene.dt)),
+        None => format!("{} of {}", steps(scene.steps), plain(scene.dt)),
     }
+}
+
+/// `1 step`, `2 steps`.
+pub fn steps(count: u64) -> String {
+    if count == 1 { "1 step".to_owned() } else { format!("{count} steps") }
 }
 
 /// The way to the end.

@@ -8,7 +8,7 @@ use motes::{Cpu, Error, Gpu, Setup};
 
 use super::args::{BackendChoice, DeviceArgs, SceneArgs};
 use super::failure::Failure;
-use super::far;
+use super::{far, rounding};
 
 /// What runs the kernels.
 pub enum Engine {
@@ -51,7 +51,9 @@ impl Engine {
     /// What a user should know of it, and of what it makes of a setup.
     pub fn remarks(&self, setup: &Setup) -> Result<Vec<String>, Failure> {
         let far = far::remarks(setup, self.machine(1)?)?;
-        Ok(self.remark().into_iter().chain(far).collect())
+        let single = matches!(self, Self::Gpu(_));
+        let rounded = if single { rounding::remarks(setup) } else { Vec::new() };
+        Ok(self.remark().into_iter().chain(far).chain(rounded).collect())
     }
     fn remark(&self) -> Option<String> {
         match self {

@@ -15,7 +15,7 @@ pub enum Failure {
     Explained(Error, String),
     /// Device and twins disagree, or a self test failed; the table that says so is printed already.
     Disagreement,
-    /// Stopped by Ctrl-C; everything up to there is written.
+    /// Stopped by a signal; everything up to there is written.
     Stopped,
 }
 

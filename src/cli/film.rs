@@ -128,7 +128,8 @@ impl Film {
         reel.place(scenery.solids);
         reel.contain(scenery.tanks);
         let image = simulation.shoot(reel).await?;
-        let file = self.folder.join("frames").join(format!("frame_{:0w$}.png", self.done.len(), w = self.digits()));
+        let name = format!("frames/frame_{:0w$}.png", self.done.len(), w = self.digits());
+        let file = output.folder().file(&name)?;
         image.save(&file)?;
         progress.event("frame", json!({ "frame": self.done.len(), "step": step, "file": file }));
         self.done.push(file);

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use motes::fluids::{COURANT, Start};
 use motes::forces::{Over, Problem};
-use motes::kernel::{Machine, World};
+use motes::kernel::Machine;
 use motes::{Error, Setup, Side};
 
 use super::advice::felt;
@@ -31,7 +31,7 @@ pub fn told(setup: &Setup, start: &Start) -> Result<(Vec<String>, Vec<String>), 
     // Along an axis that is periodic nobody falls: a push there is a wind.
     let weight = weight(setup)?;
     notes.extend(contradictions::all(setup, start, weight)?);
-    let weight = weight * (DVec3::ONE - setup.bounds.axes(Side::Periodic));
+    let weight = weight.pull * (DVec3::ONE - setup.bounds.axes(Side::Periodic));
     let (g, extent) = (weight.length(), start.extent.1 - start.extent.0);
     // Half a spacing of fluid is beyond the first and the last.
     let height = extent.dot(weight.normalize_or_zero().abs()) + medium.spacing;
@@ -116,16 +116,28 @@ pub fn told(setup: &Setup, start: &Start) -> Result<(Vec<String>, Vec<String>), 
     Ok((lines, notes))
 }
 
-/// The acceleration of all that pulls everybody alike, at the middle of the start.
-fn weight(setup: &Setup) -> Result<DVec3, Error> {
+/// What forces of each particle do to the fluid as a whole.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Weight {
+    /// The acceleration at the middle of the start.
+    pub pull: DVec3,
+    /// The largest that a single force has there or at the first particle: what is far smaller is rounding.
+    pub largest: f64,
+}
+
+/// What all that pulls everybody alike does.
+fn weight(setup: &Setup) -> Result<Weight, Error> {
     let machine = Machine::HOST;
-    let mut weight = DVec3::ZERO;
+    let mut weight = Weight::default();
     for law in setup.forces.iter().flat_map(|force| force.laws()).filter(|law| law.over == Over::Each) {
         let velocity = law.clone().kernel(&Problem::new(1, machine))?.names("velocity");
         if let (Some(twin), false) = (&law.twin, velocity) {
-            let middle = setup.state.position().iter().sum::<DVec3>() / setup.state.len() as f64;
-            let world = World { time: 0.0, dt: setup.dt, step: 0, count: 1, bounds: setup.bounds };
-            weight += felt(twin, (world.time, world.step), middle, world.bounds)?.truncate();
+            let places = setup.state.position();
+            let middle = places.iter().sum::<DVec3>() / places.len() as f64;
+            let pull = |x: DVec3| Ok::<_, Error>(felt(twin, (0.0, 0), x, setup.bounds)?.truncate());
+            let (here, aside) = (pull(middle)?, pull(places.first().copied().unwrap_or(middle))?);
+            weight.pull += here;
+            weight.largest = weight.largest.max(here.length()).max(aside.length());
         }
     }
     Ok(weight)

@@ -1,8 +1,7 @@
 //! `fluid.csv`: the ledger of a fluid.
 
-use std::path::Path;
-
 use motes::fluids::{DENSITY, Medium};
+use motes::io::Folder;
 use motes::kernel::{Backend, Machine, Reason};
 use motes::measure::Ledger;
 use motes::simulation::Clock;
@@ -43,8 +42,8 @@ impl Book {
         Ok(None)
     }
     /// Begins the table.
-    pub fn open(&mut self, folder: &Path) -> Result<(), Error> {
-        self.table = Some(Table::new(folder.join("fluid.csv"), HEADER)?);
+    pub fn open(&mut self, folder: &Folder) -> Result<(), Error> {
+        self.table = Some(Table::new(folder.file("fluid.csv")?, HEADER)?);
         Ok(())
     }
     /// Enters a state that has just been read. Gives words where a count is no longer 0 that must stay so.

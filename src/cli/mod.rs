@@ -1,10 +1,10 @@
 //! The command line: arguments in, exit code out.
 
-/// A line on standard output. Nobody may be listening: that is no reason to stop.
+/// A line on standard output. A failure is no reason to stop: the program says so in the end.
 macro_rules! out {
     ($($text:tt)*) => {{
         use std::io::Write as _;
-        let _ = writeln!(std::io::stdout(), $($text)*);
+        crate::cli::stdout::printed(&writeln!(std::io::stdout(), $($text)*));
     }};
 }
 /// A line on standard error.
@@ -32,14 +32,18 @@ mod far;
 mod film;
 mod flow;
 mod fluid;
+mod jumps;
 mod ledger;
+mod looks;
 mod output;
 mod plot;
 mod progress;
+mod rounding;
 mod run;
 mod scenes;
 mod solves;
 mod stability;
+mod stdout;
 mod stop;
 mod substeps;
 mod summary;
@@ -57,18 +61,29 @@ pub fn main() -> ExitCode {
     let args = match Args::try_parse() {
         Ok(args) => args,
         Err(error) => {
-            // clap exits with 2 for wrong arguments and with 0 for --help; a closed pipe is no reason to complain.
-            let _ = error.print();
-            return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
+            // clap exits with 2 for wrong arguments and with 0 for --help.
+            let printed = error.print();
+            if error.use_stderr() {
+                return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
+            }
+            stdout::printed(&printed);
+            return ended(Ok(()));
         }
     };
-    match pollster::block_on(dispatch(args.command)) {
+    ended(pollster::block_on(dispatch(args.command)))
+}
+
+/// The exit code. Words that did not get to standard output are a failure, unless there is another.
+fn ended(result: Result<(), Failure>) -> ExitCode {
+    match result.and_then(|()| Ok(stdout::flush()?)) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => failure.report(),
     }
 }
 
 async fn dispatch(command: Command) -> Result<(), Failure> {
+    // Files are written and states are measured on several threads, too.
+    motes::cpu::threads()?;
     match command {
         Command::Run(args) => run::run(&args).await,
         Command::Check(args) => check::check(&args).await,

@@ -1,9 +1,10 @@
 //! What a run leaves behind.
 
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
+use std::rc::Rc;
 
-use motes::io::{Precision, atomically, csv, npz};
+use motes::io::{Folder, Precision, atomically, csv, npz};
 use motes::life::Population;
 use motes::links::Links;
 use motes::measure::Flock;
@@ -22,7 +23,7 @@ const FLOCK: &str = "step,time,order,speed,neighbors,most_neighbors,clusters,lar
 
 /// The folder, and what is in it so far.
 pub struct Output {
-    folder: PathBuf,
+    folder: Rc<Folder>,
     name: String,
     formats: Vec<Format>,
     precision: Precision,
@@ -44,25 +45,23 @@ pub struct Output {
 }
 
 impl Output {
-    /// Makes the folder, the scene as it was resolved, and an empty table of energies; and one of order and clusters,
+    /// Writes the scene as it was resolved into the folder, and an empty table of energies; and one of order and clusters,
     /// where somebody looks for `company` so far away.
     pub fn new(
-        folder: &Path,
+        folder: Rc<Folder>,
         scene: &Scene,
         count: usize,
         company: Option<(f64, Option<u32>)>,
         precision: Precision,
         device: &str,
     ) -> Result<Self, Error> {
-        let failed =
-            |file: &Path, error: &std::io::Error| Error::Output { file: file.to_owned(), message: error.to_string() };
-        std::fs::create_dir_all(folder).map_err(|e| failed(folder, &e))?;
-        let resolved = format!("{}\n# Run by motes {} on {device}.\n", scene.resolved, env!("CARGO_PKG_VERSION"));
-        atomically(&folder.join("scene.toml"), |out| out.write_all(resolved.as_bytes()))?;
-        let energy = Table::new(folder.join("energy.csv"), HEADER)?;
-        let flock = company.map(|of| Ok((Table::new(folder.join("flock.csv"), FLOCK)?, of, scene.bounds)));
+        let resolved = format!("{}\n{}", scene.resolved_in(folder.path()), folder.signature(device));
+        atomically(&folder.file("scene.toml")?, |out| out.write_all(resolved.as_bytes()))?;
+        let energy = Table::new(folder.file("energy.csv")?, HEADER)?;
+        let flock = company.map(|of| Ok((Table::new(folder.file("flock.csv")?, FLOCK)?, of, scene.bounds)));
+        let flock = flock.transpose()?;
         Ok(Self {
-            folder: folder.to_owned(),
+            folder,
             name: scene.name.clone(),
             formats: scene.output.formats.clone(),
             precision,
@@ -71,7 +70,7 @@ impl Output {
             groups: scene.groups.clone(),
             energy,
             rows: Vec::new(),
-            flock: flock.transpose()?,
+            flock,
             company: Vec::new(),
             flow: None,
             population: None,
@@ -98,7 +97,7 @@ impl Output {
             self.company.push(f);
         }
         if self.flow.is_none() && !snapshot.life().is_empty() {
-            self.flow = Some(Table::new(self.folder.join("flow.csv"), FLOW)?);
+            self.flow = Some(Table::new(self.folder.file("flow.csv")?, FLOW)?);
         }
         if let Some(table) = &mut self.flow {
             let of = snapshot.population();
@@ -129,11 +128,11 @@ impl Output {
     pub fn snapshot(&self, snapshot: &State) -> Result<(), Error> {
         let stem = format!("snapshot_{:0width$}", snapshot.step, width = self.digits);
         if self.formats.contains(&Format::Csv) {
-            let path = self.folder.join(&stem).with_extension("csv");
+            let path = self.folder.file(&format!("{stem}.csv"))?;
             atomically(&path, |out| csv::write_csv(out, &snapshot, self.precision))?;
         }
         if self.formats.contains(&Format::Npz) {
-            let path = self.folder.join(&stem).with_extension("npz");
+            let path = self.folder.file(&format!("{stem}.npz"))?;
             let (particles, time, step) = (&snapshot, snapshot.time, snapshot.step);
             atomically(&path, |out| npz::write_npz(out, particles, time, step, self.precision))?;
         }
@@ -142,7 +141,7 @@ impl Output {
     /// Writes what is left of links that may break, beside a snapshot: `[[links]] file` reads it.
     pub fn links(&self, step: u64, links: &Links) -> Result<(), Error> {
         if self.formats.iter().any(|format| *format != Format::Png) {
-            let path = self.folder.join(format!("links_{step:0width$}.csv", width = self.digits));
+            let path = self.folder.file(&format!("links_{step:0width$}.csv", width = self.digits))?;
             atomically(&path, |out| motes::io::links::write(out, links))?;
         }
         Ok(())
@@ -172,19 +171,19 @@ impl Output {
         Ok(picture)
     }
     /// The file of the picture of a step.
-    pub fn frame(&self, step: u64) -> PathBuf {
-        self.folder.join(format!("picture_{step:0width$}.png", width = self.digits))
+    pub fn frame(&self, step: u64) -> Result<PathBuf, Error> {
+        self.folder.file(&format!("picture_{step:0width$}.png", width = self.digits))
     }
     /// The file of the last picture.
-    pub fn portrait(&self) -> PathBuf {
-        self.folder.join(format!("{}.png", self.name))
+    pub fn portrait(&self) -> Result<PathBuf, Error> {
+        self.folder.file(&format!("{}.png", self.name))
     }
     /// Plots the energies.
     pub fn plot(&self) -> Result<(), Error> {
-        plot::energy(&self.folder.join("energy.svg"), &self.rows, &self.name)
+        plot::energy(&self.folder.file("energy.svg")?, &self.rows, &self.name)
     }
     /// The folder.
-    pub fn folder(&self) -> &Path {
+    pub fn folder(&self) -> &Folder {
         &self.folder
     }
 }

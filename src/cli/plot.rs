@@ -1,7 +1,9 @@
 //! `energy.svg`: energies over time, and how well they are kept.
 
+use std::io::Write;
 use std::path::Path;
 
+use motes::io::atomically;
 use motes::{Error, Measure};
 use plotters::coord::Shift;
 use plotters::prelude::*;
@@ -42,12 +44,7 @@ pub fn write(path: &Path, size: (u32, u32), panels: impl FnOnce(&Area) -> Result
     let failed = |message: String| Error::Output { file: path.to_owned(), message };
     let mut svg = String::new();
     draw(&mut svg, size, panels).map_err(&failed)?;
-    let part = path.with_extension("svg.part");
-    let written = std::fs::write(&part, svg).and_then(|()| std::fs::rename(&part, path));
-    written.map_err(|error| {
-        let _ = std::fs::remove_file(&part);
-        failed(error.to_string())
-    })
+    atomically(path, |out| out.write_all(svg.as_bytes()))
 }
 
 fn draw(svg: &mut String, size: (u32, u32), panels: impl FnOnce(&Area) -> Result<(), String>) -> Result<(), String> {

@@ -55,6 +55,11 @@ impl Progress {
             out!("{fields}");
         }
     }
+    /// What is worth to be known, for people and programs.
+    pub fn remark(&self, text: &str) {
+        self.say(&format!("note: {text}"));
+        self.event("remark", json!({ "text": text }));
+    }
     /// A line for people.
     pub fn say(&self, text: &str) {
         match &self.kind {

@@ -3,24 +3,24 @@
 mod conclude;
 
 use std::path::PathBuf;
+use std::rc::Rc;
 use std::time::{Duration, Instant};
 
-use motes::io::Precision;
+use motes::io::{Folder, Precision};
 use motes::kernel::Backend;
 use motes::render::{Image, Picture, Scenery, Trail};
 use motes::scene::Scene;
-use motes::stability::Verdict;
 use motes::{Cpu, Error, Measure, POSITION, Setup, Simulation, State};
 use serde_json::json;
 
 use super::advice::{Conserved, advice, conserved};
-use super::aftermath;
 use super::args::RunArgs;
 use super::course::{self, Course};
 use super::engine::Engine;
 use super::failure::Failure;
 use super::film::Film;
 use super::ledger::Book;
+use super::looks::Looks;
 use super::output::Output;
 use super::progress::Progress;
 use super::solves;
@@ -41,7 +41,9 @@ pub async fn run(args: &RunArgs) -> Result<(), Failure> {
     let Loaded { scene, setup, verdict, .. } = substeps::load(&args.scene, frames).await?;
     let count = setup.check()?;
     let engine = Engine::choose(&args.scene.device).await?;
-    let mut run = Run::new(args, scene, &setup, &engine)?;
+    let folder = args.output.clone().unwrap_or_else(|| PathBuf::from("out").join(&scene.name));
+    Folder::examine(&folder, &scene.name, &scene.files, args.overwrite)?;
+    let mut run = Run::new(args, scene, folder, &setup, &engine)?;
     // Everything that can be refused is refused before the first file is written.
     let mut result = match &engine {
         Engine::Gpu(found) => {
@@ -88,6 +90,12 @@ struct Run {
     /// The ledger of a fluid, and whether it is kept at every step.
     book: Option<Book>,
     ledger: bool,
+    /// Whether the results of an earlier run are removed.
+    overwrite: bool,
+    /// The folder, held until the last word is written.
+    lock: Option<Rc<Folder>>,
+    /// What was seen of the energies.
+    looks: Looks,
     progress: Progress,
     stop: Stop,
     /// The last state that was read, and so the last that is known to be good.
@@ -98,14 +106,13 @@ struct Run {
 }
 
 impl Run {
-    fn new(args: &RunArgs, scene: Scene, setup: &Setup, engine: &Engine) -> Result<Self, Failure> {
+    fn new(args: &RunArgs, scene: Scene, folder: PathBuf, setup: &Setup, engine: &Engine) -> Result<Self, Failure> {
         let progress = Progress::new(args, scene.steps);
         let standing = setup.forces.iter().filter_map(|force| force.properties().pictured).collect();
         let scenery = Scenery::of(&setup.state).within(&scene.bounds).beside(standing, &setup.state);
         Picture::with(&scene.picture, &setup.state, &[], Trail::new(0), &scenery)?;
         let device = engine.describe();
         let count = setup.state.len();
-        let folder = args.output.clone().unwrap_or_else(|| PathBuf::from("out").join(&scene.name));
         let film = Film::of(&scene, &folder, args.fps);
         progress.event(
             "start",
@@ -120,12 +127,12 @@ impl Run {
         ));
         progress.say(&format!("on {device}"));
         for remark in engine.remarks(setup)?.into_iter().chain(advice(&scene, setup)?) {
-            progress.say(&format!("note: {remark}"));
-            progress.event("remark", json!({ "text": remark }));
+            progress.remark(&remark);
         }
         let company = setup.forces.iter().find_map(|force| force.properties().statistics_radius);
         let (conserved, stop) = (conserved(setup)?, Stop::listen());
         let (springs, last, torn) = (setup.state.links.springs.len(), None, None);
+        let (steps, adaptive) = (scene.steps, scene.pace.is_some());
         Ok(Self {
             scene,
             device,
@@ -140,21 +147,25 @@ impl Run {
             last,
             book: Book::of(setup)?,
             ledger: args.ledger,
+            overwrite: args.overwrite,
+            lock: None,
+            looks: Looks::new(steps, adaptive),
             springs,
             torn,
         })
     }
 
     async fn drive<B: Backend>(&mut self, mut simulation: Simulation<B>, precision: Precision) -> Result<(), Failure> {
-        if self.folder.join("energy.csv").exists() {
-            let text = "the folder holds an earlier run: files of the same names are replaced, others stay";
-            self.progress.say(&format!("note: {text}"));
-            self.progress.event("remark", json!({ "text": text }));
+        let folder = Folder::open(&self.folder, &self.scene.name, &self.scene.files, self.overwrite)?;
+        let folder = Rc::new(folder);
+        self.lock = Some(folder.clone());
+        if let Some(text) = folder.remark() {
+            self.progress.remark(text);
         }
-        let mut output = Output::new(&self.folder, &self.scene, self.count, self.company, precision, &self.device)?;
+        let mut output = Output::new(folder, &self.scene, self.count, self.company, precision, &self.device)?;
         output.scenery = self.scenery.clone();
         if let Some(book) = &mut self.book {
-            book.open(&self.folder)?;
+            book.open(output.folder())?;
         }
         let (steps, every) = (self.scene.steps, self.scene.output.every);
         let mut course = Course::of(&self.scene, &mut simulation).await?;
@@ -169,7 +180,8 @@ impl Run {
             let most = if output.trail.wanted() { (steps / TRAIL).max(1) } else { u64::MAX };
             let most = if self.ledger { 1 } else { most };
             let start = Instant::now();
-            let some = course.advance(&mut simulation, next.min(frame), batch.min(most)).await?;
+            let target = next.min(frame).min(self.looks.next(done));
+            let some = course.advance(&mut simulation, target, batch.min(most)).await?;
             stepping += start.elapsed();
             let factor = (BATCH.as_secs_f64() / start.elapsed().as_secs_f64().max(1e-6)).clamp(0.5, 4.0);
             #[expect(
@@ -191,11 +203,17 @@ impl Run {
             } else if self.ledger && self.book.is_some() {
                 let snapshot = simulation.snapshot().await?;
                 self.enter(&mut simulation, &course, &snapshot).await?;
-            } else if self.progress.watched() && looked.elapsed() > LOOK.max(look * 20) {
-                // The energy between two outputs, for whoever looks, and for a twentieth of the time at most.
+            } else if self.looks.is_due(course.done())
+                || self.progress.watched() && looked.elapsed() > LOOK.max(look * 20)
+            {
+                // The energy between two outputs, and for a bar that is watched for a twentieth of the time at most.
                 let start = Instant::now();
                 let snapshot = simulation.snapshot().await?;
-                self.progress.energy(&Measure::of(&snapshot)?, &output.first());
+                let row = Measure::of(&snapshot)?;
+                self.progress.energy(&row, &output.first());
+                if self.looks.is_due(course.done()) {
+                    self.looks.take(&row);
+                }
                 self.last = Some(snapshot);
                 (looked, look) = (Instant::now(), start.elapsed());
             }
@@ -250,10 +268,11 @@ impl Run {
         let mut image = None;
         if output.pictures() {
             let drawn = simulation.draw(&output.picture(&snapshot)?).await?;
-            drawn.save(&output.frame(snapshot.step))?;
+            drawn.save(&output.frame(snapshot.step)?)?;
             image = Some(drawn);
         }
         if let Some(row) = output.rows().last() {
+            self.looks.take(row);
             self.progress.measured(row, &output.first());
         }
         self.last = Some(snapshot);
@@ -273,16 +292,5 @@ impl Run {
             self.progress.event("remark", json!({ "text": loud }));
         }
         Ok(())
-    }
-
-    /// What is to be said, and kept, when numbers are lost.
-    fn explain(&self, error: Error, setup: &Setup, verdict: Option<&Verdict>, engine: &Engine) -> Failure {
-        let precision = match engine {
-            Engine::Gpu(_) => Precision::Single,
-            Engine::Cpu(_) => Precision::Double,
-        };
-        let way = verdict.and_then(|verdict| substeps::way_out(verdict, &self.scene, setup));
-        let to = (&*self.folder, &*self.scene.output.formats, precision);
-        aftermath::explain(error, setup, way.as_deref(), self.last.as_ref(), to)
     }
 }

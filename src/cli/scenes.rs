@@ -1,7 +1,7 @@
 //! `motes scenes`
 
-use motes::scene::{BOX_KEYS, LINKS_KEYS, MOTION_KEYS, PARTICLES_KEYS, SCENES, SOLVER_KEYS, Source};
-use motes::settings::Value;
+use motes::scene::{SCENES, SECTIONS, Source};
+use motes::settings::{Key, Value};
 
 use super::args::ScenesArgs;
 use super::failure::Failure;
@@ -12,9 +12,10 @@ pub fn scenes(args: &ScenesArgs) -> Result<(), Failure> {
         return keys(args.name.as_deref());
     }
     let Some(name) = &args.name else {
+        let wide = SCENES.iter().map(|scene| scene.name.len()).max().unwrap_or(0);
         for scene in SCENES {
             let about = scene.about();
-            out!("{:14} {}", scene.name, first_sentence(&about));
+            out!("{:wide$} {}", scene.name, first_sentence(&about));
         }
         out!(
             "\nmotes run NAME runs one; motes scenes NAME prints it, to be saved and changed;\nmotes scenes --keys prints all that a scene may say."
@@ -37,27 +38,10 @@ pub fn scenes(args: &ScenesArgs) -> Result<(), Failure> {
 fn keys(wanted: Option<&str>) -> Result<(), Failure> {
     let forces = motes::forces::FORCES.iter().map(|e| ("[[force]] kind", e.name, e.about, e.keys));
     let shapes = motes::particles::SHAPES.iter().map(|e| ("[[particles]] shape", e.name, e.about, e.keys));
-    let sections = [
-        (
-            "section",
-            "box",
-            "where particles may be; x, y and z say otherwise for single axes, dimensions 2 or 3",
-            BOX_KEYS,
-        ),
-        ("section", "solver", "how well implicit integrators solve their equations", SOLVER_KEYS),
-        (
-            "section",
-            "motion",
-            "what leads held particles and solids: a name, and keys as in [{ time = 0 }, { time = 2, shift = [1, 0, 0], \
-             turn = [0, 0, 90] }]",
-            MOTION_KEYS,
-        ),
-        ("section", "particles", "what every [[particles]] may say", PARTICLES_KEYS),
-        ("section", "links", "what ties particles: a file, or pairs of ids", LINKS_KEYS),
-        ("section", "picture", "how pictures are made", motes::render::KEYS),
-    ];
-    let all: Vec<_> = forces.chain(shapes).chain(sections).filter(|e| wanted.is_none_or(|name| name == e.1)).collect();
-    if all.is_empty() {
+    let entries = forces.chain(shapes).filter(|entry| wanted.is_none_or(|name| name == entry.1));
+    let sections = || SECTIONS.iter().filter(|section| wanted.is_none_or(|name| name == section.name));
+    let all: Vec<_> = entries.collect();
+    if all.is_empty() && sections().next().is_none() {
         let text = format!(
             "no force, shape or section is called `{}`; motes scenes --keys lists all",
             wanted.unwrap_or_default()
@@ -66,13 +50,25 @@ fn keys(wanted: Option<&str>) -> Result<(), Failure> {
     }
     for (place, name, about, keys) in all {
         out!("{place} = \"{name}\": {about}");
-        for key in keys {
-            let default = key.default.as_ref().map_or_else(|| "must be given".to_owned(), shown);
-            out!("    {:16} {default:20} {}", key.name, key.about);
+        list(keys);
+        out!("");
+    }
+    for section in sections() {
+        out!("section = \"{}\": {}", section.name, section.about);
+        for own in section.own {
+            out!("    {:16} {:20} {}", own.name, own.default, own.about);
         }
+        list(section.keys);
         out!("");
     }
     Ok(())
+}
+
+fn list(keys: &[Key]) {
+    for key in keys {
+        let default = key.default.as_ref().map_or_else(|| "must be given".to_owned(), shown);
+        out!("    {:16} {default:20} {}", key.name, key.about);
+    }
 }
 
 fn shown(value: &Value) -> String {

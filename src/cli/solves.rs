@@ -1,10 +1,14 @@
 //! What a run says of its implicit solves, and which laws are solved for.
 
-use motes::forces::Component;
+use glam::DVec3;
+use motes::forces::{Law, Over, Problem};
 use motes::integrators::implicit;
+use motes::kernel::Machine;
 use motes::simulation::{Outcome, PressureSolves, Solves};
+use motes::{Error, Setup};
 use serde_json::json;
 
+use super::advice::felt;
 use super::flow;
 use super::progress::Progress;
 
@@ -57,12 +61,34 @@ fn tell_pressures(progress: &Progress, solves: Option<[PressureSolves; 2]>) {
 }
 
 /// Which laws an implicit integrator solves for, and which it takes as they are where the solve begins.
-pub fn remark(forces: &[Box<dyn Component>], integrator: &str) -> String {
-    let mut names = [Vec::new(), Vec::new()];
-    for (force, solved) in forces.iter().zip(implicit(forces)) {
-        names[usize::from(solved)].extend(force.laws().into_iter().map(|law| format!("`{}`", law.name)));
+pub fn remark(setup: &Setup, integrator: &str) -> Result<String, Error> {
+    let (mut solved, mut limiting, mut constant) = (Vec::new(), Vec::new(), Vec::new());
+    for (force, is_solved) in setup.forces.iter().zip(implicit(&setup.forces)) {
+        for law in force.laws() {
+            let name = format!("`{}`", law.name);
+            match is_solved {
+                true => solved.push(name),
+                false if is_constant(&law, setup)? => constant.push(name),
+                false => limiting.push(name),
+            }
+        }
     }
-    names[0].extend(flow::flows(forces).then(|| "`fluid`".to_owned()));
-    let [explicit, solved] = names.map(|names| if names.is_empty() { "none".to_owned() } else { names.join(", ") });
-    format!("{integrator} solves for {solved}; explicit in the same step, with a limit on dt: {explicit}")
+    limiting.extend(flow::flows(&setup.forces).then(|| "`fluid`".to_owned()));
+    let listed = |names: Vec<String>| if names.is_empty() { "none".to_owned() } else { names.join(", ") };
+    let free = if constant.is_empty() { String::new() } else { format!("; constant: {}", constant.join(", ")) };
+    let (solved, limiting) = (listed(solved), listed(limiting));
+    Ok(format!("{integrator} solves for {solved}; explicit in the same step, with a limit on dt: {limiting}{free}"))
+}
+
+/// Whether a law is the same everywhere, at any velocity: no step is too long for it.
+fn is_constant(law: &Law, setup: &Setup) -> Result<bool, Error> {
+    let (Over::Each, Some(reference)) = (law.over, &law.twin) else { return Ok(false) };
+    if law.clone().kernel(&Problem::new(1, Machine::HOST))?.names("velocity") {
+        return Ok(false);
+    }
+    let places = [DVec3::ZERO, DVec3::new(0.31, -0.23, 0.17), DVec3::new(-11.0, 17.0, 13.0)];
+    let pulls = places.map(|x| felt(reference, (0.0, 0), x, setup.bounds).map(|a| a.truncate()));
+    let [a, b, c] = pulls;
+    let (a, b, c) = (a?, b?, c?);
+    Ok(a == b && b == c)
 }

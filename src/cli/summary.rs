@@ -8,22 +8,26 @@ use motes::links::Links;
 use motes::measure::Flock;
 
 use super::advice::Conserved;
+use super::course;
+use super::looks::Looks;
 use super::progress::{duration, large};
 
 /// How the energy went. Where the total is next to nothing, as of a pendulum that starts at its pivot's height, changes are
-/// told by the largest kinetic energy there was.
-pub fn energy(rows: &[Measure], conserved: &Conserved) -> String {
+/// told by the largest kinetic energy that was seen.
+pub fn energy(rows: &[Measure], looks: &Looks, conserved: &Conserved) -> String {
     let (first, last) = (rows.first().copied().unwrap_or_default(), rows.last().copied().unwrap_or_default());
     let word = match conserved {
         Conserved { energy: true, .. } => "error".to_owned(),
         Conserved { takers, .. } if takers.is_empty() => "not conserved, change".to_owned(),
         Conserved { takers, .. } => format!("not conserved ({}), change", takers.join("; ")),
     };
-    let largest = rows.iter().map(|row| row.kinetic).fold(0.0, f64::max);
     let ends = format!("energy {:.6e} → {:.6e}", first.total(), last.total());
-    if first.total().abs() < 0.01 * largest {
-        let change = (last.total() - first.total()) / largest;
-        return format!("{ends}, {word} {change:+.1e} of the largest kinetic energy");
+    if first.total().abs() < 0.01 * looks.kinetic {
+        let change = (last.total() - first.total()) / looks.kinetic;
+        let (largest, count) = (looks.kinetic, looks.count);
+        return format!(
+            "{ends}, {word} {change:+.1e} of the largest kinetic energy, {largest:.3e}, of {count} measurements"
+        );
     }
     format!("{ends}, {word} {:+.1e}", last.drift_from(&first))
 }
@@ -55,7 +59,8 @@ pub fn company(first: &Flock, last: &Flock) -> String {
 pub fn speed(steps: u64, count: usize, stepping: Duration, took: Duration) -> String {
     let rate = steps as f64 / stepping.as_secs_f64().max(1e-9);
     format!(
-        "{steps} steps in {} ({} with measurements and files): {} steps/s, {} particle-steps/s",
+        "{} in {} ({} with measurements and files): {} steps/s, {} particle-steps/s",
+        course::steps(steps),
         duration(stepping),
         duration(took),
         large(rate),

@@ -1,6 +1,6 @@
 //! A table of numbers that grows while a run goes on: every row is on the disk when it is written.
 
-use std::fs::File;
+use std::fs::{File, OpenOptions};
 use std::io::{BufWriter, Write};
 use std::path::PathBuf;
 
@@ -13,10 +13,11 @@ pub struct Table {
 }
 
 impl Table {
-    /// A new file with these names in its first line.
+    /// A new file with these names in its first line. There is none of that name: no link is followed, and nothing replaced.
     pub fn new(path: PathBuf, header: &str) -> Result<Self, Error> {
         let failed = |error: &std::io::Error| Error::Output { file: path.clone(), message: error.to_string() };
-        let mut file = BufWriter::new(File::create(&path).map_err(|e| failed(&e))?);
+        let made = OpenOptions::new().write(true).create_new(true).open(&path);
+        let mut file = BufWriter::new(made.map_err(|e| failed(&e))?);
         writeln!(file, "{header}").map_err(|e| failed(&e))?;
         Ok(Self { path, file })
     }

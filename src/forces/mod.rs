@@ -3,9 +3,11 @@
 mod custom;
 mod ewald;
 mod kind;
+mod misnamed;
 
 pub use custom::{Custom, scalar};
 use kind::{Kind, SPECIES, species};
+use misnamed::Misnamed;
 
 pub use crate::component::{Component, Entry, Projection, Properties, Resolved, Role, Stage, evaluate, numbered};
 pub use crate::kernel::Problem;
@@ -22,7 +24,10 @@ macro_rules! register {
             about: $about,
             keys: $module::KEYS,
             role: Role::$role,
-            build: |settings| Box::new($type::new(settings)),
+            build: |settings| match settings.fault($module::KEYS) {
+                Some(fault) => Box::new(Misnamed(format!("the force `{}` {fault}", stringify!($module)))),
+                None => Box::new($type::new(settings)),
+            },
         }),*];
     };
 }

@@ -38,7 +38,24 @@ fn replaced(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> io::Result<
     }
     let (file, temporary) = builder.tempfile_in(folder)?.into_parts();
     filled(file, write)?.sync_all()?;
-    temporary.persist(&target).map_err(|error| error.error)
+    temporary.persist(&target).map_err(|error| error.error)?;
+    settle(folder)
+}
+
+/// Puts the names in a folder on the disk: a file that has been renamed is there under its new name only then.
+#[cfg(unix)]
+fn settle(folder: &Path) -> io::Result<()> {
+    match File::open(folder)?.sync_all() {
+        // Some file systems have no such call for folders.
+        Err(why) if matches!(why.kind(), io::ErrorKind::InvalidInput | io::ErrorKind::Unsupported) => Ok(()),
+        settled => settled,
+    }
+}
+
+/// Elsewhere a folder cannot be opened as a file.
+#[cfg(not(unix))]
+fn settle(_: &Path) -> io::Result<()> {
+    Ok(())
 }
 
 fn filled(file: File, write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> io::Result<File> {

@@ -1,16 +1,18 @@
-//! Comma-separated text. Columns `x,y,z`, and any of `vx,vy,vz` (0 when left out), `mass` (1), `radius` (0), `species` (0), `life`
-//! (1: it lives; 0: it is yet to be born; 2: it is dead), `id` and `name`; lines that start with `#` are comments.
+//! Text in columns that commas or blanks separate. Columns `x,y,z`, and any of `vx,vy,vz` (0 when left out), `mass` (1), `radius` (0), `species` (0), `life`
+//! (1: it lives; 0: it is yet to be born; 2: it is dead), `id` and `name`; `m` is `mass`. Lines that start with `#` are comments;
+//! the last one before a first row of numbers names the columns, where it has as many words.
 
 use std::fmt::Write as _;
 use std::io::{self, Write};
 use std::path::Path;
 
-use ::csv::{ByteRecord, ReaderBuilder, Trim};
+use ::csv::ByteRecord;
 use glam::DVec3;
 use rayon::prelude::*;
 
 use super::line::Line;
 use super::problems::{Problems, order};
+use super::rows::{self, Opened};
 use super::{Precision, input, open};
 use crate::error::Error;
 use crate::life::Life;
@@ -19,6 +21,8 @@ use crate::state::State;
 /// The columns with numbers, and what they are when left out.
 pub(super) const NUMBERS: [(&str, f64); 8] =
     [("x", 0.0), ("y", 0.0), ("z", 0.0), ("vx", 0.0), ("vy", 0.0), ("vz", 0.0), ("mass", 1.0), ("radius", 0.0)];
+/// What else a mass is called.
+const SHORT: &str = "m";
 const ID: &str = "id";
 const SPECIES: &str = "species";
 const LIFE: &str = "life";
@@ -31,18 +35,20 @@ const NAME: &str = "name";
 /// that makes no sense; every column that is unknown, missing or given twice; every id that is missing or given twice.
 pub fn read(path: &Path) -> Result<State, Error> {
     let (file, _) = open(path)?;
-    let mut rows =
-        ReaderBuilder::new().comment(Some(b'#')).flexible(true).trim(Trim::All).has_headers(false).from_reader(file);
     let mut problems = Problems::default();
     let mut record = ByteRecord::new();
-    let failed = |error: ::csv::Error| input(path, error.to_string());
-    if !rows.read_byte_record(&mut record).map_err(failed)? {
+    let failed = |error: io::Error| input(path, error.to_string());
+    let Opened { mut rows, titles, bare } = rows::open(file).map_err(failed)?;
+    if titles.is_none() && !rows.next(&mut record).map_err(failed)? {
         return Err(input(path, "is empty; its first line must name the columns, such as x,y,z,vx,vy,vz,mass"));
     }
-    let columns = Columns::named(&record, &mut problems);
+    if titles.is_none() && bare {
+        return Err(input(path, unnamed(&record)));
+    }
+    let columns = Columns::named(titles.as_ref().unwrap_or(&record), &mut problems);
     let (mut particles, mut ids, mut lines) = (State::default(), Vec::new(), Vec::new());
     let (mut species, mut lives) = (Vec::new(), Vec::new());
-    while rows.read_byte_record(&mut record).map_err(failed)? {
+    while rows.next(&mut record).map_err(failed)? {
         let line = Line::of(path, &record);
         if record.len() > columns.count {
             problems.note(|| format!("{line}: {} cells, but {} columns", record.len(), columns.count));
@@ -83,6 +89,20 @@ pub fn read(path: &Path) -> Result<State, Error> {
     Ok(particles)
 }
 
+/// What to say of a table whose first row is numbers.
+fn unnamed(record: &ByteRecord) -> String {
+    if record.len() == 1 {
+        return "begins with a line of one number, as an XYZ file does, which motes does not read: make it a table whose first line \
+                names the columns, such as x,y,z,vx,vy,vz,mass"
+            .to_owned();
+    }
+    format!(
+        "its first line is {} numbers, and nothing tells what they are: put a line before it that names the columns, such as \
+         mass x y z vx vy vz, with `#` or without",
+        record.len()
+    )
+}
+
 /// Where each column is.
 struct Columns {
     count: usize,
@@ -98,6 +118,7 @@ impl Columns {
         let mut name = None;
         for place in 0..header.len() {
             let title = shown(header, place);
+            let title = if title == SHORT { "mass".to_owned() } else { title };
             let slot = match NUMBERS.iter().position(|(known, _)| *known == title) {
                 Some(number) => &mut columns.numbers[number],
                 None if title == ID => &mut columns.id,

@@ -8,11 +8,14 @@ pub mod apng;
 mod archive;
 mod atomic;
 pub mod csv;
+#[cfg(feature = "scene")]
+mod folder;
 mod line;
 pub mod links;
 mod npy;
 pub mod npz;
 mod problems;
+mod rows;
 pub mod tipsy;
 
 use std::fs::File;
@@ -20,6 +23,8 @@ use std::io::{BufReader, Read};
 use std::path::Path;
 
 pub use self::atomic::atomically;
+#[cfg(feature = "scene")]
+pub use self::folder::Folder;
 use crate::error::Error;
 use crate::state::State;
 
@@ -48,7 +53,9 @@ pub fn read(path: &Path) -> Result<State, Error> {
             let mut start = Vec::new();
             let (file, _) = open(path)?;
             file.take(512).read_to_end(&mut start).map_err(|error| input(path, error.to_string()))?;
-            if start.starts_with(b"PK\x03\x04") {
+            if start.starts_with(b"\x89HDF\r\n\x1a\n") {
+                Err(input(path, "is an HDF5 file, which motes does not read: make it a CSV or NPZ file"))
+            } else if start.starts_with(b"PK\x03\x04") {
                 npz::read(path)
             } else if start.contains(&0) {
                 // A Tipsy header holds small counts, so it holds zeros; text does not.

@@ -23,11 +23,12 @@ pub use bounds::{Bounds, Side};
 pub use column::{Column, Kind, Place, Role, Shape};
 pub use columns::{Columns, base};
 pub use field::{
-    ACCELERATION, ALARM, ALARM_WORDS, Array, Element, Field, HOME, LAW, LIFE, POSITION, QUIET, SPECIES, TARGET, VELOCITY,
+    ACCELERATION, ALARM, ALARM_WORDS, Array, Element, Field, HOME, LAW, LIFE, POSITION, QUIET, SPECIES, TARGET,
+    VELOCITY,
 };
 pub use host::{Host, Reading, Writing};
-pub use pace::{PACE, PACE_WORDS, Pace, Reason, STOP, TICKS, URGENT, URGES, split, ticks, time};
 pub use own::claims;
+pub use pace::{PACE, PACE_WORDS, Pace, Reason, STOP, TICKS, URGENT, URGES, split, ticks, time};
 pub use pack::{Member, Packed, Scalar};
 pub use plan::{Kernel, Name, Pass, Plan, Table, Threads, Twin};
 pub use problem::Problem;

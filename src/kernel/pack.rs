@@ -75,7 +75,9 @@ impl Packed {
                     let n = x as u32;
                     vec![n.to_le_bytes()]
                 }
-                (Scalar::Float(x), false, 1) if member.signed && x.fract() == 0.0 && x >= f64::from(i32::MIN) && x < 0.0 => {
+                (Scalar::Float(x), false, 1)
+                    if member.signed && x.fract() == 0.0 && x >= f64::from(i32::MIN) && x < 0.0 =>
+                {
                     #[expect(clippy::cast_possible_truncation, reason = "just checked")]
                     let n = x as i32;
                     vec![n.to_le_bytes()]

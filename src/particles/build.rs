@@ -108,8 +108,12 @@ impl Reader<'_> {
         )))
     }
 
-    /// The same particles, if every number stayed finite.
+    /// The same particles, if every number stayed finite, and the settings were those of the shape.
     pub fn finished(&self, particles: State) -> Result<State, Error> {
+        let keys = super::shape(self.shape).map_or(super::emitter::KEYS, |shape| shape.keys);
+        if let Some(fault) = self.settings.fault(keys) {
+            return Err(Error::Scene(format!("shape `{}` {fault}", self.shape)));
+        }
         let finite = particles.position().iter().chain(particles.velocity()).all(|v| v.is_finite())
             && particles.mass().iter().all(|m| m.is_finite());
         if finite {

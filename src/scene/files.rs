@@ -1,5 +1,6 @@
 //! The files that a scene names: where they are, and that they are the scene's to name.
 
+use std::cell::RefCell;
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 
@@ -13,6 +14,8 @@ const LONGEST_MESH: u64 = 1 << 30;
 
 /// Where files are sought.
 pub(super) struct Files {
+    /// Those that were found, from the root.
+    read: RefCell<Vec<PathBuf>>,
     folder: Option<PathBuf>,
     embedded: &'static [(&'static str, &'static str)],
     allow_outside: bool,
@@ -28,7 +31,7 @@ pub(super) enum Located {
 
 impl Files {
     pub(super) fn new(opened: &Opened, allow_outside: bool) -> Self {
-        Self { folder: opened.folder.clone(), embedded: opened.embedded, allow_outside }
+        Self { read: RefCell::default(), folder: opened.folder.clone(), embedded: opened.embedded, allow_outside }
     }
 
     /// Finds the file that stands at `place` as the value of `key`.
@@ -58,9 +61,15 @@ impl Files {
             let what = if meta.is_dir() { "a folder" } else { "not a regular file" };
             return Err(Fault::at(place, format!("{shown} is {what}")).in_input());
         }
-        // The resolved scene is written elsewhere, so it names files from the root.
-        let absolute = fs::canonicalize(&path).ok().and_then(|p| p.to_str().map(str::to_owned));
+        // It is not known here where the resolved scene will be written, so it names files from the root.
+        let absolute = fs::canonicalize(&path).ok();
+        self.read.borrow_mut().extend(absolute.clone());
+        let absolute = absolute.and_then(|p| p.to_str().map(str::to_owned));
         Ok(Located::Disk { path, name: absolute.unwrap_or_else(|| name.to_owned()) })
+    }
+    /// The files that were found, from the root.
+    pub(super) fn found(self) -> Vec<PathBuf> {
+        self.read.into_inner()
     }
 }
 
@@ -103,14 +112,16 @@ impl Located {
     }
 }
 
-/// Whether a path stays in a folder: by its words, and, where it exists, by where its links lead.
+/// Whether a path stays in a folder, by its words and by where its links lead. Of a path that does not exist the part that
+/// does counts: nothing is told of what there is elsewhere.
 fn is_inside(path: &Path, folder: &Path) -> bool {
     let (Ok(by_words), Ok(home)) = (std::path::absolute(path), std::path::absolute(folder)) else { return false };
-    match (fs::canonicalize(path), fs::canonicalize(folder)) {
-        (Ok(path), Ok(folder)) => path.starts_with(folder),
-        (_, Ok(folder)) => plain(&by_words).starts_with(plain(&home)) || plain(&by_words).starts_with(folder),
-        _ => plain(&by_words).starts_with(plain(&home)),
-    }
+    let by_words = plain(&by_words);
+    let Ok(folder) = fs::canonicalize(folder) else { return by_words.starts_with(plain(&home)) };
+    let there = by_words.ancestors().find_map(|part| fs::canonicalize(part).ok());
+    // Words alone hide a link that `..` goes back through.
+    let real = path.ancestors().find_map(|part| fs::canonicalize(part).ok());
+    [there, real].into_iter().flatten().all(|part| part.starts_with(&folder))
 }
 
 /// A path with its `..` carried out.

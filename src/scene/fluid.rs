@@ -7,7 +7,7 @@ use crate::particles::SHAPES;
 use crate::settings::{Key, Value};
 use crate::state::State;
 
-use super::EMITTER_KEYS;
+use super::emitter::EMITTER_KEYS;
 use super::report::{Fault, Place, Report};
 use super::tree::{Data, Entry};
 use super::value;

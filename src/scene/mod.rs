@@ -26,6 +26,7 @@ mod links;
 mod motion;
 mod output;
 mod overrides;
+mod own;
 mod particles;
 mod report;
 mod resolved;
@@ -38,6 +39,7 @@ mod value;
 mod walk;
 
 use std::ops::Range;
+use std::path::{Path, PathBuf};
 
 use crate::forces::Component;
 use crate::integrators;
@@ -46,16 +48,11 @@ use crate::render;
 use crate::settings::Settings;
 use crate::state::State;
 
-pub use bounds::BOX_KEYS;
 pub use builtin::{Builtin, SCENES};
 pub use diagnostic::{Diagnostic, Diagnostics, Excerpt, Mended};
-pub use drain::DRAIN_KEYS;
-pub use emitter::EMITTER_KEYS;
-pub use links::LINKS_KEYS;
-pub use motion::MOTION_KEYS;
 pub use output::{Format, Output};
-pub use particles::EVERY as PARTICLES_KEYS;
-pub use solver::SOLVER_KEYS;
+pub use own::Own;
+pub use sections::{SECTIONS, Section};
 pub use source::Source;
 
 use files::Files;
@@ -95,9 +92,11 @@ pub struct Scene {
     /// How pictures are made: the values of [`render::KEYS`].
     pub picture: Settings,
     /// The scene as TOML with every default filled in and every override applied. Loading it gives the same scene again.
-    /// It names files by absolute paths, so from elsewhere it is loaded with [`Options::allow_outside`].
-    /// More comments go to its end: the first ones are the scene's own.
+    /// It names files by absolute paths, so from elsewhere it is loaded with [`Options::allow_outside`]; see
+    /// [`Scene::resolved_in`]. More comments go to its end: the first ones are the scene's own.
     pub resolved: String,
+    /// The files that were read, from the root: the scene's own, where it is one, and those that it names.
+    pub files: Vec<PathBuf>,
     /// What is not wrong, but worth to be told: that `until` is no whole number of steps, for instance.
     pub remarks: Vec<String>,
 }
@@ -147,10 +146,21 @@ impl Scene {
         }
         scene.name = opened.name;
         scene.about = source::about(&opened.text);
+        scene.files = files.found();
+        if let Source::File(path) = source {
+            scene.files.extend(std::fs::canonicalize(path));
+        }
         let mut resolved = Writer::default();
         resolved.comment(&scene.about);
         scene.resolved.insert_str(0, &resolved.0);
         Ok(scene)
+    }
+
+    /// [`Scene::resolved`] for a file in a folder that exists: it names files by their way from there, so that it tells nothing
+    /// of where both are.
+    #[must_use]
+    pub fn resolved_in(&self, folder: &Path) -> String {
+        resolved::nearby(&self.resolved, &self.files, folder)
     }
 }
 
@@ -264,6 +274,7 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
         output,
         picture,
         resolved: out.0,
+        files: Vec::new(),
         remarks: simulation.remark.into_iter().chain(fluid::contradictions(sections)).collect(),
     }
 }

@@ -21,7 +21,6 @@ use super::tree::{Data, Entry};
 use super::value;
 use super::walk::{self, Table};
 
-pub(super) const OWN: &[&str] = &["file", "shape", "bodies", "color", "fixed", "motion"];
 /// What any entry may say beside what it is of.
 const BESIDE: [&str; 4] = ["color", "species", held::OWN[0], held::OWN[1]];
 /// Where the particles of a file, or those written out, are put.

@@ -1,6 +1,7 @@
 //! The scene written back as TOML, with every default filled in.
 
 use std::fmt::Write;
+use std::path::{Component, Path, PathBuf};
 
 use glam::DVec3;
 
@@ -93,4 +94,37 @@ pub(super) fn quoted(text: &str) -> String {
     }
     out.push('"');
     out
+}
+
+/// The same scene with these files named by their way from a folder.
+pub(super) fn nearby(text: &str, files: &[PathBuf], folder: &Path) -> String {
+    let Ok(folder) = std::fs::canonicalize(folder) else { return text.to_owned() };
+    let named = |file: &PathBuf| {
+        let (from, to) = (file.to_str()?, way(&folder, file)?);
+        Some((format!(" = {}", quoted(from)), format!(" = {}", quoted(&to))))
+    };
+    let names: Vec<_> = files.iter().filter_map(named).collect();
+    let mut out = String::with_capacity(text.len());
+    for line in text.lines() {
+        match names.iter().find_map(|(from, to)| Some((line.strip_suffix(from)?, to))) {
+            Some((key, to)) => out.extend([key, to, "\n"]),
+            None => out.extend([line, "\n"]),
+        }
+    }
+    out
+}
+
+/// The way from a folder to a file, with slashes; none between two drives.
+fn way(folder: &Path, file: &Path) -> Option<String> {
+    let (from, to): (Vec<_>, Vec<_>) = (folder.components().collect(), file.components().collect());
+    let shared = from.iter().zip(&to).take_while(|(a, b)| a == b).count();
+    if shared == 0 {
+        return None;
+    }
+    let up = from[shared..].iter().map(|_| Some(".."));
+    let down = to[shared..].iter().map(|part| match part {
+        Component::Normal(name) => name.to_str(),
+        _ => None,
+    });
+    Some(up.chain(down).collect::<Option<Vec<_>>>()?.join("/"))
 }

@@ -6,62 +6,116 @@ use crate::particles::SHAPES;
 use crate::render;
 use crate::settings::Key;
 
-use super::{bounds, drain, emitter, force, links, motion, output, particles, simulation, solver};
+use super::own::{self, Own};
+use super::{bounds, drain, emitter, links, motion, particles, simulation, solver};
 
 /// A section.
-pub(super) struct Section {
+pub struct Section {
     /// Its name.
-    pub(super) name: &'static str,
+    pub name: &'static str,
+    /// What it is about, in one line.
+    pub about: &'static str,
     /// Whether it is written `[[name]]` and may come several times.
-    pub(super) many: bool,
+    pub many: bool,
     /// Keys that the walker reads by itself.
-    pub(super) keys: &'static [Key],
-    /// Keys that the section's own file reads.
-    pub(super) own: &'static [&'static str],
+    pub keys: &'static [Key],
+    /// What the keys mean that the section's own file reads.
+    pub own: &'static [Own],
     /// More keys, of the kinds that an entry may be of.
     pub(super) kinds: fn() -> Vec<&'static [Key]>,
 }
 
 /// All sections, in the order in which the resolved scene writes them.
-pub(super) const SECTIONS: &[Section] = &[
-    Section { name: "simulation", many: false, keys: simulation::KEYS, own: simulation::OWN, kinds: Vec::new },
-    Section { name: "solver", many: false, keys: solver::SOLVER_KEYS, own: &[], kinds: Vec::new },
-    Section { name: "box", many: false, keys: bounds::BOX_KEYS, own: bounds::OWN, kinds: Vec::new },
-    Section { name: "motion", many: true, keys: motion::MOTION_KEYS, own: motion::OWN, kinds: Vec::new },
+pub const SECTIONS: &[Section] = &[
     Section {
-        name: "particles",
-        many: true,
-        keys: particles::EVERY,
-        own: particles::OWN,
+        about: "the step, how many of them, and by which integrator",
+        own: own::SIMULATION,
+        ..Section::new("simulation", false, simulation::KEYS)
+    },
+    Section {
+        about: "how well implicit integrators solve their equations",
+        ..Section::new("solver", false, solver::SOLVER_KEYS)
+    },
+    Section {
+        about: "where particles may be, and what is at its sides",
+        own: own::BOX,
+        ..Section::new("box", false, bounds::BOX_KEYS)
+    },
+    Section {
+        about: "what leads held particles and solids, by keyframes",
+        own: own::MOTION,
+        ..Section::new("motion", true, motion::MOTION_KEYS)
+    },
+    Section {
+        about: "particles of a shape, of a file, or written out",
+        own: own::PARTICLES,
         kinds: || SHAPES.iter().map(|s| s.keys).chain([particles::OFFSETS]).collect(),
+        ..Section::new("particles", true, particles::EVERY)
     },
-    Section { name: "emitter", many: true, keys: emitter::EMITTER_KEYS, own: emitter::OWN, kinds: Vec::new },
-    Section { name: "drain", many: true, keys: drain::DRAIN_KEYS, own: &[], kinds: Vec::new },
-    Section { name: "links", many: true, keys: links::LINKS_KEYS, own: links::OWN, kinds: Vec::new },
     Section {
-        name: "force",
-        many: true,
-        keys: &[],
-        own: force::OWN,
-        kinds: || FORCES.iter().map(|f| f.keys).collect(),
+        about: "particles that come in while the run goes on",
+        own: own::EMITTER,
+        ..Section::new("emitter", true, emitter::EMITTER_KEYS)
     },
-    Section { name: "output", many: false, keys: output::KEYS, own: output::OWN, kinds: Vec::new },
-    Section { name: "picture", many: false, keys: render::KEYS, own: &[], kinds: Vec::new },
+    Section { about: "a place where particles are removed", ..Section::new("drain", true, drain::DRAIN_KEYS) },
+    Section {
+        about: "what ties particles: a file, or pairs of ids",
+        own: own::LINKS,
+        ..Section::new("links", true, links::LINKS_KEYS)
+    },
+    Section {
+        about: "what moves particles: a force by its kind, or a law of your own",
+        own: own::FORCE,
+        kinds: || FORCES.iter().map(|f| f.keys).collect(),
+        ..Section::new("force", true, &[])
+    },
+    Section {
+        about: "how often the run is written down, and in which formats",
+        own: own::OUTPUT,
+        ..Section::new("output", false, &[])
+    },
+    Section { about: "how pictures are made", ..Section::new("picture", false, render::KEYS) },
 ];
 
 impl Section {
+    const fn new(name: &'static str, many: bool, keys: &'static [Key]) -> Self {
+        Self { name, about: "", many, keys, own: &[], kinds: Vec::new }
+    }
     /// Whether some form of the section has this key.
     pub(super) fn knows(&self, key: &str) -> bool {
-        self.own.contains(&key)
+        self.own.iter().any(|own| own.name == key)
             || self.keys.iter().any(|k| k.name == key)
             || (self.kinds)().iter().any(|keys| keys.iter().any(|k| k.name == key))
     }
     /// How its header is written.
-    pub(super) fn header(&self) -> String {
+    #[must_use]
+    pub fn header(&self) -> String {
         if self.many { format!("[[{}]]", self.name) } else { format!("[{}]", self.name) }
     }
     /// How an override names a key of it.
     pub(super) fn path(&self, key: &str) -> String {
         if self.many { format!("{}.0.{key}", self.name) } else { format!("{}.{key}", self.name) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{SECTIONS, bounds, emitter, links, motion, simulation};
+    use crate::scene::{force, output};
+
+    /// What a section reads by itself has its line in `own.rs`.
+    #[test]
+    fn own_keys_are_those_that_are_read() {
+        let names = |name: &str| -> Vec<&str> {
+            let section = SECTIONS.iter().find(|section| section.name == name).expect("a section");
+            section.own.iter().map(|own| own.name).collect()
+        };
+        assert_eq!(names("simulation"), simulation::OWN);
+        assert_eq!(names("box"), bounds::OWN);
+        assert_eq!(names("motion"), motion::OWN);
+        assert_eq!(names("emitter"), emitter::OWN);
+        assert_eq!(names("links"), links::OWN);
+        assert_eq!(names("force"), force::OWN);
+        assert_eq!(names("output"), output::OWN);
     }
 }

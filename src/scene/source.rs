@@ -79,6 +79,8 @@ impl Source {
             Self::File(path) => {
                 let file = shorten_path(path);
                 let name = path.file_stem().map_or_else(|| file.clone(), |s| shorten(&s.to_string_lossy()));
+                // Results go into a folder of that name, which must be none that every folder has.
+                let name = if matches!(name.as_str(), "." | "..") { "scene".to_owned() } else { name };
                 let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new(".")).to_owned();
                 let text = read(path).map_err(|why| Diagnostics::alone(&file, why, Vec::new()))?;
                 Ok(Opened { name, file, text, folder: Some(folder), embedded: &[] })
@@ -105,7 +107,23 @@ pub(super) fn shorten_path(path: &Path) -> String {
     path.display().to_string().chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect()
 }
 
+/// A pipe that has a name, and so may wait for ever for a program that fills it. One without, as a shell makes of
+/// `<(command)`, leads nowhere in the tree of files.
+#[cfg(unix)]
+fn is_named_pipe(path: &Path) -> bool {
+    use std::os::unix::fs::FileTypeExt;
+    std::fs::canonicalize(path).and_then(std::fs::metadata).is_ok_and(|found| found.file_type().is_fifo())
+}
+
+#[cfg(not(unix))]
+fn is_named_pipe(_: &Path) -> bool {
+    false
+}
+
 fn read(path: &Path) -> Result<String, String> {
+    if is_named_pipe(path) {
+        return Err("the scene is a pipe, which may never end: save it into a file, or name /dev/stdin".to_owned());
+    }
     let mut bytes = Vec::new();
     let file = File::open(path).map_err(|e| format!("cannot read the scene: {e}"))?;
     // One byte more than is allowed tells that there is more; the file's own size says nothing for a pipe.

@@ -2,6 +2,7 @@
 
 #![cfg(feature = "scene")]
 
+mod blank_tables;
 mod csv_text;
 mod links_text;
 mod npz_archives;

@@ -52,7 +52,8 @@ fn each(before: &str, inside: &str) -> String {
     format!("{before}\nfn force(me: Particle) -> vec4f {{ {inside} }}")
 }
 
-const GATHER: &str = "fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) { (*sum).acceleration += r; }";
+const GATHER: &str =
+    "fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) { (*sum).acceleration += r; }";
 const FINISH: &str = "fn finish(me: Particle, sum: Sum) -> vec4f { return vec4f(sum.acceleration, 0.0); }";
 
 #[test]
@@ -64,7 +65,11 @@ fn bindings_in_places_that_are_not_a_laws() {
         ("@group(3) @binding(1000)", "binding 1000"),
     ] {
         let own = format!("{place} var<storage, read_write> mine: array<vec4f>;");
-        refused(Over::Each, &each(&own, "mine[me.index].x += 1.0; return vec4f();"), &["`mine`", words, "group 3", "1:"]);
+        refused(
+            Over::Each,
+            &each(&own, "mine[me.index].x += 1.0; return vec4f();"),
+            &["`mine`", words, "group 3", "1:"],
+        );
     }
     let block = "struct B { x: f32 } @group(3) @binding(1) var<uniform> block: B;";
     refused(Over::Each, &each(block, "return vec4f(block.x);"), &["`block`", "`params`"]);
@@ -125,7 +130,11 @@ fn waiting_for_others() {
 fn what_is_too_large_to_compile() {
     for (size, bytes) in [(262_144, "1048576"), (16_000_000, "64000000"), (268_000_000, "1072000000")] {
         let private = format!("var<private> a: array<f32, {size}>;");
-        refused(Over::Each, &each(&private, "a[me.index] = 1.0; return vec4f(a[0]);"), &[bytes, "16384", "storage buffer"]);
+        refused(
+            Over::Each,
+            &each(&private, "a[me.index] = 1.0; return vec4f(a[0]);"),
+            &[bytes, "16384", "storage buffer"],
+        );
     }
     for size in [65_536, 4_000_000] {
         let local = format!("var a: array<vec4f, {size}>; a[me.index].x = 1.0; return a[0];");

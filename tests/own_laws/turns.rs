@@ -197,7 +197,9 @@ fn what_is_tied_is_never_silent_either() {
 #[test]
 fn a_loop_without_an_end_ends_the_run() {
     let shared = support::device();
-    for body in ["loop { }", "while me.mass >= 0.0 { }", "var x = 1u; for (;;) { x = x * 3u + 1u; if x == 2u { break; } }"] {
+    for body in
+        ["loop { }", "while me.mass >= 0.0 { }", "var x = 1u; for (;;) { x = x * 3u + 1u; if x == 2u { break; } }"]
+    {
         let each = format!("fn force(me: Particle) -> vec4f {{ {body} return vec4f(); }}");
         let pairs = format!(
             "fn turn(me: Particle) -> bool {{ {body} return true; }}

@@ -17,7 +17,7 @@ fn run(folder: &Path, over: &str) -> Output {
     );
     std::fs::write(folder.join("scene.toml"), scene).expect("written");
     let program = env!("CARGO_BIN_EXE_motes");
-    let arguments = ["run", "scene.toml", "-o", "out", "--backend", "gpu"];
+    let arguments = ["run", "scene.toml", "-o", "out", "--overwrite", "--backend", "gpu"];
     Command::new(program).args(arguments).current_dir(folder).output().expect("the program runs")
 }
 
@@ -69,7 +69,7 @@ fn it_runs_over_a_tree_and_means_nearly_the_same() {
              wgsl = \"law.wgsl\"\n{over}\n[output]\nformats = [\"csv\"]\n"
         );
         std::fs::write(folder.path().join("scene.toml"), scene).expect("written");
-        let arguments = ["run", "scene.toml", "-o", "out", "--backend", "gpu"];
+        let arguments = ["run", "scene.toml", "-o", "out", "--overwrite", "--backend", "gpu"];
         let program = env!("CARGO_BIN_EXE_motes");
         let output = Command::new(program).args(arguments).current_dir(folder.path()).output().expect("it runs");
         assert!(output.status.success(), "{over}: {}", String::from_utf8_lossy(&output.stderr));

@@ -80,7 +80,8 @@ fn what_a_fluid_keeps_is_claimed_and_nothing_else() {
     let (scene, out) =
         (folder.path().join("drop.toml").display().to_string(), folder.path().join("out").display().to_string());
     let run = |set: &[&str]| {
-        let mut args = vec!["run", &scene, "-o", &out, "--backend", "cpu", "--set", "output.formats=[\"csv\"]"];
+        let mut args = vec!["run", &scene, "-o", &out, "--overwrite", "--backend", "cpu"];
+        args.extend(["--set", "output.formats=[\"csv\"]"]);
         args.extend(set.iter().flat_map(|value| ["--set", *value]));
         let (code, stdout, stderr) = motes(&args);
         assert_eq!(code, 0, "{set:?}: {stderr}");

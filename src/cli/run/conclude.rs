@@ -2,13 +2,19 @@
 
 use std::time::Duration;
 
+use motes::io::Precision;
 use motes::render::Image;
+use motes::stability::Verdict;
+use motes::{Error, Setup};
 use serde_json::json;
 
+use super::super::aftermath;
 use super::super::course::Course;
+use super::super::engine::Engine;
 use super::super::failure::Failure;
 use super::super::ledger::Book;
 use super::super::output::Output;
+use super::super::substeps;
 use super::super::summary;
 use super::Run;
 
@@ -23,7 +29,7 @@ impl Run {
         let took = self.progress.finish();
         output.plot()?;
         if let Some(image) = image {
-            image.save(&output.portrait())?;
+            image.save(&output.portrait()?)?;
             if image.outside > 0 {
                 let (few, all) = (image.outside, self.count);
                 self.progress.say(&format!("note: {few} of {all} particles are outside of the last picture"));
@@ -38,7 +44,7 @@ impl Run {
             "finish",
             json!({ "steps": steps, "stopped": stopped, "seconds": took.as_secs_f64(), "stepping_seconds": stepping.as_secs_f64(), "steps_per_second": rate,
                 "energy": last.total(), "energy_error": last.drift_from(&first), "worst_energy_error": worst,
-                "adaptive": course.event(), "order": output.company().map(|(_, last)| last.order), "output": output.folder() }),
+                "adaptive": course.event(), "order": output.company().map(|(_, last)| last.order), "output": output.folder().path() }),
         );
         let say = |text: String| self.progress.conclude(&text);
         if stopped {
@@ -52,7 +58,7 @@ impl Run {
         course.summary().into_iter().for_each(&say);
         // Birds are driven: what their energy does tells nobody anything.
         if self.conserved.energy || output.company().is_none() {
-            say(summary::energy(output.rows(), &self.conserved));
+            say(summary::energy(output.rows(), &self.looks, &self.conserved));
         }
         summary::momentum(output.rows(), &self.conserved).into_iter().for_each(&say);
         output.company().map(|(first, last)| summary::company(first, last)).into_iter().for_each(&say);
@@ -66,10 +72,21 @@ impl Run {
         let picture = if output.pictures() { format!("{}.png, ", self.scene.name) } else { String::new() };
         say(format!(
             "results in {}: {picture}{tables}, energy.svg, scene.toml, {} states",
-            output.folder().display(),
+            output.folder().path().display(),
             output.rows().len()
         ));
         film.into_iter().for_each(&say);
         if stopped { Err(Failure::Stopped) } else { Ok(()) }
+    }
+
+    /// What is to be said, and kept, when numbers are lost.
+    pub(super) fn explain(&self, error: Error, setup: &Setup, verdict: Option<&Verdict>, engine: &Engine) -> Failure {
+        let precision = match engine {
+            Engine::Gpu(_) => Precision::Single,
+            Engine::Cpu(_) => Precision::Double,
+        };
+        let way = verdict.and_then(|verdict| substeps::way_out(verdict, &self.scene, setup));
+        let to = (&*self.folder, &*self.scene.output.formats, precision);
+        aftermath::explain(error, setup, way.as_deref(), self.last.as_ref(), to)
     }
 }

@@ -156,7 +156,9 @@ fn statements(block: &Block, calls: &mut Vec<Handle<Function>>) -> u64 {
             Statement::Switch { cases, .. } => {
                 count += cases.iter().map(|case| statements(&case.body, calls)).sum::<u64>();
             }
-            Statement::Loop { body, continuing, .. } => count += statements(body, calls) + statements(continuing, calls),
+            Statement::Loop { body, continuing, .. } => {
+                count += statements(body, calls) + statements(continuing, calls)
+            }
             Statement::Call { function, .. } => calls.push(*function),
             _ => {}
         }

@@ -55,8 +55,7 @@ fn watched(text: &str) -> Option<String> {
 
 fn loops(text: &str) -> Vec<Loop> {
     let tokens = tokens(text);
-    let functions: Vec<&str> =
-        tokens.windows(2).filter(|pair| pair[0].text == "fn").map(|pair| pair[1].text).collect();
+    let functions: Vec<&str> = tokens.windows(2).filter(|pair| pair[0].text == "fn").map(|pair| pair[1].text).collect();
     let (mut all, mut returns) = (Vec::new(), String::new());
     for (at, token) in tokens.iter().enumerate() {
         let rest = &tokens[at..];
@@ -125,7 +124,8 @@ fn changes(body: &[Token], at: usize) -> bool {
     let before: Vec<&str> = body[..at].iter().rev().map(|token| token.text).take(2).collect();
     let lent = before.first() == Some(&"&") && before.last() != before.first() || before == ["&"];
     // Brackets may stand around what is assigned to.
-    let after: Vec<&str> = body[at + 1..].iter().map(|token| token.text).skip_while(|word| *word == ")").take(3).collect();
+    let after: Vec<&str> =
+        body[at + 1..].iter().map(|token| token.text).skip_while(|word| *word == ")").take(3).collect();
     let written = match after.as_slice() {
         ["=", second, ..] => *second != "=",
         ["+", "+", ..] | ["-", "-", ..] | ["<", "<", "="] | [">", ">", "="] => true,

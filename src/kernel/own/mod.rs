@@ -44,7 +44,9 @@ impl Joined<'_> {
     }
     /// Whether something stands in a user's law.
     fn is_law(&self, span: Span) -> bool {
-        span.to_range().and_then(|range| message::place(self.sources, range.start)).is_some_and(|(source, _)| source.law)
+        span.to_range()
+            .and_then(|range| message::place(self.sources, range.start))
+            .is_some_and(|(source, _)| source.law)
     }
     /// The functions of the law.
     fn functions(&self) -> impl Iterator<Item = (Handle<Function>, &Function)> {

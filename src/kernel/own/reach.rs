@@ -12,22 +12,15 @@ const GROUP: u32 = 3;
 const BINDINGS: u32 = 1000;
 /// Fields that motes has in every simulation, or whose names no one else shall give to something else. Those of a
 /// particular plan are looked at where there is one.
-const FIELDS: [&str; 8] = [
-    POSITION.name,
-    VELOCITY.name,
-    ACCELERATION.name,
-    SPECIES.name,
-    LIFE.name,
-    TARGET.name,
-    HOME.name,
-    ALARM.name,
-];
+const FIELDS: [&str; 8] =
+    [POSITION.name, VELOCITY.name, ACCELERATION.name, SPECIES.name, LIFE.name, TARGET.name, HOME.name, ALARM.name];
 
 /// Refuses a law that runs by itself, binds what is not its own, touches what motes writes, or waits for others.
 pub fn check(joined: &Joined) -> Result<(), Error> {
     for source in joined.sources.iter().filter(|source| source.law) {
         if source.says(&["@", "compute"]) || source.says(&["@", "vertex"]) || source.says(&["@", "fragment"]) {
-            let message = format!("{}: a law has functions and no entry point: motes calls them from its own", source.file);
+            let message =
+                format!("{}: a law has functions and no entry point: motes calls them from its own", source.file);
             return Err(Error::Shader { message });
         }
     }
@@ -46,7 +39,8 @@ pub fn check(joined: &Joined) -> Result<(), Error> {
 pub fn written(joined: &Joined) -> Vec<String> {
     let variables = &joined.module.global_variables;
     let own = variables.iter().filter(|(handle, _)| joined.is_law(variables.get_span(*handle)));
-    let storage = own.filter(|(_, variable)| matches!(variable.space, AddressSpace::Storage { .. }) && is_written(variable.space));
+    let storage = own
+        .filter(|(_, variable)| matches!(variable.space, AddressSpace::Storage { .. }) && is_written(variable.space));
     storage.filter_map(|(_, variable)| variable.name.clone()).collect()
 }
 
@@ -61,9 +55,9 @@ fn binding(variable: &GlobalVariable) -> Result<(), String> {
         ));
     }
     match variable.space {
-        AddressSpace::Uniform if name != "params" => {
-            Err(format!("`{name}` is a uniform block: a law has one, `params`, which its scene fills; bind a storage buffer"))
-        }
+        AddressSpace::Uniform if name != "params" => Err(format!(
+            "`{name}` is a uniform block: a law has one, `params`, which its scene fills; bind a storage buffer"
+        )),
         AddressSpace::Storage { access } if access.contains(StorageAccess::STORE) && FIELDS.contains(&name) => {
             Err(format!("`{name}` belongs to motes, which alone writes it: give what the law writes another name"))
         }
@@ -102,7 +96,9 @@ fn names(joined: &Joined, function: &Function) -> Result<(), Error> {
 fn waits(joined: &Joined, block: &Block) -> Result<(), Error> {
     for (statement, span) in block.span_iter() {
         let what = match statement {
-            Statement::ControlBarrier(_) | Statement::MemoryBarrier(_) | Statement::WorkGroupUniformLoad { .. } => "barrier",
+            Statement::ControlBarrier(_) | Statement::MemoryBarrier(_) | Statement::WorkGroupUniformLoad { .. } => {
+                "barrier"
+            }
             Statement::SubgroupBallot { .. }
             | Statement::SubgroupGather { .. }
             | Statement::SubgroupCollectiveOperation { .. } => "subgroup operation",

@@ -1,0 +1,39 @@
+//! Looks at the energy between the states that are written: what is largest in a run is seldom there.
+
+use motes::Measure;
+
+/// So many looks are taken in a run, about.
+const LOOKS: u64 = 64;
+/// Steps from one to the next, at least: each costs about as much as a step.
+const APART: u64 = 20;
+
+/// What was seen of the energies.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Looks {
+    /// Steps from one look to the next; 0 where none is taken.
+    interval: u64,
+    /// The largest kinetic energy.
+    pub kinetic: f64,
+    /// States that were measured.
+    pub count: u64,
+}
+
+impl Looks {
+    /// For a run of so many steps. Adaptive steps are left alone: a look would cut one in two.
+    pub fn new(steps: u64, adaptive: bool) -> Self {
+        Self { interval: if adaptive { 0 } else { (steps / LOOKS).max(APART) }, ..Self::default() }
+    }
+    /// The step of the next look.
+    pub fn next(&self, done: u64) -> u64 {
+        if self.interval == 0 { u64::MAX } else { (done / self.interval + 1) * self.interval }
+    }
+    /// Whether one is taken at this step.
+    pub fn is_due(&self, done: u64) -> bool {
+        self.interval > 0 && done.is_multiple_of(self.interval)
+    }
+    /// Takes in a state.
+    pub fn take(&mut self, row: &Measure) {
+        self.kinetic = self.kinetic.max(row.kinetic);
+        self.count += 1;
+    }
+}

@@ -1,0 +1,94 @@
+//! What single precision does to a scene: motions and softenings that its last place swallows.
+
+use motes::Setup;
+use motes::kernel::Scalar;
+
+/// Slower particles count as being at rest \[parts of the mean speed\].
+const SLOW: f64 = 0.1;
+/// Forces within a softening are off by as much as a place is rounded \[parts of the softening\].
+const COARSE: f64 = 0.01;
+
+/// The distance from one number of single precision to the next, at this one.
+fn last_place(x: f64) -> f64 {
+    #[expect(clippy::cast_possible_truncation, reason = "as the device holds it")]
+    let single = (x as f32).abs();
+    f64::from(f32::from_bits(single.to_bits() + 1)) - f64::from(single)
+}
+
+/// What is to be said of a setup on a device that computes in single precision.
+pub fn remarks(setup: &Setup) -> Vec<String> {
+    motions(setup).into_iter().chain(softenings(setup)).collect()
+}
+
+/// Particles that move by less than the last place of their coordinates in a step.
+fn motions(setup: &Setup) -> Option<String> {
+    let particles = &setup.state;
+    let mut moves = vec![true; particles.len()];
+    for held in &particles.held {
+        if let Some(moves) = moves.get_mut(held.id as usize) {
+            *moves = false;
+        }
+    }
+    let speed = |id: usize| particles.velocity()[id].length();
+    let moving = || (0..particles.len()).filter(|id| moves[*id] && speed(*id) > 0.0);
+    let count = moving().count();
+    let mean = moving().map(speed).sum::<f64>() / count.max(1) as f64;
+    // A particle lingers at a turning point; all of a scene do not.
+    let lost = |id: &usize| {
+        let (x, v) = (particles.position()[*id], particles.velocity()[*id]);
+        let axis = (0..3).max_by(|a, b| v[*a].abs().total_cmp(&v[*b].abs())).unwrap_or(0);
+        speed(*id) > SLOW * mean && v[axis].abs() * setup.dt < last_place(x[axis])
+    };
+    let mut all = moving().filter(lost);
+    let first = all.next()?;
+    let others = all.count();
+    let (x, v) = (particles.position()[first], speed(first));
+    let place = last_place(x.abs().max_element());
+    Some(format!(
+        "{} of {count} moving particles go less far in a step than the last place of single precision, particle {first} first of them: \
+         |v| dt = {:.1e}, and numbers at {:.4e} are {place:.1e} apart: such motion is rounded or lost; move the origin closer, choose \
+         a larger dt (above {:.1e}), or take --backend cpu",
+        1 + others,
+        v * setup.dt,
+        x.abs().max_element(),
+        10.0 * place / v
+    ))
+}
+
+/// Softenings that coordinates do not resolve.
+fn softenings(setup: &Setup) -> Vec<String> {
+    let far = setup.state.position().iter().map(|x| x.abs().max_element()).fold(0.0, f64::max);
+    let place = last_place(far);
+    let told = |law: motes::forces::Law| {
+        let softening = law.params.iter().find_map(|(name, value)| match value {
+            Scalar::Float(x) if name == "softening" && *x > 0.0 => Some(*x),
+            _ => None,
+        })?;
+        (place > COARSE * softening).then(|| {
+            format!(
+                "the softening {softening} of `{}` is {:.1} times the last place of single precision at the largest coordinate, {far:.4e}: \
+                 forces of close pairs are off by up to {:.0} %; move the origin closer, or take --backend cpu",
+                law.name,
+                softening / place,
+                100.0 * (place / softening).min(1.0)
+            )
+        })
+    };
+    setup.forces.iter().flat_map(|force| force.laws()).filter_map(told).collect()
+}
+
+/// Particles that cross a periodic box more than once in a step: their places say nothing.
+pub fn crossings(setup: &Setup) -> Option<String> {
+    let period = setup.bounds.period();
+    let crossed = |id: usize| {
+        let way = (setup.state.velocity()[id] * setup.dt).abs();
+        (0..3).filter(|axis| period[*axis] > 0.0).map(|axis| way[axis] / period[axis]).fold(0.0, f64::max)
+    };
+    let all = || (0..setup.state.len()).map(|id| (id, crossed(id))).filter(|(_, times)| *times > 1.0);
+    let (first, times) = all().next()?;
+    Some(format!(
+        "{} particles cross the periodic box in a step, particle {first} first of them, {times:.1} times: what is on their way is \
+         not met, and beyond some 10^7 times their places are rounding alone; choose a smaller dt",
+        all().count()
+    ))
+}

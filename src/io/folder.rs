@@ -1,0 +1,261 @@
+//! The folder that a run writes into: it belongs to one run at a time, and nothing in it is lost without being asked for.
+
+use std::fs::{self, File, OpenOptions, TryLockError};
+use std::io;
+use std::path::{Path, PathBuf};
+
+use crate::error::Error;
+
+/// The file that is locked while a run writes.
+const LOCK: &str = ".motes-lock";
+/// Where the pictures of a film are.
+const FRAMES: &str = "frames";
+/// What the resolved scene says in the line that tells of the run.
+const SIGNATURE: &str = "# Run by motes ";
+/// What stands before the name of the scene in that line.
+const NAMED: &str = ", as ";
+
+/// Files that a run writes under one name.
+const NAMES: &[&str] =
+    &["scene.toml", "energy.csv", "energy.svg", "flock.csv", "flow.csv", "fluid.csv", "last_good.csv", "last_good.npz"];
+/// Files of which it writes many, with the number of a step or a picture between these.
+const NUMBERED: &[(&str, &str)] =
+    &[("snapshot_", ".csv"), ("snapshot_", ".npz"), ("links_", ".csv"), ("picture_", ".png"), ("frame_", ".png")];
+/// Files that begin with the name of the scene.
+const ENDINGS: &[&str] = &[".png", "_film.png", "_film.mp4", "_film.part.mp4"];
+
+/// The folder of a run, locked until this is dropped.
+#[derive(Debug)]
+pub struct Folder {
+    path: PathBuf,
+    name: String,
+    lock: Option<File>,
+    remark: Option<String>,
+}
+
+impl Folder {
+    /// Whether a run of the scene `name`, which reads the files `read`, may write into the folder. It may not where its
+    /// results would replace a file that it reads, a file that no run has written, or, unless `overwrite` is set, those of
+    /// another run.
+    ///
+    /// # Errors
+    /// [`Error::Output`] with the file that stands in the way.
+    pub fn examine(path: &Path, name: &str, read: &[PathBuf], overwrite: bool) -> Result<(), Error> {
+        let Some(inside) = fs::canonicalize(path).ok().filter(|found| found.is_dir()) else { return Ok(()) };
+        let earlier = earlier(path);
+        let found = results(path, &[Some(name), earlier.as_deref()]).map_err(|why| failed(path, &why))?;
+        for file in read.iter().filter_map(|file| fs::canonicalize(file).ok()) {
+            let of_run = |result: &&PathBuf| inside.join(result) == file;
+            if let Some(result) = found.iter().find(of_run) {
+                return refused(
+                    &path.join(result),
+                    "this run reads the file, and its results would replace it: choose another folder with -o",
+                );
+            }
+        }
+        match (found.first(), &earlier) {
+            (Some(first), None) => refused(
+                &path.join(first),
+                "the file is there already, and the folder has no scene.toml of a run, so that it may not be a result: \
+                 choose another folder with -o",
+            ),
+            (Some(first), Some(_)) if !overwrite => {
+                let more = match found.len() - 1 {
+                    0 => String::new(),
+                    more => format!(" and {more} more"),
+                };
+                refused(
+                    path,
+                    &format!(
+                        "the folder holds the results of another run ({}{more}): choose another folder with -o, or say \
+                         --overwrite, which removes them",
+                        first.display()
+                    ),
+                )
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Makes the folder and locks it for a run of the scene `name`, which reads the files `read`; with `overwrite` it
+    /// removes the results of an earlier run. What a run that was killed has left half written is removed, too.
+    ///
+    /// # Errors
+    /// [`Error::Output`] where [`Folder::examine`] refuses, another run holds the lock, or the folder cannot be made.
+    pub fn open(path: &Path, name: &str, read: &[PathBuf], overwrite: bool) -> Result<Self, Error> {
+        let fails = |why: &io::Error| failed(path, why);
+        fs::create_dir_all(path).map_err(|why| fails(&why))?;
+        let (lock, remark) = match locked(&path.join(LOCK)).map_err(|why| fails(&why))? {
+            Locked::Here(lock) => (Some(lock), None),
+            Locked::Elsewhere => {
+                refused(path, "another run writes into this folder: wait until it ends, or choose another with -o")?;
+                (None, None)
+            }
+            Locked::Never(why) => {
+                let text = format!("the folder cannot be locked ({why}): start no second run into it");
+                (None, Some(text))
+            }
+        };
+        let folder = Self { path: path.to_owned(), name: name.to_owned(), lock, remark };
+        Self::examine(path, name, read, overwrite)?;
+        let earlier = earlier(path);
+        let mut old = results(path, &[Some(name), earlier.as_deref()]).map_err(|why| fails(&why))?;
+        // The signature goes last: what is left by a removal that was broken off is still known as results.
+        old.sort_by_key(|file| file == Path::new("scene.toml"));
+        for file in old.into_iter().map(|file| path.join(file)) {
+            fs::remove_file(&file).map_err(|why| failed(&file, &why))?;
+        }
+        for file in parts(path) {
+            fs::remove_file(&file).map_err(|why| failed(&file, &why))?;
+        }
+        Ok(folder)
+    }
+
+    /// Where it is.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// What is not wrong, but worth to be told: that the file system has no locks.
+    #[must_use]
+    pub fn remark(&self) -> Option<&str> {
+        self.remark.as_deref()
+    }
+
+    /// The line at the end of the resolved scene by which a later run knows what belongs to this one.
+    #[must_use]
+    pub fn signature(&self, device: &str) -> String {
+        format!("{SIGNATURE}{} on {device}{NAMED}{}\n", env!("CARGO_PKG_VERSION"), self.name)
+    }
+
+    /// The path of a result.
+    ///
+    /// # Errors
+    /// [`Error::Output`] where a later run would not know the name as that of a result.
+    pub fn file(&self, name: &str) -> Result<PathBuf, Error> {
+        let path = self.path.join(name);
+        if is_result(name, &[Some(&self.name)]) {
+            return Ok(path);
+        }
+        refused(&path, "io/folder.rs does not list this name among those of results, which is a bug in motes")?;
+        Ok(path)
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        // While the lock is held: whoever waits for it looks whether the file is still the one that has the name.
+        if self.lock.is_some() {
+            let _ = fs::remove_file(self.path.join(LOCK));
+        }
+    }
+}
+
+/// What came of a try to lock.
+enum Locked {
+    Here(File),
+    Elsewhere,
+    Never(io::Error),
+}
+
+fn locked(path: &Path) -> io::Result<Locked> {
+    // The run that held the lock may have removed the file between the two calls.
+    for _ in 0..100 {
+        if fs::symlink_metadata(path).is_ok_and(|found| !found.is_file()) {
+            return Err(io::Error::other(format!("{} is no ordinary file: remove it", path.display())));
+        }
+        let file = OpenOptions::new().create(true).truncate(false).write(true).open(path)?;
+        match file.try_lock() {
+            Ok(()) if is_there(&file, path) => return Ok(Locked::Here(file)),
+            Ok(()) => {}
+            Err(TryLockError::WouldBlock) => return Ok(Locked::Elsewhere),
+            Err(TryLockError::Error(why)) => return Ok(Locked::Never(why)),
+        }
+    }
+    Ok(Locked::Elsewhere)
+}
+
+/// Whether a file that is open still has this path.
+#[cfg(unix)]
+fn is_there(file: &File, path: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    let (Ok(open), Ok(named)) = (file.metadata(), fs::metadata(path)) else { return false };
+    (open.dev(), open.ino()) == (named.dev(), named.ino())
+}
+
+/// Elsewhere a file that is open keeps its name.
+#[cfg(not(unix))]
+fn is_there(_: &File, path: &Path) -> bool {
+    path.exists()
+}
+
+/// The name of the scene whose results are in the folder, where there are some; empty where an old run did not say it.
+fn earlier(path: &Path) -> Option<String> {
+    let text = fs::read_to_string(path.join("scene.toml")).ok()?;
+    let line = text.lines().rev().find_map(|line| line.strip_prefix(SIGNATURE))?;
+    Some(line.rsplit_once(NAMED).map_or_else(String::new, |(_, name)| name.to_owned()))
+}
+
+/// Names in the folder that are those of results of these scenes, in order; links count as what they are called.
+fn results(path: &Path, scenes: &[Option<&str>]) -> io::Result<Vec<PathBuf>> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(path)? {
+        let entry = entry?;
+        let name = entry.file_name();
+        let Some(text) = name.to_str() else { continue };
+        let kind = entry.file_type()?;
+        if text == FRAMES && kind.is_symlink() {
+            return Err(io::Error::other(format!(
+                "{FRAMES} is a link, and results do not go through links: remove it"
+            )));
+        }
+        if text == FRAMES && kind.is_dir() {
+            for frame in fs::read_dir(entry.path())? {
+                let frame = frame?.file_name();
+                if frame.to_str().is_some_and(|frame| is_result(&format!("{FRAMES}/{frame}"), scenes)) {
+                    found.push(Path::new(FRAMES).join(frame));
+                }
+            }
+        }
+        if is_result(text, scenes) && !kind.is_dir() {
+            found.push(PathBuf::from(name));
+        }
+    }
+    found.sort();
+    Ok(found)
+}
+
+/// Files that a run which was killed has left half written.
+fn parts(path: &Path) -> Vec<PathBuf> {
+    let inside = |folder: PathBuf| fs::read_dir(folder).into_iter().flatten().flatten();
+    let is_part = |name: &str| name.starts_with(".motes-") && name.ends_with(".part");
+    let entries = inside(path.to_owned()).chain(inside(path.join(FRAMES)));
+    entries.filter(|entry| entry.file_name().to_str().is_some_and(is_part)).map(|entry| entry.path()).collect()
+}
+
+/// Whether a run of one of these scenes writes a file of this name.
+fn is_result(name: &str, scenes: &[Option<&str>]) -> bool {
+    let (name, framed) = match name.split_once('/') {
+        Some((FRAMES, frame)) => (frame, true),
+        Some(_) => return false,
+        None => (name, false),
+    };
+    let numbered = |(before, after): &(&str, &str)| {
+        let digits = name.strip_prefix(before).and_then(|rest| rest.strip_suffix(after));
+        (*before == "frame_") == framed
+            && digits.is_some_and(|digits| !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit()))
+    };
+    let of_scene =
+        |scene: &str| !scene.is_empty() && name.strip_prefix(scene).is_some_and(|end| ENDINGS.contains(&end));
+    let own = || NAMES.contains(&name) || scenes.iter().flatten().any(|scene| of_scene(scene));
+    NUMBERED.iter().any(numbered) || !framed && own()
+}
+
+fn failed(path: &Path, why: &io::Error) -> Error {
+    Error::Output { file: path.to_owned(), message: why.to_string() }
+}
+
+fn refused(path: &Path, why: &str) -> Result<(), Error> {
+    Err(Error::Output { file: path.to_owned(), message: why.to_owned() })
+}

@@ -1,0 +1,74 @@
+//! What the keys mean that a section's own file reads: lists, tables and names, for which [`Key`](crate::settings::Key) has no kind.
+
+/// A key that a section reads by itself.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Own {
+    /// The name in the scene.
+    pub name: &'static str,
+    /// What holds where it is left out, in words.
+    pub default: &'static str,
+    /// One line: what it means, and its unit.
+    pub about: &'static str,
+}
+
+const fn own(name: &'static str, default: &'static str, about: &'static str) -> Own {
+    Own { name, default, about }
+}
+
+pub(super) const SIMULATION: &[Own] = &[
+    own("steps", "or until", "how many steps"),
+    own("until", "or steps", "when it ends [time]"),
+    own("integrator", "\"leapfrog\"", "what makes a step: an integrator of the README's list"),
+];
+pub(super) const BOX: &[Own] = &[
+    own("x", "as boundary", "what is at the two sides across x"),
+    own("y", "as boundary", "what is at the two sides across y"),
+    own("z", "as boundary", "what is at the two sides across z"),
+    own("dimensions", "3; flat: 2", "2 or 3: in 2 all particles stay in one plane"),
+];
+pub(super) const MOTION: &[Own] = &[
+    own("name", "must be given", "what particles and solids call it"),
+    own(
+        "keys",
+        "must be given",
+        "where it is when: [{ time = 0 }, { time = 2, shift = [1, 0, 0], turn = [0, 0, 90] }] [time, length, degrees]",
+    ),
+];
+pub(super) const PARTICLES: &[Own] = &[
+    own("shape", "or file, bodies", "a generator: a shape of the README's list, with its keys"),
+    own("file", "or shape, bodies", "a CSV, NPZ or Tipsy file in the scene's folder"),
+    own(
+        "bodies",
+        "or shape, file",
+        "written out: [{ position = [1, 0, 0], velocity = [0, 1, 0], mass = 1, radius = 0 }]",
+    ),
+    own("color", "by the palette", "a colour by name, or as \"#ffcc88\""),
+    own("fixed", "none", "those that forces do not move: a list of ids, counted from 0 in this entry"),
+    own("motion", "none", "the name of the motion that leads those"),
+];
+pub(super) const EMITTER: &[Own] = &[
+    own("color", "by the palette", "a colour by name, or as \"#ffcc88\""),
+    own("species", "0", "of which kind its particles are"),
+    own("first", "behind all others", "the first id of its particles, where those of a file wait already"),
+];
+pub(super) const LINKS: &[Own] = &[
+    own("file", "or pairs", "a CSV file with the columns a, b and any of rest, stiffness, damping, tie"),
+    own("pairs", "or file", "ids of the two: [[0, 1], [1, 2]]"),
+];
+pub(super) const FORCE: &[Own] = &[
+    own("kind", "or wgsl", "a force of the README's list, with its keys"),
+    own("wgsl", "or kind", "a file of your own law in WGSL"),
+    own("over", "must be given", "wgsl: each, pairs, within, near, nearest, tree, auto, links, joints or triangles"),
+    own("range", "must be given", "wgsl over within and near: the cut-off radius [length]"),
+    own("neighbors", "must be given", "wgsl over nearest: how many neighbours"),
+    own("theta", "must be given", "wgsl over tree and auto: the opening angle, at most 1"),
+    own("params", "{}", "wgsl: the members of its Params, as in { strength = 2.0, axis = [0, 0, 1] }"),
+    own("pairs", "none", "wgsl: parameters of pairs of species"),
+    own("tables", "none", "wgsl: tables of numbers, by the names under which the file binds them"),
+    own("into", "[\"acceleration\"]", "wgsl: the columns that it writes"),
+];
+pub(super) const OUTPUT: &[Own] = &[
+    own("every", "a tenth of steps", "so many steps from one written state to the next"),
+    own("formats", "[\"csv\", \"png\"]", "of states: any of csv, npz and png; [] leaves energy.csv alone"),
+    own("frames", "0", "pictures of a film, evenly spaced over the run; 0 for none"),
+];
