@@ -67,10 +67,16 @@ fn equations(folder: &str, page: &mut String) {
 }
 
 fn methods() -> String {
-    let mut page = format!("# Equations and sources\n\n{GENERATED}\nEach shader opens with what it computes and where that was published.\n");
-    for (title, folder) in
-        [("Forces", "forces"), ("Fluids", "fluids"), ("DFSPH", "fluids/dfsph"), ("Integrators", "integrators"), ("Tree", "tree")]
-    {
+    let mut page = format!(
+        "# Equations and sources\n\n{GENERATED}\nEach shader opens with what it computes and where that was published.\n"
+    );
+    for (title, folder) in [
+        ("Forces", "forces"),
+        ("Fluids", "fluids"),
+        ("DFSPH", "fluids/dfsph"),
+        ("Integrators", "integrators"),
+        ("Tree", "tree"),
+    ] {
         let _ = write!(page, "\n## {title}\n");
         equations(folder, &mut page);
     }
@@ -129,7 +135,8 @@ fn links_lead_to_pages_and_files_and_every_page_is_listed() {
             assert!(link.starts_with("http") || there.exists(), "{inside}: {link}");
         }
         for word in text.split('`').skip(1).step_by(2) {
-            let file = ["src/", "shaders/", "tests/", "benches/", "scenes/"].iter().any(|folder| word.starts_with(folder));
+            let file =
+                ["src/", "shaders/", "tests/", "benches/", "scenes/"].iter().any(|folder| word.starts_with(folder));
             let pattern = word.contains("NAME") || word.contains('*') || word.contains(' ');
             assert!(!file || pattern || root.join(word).exists(), "{inside}: {word}");
         }
@@ -146,7 +153,9 @@ fn whole_scenes_of_the_book_have_no_faults() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut checked = 0;
     for (path, text) in all() {
-        for (n, scene) in blocks(&text, "toml").into_iter().enumerate().filter(|(_, scene)| scene.contains("[simulation]\n")) {
+        for (n, scene) in
+            blocks(&text, "toml").into_iter().enumerate().filter(|(_, scene)| scene.contains("[simulation]\n"))
+        {
             let file = folder.path().join(format!("{}_{n}.toml", path.file_stem().expect("a name").to_string_lossy()));
             std::fs::write(&file, scene).expect("written");
             let output = std::process::Command::new(env!("CARGO_BIN_EXE_motes"))
