@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::error::Error;
 use crate::fluids::{Continuum, Rates};
-use crate::kernel::{Column, Plan, Problem};
+use crate::kernel::{Column, Plan, Problem, Way};
 use crate::neighbors::Grid;
 use crate::settings::{Key, Settings};
 use crate::solids::Standing;
@@ -39,6 +39,7 @@ pub trait Component: Send + Sync {
     fn stage(&self, stage: Stage, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
         match stage {
             Stage::Evaluate { earlier } => evaluate(self.laws(), earlier, plan, problem),
+            Stage::Carry { earlier } => carry(self.laws(), earlier, plan, problem),
             _ => Ok(()),
         }
     }
@@ -52,6 +53,12 @@ pub enum Stage {
     /// Where accelerations are evaluated. `earlier` counts the components of its kind before it in the scene.
     Evaluate {
         /// The number of those.
+        earlier: usize,
+    },
+    /// Where the rates of columns are computed that are carried along with positions: in the middle of each drift, and in each
+    /// stage of a Runge–Kutta step. Cell lists are those of where particles are.
+    Carry {
+        /// As where accelerations are evaluated.
         earlier: usize,
     },
     /// After every kick, and at the end of a Runge–Kutta step: velocities are brought within limits.
@@ -132,16 +139,36 @@ pub struct Resolved {
 /// Where a particle of a species belongs that stands somewhere.
 pub type Projection = Box<dyn Fn(u32, DVec3) -> DVec3 + Send + Sync>;
 
-/// Adds the kernels of laws to a plan; `earlier` counts the components of their kind before them.
+/// Adds the kernels of laws to a plan; `earlier` counts the components of their kind before them. Laws of what is carried along
+/// with positions are left to [`carry`].
 ///
 /// # Errors
 /// When a law does not compile or lacks a parameter.
 pub fn evaluate(laws: Vec<Law>, earlier: usize, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
+    add(laws.into_iter().filter(|law| !carries(law, problem)), earlier, plan, problem)
+}
+
+/// Adds the kernels of laws that write rates of what is carried along with positions.
+///
+/// # Errors
+/// When a law does not compile or lacks a parameter.
+pub fn carry(laws: Vec<Law>, earlier: usize, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
+    add(laws.into_iter().filter(|law| carries(law, problem)), earlier, plan, problem)
+}
+
+fn add(laws: impl Iterator<Item = Law>, earlier: usize, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
     for law in laws {
         let name = numbered(&law.name, earlier);
         plan.push(&name, || law.kernel(problem))?;
     }
     Ok(())
+}
+
+/// Whether a law writes the rate of a column that is carried along with positions.
+#[must_use]
+pub fn carries(law: &Law, problem: &Problem) -> bool {
+    let mut pairs = problem.columns.pairs().into_iter();
+    pairs.any(|pair| pair.way == Way::Carried && law.into.contains(&pair.rate.name))
 }
 
 /// The name of a kernel with `earlier` of its kind before it.

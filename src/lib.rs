@@ -20,6 +20,7 @@ pub mod neighbors;
 pub mod particles;
 pub mod primitives;
 pub mod render;
+pub mod rotation;
 #[cfg(feature = "scene")]
 pub mod scene;
 pub mod selftest;

@@ -135,7 +135,7 @@ fn no_binding_number_is_written_in_rust() {
 }
 
 /// A module may name only what stands before it.
-const ORDER: [&str; 29] = [
+const ORDER: [&str; 30] = [
     "error",
     "settings",
     "links",
@@ -153,6 +153,7 @@ const ORDER: [&str; 29] = [
     "component",
     "forces",
     "particles",
+    "rotation",
     "integrators",
     "cpu",
     "gpu",

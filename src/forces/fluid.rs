@@ -193,7 +193,7 @@ impl Component for Fluid {
             Stage::AfterAdvance { .. } => self.refuse_stages(),
             Stage::StepLimit => self.limit_steps(plan, problem),
             Stage::EndOfStep if self.solves() => self.dfsph(self.medium(problem)?, problem)?.conclude(plan),
-            Stage::AfterKick | Stage::EndOfStep => Ok(()),
+            Stage::Carry { .. } | Stage::AfterKick | Stage::EndOfStep => Ok(()),
         }
     }
 }

@@ -1,6 +1,8 @@
 //! A step as it is being written: each verb adds kernels to a plan.
 
 mod paces;
+mod pairs;
+mod plans;
 mod search;
 mod solve;
 
@@ -10,12 +12,11 @@ use std::sync::Arc;
 
 use glam::DVec4;
 
-use super::verbs::{at, clear, drift, held, keep, kick, kick_drift, life, pace, runge_kutta, tick, watch};
+use super::verbs::{at, clear, drift, held, kick, kick_drift, life, pace, runge_kutta};
 use crate::boundary;
 use crate::error::Error;
 use crate::forces::{Component, Problem, Stage};
 use crate::kernel::{ACCELERATION, Kernel, Plan, Twin};
-use crate::tree::Opening;
 
 /// Writes a plan in verbs. The first error is kept and given at the end, so that an integrator reads like its textbook.
 pub struct Step<'a> {
@@ -31,6 +32,8 @@ pub struct Step<'a> {
     kicked: Option<f64>,
     /// Whether every kernel stays alone.
     apart: bool,
+    /// Whether slopes are wanted, for the stages of a Runge–Kutta step.
+    staged: bool,
     error: Option<Error>,
 }
 
@@ -47,6 +50,7 @@ impl<'a> Step<'a> {
             drifted: 0.0,
             kicked: None,
             apart: false,
+            staged: false,
             error: None,
         }
     }
@@ -56,17 +60,22 @@ impl<'a> Step<'a> {
         let mut laws = self.laws(|_| true);
         // The first law need not add to what has been cleared.
         if self.apart || !laws.first_mut().is_some_and(begins) {
-            self.clear();
+            self.add(clear::kernel(self.problem.count));
         }
+        self.clear_sums(false);
         self.felt(laws);
+        if self.staged {
+            self.carried_rates();
+        }
     }
     /// From here on every kernel is a dispatch of its own: to see what it is worth to join them.
     pub fn apart(&mut self) {
         self.apart = true;
     }
-    /// No acceleration yet.
+    /// No acceleration yet, and no other sum.
     fn clear(&mut self) {
         self.add(clear::kernel(self.problem.count));
+        self.clear_sums(false);
     }
     /// Adds what some of the forces say, chosen by their places.
     fn gather(&mut self, chosen: impl Fn(usize) -> bool) {
@@ -80,19 +89,22 @@ impl<'a> Step<'a> {
         self.moved = false;
         self.neighbors(&chosen);
         let mut laws = Plan::default();
-        let name = |force: &dyn Component| force.laws().first().map(|law| law.name.clone());
         let all = || self.forces.iter().enumerate().filter(|(place, _)| chosen(*place));
         let last = |force: &Box<dyn Component>| force.properties().evaluated_last;
         let ordered = all().filter(|(_, force)| !last(*force)).chain(all().filter(|(_, force)| last(*force)));
         for (place, force) in ordered {
-            // Two forces of one kind are two kernels.
-            let earlier =
-                self.forces[..place].iter().filter(|other| name(other.as_ref()) == name(force.as_ref())).count();
+            let earlier = self.earlier(place);
             if self.error.is_none() {
                 self.error = force.stage(Stage::Evaluate { earlier }, &mut laws, &self.problem).err();
             }
         }
         laws.steps().cloned().collect()
+    }
+    /// How many components of the kind of one are before it: two of one kind are two kernels.
+    fn earlier(&self, place: usize) -> usize {
+        let name = |force: &dyn Component| force.laws().first().map(|law| law.name.clone());
+        let its = name(self.forces[place].as_ref());
+        self.forces[..place].iter().filter(|other| name(other.as_ref()) == its).count()
     }
     /// Adds the kernels of laws; who is held feels nothing.
     fn felt(&mut self, laws: Vec<Kernel>) {
@@ -119,22 +131,35 @@ impl<'a> Step<'a> {
     pub fn begin(&mut self) {
         self.each(Stage::Start);
     }
-    /// v ← v + c a dt, within the limits of speed
+    /// v ← v + c a dt, within the limits of speed, and every column whose rate is computed by evaluations
     pub fn kick(&mut self, factor: f64) {
         self.flush();
+        self.kick_pairs(factor);
         self.kicked = Some(factor);
         self.limit();
     }
-    /// x ← x + c v dt, and back into the box
+    /// x ← x + c v dt, and back into the box, and every column whose rate is a state; what is carried along, by its rate in the
+    /// middle of the way
     pub fn drift(&mut self, factor: f64) {
+        if self.carries() {
+            self.go(0.5 * factor);
+            self.carry(factor, self.drifted + 0.5 * factor);
+            self.go(0.5 * factor);
+        } else {
+            self.go(factor);
+        }
+        self.drift_pairs(factor);
+        self.drifted += factor;
+        self.confine(factor);
+    }
+    /// x ← x + c v dt, and back into the box
+    fn go(&mut self, factor: f64) {
         let count = self.problem.count;
         match self.kicked.take_if(|_| !self.apart) {
             Some(kick) => self.add(kick_drift::kernel(count, kick, factor)),
             None => self.add(drift::kernel(count, factor)),
         }
         self.enclose();
-        self.drifted += factor;
-        self.confine(factor);
     }
     /// Whoever has left the box by a closed side comes in again.
     pub fn enclose(&mut self) {
@@ -149,93 +174,33 @@ impl<'a> Step<'a> {
         };
         self.add(kernel);
     }
-    /// Keeps where the step starts, x₀ and v₀.
+    /// Keeps where the step starts, x₀ and v₀, and every column that is advanced.
     pub fn save(&mut self) {
+        self.staged = true;
         self.add(runge_kutta::save(self.problem.count));
+        self.save_pairs();
     }
     /// Adds `weight` times the slopes (v, a) to their sum, and goes on to x₀ + c v dt, v₀ + c a dt.
     pub fn stage(&mut self, weight: f64, factor: f64) {
         self.moved = true;
+        self.slopes();
+        self.stage_pairs(true, weight, factor);
         self.add(runge_kutta::stage(self.problem.count, weight, factor));
+        self.stage_pairs(false, weight, factor);
     }
     /// Adds the last slopes with `weight`, and goes from x₀, v₀ the whole step with the weighted sum, and back into the
     /// box. Stages may leave it: forces see the nearest images from there too.
     pub fn finish(&mut self, weight: f64) {
+        self.staged = false;
+        self.slopes();
+        self.finish_pairs(true, weight);
         self.add(runge_kutta::finish(self.problem.count, weight));
+        self.finish_pairs(false, weight);
         self.limit();
         self.enclose();
         self.drifted = 1.0;
         self.problem.reached = self.drifted;
         self.each(Stage::AfterAdvance { factor: 1.0 });
-    }
-
-    /// The plan of what is done once: what the integrator wrote, and a look for numbers that are broken from the start,
-    /// while they are those of the particles at fault. A step spreads them: everybody attracts everybody.
-    ///
-    /// # Errors
-    /// The first thing that went wrong while it was written.
-    pub fn begun(mut self) -> Result<Plan, Error> {
-        if !self.evaluated {
-            self.evaluate();
-        }
-        // Who opens groups by what was felt last, has felt something then.
-        if self.looks_back() {
-            self.evaluate();
-        }
-        self.urge();
-        self.add(watch::kernel(self.problem.count));
-        self.finished()
-    }
-    /// Whether what is felt depends on what was felt last.
-    fn looks_back(&self) -> bool {
-        let mut laws = self.forces.iter().flat_map(|force| force.laws());
-        laws.any(|law| law.tree(&self.problem).is_some_and(|tree| matches!(tree.opening, Opening::Relative { .. })))
-    }
-    /// The plan of one step: what the integrator wrote, the clock's tick, births and deaths, and a look for broken numbers.
-    ///
-    /// # Errors
-    /// The first thing that went wrong while the step was written.
-    pub fn done(mut self) -> Result<Plan, Error> {
-        self.each(Stage::EndOfStep);
-        self.add(if self.problem.pace.is_some() { pace::tick(&self.problem) } else { tick::kernel() });
-        self.populate();
-        // Who has just been born has a say in the length of its first step.
-        self.urge();
-        self.add(watch::kernel(self.problem.count));
-        self.finished()
-    }
-    /// The plan without tick and watch.
-    ///
-    /// # Errors
-    /// The first thing that went wrong while the step was written.
-    pub fn finished(mut self) -> Result<Plan, Error> {
-        self.flush();
-        // Where nothing asks for the time within a step, nothing need set it.
-        // By what they run, not by what they are called: a force may be called anything.
-        let runs = |kernel: &Kernel, entry| kernel.passes.iter().all(|p| p.shader.reflection().entry == entry);
-        let asked = |kernel: &Kernel| {
-            ![tick::NAME, life::BEAR].into_iter().any(|entry| runs(kernel, entry))
-                && kernel.passes.iter().any(|p| p.shader.reflection().reads_time)
-        };
-        let within: Vec<_> = self.plan.kernels.iter().map(|k| runs(k, at::NAME)).collect();
-        if !self.plan.kernels.iter().zip(&within).any(|(kernel, at)| !at && asked(kernel)) {
-            self.plan.order.retain(|index| !within.get(*index).is_some_and(|at| *at));
-        }
-        self.error.map_or(Ok(self.plan), Err)
-    }
-    /// The two plans around a measurement: the first keeps the forces that the next step is going to use and evaluates
-    /// them at the present state; the second puts the kept ones back.
-    ///
-    /// # Errors
-    /// The first thing that went wrong while they were written.
-    pub fn measurement(forces: &'a [Box<dyn Component>], problem: Problem) -> Result<(Plan, Plan), Error> {
-        let count = problem.count;
-        let mut before = Self::new(forces, problem.clone());
-        before.add(keep::keep(count));
-        before.evaluate();
-        let mut after = Self::new(forces, problem);
-        after.add(keep::restore(count));
-        Ok((before.finished()?, after.finished()?))
     }
 
     /// What forces make of positions that are not allowed, after an advance by a part of the step.

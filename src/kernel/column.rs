@@ -22,6 +22,8 @@ pub struct Column {
     pub role: Role,
     /// The column that is its rate of change, if integrators advance it.
     pub rate: Option<Name>,
+    /// How they do.
+    pub advance: Advance,
     /// The value of a particle that is given none; `None`: it must be given.
     pub initial: Option<[f64; 4]>,
     /// Where it lies.
@@ -61,6 +63,23 @@ pub enum Role {
     Derived,
     /// It is zero at the start of each evaluation, and laws add to it.
     Sum,
+}
+
+/// How integrators advance a column y by its rate y'.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub enum Advance {
+    /// y ← y + c y' dt: with velocities (at a kick) where evaluations compute the rate, with positions (at a drift) where the
+    /// rate is a state.
+    #[default]
+    Linear,
+    /// The same with positions, by a rate that follows from velocities and is computed in the middle of each drift, as that of
+    /// a density is (see [`Column::carried`]).
+    Carried,
+    /// A unit quaternion that turns a body by its angular velocity, as [`rotation`](crate::rotation) has it.
+    Rotation {
+        /// The column of its principal moments of inertia.
+        inertia: Name,
+    },
 }
 
 /// Where a column lies: a buffer and the first component of its elements.
@@ -156,7 +175,7 @@ impl Column {
         let place = Place { buffer: name.clone(), component: 0 };
         let initial = Some(if kind == Kind::Quaternion { [0.0, 0.0, 0.0, 1.0] } else { [0.0; 4] });
         let (unit, about, shape, role) = (unit.into(), about.into(), Shape::Particle, Role::State);
-        Self { name, kind, shape, unit, about, role, rate: None, initial, place }
+        Self { name, kind, shape, unit, about, role, rate: None, advance: Advance::Linear, initial, place }
     }
     /// The same, computed anew in each evaluation by one law.
     #[must_use]
@@ -172,6 +191,18 @@ impl Column {
     #[must_use]
     pub fn with_rate(self, rate: impl Into<Name>) -> Self {
         Self { rate: Some(rate.into()), ..self }
+    }
+    /// The same, advanced with positions by this rate, which follows from velocities: dρ/dt = −ρ ∇·v. Taken at the end of a
+    /// drift it would count the second order of a straight way, by which what turns seems to expand, and in the middle it does
+    /// not: a drift goes half of its way, the rate is computed there, and the drift goes on.
+    #[must_use]
+    pub fn carried(self, rate: impl Into<Name>) -> Self {
+        Self { advance: Advance::Carried, ..self.with_rate(rate) }
+    }
+    /// The same, an orientation that turns by this angular velocity, of a body with these principal moments of inertia.
+    #[must_use]
+    pub fn turning(self, rate: impl Into<Name>, inertia: impl Into<Name>) -> Self {
+        Self { advance: Advance::Rotation { inertia: inertia.into() }, ..self.with_rate(rate) }
     }
     /// The same, of the whole system or of slots.
     #[must_use]

@@ -6,6 +6,9 @@ use crate::error::Error;
 /// Buffers of the engine; a column of such a name would be another thing under the same name.
 const RESERVED: [&str; 4] = ["world", "alarm", "params", "grid"];
 
+/// What names of buffers begin with that integrators keep beside columns.
+const KEPT: [&str; 4] = ["start_", "slope_", "rate_", "kept_"];
+
 /// The columns of a simulation, in the order of their declaration; every name once.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Columns(Vec<Column>);
@@ -74,6 +77,12 @@ impl Columns {
                 column.name
             )));
         }
+        if let Some(kept) = KEPT.iter().find(|kept| column.name.starts_with(**kept)) {
+            return Err(Error::Scene(format!(
+                "a column is called `{}`, and integrators keep buffers of names with `{kept}`: choose another name",
+                column.name
+            )));
+        }
         if RESERVED.contains(&column.name.as_ref()) {
             return Err(Error::Scene(format!(
                 "a column is called `{}`, which is a buffer of the engine: choose another name",
@@ -85,22 +94,8 @@ impl Columns {
     }
     fn check(&self) -> Result<(), Error> {
         for column in &self.0 {
-            let Some(rate) = &column.rate else { continue };
-            let Some(other) = self.get(rate) else {
-                return Err(Error::Scene(format!(
-                    "the column `{}` is advanced by `{rate}`, which no component declares: declare it too",
-                    column.name
-                )));
-            };
-            let fits = other.kind == column.kind || column.kind == Kind::Quaternion && other.kind == Kind::Vector;
-            if !fits || other.shape != column.shape || column.role != Role::State {
-                return Err(Error::Scene(format!(
-                    "the column `{}` ({}) cannot be advanced by `{rate}` ({}): both must be of one kind and shape, and the first a state",
-                    column.name,
-                    column.kind.name(),
-                    other.kind.name()
-                )));
-            }
+            self.check_rate(column)?;
+            self.check_sum(column)?;
         }
         Ok(())
     }
@@ -120,11 +115,6 @@ impl Columns {
     /// Those that a state keeps.
     pub fn state(&self) -> impl Iterator<Item = &Column> {
         self.0.iter().filter(|column| column.role == Role::State)
-    }
-    /// What integrators advance beside positions and velocities: a column and its rate.
-    pub fn pairs(&self) -> impl Iterator<Item = (&Column, &Column)> {
-        let own = |column: &&Column| !["position", "velocity"].contains(&column.name.as_ref());
-        self.0.iter().filter(own).filter_map(|column| Some((column, self.get(column.rate.as_ref()?)?)))
     }
     /// Elements of a buffer of columns, of so many particles; `None` where no column lies there.
     #[must_use]

@@ -10,6 +10,7 @@ mod message;
 mod own;
 mod pace;
 mod pack;
+mod pair;
 mod plan;
 mod problem;
 mod reflect;
@@ -20,7 +21,7 @@ mod world;
 
 pub use backend::{Backend, Machine};
 pub use bounds::{Bounds, Side};
-pub use column::{Column, Kind, Place, Role, Shape};
+pub use column::{Advance, Column, Kind, Place, Role, Shape};
 pub use columns::{Columns, base};
 pub use field::{
     ACCELERATION, ALARM, ALARM_WORDS, Array, Element, Field, HOME, LAW, LIFE, POSITION, QUIET, SPECIES, TARGET,
@@ -29,8 +30,9 @@ pub use field::{
 pub use host::{Host, Reading, Writing};
 pub use own::claims;
 pub use pace::{PACE, PACE_WORDS, Pace, Reason, STOP, TICKS, URGENT, URGES, split, ticks, time};
+pub use pair::{Pair, Way};
 pub use pack::{Member, Packed, Scalar};
-pub use plan::{Kernel, Name, Pass, Plan, Table, Threads, Twin};
+pub use plan::{Kernel, Name, Pass, Plan, Table, Threads, Twin, short};
 pub use problem::Problem;
 pub use reflect::{Access, Binding, Reflection};
 pub use shader::{Shader, Source};

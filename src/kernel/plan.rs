@@ -174,7 +174,8 @@ impl Kernel {
 }
 
 /// At most six digits: `0.675604`, `-0.5`, `1`.
-fn short(x: f64) -> String {
+#[must_use]
+pub fn short(x: f64) -> String {
     let text = format!("{x:.6}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }

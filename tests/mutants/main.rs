@@ -19,6 +19,7 @@ mod memory;
 mod neighbors;
 mod paced;
 mod paces;
+mod pairs;
 mod primitives;
 mod rods;
 mod stages;
@@ -134,6 +135,7 @@ fn every_mutant_is_noticed() {
         walks::EQUIVALENT,
         paces::EQUIVALENT,
         fluids::EQUIVALENT,
+        pairs::EQUIVALENT,
     ]
     .concat();
     let ledger = Mutex::new(Ledger::new(&equivalents));

@@ -190,6 +190,7 @@ pub fn all(shared: &Shared) -> Vec<Stage> {
     laws::corners(&device, &mut stages);
     laws::planes(&device, &mut stages);
     crate::held::all(&device, &mut stages);
+    crate::pairs::all(&device, &mut stages);
     crate::paces::all(&device, &mut stages);
     crate::paced::all(shared, &device, &mut stages);
     crate::births::all(shared, &device, &mut stages);

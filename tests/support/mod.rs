@@ -3,6 +3,7 @@
 #![allow(clippy::cast_possible_truncation, reason = "numbers are rounded to what f32 holds")]
 
 pub mod choices;
+pub mod columns;
 pub mod equivalents;
 pub mod fluids;
 pub mod machines;

@@ -44,7 +44,7 @@ pub enum Form {
 const INNER: f64 = 0.25;
 
 /// Which of some forces enter the matrix of an implicit solve: those of which every law offers its Jacobian. Of laws of
-/// links that is one: the first.
+/// links that is one: the first. What writes other columns than the acceleration does not: it would add to them in each solve.
 #[must_use]
 pub fn implicit(forces: &[Box<dyn Component>]) -> Vec<bool> {
     let mut tied = false;
@@ -52,7 +52,7 @@ pub fn implicit(forces: &[Box<dyn Component>]) -> Vec<bool> {
         let laws = force.laws();
         let links = laws.iter().filter(|law| law.over == Over::Links).count();
         let good = |law: &Law| {
-            matches!(
+            law.into == [ACCELERATION.name] && matches!(
                 (law.over, &law.jacobian),
                 (Over::Each, Some(Jacobian::Each(_))) | (Over::Links, Some(Jacobian::Links(_)))
             )
@@ -124,10 +124,12 @@ impl Step<'_> {
         if tied || by.form == Form::Newton {
             self.add(report::kernel(&system, by.form == Form::Newton));
         }
+        self.solved_pairs(factor, by.until);
     }
     /// From the middle of the step to its end, along the straight line from where the last solve began: x ← x₀ + v dt,
     /// v ← 2 v − v₀.
     pub fn extrapolate(&mut self) {
+        self.extrapolated_pairs();
         self.add(update::reach(self.problem.count, 1.0));
         self.add(update::extrapolate(self.problem.count));
     }

@@ -1,5 +1,5 @@
 //! The verbs in which integrators are written, one file for each shader; a Runge–Kutta step's three go together, and
-//! those of an implicit solve have a folder.
+//! those of an implicit solve and those of declared columns have a folder each.
 
 pub mod at;
 pub mod clear;
@@ -10,6 +10,7 @@ pub mod kick;
 pub mod kick_drift;
 pub mod life;
 pub mod pace;
+pub mod pairs;
 pub mod runge_kutta;
 pub mod solve;
 pub mod tick;

@@ -1,0 +1,13 @@
+// A column of the components FIRST to END of its elements; others of the same elements are other columns.
+alias Value = vec4f;
+
+override FIRST: u32 = 0u;
+override END: u32 = 3u;
+
+fn own(old: vec4f, next: vec4f) -> vec4f {
+    var mixed = old;
+    for (var k = FIRST; k < END; k += 1u) { mixed[k] = next[k]; }
+    return mixed;
+}
+
+fn is_broken(value: vec4f) -> bool { return broken(own(vec4f(), value)); }

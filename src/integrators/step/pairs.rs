@@ -1,0 +1,185 @@
+//! What each verb does to the columns that components declare with a rate.
+//!
+//! A column whose rate is computed by evaluations goes on with velocities, one whose rate is a state with positions. What is
+//! carried along with positions by a rate that follows from velocities, as a density is, has its rate computed in the middle of
+//! each drift. A Runge–Kutta step gives all of them its stages. Implicit methods solve for positions and velocities alone: the
+//! columns go on explicitly, by rates computed where laws without a Jacobian are.
+
+use super::Step;
+use crate::component;
+use crate::error::Error;
+use crate::forces::{Component, Stage};
+use crate::integrators::verbs::pairs::{Advanced, Part, advance, around, runge_kutta};
+use crate::integrators::verbs::solve::update;
+use crate::kernel::{Advance, Columns, Kernel, Pair, Plan, Problem, Role, Way};
+use crate::rotation::{self, Body};
+
+/// The body that a pair turns, or has a torque on.
+fn body(pair: &Pair, columns: &Columns) -> Option<Body> {
+    let (orientation, angular_velocity, torque, inertia) = match &pair.way {
+        Way::Rotation { inertia } => {
+            (&pair.column.name, &pair.rate.name, columns.get(&pair.rate.name)?.rate.as_ref()?, inertia)
+        }
+        Way::Torque { orientation, inertia } => (orientation, &pair.column.name, &pair.rate.name, inertia),
+        Way::Kick | Way::Drift | Way::Carried => return None,
+    };
+    Some(Body {
+        orientation: orientation.clone(),
+        angular_velocity: angular_velocity.clone(),
+        torque: torque.clone(),
+        inertia: inertia.clone(),
+    })
+}
+
+/// A column and the buffer of its slope.
+fn slope(pair: &Pair, columns: &Columns) -> Advanced {
+    let advanced = Advanced::of(pair, columns);
+    match (&pair.way, body(pair, columns)) {
+        (Way::Rotation { .. }, Some(body)) => Advanced { rate: body.rate(), ..advanced },
+        (_, Some(body)) => Advanced { rate: body.acceleration(), ..advanced },
+        (_, None) => advanced,
+    }
+}
+
+impl Step<'_> {
+    /// A kernel for each pair, in the order of declaration.
+    fn each_pair(&mut self, write: impl Fn(&Pair, &Columns, &Problem) -> Option<Result<Kernel, Error>>) {
+        let columns = self.problem.columns.clone();
+        for pair in columns.pairs() {
+            if let Some(kernel) = write(&pair, &columns, &self.problem) {
+                self.add(kernel);
+            }
+        }
+    }
+    /// Columns whose rates evaluations compute go on, as velocities do.
+    pub(super) fn kick_pairs(&mut self, factor: f64) {
+        self.each_pair(|pair, columns, problem| match (&pair.way, body(pair, columns)) {
+            (Way::Kick, _) => Some(advance::advance("kick", &Advanced::of(pair, columns), factor, problem)),
+            (Way::Torque { .. }, Some(body)) => Some(rotation::kick(&body, factor, problem)),
+            _ => None,
+        });
+    }
+    /// Columns whose rates are states go on, as positions do.
+    pub(super) fn drift_pairs(&mut self, factor: f64) {
+        self.each_pair(|pair, columns, problem| match (&pair.way, body(pair, columns)) {
+            (Way::Drift, _) => Some(advance::advance("drift", &Advanced::of(pair, columns), factor, problem)),
+            (Way::Rotation { .. }, Some(body)) => Some(rotation::drift(&body, factor, problem)),
+            _ => None,
+        });
+    }
+    /// Whether anything is carried along with positions.
+    pub(super) fn carries(&self) -> bool {
+        self.problem.columns.pairs().iter().any(|pair| pair.way == Way::Carried)
+    }
+    /// Which components compute rates of what is carried: those that declare such columns, and those with a law for one.
+    fn carrying(&self) -> Vec<bool> {
+        let declares = |force: &dyn Component| force.columns().iter().any(|column| column.advance == Advance::Carried);
+        let computes = |force: &dyn Component| force.laws().iter().any(|law| component::carries(law, &self.problem));
+        self.forces.iter().map(|force| declares(force.as_ref()) || computes(force.as_ref())).collect()
+    }
+    /// What is carried along goes on by `factor` of the step, in the middle of which positions are, at `middle` of it.
+    pub(super) fn carry(&mut self, factor: f64, middle: f64) {
+        self.at(middle);
+        let carrying = self.carrying();
+        self.neighbors(|place| carrying[place]);
+        self.carried_rates();
+        self.each_pair(|pair, columns, problem| {
+            let carried = pair.way == Way::Carried;
+            carried.then(|| advance::advance("carry", &Advanced::of(pair, columns), factor, problem))
+        });
+    }
+    /// The rates of what is carried, where particles are.
+    pub(super) fn carried_rates(&mut self) {
+        self.clear_sums(true);
+        let mut plan = Plan::default();
+        for (place, _) in self.carrying().iter().enumerate().filter(|(_, carries)| **carries) {
+            let stage = Stage::Carry { earlier: self.earlier(place) };
+            if self.error.is_none() {
+                self.error = self.forces[place].stage(stage, &mut plan, &self.problem).err();
+            }
+        }
+        plan.steps().for_each(|kernel| self.add(Ok(kernel.clone())));
+    }
+    /// Sums begin at zero, before the first law: those that are rates of what is carried, or all others.
+    pub(super) fn clear_sums(&mut self, carried: bool) {
+        let columns = self.problem.columns.clone();
+        let rates: Vec<_> =
+            columns.pairs().into_iter().filter(|pair| pair.way == Way::Carried).map(|pair| pair.rate.name).collect();
+        let mut cleared = vec![crate::kernel::Name::from("acceleration")];
+        for column in columns.iter().filter(|column| column.role == Role::Sum) {
+            if rates.contains(&column.name) == carried && !cleared.contains(&column.place.buffer) {
+                cleared.push(column.place.buffer.clone());
+                self.add(around::clear(&Part::of(column, &columns), &self.problem));
+            }
+        }
+    }
+    /// Keeps where the columns start.
+    pub(super) fn save_pairs(&mut self) {
+        self.each_pair(|pair, columns, problem| Some(runge_kutta::save(&Part::of(&pair.column, columns), problem)));
+    }
+    /// The slopes of what has not its rate for one.
+    pub(super) fn slopes(&mut self) {
+        self.each_pair(|pair, columns, problem| {
+            let turns = matches!(pair.way, Way::Rotation { .. });
+            body(pair, columns).filter(|_| turns).map(|body| rotation::slopes(&body, problem))
+        });
+    }
+    /// A stage of the columns whose rates are states, while these are those of the stage before, or of all others.
+    pub(super) fn stage_pairs(&mut self, drifts: bool, weight: f64, factor: f64) {
+        self.each_pair(|pair, columns, problem| {
+            let its = (pair.way == Way::Drift) == drifts;
+            its.then(|| runge_kutta::stage(&slope(pair, columns), weight, factor, problem))
+        });
+    }
+    /// The same at the end of the step.
+    pub(super) fn finish_pairs(&mut self, drifts: bool, weight: f64) {
+        self.each_pair(|pair, columns, problem| {
+            let its = (pair.way == Way::Drift) == drifts;
+            its.then(|| runge_kutta::finish(&slope(pair, columns), weight, problem))
+        });
+        if !drifts {
+            self.each_pair(|pair, columns, problem| {
+                let turns = matches!(pair.way, Way::Rotation { .. });
+                body(pair, columns).filter(|_| turns).map(|body| rotation::unit(&body, problem))
+            });
+        }
+    }
+    /// After a solve for a part of the step: what is carried goes along the straight line from where that began, of which the
+    /// solve leaves positions at the end; the others are kicked and drift, as by symplectic Euler.
+    pub(super) fn solved_pairs(&mut self, factor: f64, until: f64) {
+        if self.carries() {
+            self.add(update::reach(self.problem.count, 0.5 * factor));
+            self.carry(factor, until - 0.5 * factor);
+            self.add(update::reach(self.problem.count, factor));
+        }
+        self.kick_pairs(factor);
+        self.drift_pairs(factor);
+    }
+    /// From the middle of the step to its end, with the rates that the middle has; velocities are those of the middle still.
+    pub(super) fn extrapolated_pairs(&mut self) {
+        if self.carries() {
+            self.add(update::reach(self.problem.count, 0.75));
+            self.carry(0.5, 0.75);
+        }
+        self.drift_pairs(0.5);
+        self.kick_pairs(0.5);
+    }
+    /// Rates that the next step is going to use, around a measurement.
+    pub(super) fn keep_rates(&mut self, restore: bool) {
+        let columns = self.problem.columns.clone();
+        let mut known = vec![crate::kernel::Name::from("acceleration")];
+        let used = |pair: &Pair| matches!(pair.way, Way::Kick | Way::Torque { .. });
+        for pair in columns.pairs().into_iter().filter(used) {
+            let part = Part::of(&pair.rate, &columns);
+            if !known.contains(&part.buffer) {
+                known.push(part.buffer.clone());
+                let kernel = if restore { around::restore } else { around::keep };
+                self.add(kernel(&part, &self.problem));
+            }
+        }
+    }
+    /// Columns that are no numbers raise the alarm.
+    pub(super) fn watch_pairs(&mut self) {
+        self.each_pair(|pair, columns, problem| around::watch(&Part::of(&pair.column, columns), problem).transpose());
+    }
+}

@@ -1,0 +1,83 @@
+//! The plans that come of what an integrator has written.
+
+use super::Step;
+use crate::error::Error;
+use crate::forces::{Component, Problem, Stage};
+use crate::integrators::verbs::{at, keep, life, pace, tick, watch};
+use crate::kernel::{Kernel, Plan};
+use crate::tree::Opening;
+
+impl<'a> Step<'a> {
+    /// The plan of what is done once: what the integrator wrote, and a look for numbers that are broken from the start,
+    /// while they are those of the particles at fault. A step spreads them: everybody attracts everybody.
+    ///
+    /// # Errors
+    /// The first thing that went wrong while it was written.
+    pub fn begun(mut self) -> Result<Plan, Error> {
+        if !self.evaluated {
+            self.evaluate();
+        }
+        // Who opens groups by what was felt last, has felt something then.
+        if self.looks_back() {
+            self.evaluate();
+        }
+        self.urge();
+        self.add(watch::kernel(self.problem.count));
+        self.watch_pairs();
+        self.finished()
+    }
+    /// Whether what is felt depends on what was felt last.
+    fn looks_back(&self) -> bool {
+        let mut laws = self.forces.iter().flat_map(|force| force.laws());
+        laws.any(|law| law.tree(&self.problem).is_some_and(|tree| matches!(tree.opening, Opening::Relative { .. })))
+    }
+    /// The plan of one step: what the integrator wrote, the clock's tick, births and deaths, and a look for broken numbers.
+    ///
+    /// # Errors
+    /// The first thing that went wrong while the step was written.
+    pub fn done(mut self) -> Result<Plan, Error> {
+        self.each(Stage::EndOfStep);
+        self.add(if self.problem.pace.is_some() { pace::tick(&self.problem) } else { tick::kernel() });
+        self.populate();
+        // Who has just been born has a say in the length of its first step.
+        self.urge();
+        self.add(watch::kernel(self.problem.count));
+        self.watch_pairs();
+        self.finished()
+    }
+    /// The plan without tick and watch.
+    ///
+    /// # Errors
+    /// The first thing that went wrong while the step was written.
+    pub fn finished(mut self) -> Result<Plan, Error> {
+        self.flush();
+        // Where nothing asks for the time within a step, nothing need set it.
+        // By what they run, not by what they are called: a force may be called anything.
+        let runs = |kernel: &Kernel, entry| kernel.passes.iter().all(|p| p.shader.reflection().entry == entry);
+        let asked = |kernel: &Kernel| {
+            ![tick::NAME, life::BEAR].into_iter().any(|entry| runs(kernel, entry))
+                && kernel.passes.iter().any(|p| p.shader.reflection().reads_time)
+        };
+        let within: Vec<_> = self.plan.kernels.iter().map(|k| runs(k, at::NAME)).collect();
+        if !self.plan.kernels.iter().zip(&within).any(|(kernel, at)| !at && asked(kernel)) {
+            self.plan.order.retain(|index| !within.get(*index).is_some_and(|at| *at));
+        }
+        self.error.map_or(Ok(self.plan), Err)
+    }
+    /// The two plans around a measurement: the first keeps the forces that the next step is going to use and evaluates
+    /// them at the present state; the second puts the kept ones back.
+    ///
+    /// # Errors
+    /// The first thing that went wrong while they were written.
+    pub fn measurement(forces: &'a [Box<dyn Component>], problem: Problem) -> Result<(Plan, Plan), Error> {
+        let count = problem.count;
+        let mut before = Self::new(forces, problem.clone());
+        before.add(keep::keep(count));
+        before.keep_rates(false);
+        before.evaluate();
+        let mut after = Self::new(forces, problem);
+        after.add(keep::restore(count));
+        after.keep_rates(true);
+        Ok((before.finished()?, after.finished()?))
+    }
+}

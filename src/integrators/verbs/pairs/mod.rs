@@ -1,0 +1,182 @@
+//! The verbs for declared columns: what integrators do to positions and velocities, they do to every column with a rate.
+
+pub mod advance;
+pub mod around;
+pub mod runge_kutta;
+
+use std::ops::{Add, Mul, Range};
+use std::sync::Arc;
+
+use glam::{DVec4, Vec4};
+
+use crate::error::Error;
+use crate::kernel::{
+    Column, Columns, Element, Host, Kernel, Name, Pair, Pass, Problem, Shader, Shape, Source, Table, Threads, Twin,
+};
+
+/// The part of a buffer that a column is: what kernels bind of it, and of which elements.
+#[derive(Debug, Clone)]
+pub struct Part {
+    /// The column, for names.
+    pub name: Name,
+    /// Its buffer.
+    pub buffer: Name,
+    /// Whether the elements of the buffer are vectors.
+    pub vectors: bool,
+    /// Its components of each element.
+    pub components: Range<usize>,
+    /// How many elements there are.
+    pub shape: Shape,
+}
+
+/// A column and the buffer of its rate, which lies there as the column does.
+#[derive(Debug, Clone)]
+pub struct Advanced {
+    /// What is advanced.
+    pub part: Part,
+    /// The buffer of its rate.
+    pub rate: Name,
+}
+
+impl Part {
+    /// That of a declared column.
+    pub fn of(column: &Column, columns: &Columns) -> Self {
+        let first = usize::from(column.place.component);
+        Self {
+            name: column.name.clone(),
+            buffer: column.place.buffer.clone(),
+            vectors: columns.lies_in_vectors(column),
+            components: first..first + column.kind.components(),
+            shape: column.shape,
+        }
+    }
+    fn elements(&self, problem: &Problem) -> usize {
+        self.shape.len(problem.count as usize)
+    }
+    fn slots(&self) -> usize {
+        if let Shape::Slots(k) = self.shape { k as usize } else { 1 }
+    }
+    /// The file with the element of its buffer.
+    fn source(&self) -> Source {
+        if self.vectors {
+            crate::shader!("integrators/pairs/vector.wgsl")
+        } else {
+            crate::shader!("integrators/pairs/scalar.wgsl")
+        }
+    }
+    /// Which particles' elements go on: not those of fixed ones, nor of those that are not active.
+    fn moving(&self, problem: &Problem, host: &Host) -> Result<impl Fn(usize) -> bool + use<>, Error> {
+        let (lives, mask, slots) = (host.lives()?, problem.mask.clone(), self.slots());
+        let all = matches!(self.shape, Shape::System(_));
+        Ok(move |i: usize| {
+            let id = i / slots;
+            all || lives(id) && mask.get(id).is_none_or(|word| *word == 0)
+        })
+    }
+}
+
+impl Advanced {
+    /// Those of a declared pair.
+    pub fn of(pair: &Pair, columns: &Columns) -> Self {
+        Self { part: Part::of(&pair.column, columns), rate: pair.rate.place.buffer.clone() }
+    }
+}
+
+/// The element of a buffer of real numbers, of which a column is a part.
+pub trait Real: Element<Twin: Add<Output = Self::Twin> + Mul<f64, Output = Self::Twin>> {
+    /// Nothing.
+    const ZERO: Self::Twin;
+    /// The new value in the components of a column, the old one elsewhere.
+    fn own(old: Self::Twin, new: Self::Twin, components: &Range<usize>) -> Self::Twin;
+    /// Whether the components of a column are numbers.
+    fn is_finite(value: Self::Twin, components: &Range<usize>) -> bool;
+}
+
+impl Real for f32 {
+    const ZERO: f64 = 0.0;
+    fn own(_: f64, new: f64, _: &Range<usize>) -> f64 {
+        new
+    }
+    fn is_finite(value: f64, _: &Range<usize>) -> bool {
+        value.is_finite()
+    }
+}
+
+impl Real for Vec4 {
+    const ZERO: DVec4 = DVec4::ZERO;
+    fn own(old: DVec4, new: DVec4, components: &Range<usize>) -> DVec4 {
+        let (mut mixed, new) = (old.to_array(), new.to_array());
+        for (mixed, new) in mixed.iter_mut().zip(new).take(components.end).skip(components.start) {
+            *mixed = new;
+        }
+        DVec4::from(mixed)
+    }
+    fn is_finite(value: DVec4, components: &Range<usize>) -> bool {
+        Self::own(DVec4::ZERO, value, components).is_finite()
+    }
+}
+
+/// What a kernel does, for either element.
+pub trait Work: Clone + Send + Sync + 'static {
+    /// The reference.
+    fn run<T: Real>(&self, host: &Host) -> Result<(), Error>;
+}
+
+/// A kernel of one invocation for each element of a part, under the name of its column.
+pub fn kernel(
+    verb: &str,
+    part: &Part,
+    file: Source,
+    constants: &[(&'static str, f64)],
+    fields: Vec<(&'static str, Name)>,
+    problem: &Problem,
+    work: impl Work,
+) -> Result<Kernel, Error> {
+    let system = matches!(part.shape, Shape::System(_));
+    let (holding, tables): (Source, Vec<Table>) =
+        if system { (crate::shader!("motion/free.wgsl"), Vec::new()) } else { problem.holding() };
+    let living = if system { crate::shader!("life/everybody.wgsl") } else { problem.living() };
+    let shader = Shader::join(&[
+        crate::shader!("world.wgsl"),
+        crate::shader!("broken.wgsl"),
+        holding,
+        living,
+        part.source(),
+        file,
+    ])?;
+    let elements = part.elements(problem);
+    let own = [
+        ("ELEMENTS", elements),
+        ("SLOTS", part.slots()),
+        ("FIRST", part.components.start),
+        ("END", part.components.end),
+    ];
+    let known = |name: &str| shader.reflection().overrides.contains_key(name);
+    let own = own.into_iter().filter(|(name, _)| known(name)).map(|(name, value)| (name, value as f64));
+    let constants: Vec<_> = constants.iter().copied().chain(own).collect();
+    // Those that are one for each particle need no word of their length.
+    let sizes = |fields: &[(&'static str, Name)]| -> Vec<(Name, u64)> {
+        let listed = part.shape != Shape::Particle;
+        fields.iter().filter(|_| listed).map(|(_, name)| (name.clone(), elements as u64)).collect()
+    };
+    let number = u32::try_from(elements).map_err(|_| {
+        Error::Limit(format!("the column `{}` has {elements} elements: 2³² − 1 are the most", part.name))
+    })?;
+    let twin: Twin = if part.vectors {
+        Arc::new(move |host: &Host| work.run::<Vec4>(host))
+    } else {
+        Arc::new(move |host: &Host| work.run::<f32>(host))
+    };
+    let (sizes, threads) = (sizes(&fields), Threads::new(number));
+    let pass = Pass { constants, fields, threads, ..Pass::new(shader, number) };
+    let factors = pass.constants.iter().filter(|(name, value)| ["FACTOR", "WEIGHT"].contains(name) && *value != 1.0);
+    let factors: String = factors.map(|(name, value)| format!(" {name}={}", crate::kernel::short(*value))).collect();
+    Ok(Kernel {
+        name: format!("{verb} {}{factors}", part.name),
+        passes: vec![pass],
+        twin: Some(twin),
+        sizes,
+        scratch: Vec::new(),
+        tables,
+    })
+}

@@ -1,0 +1,42 @@
+//! Columns that integrators advance by their rates: orders, lockstep, fixed and inactive particles, rigid bodies, refusals.
+
+#![allow(clippy::cast_possible_truncation, reason = "numbers are rounded to what f32 holds")]
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod elliptic;
+mod lockstep;
+mod orders;
+mod refusals;
+mod tops;
+
+use motes::forces::Component;
+use motes::kernel::{Array, Backend};
+use motes::{Bounds, Cpu, Setup, Simulation, State};
+use support::states::integrator;
+
+fn setup(state: &State, forces: Vec<Box<dyn Component>>, name: &str, dt: f64) -> Setup {
+    Setup {
+        state: state.clone(),
+        forces,
+        integrator: integrator(name),
+        dt,
+        bounds: Bounds::default(),
+        solver: motes::Solver::default(),
+    }
+}
+
+/// A simulation by the references, whose columns begin so.
+fn by_references(setup: &Setup, columns: &[(&str, Array)]) -> Simulation<Cpu> {
+    let count = u32::try_from(setup.state.len()).expect("few");
+    let mut simulation = Simulation::on(Cpu::new(count).expect("some"), setup).expect("a simulation");
+    for (name, values) in columns {
+        simulation.backend().write(name, values).expect("a column");
+    }
+    simulation
+}
+
+fn column(simulation: &mut Simulation<Cpu>, name: &str) -> Array {
+    simulation.backend().host().get(name).unwrap_or_else(|| panic!("no column `{name}`"))
+}
