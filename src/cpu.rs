@@ -3,7 +3,7 @@
 use std::sync::OnceLock;
 
 use crate::error::Error;
-use crate::kernel::{Access, Array, Backend, Host, Machine, POSITION, Plan, VELOCITY, World};
+use crate::kernel::{Access, Array, Backend, Host, Machine, Next, POSITION, Plan, VELOCITY, World};
 
 /// How many threads kernels run on. They are started here, once; a program that has made rayon's global pool by itself keeps it.
 ///
@@ -82,8 +82,13 @@ impl Backend for Cpu {
     }
     fn run(&mut self, program: &Plan, times: u32) -> Result<(), Error> {
         for _ in 0..times {
-            for twin in program.steps().filter_map(|kernel| kernel.twin.as_ref()) {
-                twin(&self.host)?;
+            let mut walk = program.walk();
+            while let Some(next) = walk.next() {
+                match next {
+                    Next::Run(kernel) => kernel.twin.as_ref().map_or(Ok(()), |twin| twin(&self.host))?,
+                    Next::Ask(flag) if self.host.is_set(flag)? => walk.leave(),
+                    Next::Ask(_) => {}
+                }
             }
         }
         Ok(())

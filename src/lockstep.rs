@@ -11,7 +11,9 @@ use glam::DVec4;
 
 use crate::error::Error;
 use crate::gpu::Gpu;
-use crate::kernel::{ACCELERATION, Access, Array, Backend, Host, Kernel, LIFE, Name, POSITION, Plan, VELOCITY, World};
+use crate::kernel::{
+    ACCELERATION, Access, Array, Backend, Host, Kernel, LIFE, Name, Next, POSITION, Plan, VELOCITY, World,
+};
 
 /// What a kernel may be wrong by, in parts of what it changed: a sum of n terms of one magnitude rounds by about √n ulp,
 /// and blocks keep √n below 100; with 6e-8 for an ulp that is 6e-6. The worst seen on lavapipe is 2e-6.
@@ -67,8 +69,18 @@ impl Verdict {
 pub async fn compare(gpu: &mut Gpu, plan: &Plan, count: u32) -> Result<Vec<Verdict>, Error> {
     gpu.compile(plan)?;
     let mut verdicts = Vec::new();
-    for kernel in plan.steps() {
-        let single = Plan { kernels: vec![kernel.clone()], order: vec![0] };
+    let mut walk = plan.walk();
+    while let Some(next) = walk.next() {
+        let kernel = match next {
+            Next::Run(kernel) => kernel,
+            Next::Ask(flag) => {
+                if gpu.is_set(flag).await? {
+                    walk.leave();
+                }
+                continue;
+            }
+        };
+        let single = Plan::of([kernel.clone()]);
         let program = gpu.compile(&single)?;
         let Some(twin) = &kernel.twin else {
             gpu.run(&program, 1)?;

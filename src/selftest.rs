@@ -90,7 +90,7 @@ fn question(source: Source) -> Result<Plan, Error> {
     let sizes = vec![(PROBE.into(), WORDS as u64), (ANSWER.name.into(), WORDS as u64)];
     let kernel =
         Kernel { name, passes: vec![Pass::new(shader, 1)], twin: None, sizes, scratch: Vec::new(), tables: Vec::new() };
-    Ok(Plan { kernels: vec![kernel], order: vec![0] })
+    Ok(Plan::of([kernel]))
 }
 
 async fn loops(gpu: &mut Gpu, source: &Source) -> Result<Finding, Error> {

@@ -23,14 +23,17 @@ pub async fn explain(args: &SceneArgs) -> Result<(), Failure> {
         out!("box: {}", scene.bounds);
     }
     out!("");
-    if !plans.start.order.is_empty() {
+    if !plans.start.is_empty() {
         out!("once:  {}", plans.start);
     }
     out!("step:  {}\n", plans.step);
-    // Kernels that nothing runs are left out of the order.
-    let step = &plans.step;
-    for (_, kernel) in step.kernels.iter().enumerate().filter(|(place, _)| step.order.contains(place)) {
-        out!("{}", describe(kernel));
+    // Some kernels run more than once.
+    let mut described: Vec<*const Kernel> = Vec::new();
+    for kernel in plans.step.steps() {
+        if !described.contains(&std::ptr::from_ref(kernel)) {
+            described.push(kernel);
+            out!("{}", describe(kernel));
+        }
     }
     Ok(())
 }

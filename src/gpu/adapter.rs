@@ -75,7 +75,18 @@ pub fn instance() -> wgpu::Instance {
 
 fn instance_of(backends: wgpu::Backends) -> wgpu::Instance {
     let default = wgpu::InstanceDescriptor::new_without_display_handle();
-    wgpu::Instance::new(wgpu::InstanceDescriptor { backends, ..default }.with_env())
+    wgpu::Instance::new(wgpu::InstanceDescriptor { backends, flags: flags(), ..default }.with_env())
+}
+
+/// What an instance should check. Indirect arguments of this crate are workgroups that fit the device, or zero, and no user's
+/// shader can write them. To check them on the device costs a dispatch and two barriers for each indirect dispatch: where
+/// that is left out, an iteration that a solver does not need takes 1 µs instead of 60 µs on lavapipe. Direct3D 12 needs the
+/// check, which passes on how many workgroups there are.
+#[must_use]
+pub fn flags() -> wgpu::InstanceFlags {
+    let checked =
+        if cfg!(windows) { wgpu::InstanceFlags::VALIDATION_INDIRECT_CALL } else { wgpu::InstanceFlags::empty() };
+    wgpu::InstanceFlags::from_build_config().difference(wgpu::InstanceFlags::VALIDATION_INDIRECT_CALL) | checked
 }
 
 /// All adapters, best first. Those of OpenGL are looked for only where there are no others.

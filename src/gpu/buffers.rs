@@ -10,21 +10,21 @@ pub struct Buffers {
     device: wgpu::Device,
     count: u32,
     padding: u64,
-    /// Those that say how many workgroups a dispatch has.
-    telling: BTreeSet<String>,
+    /// Those that hold indirect arguments.
+    indirect: BTreeSet<String>,
     named: BTreeMap<String, (wgpu::Buffer, u64)>,
 }
 
 impl Buffers {
     pub fn new(device: wgpu::Device, count: u32) -> Self {
-        Self { device, count, padding: 0, telling: BTreeSet::new(), named: BTreeMap::new() }
+        Self { device, count, padding: 0, indirect: BTreeSet::new(), named: BTreeMap::new() }
     }
     pub fn pad(&mut self, elements: u64) {
         self.padding = elements;
     }
-    /// Says that a field, once it is made, tells how many workgroups a dispatch has.
-    pub fn tells(&mut self, name: &str) {
-        self.telling.insert(name.to_owned());
+    /// Says that a field, once it is made, holds indirect arguments.
+    pub fn dispatches(&mut self, name: &str) {
+        self.indirect.insert(name.to_owned());
     }
     pub fn get(&self, name: &str) -> Option<&wgpu::Buffer> {
         self.named.get(name).map(|(buffer, _)| buffer)
@@ -51,7 +51,7 @@ impl Buffers {
         let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC | wgpu::BufferUsages::COPY_DST;
         let extra = match name {
             "world" => wgpu::BufferUsages::UNIFORM,
-            _ if self.telling.contains(name) => wgpu::BufferUsages::INDIRECT,
+            _ if self.indirect.contains(name) => wgpu::BufferUsages::INDIRECT,
             _ => wgpu::BufferUsages::VERTEX,
         };
         let descriptor =

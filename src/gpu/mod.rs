@@ -7,12 +7,13 @@ mod fault;
 mod pipeline;
 mod program;
 mod read;
+mod repeat;
 mod submit;
 mod timing;
 
 use std::time::Duration;
 
-pub use adapter::{Choice, Found, NO_DRIVER, adapters, choose, instance, open};
+pub use adapter::{Choice, Found, NO_DRIVER, adapters, choose, flags, instance, open};
 use buffers::Buffers;
 pub use fault::Faults;
 use pipeline::Pipelines;
@@ -20,7 +21,7 @@ pub use program::Program;
 use submit::Queue;
 
 use crate::error::Error;
-use crate::kernel::{Array, Backend, Machine, Packed, Plan, Shader, World};
+use crate::kernel::{Array, Backend, Flag, Machine, Packed, Plan, Shader, World};
 
 /// A device that is borrowed from whoever owns it, with the fields and pipelines made on it.
 pub struct Gpu {
@@ -90,11 +91,7 @@ impl Gpu {
     pub fn encode(&self, program: &Program, times: u32, encoder: &mut wgpu::CommandEncoder) {
         let mut pass =
             encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("motes"), timestamp_writes: None });
-        for _ in 0..times {
-            for dispatch in &program.dispatches {
-                dispatch.encode(&mut pass);
-            }
-        }
+        program.encode(times, &mut pass);
     }
     /// The name of the adapter and its driver.
     #[must_use]
@@ -131,6 +128,14 @@ impl Gpu {
         let buffer = self.buffers.get(name).ok_or_else(|| buffers::missing(name))?;
         read::bytes(&self.device, &mut self.queue, buffer, from, len).await
     }
+    /// Whether a flag is set.
+    ///
+    /// # Errors
+    /// When there is no such field, the device is lost, or it does not answer in time.
+    pub async fn is_set(&mut self, flag: &Flag) -> Result<bool, Error> {
+        let bytes = self.bytes(&flag.field, 4 * u64::from(flag.word), 4).await?;
+        Ok(bytes.iter().any(|byte| *byte != 0))
+    }
     /// The length of a field, in bytes, with padding.
     #[must_use]
     pub fn size(&self, name: &str) -> u64 {
@@ -157,8 +162,15 @@ impl Backend for Gpu {
         self.machine
     }
     fn compile(&mut self, plan: &Plan) -> Result<Program, Error> {
-        for (name, _) in plan.kernels.iter().flat_map(|k| &k.passes).filter_map(|pass| pass.told.as_ref()) {
-            self.buffers.tells(name);
+        for indirect in plan.kernels.iter().flat_map(|k| &k.passes).filter_map(|pass| pass.indirect.as_ref()) {
+            if !indirect.field.contains(' ') {
+                let text = format!(
+                    "the indirect arguments `{}` could be written by any shader: their name needs a space",
+                    indirect.field
+                );
+                return Err(Error::Device(text));
+            }
+            self.buffers.dispatches(&indirect.field);
         }
         for (name, bytes) in plan.fields(self.count) {
             if name != "world"

@@ -1,45 +1,45 @@
-//! A plan made ready: pipelines, bind groups and grids.
+//! A plan made ready: pipelines, bind groups, and dispatches in the order in which they are encoded.
 
 use super::buffers::{Buffers, missing};
 use super::fault;
 use super::pipeline::{Pipeline, Pipelines};
+use super::repeat::{Gate, Node};
 use super::submit::Queue;
 use crate::error::Error;
 use crate::kernel::{Access, Pass, Plan};
 
 /// A plan made ready for a device.
 pub struct Program {
+    ready: Vec<Ready>,
+    arguments: Vec<wgpu::Buffer>,
     pub(super) dispatches: Vec<Dispatch>,
 }
 
-/// One dispatch, ready to be encoded.
-#[derive(Clone)]
-pub(super) struct Dispatch {
+/// A pass made ready.
+struct Ready {
     pipeline: wgpu::ComputePipeline,
     groups: Vec<(u32, wgpu::BindGroup)>,
-    grid: Grid,
+    workgroups: Workgroups,
+    work: u64,
+}
+
+/// One dispatch: of what is ready, by its place.
+#[derive(Clone, Copy)]
+pub(super) struct Dispatch {
+    ready: usize,
+    workgroups: Workgroups,
     pub work: u64,
 }
 
 /// How many workgroups there are.
-#[derive(Clone)]
-enum Grid {
+#[derive(Clone, Copy)]
+pub(super) enum Workgroups {
     Known([u32; 3]),
-    /// By three words of a field, from this byte on.
-    Told(wgpu::Buffer, u64),
-}
-
-impl Dispatch {
-    pub fn encode(&self, pass: &mut wgpu::ComputePass) {
-        pass.set_pipeline(&self.pipeline);
-        for (index, group) in &self.groups {
-            pass.set_bind_group(*index, group, &[]);
-        }
-        match &self.grid {
-            Grid::Known([x, y, z]) => pass.dispatch_workgroups(*x, *y, *z),
-            Grid::Told(buffer, from) => pass.dispatch_workgroups_indirect(buffer, *from),
-        }
-    }
+    /// By three words of a buffer of arguments, from this byte on.
+    Indirect {
+        arguments: usize,
+        offset: u64,
+    },
 }
 
 impl Program {
@@ -49,57 +49,143 @@ impl Program {
         buffers: &Buffers,
         plan: &Plan,
     ) -> Result<Self, Error> {
-        let mut kernels = Vec::new();
+        let program = Self { ready: Vec::new(), arguments: Vec::new(), dispatches: Vec::new() };
+        let mut builder = Builder { queue, pipelines, buffers, program, kernels: Vec::new() };
         for kernel in &plan.kernels {
-            let ready: Result<Vec<_>, _> =
-                kernel.passes.iter().map(|p| dispatch(queue, pipelines, buffers, p)).collect();
-            kernels.push(ready?);
+            let ready: Result<Vec<_>, _> = kernel.passes.iter().map(|pass| builder.ready(pass, &[])).collect();
+            builder.kernels.push(ready?);
         }
-        let dispatches = plan.order.iter().filter_map(|i| kernels.get(*i)).flatten().cloned().collect();
-        Ok(Self { dispatches })
+        for op in &plan.ops {
+            let node = builder.node(op)?;
+            builder.encode(&node, None)?;
+        }
+        Ok(builder.program)
     }
-}
-
-fn dispatch(queue: &mut Queue, pipelines: &mut Pipelines, buffers: &Buffers, pass: &Pass) -> Result<Dispatch, Error> {
-    let pipeline = pipelines.get(pass)?;
-    let device = queue.device().clone();
-    let grid = match &pass.told {
-        None => Grid::Known(pass.workgroups(device.limits().max_compute_workgroups_per_dimension)?),
-        Some((field, word)) => {
-            Grid::Told(buffers.get(field).ok_or_else(|| missing(field))?.clone(), 4 * u64::from(*word))
-        }
-    };
-    let groups = fault::scoped(&device, || groups(queue, buffers, pass, &pipeline))??;
-    Ok(Dispatch { pipeline: pipeline.pipeline, groups, grid, work: pass.work })
-}
-
-fn groups(
-    queue: &mut Queue,
-    buffers: &Buffers,
-    pass: &Pass,
-    pipeline: &Pipeline,
-) -> Result<Vec<(u32, wgpu::BindGroup)>, Error> {
-    let mut groups = Vec::new();
-    for (index, layout) in &pipeline.groups {
-        let mut bound = Vec::new();
-        for (field, binding) in pass.bindings().filter(|(_, b)| b.group == *index) {
-            let own = pass.uniforms.iter().find(|(name, _)| *name == binding.name);
-            let buffer = match own {
-                Some((name, bytes)) => queue.uniform(name, bytes)?,
-                None => buffers.get(field).ok_or_else(|| missing(field))?.clone(),
-            };
-            if binding.access == Access::Uniform && !buffer.usage().contains(wgpu::BufferUsages::UNIFORM) {
-                return Err(missing(field));
+    /// Encodes all of it, a number of times.
+    pub(super) fn encode(&self, times: u32, pass: &mut wgpu::ComputePass) {
+        (0..times).for_each(|_| self.encode_some(&self.dispatches, pass));
+    }
+    /// Encodes some of its dispatches.
+    pub(super) fn encode_some<'a>(
+        &self,
+        dispatches: impl IntoIterator<Item = &'a Dispatch>,
+        pass: &mut wgpu::ComputePass,
+    ) {
+        for dispatch in dispatches {
+            let ready = &self.ready[dispatch.ready];
+            pass.set_pipeline(&ready.pipeline);
+            for (index, group) in &ready.groups {
+                pass.set_bind_group(*index, group, &[]);
             }
-            bound.push((binding.binding, buffer));
+            match dispatch.workgroups {
+                Workgroups::Known([x, y, z]) => pass.dispatch_workgroups(x, y, z),
+                Workgroups::Indirect { arguments, offset } => {
+                    pass.dispatch_workgroups_indirect(&self.arguments[arguments], offset);
+                }
+            }
         }
-        let entries: Vec<_> = bound
-            .iter()
-            .map(|(binding, buffer)| wgpu::BindGroupEntry { binding: *binding, resource: buffer.as_entire_binding() })
-            .collect();
-        let group =
-            queue.device().create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout, entries: &entries });
-        groups.push((*index, group));
     }
-    Ok(groups)
+}
+
+/// A program that is being made.
+pub(super) struct Builder<'a> {
+    pub queue: &'a mut Queue,
+    pipelines: &'a mut Pipelines,
+    buffers: &'a Buffers,
+    program: Program,
+    /// The places of what is ready of each kernel.
+    kernels: Vec<Vec<usize>>,
+}
+
+/// A buffer in place of a field of that name.
+pub(super) type Own<'a> = (&'a str, &'a wgpu::Buffer);
+
+impl Builder<'_> {
+    /// Makes a pass ready, and gives its place. Some of its fields may be buffers of its own.
+    pub fn ready(&mut self, pass: &Pass, own: &[Own<'_>]) -> Result<usize, Error> {
+        let pipeline = self.pipelines.get(pass)?;
+        let device = self.queue.device().clone();
+        let workgroups = match &pass.indirect {
+            None => Workgroups::Known(pass.workgroups(device.limits().max_compute_workgroups_per_dimension)?),
+            Some(indirect) => {
+                let buffer = self.buffers.get(&indirect.field).ok_or_else(|| missing(&indirect.field))?.clone();
+                Workgroups::Indirect { arguments: self.arguments(buffer), offset: 4 * u64::from(indirect.word) }
+            }
+        };
+        let groups = fault::scoped(&device, || self.groups(pass, &pipeline, own))??;
+        self.program.ready.push(Ready { pipeline: pipeline.pipeline, groups, workgroups, work: pass.work });
+        Ok(self.program.ready.len() - 1)
+    }
+    /// The place of a buffer of arguments, from now on.
+    pub fn arguments(&mut self, buffer: wgpu::Buffer) -> usize {
+        self.program.arguments.push(buffer);
+        self.program.arguments.len() - 1
+    }
+    /// What is ready of a kernel.
+    pub fn passes(&self, kernel: usize) -> &[usize] {
+        self.kernels.get(kernel).map_or(&[], Vec::as_slice)
+    }
+    /// How many workgroups something has that is not dispatched indirectly as it is.
+    pub fn workgroups(&self, ready: usize) -> Option<[u32; 3]> {
+        match self.program.ready[ready].workgroups {
+            Workgroups::Known(workgroups) => Some(workgroups),
+            Workgroups::Indirect { .. } => None,
+        }
+    }
+    /// Adds a dispatch of what is ready, behind a gate if there is one.
+    pub fn dispatch(&mut self, place: usize, gate: Option<&Gate<'_>>) -> Result<(), Error> {
+        let (ready, known) = (&self.program.ready[place], self.workgroups(place));
+        let workgroups = match (gate, known) {
+            (None, _) => ready.workgroups,
+            (Some(gate), Some(known)) => gate.workgroups(known)?,
+            (Some(_), None) => {
+                return Err(Error::Device("a kernel with indirect arguments of its own runs in a loop".to_owned()));
+            }
+        };
+        let work = ready.work;
+        self.program.dispatches.push(Dispatch { ready: place, workgroups, work });
+        Ok(())
+    }
+    /// Adds what an operation dispatches, behind a gate if there is one.
+    pub fn encode(&mut self, node: &Node, gate: Option<&Gate<'_>>) -> Result<(), Error> {
+        match node {
+            Node::Run(passes) => passes.iter().try_for_each(|place| self.dispatch(*place, gate)),
+            Node::Repeat(repeat) => repeat.encode(self, gate),
+        }
+    }
+
+    fn groups(
+        &mut self,
+        pass: &Pass,
+        pipeline: &Pipeline,
+        own: &[Own<'_>],
+    ) -> Result<Vec<(u32, wgpu::BindGroup)>, Error> {
+        let mut groups = Vec::new();
+        for (index, layout) in &pipeline.groups {
+            let mut bound = Vec::new();
+            for (field, binding) in pass.bindings().filter(|(_, b)| b.group == *index) {
+                let block = pass.uniforms.iter().find(|(name, _)| *name == binding.name);
+                let own = own.iter().find(|(name, _)| *name == field);
+                let buffer = match (block, own) {
+                    (Some((name, bytes)), _) => self.queue.uniform(name, bytes)?,
+                    (None, Some((_, buffer))) => (*buffer).clone(),
+                    (None, None) => self.buffers.get(field).ok_or_else(|| missing(field))?.clone(),
+                };
+                if binding.access == Access::Uniform && !buffer.usage().contains(wgpu::BufferUsages::UNIFORM) {
+                    return Err(missing(field));
+                }
+                bound.push((binding.binding, buffer));
+            }
+            let entries: Vec<_> = bound
+                .iter()
+                .map(|(binding, buffer)| wgpu::BindGroupEntry {
+                    binding: *binding,
+                    resource: buffer.as_entire_binding(),
+                })
+                .collect();
+            let descriptor = wgpu::BindGroupDescriptor { label: None, layout, entries: &entries };
+            groups.push((*index, self.queue.device().create_bind_group(&descriptor)));
+        }
+        Ok(groups)
+    }
 }

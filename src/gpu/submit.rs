@@ -59,12 +59,12 @@ impl Queue {
                 work += next.work + LAUNCH;
                 batch.push(next);
             }
-            self.submit(&batch, work)?;
+            self.submit(program, &batch, work)?;
         }
         Ok(())
     }
 
-    fn submit(&mut self, batch: &[&Dispatch], work: u64) -> Result<(), Error> {
+    fn submit(&mut self, program: &Program, batch: &[&Dispatch], work: u64) -> Result<(), Error> {
         while self.flying.len() >= IN_FLIGHT {
             self.land()?;
         }
@@ -76,9 +76,7 @@ impl Queue {
             {
                 let descriptor = wgpu::ComputePassDescriptor { label: Some("motes"), timestamp_writes: None };
                 let mut pass = encoder.begin_compute_pass(&descriptor);
-                for dispatch in batch {
-                    dispatch.encode(&mut pass);
-                }
+                program.encode_some(batch.iter().copied(), &mut pass);
             }
             self.inner.submit([encoder.finish()])
         })?;

@@ -34,9 +34,7 @@ pub async fn timed(
             };
             let descriptor = wgpu::ComputePassDescriptor { label: Some("timed"), timestamp_writes: Some(writes) };
             let mut pass = encoder.begin_compute_pass(&descriptor);
-            for _ in 0..times {
-                program.dispatches.iter().for_each(|d| d.encode(&mut pass));
-            }
+            program.encode(times, &mut pass);
         }
         encoder.resolve_query_set(&set, 0..2, &resolved, 0);
         (resolved, encoder.finish())

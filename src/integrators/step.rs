@@ -8,15 +8,11 @@ mod solve;
 
 pub use solve::{Explicit, Form, Implicit, implicit};
 
-use std::sync::Arc;
-
-use glam::DVec4;
-
 use super::verbs::{at, clear, drift, held, kick, kick_drift, life, pace, runge_kutta};
 use crate::boundary;
 use crate::error::Error;
 use crate::forces::{Component, Problem, Stage};
-use crate::kernel::{ACCELERATION, Kernel, Plan, Twin};
+use crate::kernel::{Kernel, Plan};
 
 /// Writes a plan in verbs. The first error is kept and given at the end, so that an integrator reads like its textbook.
 pub struct Step<'a> {
@@ -59,7 +55,7 @@ impl<'a> Step<'a> {
     pub fn evaluate(&mut self) {
         let mut laws = self.laws(|_| true);
         // The first law need not add to what has been cleared.
-        if self.apart || !laws.first_mut().is_some_and(begins) {
+        if self.apart || !laws.first_mut().is_some_and(clear::with) {
             self.add(clear::kernel(self.problem.count));
         }
         self.clear_sums(false);
@@ -83,7 +79,7 @@ impl<'a> Step<'a> {
         self.felt(laws);
     }
     /// The kernels of the laws of some forces, behind the grids that they search.
-    fn laws(&mut self, chosen: impl Fn(usize) -> bool) -> Vec<Kernel> {
+    fn laws(&mut self, chosen: impl Fn(usize) -> bool) -> Plan {
         self.flush();
         self.evaluated = true;
         self.moved = false;
@@ -98,7 +94,7 @@ impl<'a> Step<'a> {
                 self.error = force.stage(Stage::Evaluate { earlier }, &mut laws, &self.problem).err();
             }
         }
-        laws.steps().cloned().collect()
+        laws
     }
     /// How many components of the kind of one are before it: two of one kind are two kernels.
     fn earlier(&self, place: usize) -> usize {
@@ -107,10 +103,8 @@ impl<'a> Step<'a> {
         self.forces[..place].iter().filter(|other| name(other.as_ref()) == its).count()
     }
     /// Adds the kernels of laws; who is held feels nothing.
-    fn felt(&mut self, laws: Vec<Kernel>) {
-        for kernel in laws {
-            self.add(Ok(kernel));
-        }
+    fn felt(&mut self, laws: Plan) {
+        self.append(laws);
         if !self.problem.held.is_empty() {
             self.add(held::hold(&self.problem));
         }
@@ -222,12 +216,18 @@ impl<'a> Step<'a> {
                 self.error = force.stage(stage, &mut plan, &self.problem).err();
             }
         }
-        plan.steps().for_each(|kernel| self.add(Ok(kernel.clone())));
+        self.append(plan);
     }
     /// A kick that no drift has taken up is a dispatch of its own.
     fn flush(&mut self) {
         if let Some(factor) = self.kicked.take() {
             self.add(kick::kernel(self.problem.count, factor));
+        }
+    }
+    fn append(&mut self, plan: Plan) {
+        if !plan.is_empty() {
+            self.flush();
+            self.plan.append(plan);
         }
     }
     fn add_all(&mut self, kernels: Result<Vec<Kernel>, Error>) {
@@ -247,21 +247,4 @@ impl<'a> Step<'a> {
             }
         }
     }
-}
-
-/// Makes a kernel the first to say what is felt, if it can be: it sets accelerations instead of adding to them.
-fn begins(law: &mut Kernel) -> bool {
-    const FIRST: &str = "FIRST";
-    let can = law.passes.len() == 1 && law.passes[0].shader.reflection().overrides.contains_key(FIRST);
-    if can {
-        law.passes[0].constants.push((FIRST, 1.0));
-        let adds = law.twin.take();
-        law.twin = adds.map(|adds| -> Twin {
-            Arc::new(move |host| {
-                host.write(ACCELERATION)?.fill(DVec4::ZERO);
-                adds(host)
-            })
-        });
-    }
-    can
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::marker::PhantomData;
 use std::sync::{Arc, RwLock, RwLockReadGuard, RwLockWriteGuard};
 
-use super::{Array, Element, Field, LIFE, World};
+use super::{Array, Element, Field, Flag, LIFE, World};
 use crate::error::Error;
 use crate::life::Life;
 
@@ -106,6 +106,22 @@ impl Host {
     #[must_use]
     pub fn contains(&self, name: &str) -> bool {
         self.arrays.contains_key(name)
+    }
+    /// Whether a flag is set.
+    ///
+    /// # Errors
+    /// When there is no such word.
+    pub fn is_set(&self, flag: &Flag) -> Result<bool, Error> {
+        let lock = self.arrays.get(flag.field.as_ref()).ok_or_else(|| missing(&flag.field))?;
+        let array = lock.try_read().map_err(|_| aliased(&flag.field))?;
+        let word = flag.word as usize;
+        let set = match &**array {
+            Array::Vec4(all) => all.get(word / 4).map(|v| v[word % 4] != 0.0),
+            Array::Vec3(all) => all.get(word / 4).filter(|_| word % 4 < 3).map(|v| v[word % 4] != 0.0),
+            Array::Float(all) => all.get(word).map(|x| *x != 0.0),
+            Array::Uint(all) => all.get(word).map(|n| *n != 0),
+        };
+        set.ok_or_else(|| missing(&flag.field))
     }
     /// Opens an array for reading.
     ///

@@ -127,7 +127,8 @@ impl Columns {
                 column.name, rate.name
             )));
         };
-        let moments = self.get(inertia).filter(|it| it.kind == Kind::Vector && it.role == Role::State && it.rate.is_none());
+        let moments =
+            self.get(inertia).filter(|it| it.kind == Kind::Vector && it.role == Role::State && it.rate.is_none());
         let Some(moments) = moments else {
             return Err(Error::Scene(format!(
                 "the orientation `{}` has its moments of inertia in `{inertia}`: declare that as a vector, a state without a rate",

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::sync::Arc;
 
-use super::{Access, Binding, Host, Shader};
+use super::{Access, Binding, Flag, Host, Indirect, Op, Pass, Shader, Walk};
 use crate::error::Error;
 
 /// The second opinion: the same operation in f64 on the host's arrays.
@@ -16,85 +16,6 @@ pub type Name = Cow<'static, str>;
 
 /// A field that holds something from the start, and the words of its elements.
 pub type Table = (Name, Arc<Vec<u32>>);
-
-/// How many invocations a pass needs: `count` in the plane, times `layers`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Threads {
-    /// Invocations in one layer; rounded up to whole workgroups, folded over two dimensions.
-    pub count: u32,
-    /// Layers: the third dimension of the dispatch.
-    pub layers: u32,
-}
-
-impl Threads {
-    /// One layer of invocations.
-    #[must_use]
-    pub fn new(count: u32) -> Self {
-        Self { count, layers: 1 }
-    }
-}
-
-/// One dispatch.
-#[derive(Debug, Clone)]
-pub struct Pass {
-    /// What runs.
-    pub shader: Arc<Shader>,
-    /// Values of its `override`s.
-    pub constants: Vec<(&'static str, f64)>,
-    /// Contents of its uniform blocks other than `world`, by name.
-    pub uniforms: Vec<(&'static str, Vec<u8>)>,
-    /// Names in the shader that stand for another field: the name there, and the field. One shader may so serve many
-    /// fields: a scan scans whatever it is given.
-    pub fields: Vec<(&'static str, Name)>,
-    /// How wide.
-    pub threads: Threads,
-    /// How many workgroups there are, where a field says so as it goes: three words of it, from this one on. What there is
-    /// nothing to do for then costs next to nothing.
-    pub told: Option<(Name, u32)>,
-    /// About how much it does: meetings of two particles, or one per particle. Submissions are cut by it.
-    pub work: u64,
-}
-
-impl Pass {
-    /// A dispatch of one layer.
-    #[must_use]
-    pub fn new(shader: Arc<Shader>, count: u32) -> Self {
-        let (constants, uniforms, fields) = (Vec::new(), Vec::new(), Vec::new());
-        let (threads, work) = (Threads::new(count), u64::from(count));
-        Self { shader, constants, uniforms, fields, threads, told: None, work }
-    }
-    /// The same with fields in place of names of the shader.
-    #[must_use]
-    pub fn on(mut self, fields: &[(&'static str, Name)]) -> Self {
-        self.fields.extend_from_slice(fields);
-        self
-    }
-    /// The field that a name of the shader stands for.
-    #[must_use]
-    pub fn field<'a>(&'a self, name: &'a str) -> &'a str {
-        self.fields.iter().find(|(inside, _)| *inside == name).map_or(name, |(_, field)| field)
-    }
-    /// Its workgroups, folded over two dimensions where one is too short.
-    ///
-    /// # Errors
-    /// [`Error::Limit`] when a device dispatches `limit` in one dimension, and that is too few.
-    pub fn workgroups(&self, limit: u32) -> Result<[u32; 3], Error> {
-        let workgroups = self.threads.count.div_ceil(self.shader.reflection().workgroup).max(1);
-        let rows = workgroups.div_ceil(limit);
-        if rows > limit || self.threads.layers > limit {
-            let text = format!(
-                "{} invocations need {workgroups} workgroups; this device dispatches {limit} × {limit}",
-                self.threads.count
-            );
-            return Err(Error::Limit(text));
-        }
-        Ok([workgroups.div_ceil(rows), rows, self.threads.layers.max(1)])
-    }
-    /// What is bound, with the field that each binding stands for.
-    pub fn bindings(&self) -> impl Iterator<Item = (&str, &Binding)> {
-        self.shader.reflection().bindings.iter().map(|binding| (self.field(&binding.name), binding))
-    }
-}
 
 /// One operation with a name: its dispatches, in order, and its twin.
 #[derive(Clone)]
@@ -162,7 +83,7 @@ impl Kernel {
     fn runs_as(&self, other: &Self) -> bool {
         let same = |(a, b): (&Pass, &Pass)| {
             let content = a.shader.text() == b.shader.text() && a.constants == b.constants && a.uniforms == b.uniforms;
-            content && a.threads == b.threads && a.fields == b.fields && a.told == b.told
+            content && a.threads == b.threads && a.fields == b.fields && a.indirect == b.indirect
         };
         self.passes.len() == other.passes.len() && self.passes.iter().zip(&other.passes).all(same)
     }
@@ -186,16 +107,28 @@ impl std::fmt::Debug for Kernel {
     }
 }
 
-/// Kernels in the order in which they run. A kernel that runs twice is stored once.
+/// Kernels and the order in which they run. A kernel that runs twice is stored once.
 #[derive(Debug, Default, Clone)]
 pub struct Plan {
     /// The different kernels.
     pub kernels: Vec<Kernel>,
-    /// Their order.
-    pub order: Vec<usize>,
+    /// What runs, in order.
+    pub ops: Vec<Op>,
 }
 
 impl Plan {
+    /// Kernels, one after another.
+    #[must_use]
+    pub fn of(kernels: impl IntoIterator<Item = Kernel>) -> Self {
+        let mut plan = Self::default();
+        kernels.into_iter().for_each(|kernel| plan.add(kernel));
+        plan
+    }
+    /// Whether nothing runs.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.ops.is_empty()
+    }
     /// Adds a kernel at the end, under a name.
     ///
     /// # Errors
@@ -209,16 +142,77 @@ impl Plan {
     /// Adds a kernel at the end; the same one that is there already is used again. A name alone does not make it the
     /// same: a user's force may be called `drift`.
     pub fn add(&mut self, kernel: Kernel) {
-        let known = self.kernels.iter().position(|k| k.name == kernel.name && k.runs_as(&kernel));
-        let index = known.unwrap_or(self.kernels.len());
-        if known.is_none() {
-            self.kernels.push(kernel);
-        }
-        self.order.push(index);
+        let index = self.place(kernel);
+        self.ops.push(Op::Run(index));
     }
-    /// The kernels in order.
+    /// Adds all that another plan does.
+    pub fn append(&mut self, other: Self) {
+        let body = self.taken(other);
+        self.ops.extend(body);
+    }
+    /// Adds a loop: what `body` does, once and again until `member` of an element of `field` is not zero, `most` times at the
+    /// most. The member is a number of the struct that a kernel of the body writes there.
+    ///
+    /// # Errors
+    /// [`Error::Device`] when the body writes no such member: the loop would not end by itself.
+    pub fn repeat(
+        &mut self,
+        most: u32,
+        field: impl Into<Name>,
+        element: u32,
+        member: &'static str,
+        body: Self,
+    ) -> Result<(), Error> {
+        let field = field.into();
+        let written = |binding: &Binding| {
+            let its = binding.packed.members.iter().find(|its| its.name == member && its.components == 1)?;
+            let bytes = binding.stride * u64::from(element) + its.offset as u64;
+            (binding.access == Access::Write).then(|| u32::try_from(bytes / 4).ok()).flatten()
+        };
+        let mut its = body.kernels.iter().flat_map(Kernel::bindings).filter(|(name, _)| *name == field);
+        let word = its.find_map(|(_, binding)| written(binding));
+        drop(its);
+        let Some(word) = word else {
+            return Err(Error::Device(format!(
+                "a loop ends by `{member}` of `{field}`, which none of its kernels writes"
+            )));
+        };
+        let body = self.taken(body);
+        let until = Flag { field, word, member };
+        self.ops.push(Op::Repeat { most, until, body });
+        Ok(())
+    }
+    /// Leaves out kernels that are not wanted; they stay known.
+    pub fn retain(&mut self, wanted: impl Fn(&Kernel) -> bool) {
+        let kept = |index: usize| self.kernels.get(index).is_some_and(&wanted).then_some(index);
+        self.ops = self.ops.iter().filter_map(|op| op.mapped(&kept)).collect();
+    }
+    /// The kernel that runs first, unless it runs again later or in a loop.
+    pub fn first_mut(&mut self) -> Option<&mut Kernel> {
+        let Some(Op::Run(first)) = self.ops.first() else { return None };
+        let again = self.ops.iter().skip(1).flat_map(Op::kernels).any(|index| index == *first);
+        self.kernels.get_mut(*first).filter(|_| !again)
+    }
+    /// The kernels in order; those of a loop once.
     pub fn steps(&self) -> impl Iterator<Item = &Kernel> {
-        self.order.iter().filter_map(|i| self.kernels.get(*i))
+        self.ops.iter().flat_map(Op::kernels).filter_map(|index| self.kernels.get(index))
+    }
+    /// A run of it, for whoever can look at the flags of loops on the way.
+    #[must_use]
+    pub fn walk(&self) -> Walk<'_> {
+        Walk::new(self)
+    }
+    fn place(&mut self, kernel: Kernel) -> usize {
+        let known = self.kernels.iter().position(|k| k.name == kernel.name && k.runs_as(&kernel));
+        known.unwrap_or_else(|| {
+            self.kernels.push(kernel);
+            self.kernels.len() - 1
+        })
+    }
+    /// Takes the kernels of another plan, and gives its operations as they are here.
+    fn taken(&mut self, other: Self) -> Vec<Op> {
+        let places: Vec<usize> = other.kernels.into_iter().map(|kernel| self.place(kernel)).collect();
+        other.ops.iter().filter_map(|op| op.mapped(&|index| places.get(index).copied())).collect()
     }
     /// What a field holds from the start, if any kernel says so.
     #[must_use]
@@ -226,15 +220,19 @@ impl Plan {
         let tables = self.kernels.iter().flat_map(|kernel| &kernel.tables);
         tables.into_iter().find(|(name, _)| name == field).map(|(_, words)| words)
     }
-    /// Dispatches in one run.
+    /// Dispatches in one run, loops in full.
     #[must_use]
-    pub fn dispatches(&self) -> usize {
-        self.steps().map(|k| k.passes.len()).sum()
+    pub fn dispatches(&self) -> u64 {
+        self.total(|kernel| kernel.passes.len() as u64)
     }
-    /// Work in one run; see [`Pass::work`].
+    /// Work in one run, loops in full; see [`Pass::work`].
     #[must_use]
     pub fn work(&self) -> u64 {
-        self.steps().flat_map(|k| &k.passes).map(|p| p.work).sum()
+        self.total(|kernel| kernel.passes.iter().map(|pass| pass.work).sum())
+    }
+    fn total(&self, of: impl Fn(&Kernel) -> u64) -> u64 {
+        let of = |index: usize| self.kernels.get(index).map_or(0, &of);
+        self.ops.iter().map(|op| op.total(&of)).sum()
     }
     /// Bytes of every storage field that the plan names, for so many particles.
     #[must_use]
@@ -248,44 +246,11 @@ impl Plan {
                 let entry = fields.entry(field.to_owned()).or_insert(0);
                 *entry = bytes.max(*entry);
             }
-            for (name, from) in kernel.passes.iter().filter_map(|pass| pass.told.as_ref()) {
-                let entry = fields.entry(name.to_string()).or_insert(0);
-                *entry = (4 * kernel.size(name).unwrap_or(u64::from(*from) + 3)).max(*entry);
+            for Indirect { field, word } in kernel.passes.iter().filter_map(|pass| pass.indirect.as_ref()) {
+                let entry = fields.entry(field.to_string()).or_insert(0);
+                *entry = (4 * kernel.size(field).unwrap_or(u64::from(*word) + 3)).max(*entry);
             }
         }
         fields
-    }
-}
-
-/// The shortest block of two to four names that comes more than twice in a row at the start, and how often; or one name, once.
-fn repeated(names: &[String]) -> (usize, usize) {
-    let times = |length: usize| {
-        let Some(block) = names.get(..length) else { return (length, 0) };
-        (length, names.chunks_exact(length).take_while(|next| *next == block).count())
-    };
-    (2..=4).map(times).find(|(_, times)| *times > 2).unwrap_or((1, 1))
-}
-
-impl std::fmt::Display for Plan {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let name = |kernel: &Kernel| match kernel.passes.len() {
-            1 => kernel.name.clone(),
-            n => format!("{} ×{n}", kernel.name),
-        };
-        let names: Vec<String> = self.steps().map(name).collect();
-        let mut at = 0;
-        while at < names.len() {
-            let bar = if at == 0 { "" } else { " | " };
-            // What comes many times in a row, as iterations do, is written once.
-            let (length, times) = repeated(&names[at..]);
-            let block = names[at..at + length].join(" | ");
-            if times > 1 {
-                write!(f, "{bar}({block}) ×{times}")?;
-            } else {
-                write!(f, "{bar}{block}")?;
-            }
-            at += length * times;
-        }
-        Ok(())
     }
 }

@@ -38,7 +38,7 @@ pub struct Binding {
     pub array: bool,
     /// Whether its numbers are `f32`; else they are `u32`, atomic or not.
     pub float: bool,
-    /// The members, when it is a struct, without the word that nothing reads.
+    /// The members, when it is a struct or an array of them, without the word that nothing reads.
     pub packed: Packed,
     /// Vectors or numbers in one element: those of a struct of nothing but `vec4f`, or of nothing but `f32`; else 1.
     pub parts: usize,

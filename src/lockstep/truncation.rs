@@ -76,17 +76,12 @@ pub async fn truncation(
 
 /// What the plan's kernels behind that of a law have added to it, on the device.
 async fn beside(gpu: &mut Gpu, plan: &Plan, law: &str, all: &[DVec4], problem: &Problem) -> Result<Vec<DVec4>, Error> {
-    let last = plan.order.iter().position(|index| plan.kernels.get(*index).is_some_and(|kernel| kernel.name == law));
-    let end = last.map_or(plan.order.len(), |place| place + 1);
-    if end == plan.order.len() {
-        return Ok(vec![DVec4::ZERO; all.len()]);
-    }
+    let mut behind = plan.steps().skip_while(|kernel| kernel.name != law);
+    let (Some(law), Some(_)) = (behind.next(), behind.next()) else { return Ok(vec![DVec4::ZERO; all.len()]) };
     // The tree stands; what is felt is cleared and summed up again, by the law alone.
     let zeros = Array::Vec4(vec![DVec4::ZERO; all.len()]);
     gpu.write(ACCELERATION.name, &zeros)?;
-    let alone =
-        Plan { kernels: plan.kernels.clone(), order: plan.order.get(end - 1..end).unwrap_or_default().to_vec() };
-    let program = gpu.compile(&alone)?;
+    let program = gpu.compile(&Plan::of([law.clone()]))?;
     gpu.run(&program, 1)?;
     let own = gpu.read(ACCELERATION.name, &zeros, problem.count as usize).await?;
     let Array::Vec4(own) = own else { return Ok(vec![DVec4::ZERO; all.len()]) };

@@ -34,7 +34,8 @@ pub fn columns() -> Vec<Column> {
             .turning("angular_velocity", "inertia"),
         Column::new("angular_velocity", Kind::Vector, "1 / time", "how it turns, in space").with_rate("torque"),
         Column::new("torque", Kind::Vector, "mass length² / time²", "what turns it, in space").summed(),
-        Column::new("inertia", Kind::Vector, "mass length²", "its principal moments of inertia, along its own axes").required(),
+        Column::new("inertia", Kind::Vector, "mass length²", "its principal moments of inertia, along its own axes")
+            .required(),
     ]
 }
 
@@ -76,7 +77,14 @@ fn lightness(inertia: DVec3) -> DVec3 {
 }
 
 /// A kernel of one invocation for each body. Its shader knows who is held and active where it asks.
-fn kernel(verb: &str, body: &Body, file: Source, factor: Option<f64>, problem: &Problem, twin: Twin) -> Result<Kernel, Error> {
+fn kernel(
+    verb: &str,
+    body: &Body,
+    file: Source,
+    factor: Option<f64>,
+    problem: &Problem,
+    twin: Twin,
+) -> Result<Kernel, Error> {
     let (holding, tables) = problem.holding();
     let shader = Shader::join(&[
         crate::shader!("world.wgsl"),
@@ -96,7 +104,8 @@ fn kernel(verb: &str, body: &Body, file: Source, factor: Option<f64>, problem: &
         ("angular_acceleration", body.acceleration()),
     ];
     let constants: Vec<_> = factor.map(|factor| ("FACTOR", factor)).into_iter().collect();
-    let shown = factor.filter(|factor| *factor != 1.0).map(|factor| format!(" FACTOR={}", crate::kernel::short(factor)));
+    let shown =
+        factor.filter(|factor| *factor != 1.0).map(|factor| format!(" FACTOR={}", crate::kernel::short(factor)));
     let pass = Pass { constants, ..Pass::new(shader, problem.count) }.on(&fields);
     Ok(Kernel {
         name: format!("{verb} {}{}", body.orientation, shown.unwrap_or_default()),

@@ -124,7 +124,7 @@ impl Setup {
     pub(super) fn begins(&self, machine: Machine) -> Result<bool, Error> {
         let (mut plan, problem) = (Plan::default(), self.problem(machine)?);
         self.forces.iter().try_for_each(|force| force.stage(Stage::Start, &mut plan, &problem))?;
-        Ok(!plan.order.is_empty())
+        Ok(!plan.is_empty())
     }
     /// How its fluid starts, if there is one: how dense it is before the first step, by a look at everybody, which takes as
     /// long as some steps on the host.

@@ -171,7 +171,7 @@ fn searches(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
             let law = law(text, over);
             let (grid, moves) = law.grid(&problem).expect("a range").expect("a grid");
             let kernels = vec![grid.kernel(&problem, moves).expect("a grid"), law.kernel(&problem).expect("a search")];
-            let plan = Plan { kernels, order: vec![0, 1] };
+            let plan = Plan::of(kernels);
             let simulation = moving(device, FEW, Some(machine));
             stages.push(staged(&format!("{} of the living", over.name()), simulation, Bounds::default(), plan));
         }

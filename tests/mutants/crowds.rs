@@ -9,7 +9,7 @@ use motes::kernel::{ALARM, Backend, Kernel, Plan, QUIET};
 use motes::settings::Value;
 use motes::{Bounds, Gpu, POSITION, Setup, Simulation, State};
 
-use crate::dfsph::{ANYTIME, SPACING, anything, go, state, words};
+use crate::dfsph::{ANYTIME, SPACING, anything, words};
 use crate::stages::{Device, Stage};
 use crate::support::machines::alone;
 use crate::support::states::{force, integrator, word};
@@ -92,7 +92,7 @@ fn crowded(device: &Device, stages: &mut Vec<Stage>) {
             places.iter().flat_map(|x| x.as_vec3().extend(SPACING.powi(3) as f32).to_array()).collect();
         words(&simulation, POSITION.name, &back);
         let grid = plan.steps().find(|kernel| kernel.name.starts_with("grid")).expect("a grid").clone();
-        let both = Plan { kernels: vec![grid, named(&plan, "fluid response")], order: vec![0, 1] };
+        let both = Plan::of([grid, named(&plan, "fluid response")]);
         let stage = Stage::amid(&format!("a crowd and {more}"), &simulation, both).slack(4.0);
         let first = [u32::MAX, u32::MAX, 0, u32::MAX, u32::MAX, 0, 0, 0];
         let told = || first.map(f32::from_bits).to_vec();
@@ -102,7 +102,8 @@ fn crowded(device: &Device, stages: &mut Vec<Stage>) {
 
 /// Errors of so many that they are added in two dispatches.
 fn many(device: &Device, stages: &mut Vec<Stage>) {
-    const MANY: usize = 9000;
+    // Whole runs, so that a workgroup too many begins right where the errors end.
+    const MANY: usize = 5 * 2048;
     let mut particles = State::default();
     let mut random = Random::new(19);
     for n in 0..MANY {
@@ -122,22 +123,16 @@ fn many(device: &Device, stages: &mut Vec<Stage>) {
     };
     let plan = setup.plans(gpu.machine()).expect("plans").step;
     let simulation = Rc::new(RefCell::new(Simulation::on(gpu, &setup).expect("a simulation")));
-    go(&simulation, &plan);
     let errors: Vec<f32> = (0..MANY).map(|_| 1.3 + random.narrow()).collect();
     for which in ["divergence", "density"] {
         let [tally, decide] = ["tally", "decide"].map(|end| named(&plan, &format!("fluid {which} {end}")));
-        for (code, other) in [(0.0, 1.0), (1.0, 0.0)] {
-            words(&simulation, tally.passes[0].field("errors"), &errors);
-            words(&simulation, decide.passes[0].field("errors"), &errors[..MANY.div_ceil(2048)]);
-            let codes = if which == "density" { [other, code] } else { [code, other] };
-            state(&simulation, codes);
-            for kernel in [&tally, &decide] {
-                stages.push(Stage::amid(
-                    &format!("{} of many, {code}", kernel.name),
-                    &simulation,
-                    alone(kernel.clone()),
-                ));
-            }
+        words(&simulation, tally.passes[0].field("errors"), &errors);
+        words(&simulation, decide.passes[0].field("errors"), &errors[..MANY.div_ceil(2048)]);
+        let mut wider = tally.clone();
+        wider.name.push_str(", wider");
+        wider.passes[0].threads.count += 256;
+        for kernel in [tally, wider, decide] {
+            stages.push(Stage::amid(&format!("{} of many", kernel.name), &simulation, alone(kernel)));
         }
     }
 }

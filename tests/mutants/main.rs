@@ -21,6 +21,7 @@ mod paced;
 mod paces;
 mod pairs;
 mod primitives;
+mod repeat;
 mod rods;
 mod stages;
 mod strained;
@@ -136,6 +137,7 @@ fn every_mutant_is_noticed() {
         paces::EQUIVALENT,
         fluids::EQUIVALENT,
         pairs::EQUIVALENT,
+        repeat::EQUIVALENT,
     ]
     .concat();
     let ledger = Mutex::new(Ledger::new(&equivalents));

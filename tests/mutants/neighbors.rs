@@ -20,7 +20,7 @@ const EIGHT: Machine = Machine { software: true, subgroup: 8, invocations: 256, 
 fn plan(law: Law, problem: &Problem) -> Plan {
     let (grid, moving) = law.grid(problem).expect("a range").expect("a grid");
     let kernels = vec![grid.kernel(problem, moving).expect("a grid"), law.kernel(problem).expect("a search")];
-    Plan { kernels, order: vec![0, 1] }
+    Plan::of(kernels)
 }
 
 struct Place<'a> {

@@ -24,11 +24,23 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("pairs/vector.wgsl", "override FIRST: u32 = 0u;", "0u", "1u", ALWAYS_SET),
     same("pairs/vector.wgsl", "override END: u32 = 3u;", "3u", "4u", ALWAYS_SET),
     same("pairs/watch.wgsl", "if i < ELEMENTS", "<", "<=", "what stands behind the last is a number"),
-    same("rotation/", "if i < world.count && !is_held(i) && lives(i)", "<", "<=", "behind the last word of life stands none that says 1"),
+    same(
+        "rotation/",
+        "if i < world.count && !is_held(i) && lives(i)",
+        "<",
+        "<=",
+        "behind the last word of life stands none that says 1",
+    ),
     same("rotation/drift.wgsl", "var body = ", "1.0", "1.5", "its length is taken away in the end"),
     same("rotation/drift.wgsl", "facing / sqrt", "/", "*", "a product of units is one but for rounding"),
     same("rotation/drift.wgsl", "facing / sqrt", "sqrt", "inverseSqrt", "a product of units is one but for rounding"),
-    same("rotation/body.wgsl", "moments > vec3f()", ">", ">=", "both are infinite, and nobody here is without a moment"),
+    same(
+        "rotation/body.wgsl",
+        "moments > vec3f()",
+        ">",
+        ">=",
+        "both are infinite, and nobody here is without a moment",
+    ),
 ];
 
 /// Every seventh is fixed, and as many do not live.
@@ -38,7 +50,7 @@ fn setup(integrator: &str) -> Setup {
     let fixed = (0..FEW as u32).filter(|id| id % 7 == 3);
     particles.held = fixed.map(|id| Held { id, by: Hold::Fixed }).collect();
     let lives: Vec<Life> = (0..FEW).map(|id| if id % 7 == 5 { Life::Dead } else { Life::Living }).collect();
-        particles.set_lives(&lives).expect("one for each");
+    particles.set_lives(&lives).expect("one for each");
     Setup {
         state: particles,
         forces: vec![Box::new(Columned), Box::new(Bodies { field: false }), Box::new(Grouped)],
@@ -87,7 +99,8 @@ pub fn all(device: &Device, stages: &mut Vec<Stage>) {
             let plan = alone(kernel.clone());
             let mut random = Random::new(23);
             let others = plan.fields(FEW as u32).into_keys();
-            let others = others.filter(|name| declared.get(name).is_none() && !["world", "life", "held"].contains(&name.as_str()));
+            let others = others
+                .filter(|name| declared.get(name).is_none() && !["world", "life", "held"].contains(&name.as_str()));
             for name in others {
                 let mut simulation = shared.borrow_mut();
                 let gpu = simulation.backend();

@@ -7,7 +7,9 @@ use std::time::Duration;
 
 use motes::forces::{Component, Law};
 use motes::integrators::INTEGRATORS;
-use motes::kernel::{ALARM, Backend, Kernel, Machine, POSITION, Plan, SPECIES, Shader, Source, VELOCITY, World};
+use motes::kernel::{
+    ALARM, Backend, Kernel, Machine, Next, POSITION, Plan, SPECIES, Shader, Source, VELOCITY, Walk, World,
+};
 use motes::lockstep::{Verdict, compare};
 use motes::settings::Value;
 use motes::{Gpu, Setup, Simulation, wgpu};
@@ -128,6 +130,20 @@ impl Stage {
     }
 }
 
+/// The next kernel of a plan that runs on a device; loops end by their flags there.
+pub fn next<'a>(walk: &mut Walk<'a>, simulation: &Rc<RefCell<Simulation<Gpu>>>) -> Option<&'a Kernel> {
+    loop {
+        match walk.next()? {
+            Next::Run(kernel) => return Some(kernel),
+            Next::Ask(flag) => {
+                if pollster::block_on(simulation.borrow_mut().backend().is_set(flag)).expect("a flag") {
+                    walk.leave();
+                }
+            }
+        }
+    }
+}
+
 pub type Device = (wgpu::Device, wgpu::Queue);
 
 /// Particles three steps on their way, under a force that is not the one on stage.
@@ -181,6 +197,7 @@ pub fn all(shared: &Shared) -> Vec<Stage> {
     let device = pollster::block_on(support::limited(shared, few));
     let mut stages = Vec::new();
     integrators(&device, &mut stages);
+    crate::repeat::all(&device, &mut stages);
     crate::implicit::all(&device, &mut stages);
     alarms::watches(&device, &mut stages);
     alarms::runaways(&device, &mut stages);

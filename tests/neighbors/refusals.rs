@@ -141,7 +141,7 @@ fn a_crowd_is_named() {
             let mut kernel = law.kernel(&problem).expect("a law");
             kernel.passes[0].constants.push(("MOST", 900.0));
             let kernels = vec![grid.kernel(&problem, moving).expect("a grid"), kernel];
-            let plan = Plan { kernels, order: vec![0, 1] };
+            let plan = Plan::of(kernels);
             let mut simulation = simulation(gpu, &positions, Bounds::default(), over);
             pollster::block_on(simulation.check()).expect("no alarm yet");
             let program = simulation.backend().compile(&plan).expect("a plan");

@@ -87,7 +87,7 @@ fn what_does_not_fit_is_said_with_the_most_that_does() {
     let mut gpu = Gpu::new(&device, &queue, count).expect("a GPU");
     let grid = Grid::new(0.1, None, &Problem::new(count, gpu.machine())).expect("a grid");
     let kernel = grid.kernel(&Problem::new(count, gpu.machine()), false).expect("a kernel");
-    let result = gpu.compile(&Plan { kernels: vec![kernel], order: vec![0] });
+    let result = gpu.compile(&Plan::of([kernel]));
     let Err(Error::Limit(text)) = result.map(|_| ()) else { panic!("more than fits fits") };
     assert!(text.contains("65537 particles need") && text.contains("at most 65536 particles fit"), "{text}");
 }

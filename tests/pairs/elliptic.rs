@@ -28,7 +28,10 @@ pub fn jacobi(u: f64, m: f64) -> [f64; 3] {
 #[test]
 fn known_values() {
     // K(1/2) = Γ(1/4)² / 4√π; sn and cn of K/2 (16.5).
-    assert!((complete(0.5) - 1.854_074_677_301_371_9).abs() < 1e-15 && (complete(0.0) - std::f64::consts::FRAC_PI_2).abs() < 1e-15);
+    assert!(
+        (complete(0.5) - 1.854_074_677_301_371_9).abs() < 1e-15
+            && (complete(0.0) - std::f64::consts::FRAC_PI_2).abs() < 1e-15
+    );
     let m: f64 = 0.83;
     let [sn, cn, dn] = jacobi(0.5 * complete(m), m);
     let rest = (1.0 - m).sqrt();

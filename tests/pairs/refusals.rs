@@ -16,7 +16,10 @@ fn of(name: &'static str, kind: Kind) -> Column {
 fn columns_that_cannot_be_advanced_are_refused() {
     let scalar = |name| of(name, Kind::Scalar);
     refused(vec![scalar("a").with_rate("b")], &["`a` is advanced by `b`, which no component declares"]);
-    refused(vec![scalar("a").with_rate("b"), of("b", Kind::Vector)], &["`a` (scalar) cannot be advanced by `b` (vector)"]);
+    refused(
+        vec![scalar("a").with_rate("b"), of("b", Kind::Vector)],
+        &["`a` (scalar) cannot be advanced by `b` (vector)"],
+    );
     refused(vec![of("a", Kind::Whole).with_rate("b"), of("b", Kind::Whole)], &["`a` (whole) cannot"]);
     refused(vec![of("a", Kind::Quaternion).with_rate("b"), of("b", Kind::Vector)], &["a quaternion turns by a vector"]);
     refused(vec![scalar("a").derived().with_rate("b"), scalar("b")], &["`a` (scalar) cannot", "the first a state"]);

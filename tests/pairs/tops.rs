@@ -156,7 +156,9 @@ fn a_free_top_keeps_its_integrals() {
     let momentum = angular_momentum(facing().into(), facing() * SPIN, INERTIA);
     let first = energy(facing().into(), facing() * SPIN, INERTIA);
     // By hand: L² = Σ (I ω)², 2 E = Σ I ω².
-    assert!((momentum.length() - 1.2f64.hypot(2.16)).abs() < 1e-14 && (2.0 * first - 1.44 - 3.0 * 0.5184).abs() < 1e-14);
+    assert!(
+        (momentum.length() - 1.2f64.hypot(2.16)).abs() < 1e-14 && (2.0 * first - 1.44 - 3.0 * 0.5184).abs() < 1e-14
+    );
     for name in ["leapfrog", "symplectic_euler", "forest_ruth"] {
         let mut swings = Vec::new();
         for (dt, steps) in [(0.04, 20_000), (0.02, 20_000)] {
@@ -166,7 +168,11 @@ fn a_free_top_keeps_its_integrals() {
                 simulation.step(1).expect("a step");
                 let (q, spin) = body(&mut simulation);
                 let off = (energy(q, spin, INERTIA) / first - 1.0).abs();
-                if 2 * step < steps { early = early.max(off) } else { late = late.max(off) }
+                if 2 * step < steps {
+                    early = early.max(off)
+                } else {
+                    late = late.max(off)
+                }
                 turned = turned.max((angular_momentum(q, spin, INERTIA) - momentum).length() / momentum.length());
             }
             // A dozen roundings of 1e-16 in a step, were they all on one side.

@@ -67,14 +67,16 @@ impl Component for Columned {
         let leaks = Law::updating("leaks", source("leaks", LEAKS), Vec::new(), &["leak"], |me, _, outcome| {
             outcome.add("leak", -LEAK * me.scalar("charge").unwrap_or(f64::NAN));
         });
-        let swings = Law::updating("swings", source("swings", SWINGS), Vec::new(), &["couple", "spin"], |me, _, outcome| {
-            let [angle, spin] = ["angle", "spin"].map(|name| me.vector(name).unwrap_or(DVec4::NAN));
-            outcome.add("couple", -angle.truncate());
-            outcome.set("spin", spin.with_w(me.position.x));
-        });
-        let carries = Law::updating("carries", source("carries", CARRIES), Vec::new(), &["advection"], |me, _, outcome| {
-            outcome.set("advection", me.velocity.x * me.position.x.cos());
-        });
+        let swings =
+            Law::updating("swings", source("swings", SWINGS), Vec::new(), &["couple", "spin"], |me, _, outcome| {
+                let [angle, spin] = ["angle", "spin"].map(|name| me.vector(name).unwrap_or(DVec4::NAN));
+                outcome.add("couple", -angle.truncate());
+                outcome.set("spin", spin.with_w(me.position.x));
+            });
+        let carries =
+            Law::updating("carries", source("carries", CARRIES), Vec::new(), &["advection"], |me, _, outcome| {
+                outcome.set("advection", me.velocity.x * me.position.x.cos());
+            });
         vec![leaks, carries, swings]
     }
 }

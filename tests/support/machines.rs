@@ -75,7 +75,7 @@ pub fn kernel_in(bounds: Bounds, force: &dyn Component, count: usize, machine: &
 
 /// A plan of one kernel.
 pub fn alone(kernel: Kernel) -> Plan {
-    Plan { kernels: vec![kernel], order: vec![0] }
+    Plan::of([kernel])
 }
 
 /// The same meetings in `layers` layers, cut into dispatches that see `slice` sources in each. `kernel` has one pass that

@@ -94,10 +94,10 @@ fn every_law_alone() {
                     simulation.write(POSITION, &places.collect::<Vec<_>>()).expect("places");
                     let ways = cloud.velocity().iter().zip(cloud.size()).map(|(v, r)| v.extend(*r).as_vec4());
                     simulation.write(VELOCITY, &ways.collect::<Vec<_>>()).expect("velocities");
-                    let laws = plan.order.len();
+                    let laws = plan.ops.len();
                     law[0].stage(Stage::AfterKick, &mut plan, &problem).expect("limits");
                     law[0].stage(Stage::AfterDrift { factor: 0.8 }, &mut plan, &problem).expect("places");
-                    if plan.order.len() > laws {
+                    if plan.ops.len() > laws {
                         // Faster than the limit has left them, and back to where a solid has turned them away.
                         let mut velocity = pollster::block_on(simulation.read(VELOCITY)).expect("velocities");
                         for v in &mut velocity {

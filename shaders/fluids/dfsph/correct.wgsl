@@ -7,7 +7,7 @@
 
 override SOLVE: u32 = 0u;
 
-fn acts_on(me: Particle) -> bool { return me.solved > 0.0 && dfsph_state[SOLVE].code == 0.0; }
+fn acts_on(me: Particle) -> bool { return me.solved > 0.0; }
 
 fn deliver(k: u32, me: Particle, sum: Sum) {
     let unknown = unknowns[k];

@@ -4,10 +4,6 @@ struct Extent { unused_word: u32, elements: u32, chunk: u32 }
 @group(3) @binding(6) var<storage, read> errors: array<f32>;
 @group(3) @binding(7) var<storage, read_write> dfsph_state: array<State>;
 @group(3) @binding(11) var<uniform> extent: Extent;
-@group(3) @binding(15) var<storage, read_write> dfsph_go: array<u32>;
-
-// Two kernels' workgroups in three dimensions.
-const EACH: u32 = 6u;
 
 override SOLVE: u32 = 0u;
 // The cells of the fluid, behind which it ends.
@@ -18,13 +14,11 @@ override MOST: f32 = 0.0;
 
 @compute @workgroup_size(WORKGROUP)
 fn decide(@builtin(local_invocation_index) lane: u32) {
-    var state = dfsph_state[SOLVE];
-    let goes = state.code == 0.0;
-    let end = select(0u, extent.elements, goes);
     var sum = 0.0;
-    for (var k = lane; k < end; k += WORKGROUP) { sum += errors[k]; }
+    for (var k = lane; k < extent.elements; k += WORKGROUP) { sum += errors[k]; }
     sum = total(lane, vec4f(sum)).x;
-    if lane == 0u && goes {
+    if lane == 0u {
+        var state = dfsph_state[SOLVE];
         state.error = sum / max(f32(starts[CELLS]), 1.0);
         state.iterations += 1.0;
         if broken(vec4f(sum)) {
@@ -35,8 +29,5 @@ fn decide(@builtin(local_invocation_index) lane: u32) {
             state.code = 3.0;
         }
         dfsph_state[SOLVE] = state;
-        if state.code != 0.0 {
-            for (var n = 0u; n < EACH; n += 1u) { dfsph_go[SOLVE * EACH + n] = 0u; }
-        }
     }
 }

@@ -2,12 +2,8 @@
 struct Sum { acceleration: vec3f }
 
 @group(3) @binding(5) var<storage, read_write> pushes: array<vec4f>;
-@group(3) @binding(7) var<storage, read> dfsph_state: array<State>;
 
-override SOLVE: u32 = 0u;
-
-// A solve that is done stays done.
-fn acts_on(me: Particle) -> bool { return me.stiffness >= 0.0 && dfsph_state[SOLVE].code == 0.0; }
+fn acts_on(me: Particle) -> bool { return me.stiffness >= 0.0; }
 
 fn meet(me: Particle, you: Particle, slope: vec3f, sum: ptr<function, Sum>) {
     let yours = select(you.stiffness, me.stiffness, you.stiffness < 0.0);

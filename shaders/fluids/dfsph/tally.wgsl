@@ -2,17 +2,14 @@
 struct Extent { unused_word: u32, elements: u32, chunk: u32 }
 
 @group(3) @binding(6) var<storage, read> errors: array<f32>;
-@group(3) @binding(7) var<storage, read> dfsph_state: array<State>;
 @group(3) @binding(10) var<storage, read_write> parts: array<f32>;
 @group(3) @binding(11) var<uniform> extent: Extent;
-
-override SOLVE: u32 = 0u;
 
 @compute @workgroup_size(WORKGROUP)
 fn tally(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let block = folded(group, groups);
     let first = block * extent.chunk;
-    let end = select(first, min(first + extent.chunk, extent.elements), dfsph_state[SOLVE].code == 0.0);
+    let end = min(first + extent.chunk, extent.elements);
     var sum = 0.0;
     for (var k = first + lane; k < end; k += WORKGROUP) { sum += errors[k]; }
     sum = total(lane, vec4f(sum)).x;

@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use super::go::{self, GO, Told, sized, told};
 use super::{Dfsph, ERRORS, STATE, STATES, Solve, with};
 use crate::error::Error;
 use crate::kernel::{Host, Kernel, Scalar};
@@ -34,11 +33,9 @@ fn tally(of: &Dfsph<'_>, solve: Solve) -> Result<Kernel, Error> {
     let groups = count.div_ceil(CHUNK);
     let (from, to) = (errors.clone(), parts.clone());
     let twin = move |host: &Host| {
-        if Dfsph::goes(host, solve)? {
-            let errors = host.reading::<f32>(&from)?;
-            let sums = errors[..errors.len().min(count as usize)].chunks(CHUNK as usize).map(|run| run.iter().sum());
-            host.writing::<f32>(&to)?.iter_mut().zip(sums).for_each(|(part, sum): (_, f64)| *part = sum);
-        }
+        let errors = host.reading::<f32>(&from)?;
+        let sums = errors[..errors.len().min(count as usize)].chunks(CHUNK as usize).map(|run| run.iter().sum());
+        host.writing::<f32>(&to)?.iter_mut().zip(sums).for_each(|(part, sum): (_, f64)| *part = sum);
         Ok(())
     };
     let files = [crate::shader!("integrators/solve_total.wgsl"), crate::shader!("fluids/dfsph/tally.wgsl")];
@@ -46,7 +43,7 @@ fn tally(of: &Dfsph<'_>, solve: Solve) -> Result<Kernel, Error> {
     let mut kernel = of.plain(&name, &files, &extent(count), groups * WORKGROUP, Arc::new(twin))?;
     kernel.passes[0].fields.push((PARTS, parts.clone()));
     kernel.sizes.push((parts, u64::from(groups)));
-    Ok(told(with(kernel, &[("SOLVE", f64::from(solve as u32))]), solve, Told::Tally))
+    Ok(kernel)
 }
 
 fn decide(of: &Dfsph<'_>, solve: Solve, what: &'static str, elements: u32) -> Result<Kernel, Error> {
@@ -60,23 +57,17 @@ fn decide(of: &Dfsph<'_>, solve: Solve, what: &'static str, elements: u32) -> Re
         let fluid = host.reading::<u32>(&starts)?.get(cells).map_or(1, |n| (*n).max(1));
         let mut states = host.writing::<f32>(STATES)?;
         let state = &mut states[STATE * solve as usize..STATE * (solve as usize + 1)];
-        if state[1] == 0.0 {
-            state[2] = sum / f64::from(fluid);
-            state[0] += 1.0;
-            state[1] = if !sum.is_finite() {
-                2.0
-            } else if state[2] <= tolerance && state[0] >= f64::from(asked.least) {
-                1.0
-            } else if state[0] >= f64::from(asked.most) {
-                3.0
-            } else {
-                0.0
-            };
-            if state[1] != 0.0 {
-                let from = go::SOLVE * solve as usize;
-                host.writing::<u32>(GO)?[from..from + go::SOLVE].fill(0);
-            }
-        }
+        state[2] = sum / f64::from(fluid);
+        state[0] += 1.0;
+        state[1] = if !sum.is_finite() {
+            2.0
+        } else if state[2] <= tolerance && state[0] >= f64::from(asked.least) {
+            1.0
+        } else if state[0] >= f64::from(asked.most) {
+            3.0
+        } else {
+            0.0
+        };
         Ok(())
     };
     let files = [
@@ -92,5 +83,5 @@ fn decide(of: &Dfsph<'_>, solve: Solve, what: &'static str, elements: u32) -> Re
     kernel.sizes.push((field, u64::from(elements)));
     let (least, most) = (f64::from(asked.least), f64::from(asked.most));
     let constants = [("SOLVE", f64::from(solve as u32)), ("TOLERANCE", tolerance), ("LEAST", least), ("MOST", most)];
-    Ok(sized(with(kernel, &constants)))
+    Ok(with(kernel, &constants))
 }

@@ -9,7 +9,6 @@ mod begin;
 mod collect;
 mod decide;
 mod finish;
-mod go;
 mod keep;
 mod pairs;
 mod push;
@@ -93,13 +92,13 @@ impl<'a> Dfsph<'a> {
     /// When a shader does not compile.
     pub fn evaluate(&self, plan: &mut Plan) -> Result<(), Error> {
         let iterations = [self.iteration(Solve::Divergence)?, self.iteration(Solve::Density)?];
+        let [divergence, density] = iterations;
         plan.add(response::kernel(self)?);
         plan.add(begin::kernel(self)?);
-        plan.add(go::kernel(self, &iterations)?);
-        self.iterate(plan, &iterations[0]);
+        self.iterate(plan, Solve::Divergence, divergence)?;
         plan.add(collect::collect(self)?);
         plan.add(collect::predict(self)?);
-        self.iterate(plan, &iterations[1]);
+        self.iterate(plan, Solve::Density, density)?;
         plan.add(finish::kernel(self)?);
         Ok(())
     }
@@ -116,12 +115,8 @@ impl<'a> Dfsph<'a> {
         kernels.extend(decide::kernels(self, solve)?);
         Ok(kernels)
     }
-    fn iterate(&self, plan: &mut Plan, iteration: &[Kernel]) {
-        for _ in 0..self.asked.most {
-            for kernel in iteration {
-                plan.add(kernel.clone());
-            }
-        }
+    fn iterate(&self, plan: &mut Plan, solve: Solve, iteration: Vec<Kernel>) -> Result<(), Error> {
+        plan.repeat(self.asked.most, STATES, solve as u32, "code", Plan::of(iteration))
     }
     /// ω of Jacobi's method. With Nesterov's it may be up to 4/3 over the largest eigenvalue of the matrix over its diagonal; that is
     /// found by the power method in jittered blocks to be 2.7 in two dimensions and 3.5 in three where the support is two
@@ -216,10 +211,6 @@ impl<'a> Dfsph<'a> {
         }
         kernel.sizes.extend([(STATES.into(), 2), (keep::REPORT.into(), keep::WORDS as u64), (keep::ERRORS.into(), 2)]);
         kernel
-    }
-    /// Whether a solve is on its way, for a twin.
-    fn goes(host: &Host, solve: Solve) -> Result<bool, Error> {
-        Ok(host.reading::<f32>(STATES)?.get(STATE * solve as usize + 1).is_none_or(|code| *code == 0.0))
     }
 }
 

@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use glam::{DVec3, Vec4};
 
-use super::go::{Told, told};
 use super::{Dfsph, ERRORS, PUSHES, STATE, STATES, Solve, UNKNOWN, UNKNOWNS, WALL, with};
 use crate::error::Error;
 use crate::fluids::Medium;
@@ -16,9 +15,6 @@ pub fn push(of: &Dfsph<'_>, solve: Solve) -> Result<Kernel, Error> {
     let (medium, slots) = (of.medium, of.slots());
     let [unknowns, pushes] = [UNKNOWNS, PUSHES].map(|name| of.name(name));
     let twin = move |host: &Host| {
-        if !Dfsph::goes(host, solve)? {
-            return Ok(());
-        }
         let (ids, unknowns) = (slots(host)?, host.reading::<f32>(&unknowns)?);
         let count = host.world().count as usize;
         let (mut kappa, mut solved) = (vec![WALL; count], vec![false; count]);
@@ -42,8 +38,7 @@ pub fn push(of: &Dfsph<'_>, solve: Solve) -> Result<Kernel, Error> {
         Ok(())
     };
     let files = vec![crate::shader!("fluids/dfsph/stiff.wgsl"), crate::shader!("fluids/dfsph/push.wgsl")];
-    let kernel = of.sweep(format!("fluid {} push", solve.name()), files, Arc::new(twin))?;
-    Ok(told(with(kernel, &[("SOLVE", f64::from(solve as u32))]), solve, Told::Sweep))
+    of.sweep(format!("fluid {} push", solve.name()), files, Arc::new(twin))
 }
 
 /// How fast accelerations make the density grow, as a part of that at rest, by slot; of those that are solved for.
@@ -73,9 +68,6 @@ pub fn correct(of: &Dfsph<'_>, solve: Solve) -> Result<Kernel, Error> {
     let (medium, slots) = (of.medium, of.slots());
     let [unknowns, pushes, errors] = [UNKNOWNS, PUSHES, ERRORS].map(|name| of.name(name));
     let twin = move |host: &Host| {
-        if !Dfsph::goes(host, solve)? {
-            return Ok(());
-        }
         let (ids, dt) = (slots(host)?, host.world().dt);
         let turn = host.reading::<f32>(STATES)?[STATE * solve as usize];
         let onward = turn / (turn + 3.0);
@@ -102,5 +94,5 @@ pub fn correct(of: &Dfsph<'_>, solve: Solve) -> Result<Kernel, Error> {
         crate::shader!("fluids/dfsph/correct.wgsl"),
     ];
     let kernel = of.sweep(format!("fluid {} correct", solve.name()), files, Arc::new(twin))?;
-    Ok(told(with(kernel, &[("SOLVE", f64::from(solve as u32))]), solve, Told::Sweep))
+    Ok(with(kernel, &[("SOLVE", f64::from(solve as u32))]))
 }

@@ -23,7 +23,7 @@ impl Step<'_> {
             self.neighbors(|_| true);
         }
         match self.limits() {
-            Ok((plan, _)) => plan.steps().for_each(|kernel| self.add(Ok(kernel.clone()))),
+            Ok((plan, _)) => self.append(plan),
             Err(error) => {
                 self.error.get_or_insert(error);
             }

@@ -52,10 +52,11 @@ pub fn implicit(forces: &[Box<dyn Component>]) -> Vec<bool> {
         let laws = force.laws();
         let links = laws.iter().filter(|law| law.over == Over::Links).count();
         let good = |law: &Law| {
-            law.into == [ACCELERATION.name] && matches!(
-                (law.over, &law.jacobian),
-                (Over::Each, Some(Jacobian::Each(_))) | (Over::Links, Some(Jacobian::Links(_)))
-            )
+            law.into == [ACCELERATION.name]
+                && matches!(
+                    (law.over, &law.jacobian),
+                    (Over::Each, Some(Jacobian::Each(_))) | (Over::Links, Some(Jacobian::Links(_)))
+                )
         };
         let all = !laws.is_empty() && laws.iter().all(good) && (links == 0 || links == 1 && !tied);
         tied |= all && links == 1;

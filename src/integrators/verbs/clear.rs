@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::DVec4;
 
 use crate::error::Error;
-use crate::kernel::{ACCELERATION, Kernel, Shader};
+use crate::kernel::{ACCELERATION, Kernel, Shader, Twin};
 
 /// The kernel.
 pub fn kernel(count: u32) -> Result<Kernel, Error> {
@@ -15,4 +15,21 @@ pub fn kernel(count: u32) -> Result<Kernel, Error> {
         Ok(())
     };
     Ok(Kernel::new("clear", shader, Vec::new(), count, Arc::new(twin)))
+}
+
+/// Clears them with the first kernel that adds to them, if it can: it sets accelerations instead.
+pub fn with(law: &mut Kernel) -> bool {
+    const FIRST: &str = "FIRST";
+    let can = law.passes.len() == 1 && law.passes[0].shader.reflection().overrides.contains_key(FIRST);
+    if can {
+        law.passes[0].constants.push((FIRST, 1.0));
+        let adds = law.twin.take();
+        law.twin = adds.map(|adds| -> Twin {
+            Arc::new(move |host| {
+                host.write(ACCELERATION)?.fill(DVec4::ZERO);
+                adds(host)
+            })
+        });
+    }
+    can
 }

@@ -60,8 +60,7 @@ impl Work for Stage {
 /// A stage: `weight` times its slope goes into the sum, and the next slope is wanted `factor` of the step from the start.
 pub fn stage(pair: &Advanced, weight: f64, factor: f64, problem: &Problem) -> Result<Kernel, Error> {
     let work = Stage { pair: pair.clone(), weight, factor, problem: problem.clone() };
-    let (file, constants) =
-        (crate::shader!("integrators/pairs/stage.wgsl"), [("WEIGHT", weight), ("FACTOR", factor)]);
+    let (file, constants) = (crate::shader!("integrators/pairs/stage.wgsl"), [("WEIGHT", weight), ("FACTOR", factor)]);
     kernel("rk_stage", &pair.part, file, &constants, fields(pair), problem, work)
 }
 

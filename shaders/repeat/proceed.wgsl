@@ -1,0 +1,20 @@
+// A loop goes on: the next of its iterations gets the workgroups of all its dispatches, unless the flag is set. They are its indirect
+// arguments, also for this very kernel: an iteration that is not needed dispatches nothing, and gives nothing to the one behind it.
+@group(0) @binding(0) var<storage, read> flag: array<u32>;
+@group(0) @binding(1) var<storage, read> workgroups: array<u32>;
+@group(0) @binding(2) var<storage, read_write> arguments: array<u32>;
+@group(0) @binding(3) var<storage, read_write> iterations: array<u32>;
+
+// The word of the flag, and the words of the arguments of an iteration.
+override WORD: u32;
+override WORDS: u32;
+
+@compute @workgroup_size(1)
+fn proceed() {
+    // Iterations have their arguments in two buffers by turns: none writes where it is dispatched from.
+    let first = iterations[0] / 2u * WORDS;
+    iterations[0] += 1u;
+    if flag[WORD] == 0u {
+        for (var k = 0u; k < WORDS; k += 1u) { arguments[first + k] = workgroups[k]; }
+    }
+}
