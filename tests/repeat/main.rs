@@ -7,6 +7,7 @@ mod support;
 
 use motes::kernel::{Array, Backend, Indirect, Op, Plan};
 use motes::{Cpu, Error, Gpu};
+use support::Shared;
 use toy::{COUNT, Toy};
 
 /// What a plan leaves: how often lanes worked in the inner loop and in the outer one.
@@ -19,14 +20,14 @@ fn left<B: Backend>(backend: &mut B) -> [Vec<u32>; 2] {
     })
 }
 
-fn gpu() -> Gpu {
-    let shared = support::device();
+fn gpu(shared: &Shared) -> Gpu {
     Gpu::new(&shared.found.device, &shared.found.queue, COUNT).expect("a GPU")
 }
 
 #[test]
 fn loops_end_by_their_flags_and_by_their_length() {
-    let mut gpu = gpu();
+    let shared = support::device();
+    let mut gpu = gpu(&shared);
     for toy in toy::all() {
         let plan = toy.plan();
         let want = toy.counts().map(|times| vec![2 * times; COUNT as usize]);
@@ -47,7 +48,8 @@ fn loops_end_by_their_flags_and_by_their_length() {
 /// A submission may end anywhere in a loop.
 #[test]
 fn cut_submissions_change_nothing() {
-    let mut gpu = gpu();
+    let shared = support::device();
+    let mut gpu = gpu(&shared);
     let toy = Toy { outer: 4, inner: 3, most: [6, 5] };
     let program = gpu.compile(&toy.plan()).expect("a program");
     gpu.pace(std::time::Duration::from_nanos(1), std::time::Duration::from_mins(1));
@@ -62,7 +64,7 @@ fn cut_submissions_change_nothing() {
 #[test]
 fn a_caller_encodes_loops_in_its_own_encoder() {
     let shared = support::device();
-    let mut gpu = Gpu::new(&shared.found.device, &shared.found.queue, COUNT).expect("a GPU");
+    let mut gpu = gpu(&shared);
     let toy = Toy { outer: 2, inner: 4, most: [5, 7] };
     let program = gpu.compile(&toy.plan()).expect("a program");
     let mut encoder = shared.found.device.create_command_encoder(&Default::default());
@@ -111,7 +113,8 @@ fn indirect_dispatches_stand_outside_of_loops() {
     work.passes[0].indirect = Some(Indirect { field: "workgroups of work".into(), word: 0 });
     let mut plan = Plan::default();
     plan.repeat(3, "state", 0, "inner_done", Plan::of([work, toy::count()])).expect("a loop");
-    match gpu().compile(&plan) {
+    let shared = support::device();
+    match gpu(&shared).compile(&plan) {
         Err(Error::Device(text)) => assert!(text.contains("indirect arguments") && text.contains("loop"), "{text}"),
         other => panic!("{:?}", other.err()),
     }
