@@ -66,9 +66,9 @@ fn every_target_is_in_one_dispatch() {
         let mut next = 0_u64;
         for pass in &kernel.passes {
             let (_, block) = pass.uniforms.iter().find(|(name, _)| *name == "grid").expect("a grid");
-            // `first` and `end` stand behind a vector of three.
-            let word = |at: usize| bytemuck::pod_read_unaligned::<u32>(&block[at..at + 4]);
-            let (first, end) = (u64::from(word(28)), u64::from(word(44)));
+            let grid = pass.shader.reflection().binding("grid").expect("a grid");
+            let word = |name: &str| u64::from(grid.packed.uint(block, name));
+            let (first, end) = (word("first"), word("end"));
             assert_eq!((first, u64::from(pass.threads.count)), (next, end - first));
             assert!(end > first && end - first <= 1 << 20);
             next = end;

@@ -16,16 +16,19 @@ use motes::links::Links;
 use motes::particles::{SHAPES, shape};
 use motes::settings::{Kind, Settings, Value};
 
+/// Settings of a shape: of these values and some that are usual here, those that it has a key for.
 fn settings(name: &str, values: &[(&'static str, f64)]) -> Settings {
-    let start = Settings::defaults(shape(name).expect("a shape").keys)
-        .with("size", Value::Vector(DVec3::new(3.0, 4.0, 5.0)))
-        .with("columns", Value::Number(6.0))
-        .with("rows", Value::Number(5.0))
-        .with("strands", Value::Number(4.0));
+    let keys = shape(name).expect("a shape").keys;
+    let known = |name: &str| keys.iter().find(|key| key.name == name);
+    let vectors = [("size", Value::Vector(DVec3::new(3.0, 4.0, 5.0)))];
+    let numbers = [("columns", 6.0), ("rows", 5.0), ("strands", 4.0)];
     // What has no spacing by itself.
-    let spaced = shape(name).is_some_and(|s| s.keys.iter().any(|key| key.name == "spacing" && key.default.is_none()));
-    let start = if spaced { start.with("spacing", Value::Number(0.5)) } else { start };
-    values.iter().fold(start, |all, (key, x)| all.with(key, Value::Number(*x)))
+    let spaced = known("spacing").is_some_and(|key| key.default.is_none());
+    let spacing = spaced.then_some(("spacing", 0.5));
+    let numbers = numbers.into_iter().chain(spacing).chain(values.iter().copied());
+    let all = vectors.into_iter().chain(numbers.map(|(key, x)| (key, Value::Number(x))));
+    let fits = all.filter(|(key, _)| known(key).is_some());
+    fits.fold(Settings::defaults(keys), |all, (key, value)| all.with(key, value))
 }
 
 fn made(name: &str, settings: &Settings) -> State {
@@ -179,7 +182,7 @@ fn bad_settings_are_errors() {
         ("clusters", "children", Value::Number(1.0), "children is 1; it must be 2 or above"),
         ("clusters", "dimension", Value::Number(3.1), "dimension is 3.1; it must be above 0 and at most 3"),
         ("sphere", "virial", Value::Number(-0.1), "virial is -0.1; it must be 0 or above"),
-        ("sphere", "radius", Value::Text(Cow::Borrowed("big")), "radius is 0"),
+        ("sphere", "radius", Value::Text(Cow::Borrowed("big")), "has a key `radius` of another kind"),
         ("disk", "halo_fraction", Value::Number(1.0), "halo_fraction is 1; it must be 0 or above and below 1"),
         ("disk", "halo_fraction", Value::Number(0.0), "no particle is left for the halo"),
         ("disk", "halo_fraction", Value::Number(0.999), "no particle is left for the disk"),
