@@ -1,6 +1,7 @@
 //! A simulation: particles, forces and an integrator on a backend.
 
 mod alarm;
+mod columns;
 mod keepers;
 mod mortals;
 mod pace;
@@ -10,6 +11,7 @@ mod pressures;
 mod setup;
 mod solves;
 mod ties;
+mod unwritten;
 
 pub use mortals::serves;
 pub use pace::Clock;
@@ -17,21 +19,15 @@ pub use pressures::PressureSolves;
 pub use setup::{Plans, Setup};
 pub use solves::{Outcome, Solves};
 
-use glam::DVec3;
-
-use crate::boundary;
 use crate::cpu::threads;
 use crate::error::Error;
 use crate::fluids::DFSPH_REPORT;
 use crate::gpu::Gpu;
 use crate::integrators::SOLVE_REPORT;
-use crate::kernel::{
-    ACCELERATION, ALARM, Array, Backend, Element, Field, HOME, LIFE, POSITION, Pace, QUIET, SPECIES, TARGET, VELOCITY,
-    World,
-};
-use crate::links::Links;
-use crate::motion;
+use crate::kernel::{ALARM, Array, Backend, Element, Field, HOME, POSITION, Pace, QUIET, VELOCITY, World};
 use crate::state::State;
+use columns::Store;
+use ties::Ties;
 
 /// Particles that move.
 pub struct Simulation<B: Backend> {
@@ -49,10 +45,9 @@ pub struct Simulation<B: Backend> {
     /// Whether a step keeps a report of its solves, and one of those for pressure.
     reports: [bool; 2],
     count: u32,
-    /// As the setup gave them: nothing changes them.
-    species: Vec<u32>,
-    /// As the setup gave them, and whether springs may have broken since.
-    links: Links,
+    store: Store,
+    /// As the setup gave it, and whether springs may have broken since.
+    ties: Ties,
     breaks: bool,
     /// How many may be born or die: everybody, or nobody.
     mortals: u32,
@@ -79,45 +74,14 @@ impl<B: Backend> Simulation<B> {
         let measure = (backend.compile(&plans.measure.0)?, backend.compile(&plans.measure.1)?);
         backend.set_world(World { time: 0.0, dt: setup.dt, step: 0, count, bounds: setup.bounds })?;
         let state = &setup.state;
-        // Who does not live has no mass, and no velocity.
-        let living = |id: usize| f64::from(u8::from(state.lives(id)));
-        let inside = |x| boundary::wrapped(&setup.bounds, x);
-        let position = state.position().iter().zip(state.mass());
-        let position = position.enumerate().map(|(id, (x, m))| inside(*x).extend(living(id) * m)).collect();
-        let velocity = state.velocity().iter().zip(state.size()).enumerate();
-        let velocity = velocity.map(|(id, (v, r))| (living(id) * *v).extend(*r));
-        let mut velocity: Vec<_> = velocity.collect();
-        let held = motion::sorted(&state.held);
-        for one in &held {
-            let v = &mut velocity[one.id as usize];
-            *v = DVec3::ZERO.extend(v.w);
-        }
-        backend.write(POSITION.name, &Array::Vec4(position))?;
-        backend.write(VELOCITY.name, &Array::Vec4(velocity))?;
-        backend.write(ACCELERATION.name, &Array::Vec4(Vec::new()).zeros(count as usize))?;
+        let store = Store::new(setup, &plans, count)?;
+        store.write(&mut backend, setup)?;
         backend.write(ALARM.name, &Array::Uint(QUIET.to_vec()))?;
-        let species = state.species().to_vec();
-        if plans.all().any(|plan| plan.fields(count).contains_key(SPECIES.name)) {
-            backend.write(SPECIES.name, &Array::Uint(species.clone()))?;
+        if plans.all().any(|plan| plan.fields(count).contains_key(HOME.name)) {
+            store.anchor(&mut backend, setup)?;
         }
-        let mortal = state.is_mortal();
-        if mortal {
-            let lives = state.life();
-            let word = |id: usize| lives.get(id).copied().unwrap_or_default().word();
-            backend.write(LIFE.name, &Array::Uint((0..state.len()).map(word).collect()))?;
-        }
-        // A target for everybody, by id; those that are not held have no use for it.
-        let places = |ids: &mut dyn Iterator<Item = usize>| {
-            Array::Vec4(ids.map(|id| inside(state.position()[id]).extend(0.0)).collect())
-        };
-        let named = |field: &str| plans.all().any(|plan| plan.fields(count).contains_key(field));
-        if named(HOME.name) {
-            backend.write(HOME.name, &places(&mut held.iter().map(|one| one.id as usize)))?;
-        }
-        if named(TARGET.name) {
-            backend.write(TARGET.name, &places(&mut (0..state.len())))?;
-        }
-        let (links, breaks) = (state.links.clone(), setup.breaks());
+        let ties = Ties::of(state);
+        let (mortal, breaks) = (state.is_mortal(), setup.breaks());
         let (begun, begins) = (false, setup.begins(backend.machine())?);
         let (dt, steps, pace) = (setup.dt, 0, setup.integrator.pace());
         let mut made = Self {
@@ -131,8 +95,8 @@ impl<B: Backend> Simulation<B> {
             marks,
             reports,
             count,
-            species,
-            links,
+            store,
+            ties,
             breaks,
             mortals: if mortal { count } else { 0 },
             dt,
@@ -187,12 +151,23 @@ impl<B: Backend> Simulation<B> {
         self.begun &= field.name != POSITION.name && field.name != VELOCITY.name;
         self.backend.write(field.name, &T::array(values.iter().map(|v| v.widen()).collect()))
     }
-    /// The state and the potential energies at the end of the last step. It evaluates the forces once more, and leaves
-    /// no trace of that in the run.
+    /// The state at the end of the last step, with the column `potential`: a setup of it goes on from there. It evaluates the
+    /// forces once more, and leaves no trace of that in the run.
+    ///
+    /// What follows has the same bits as the run itself where forces depend on positions alone and the state is read in single
+    /// precision or kept in memory. Where they depend on velocities too, an integrator that reuses the accelerations of the step
+    /// before evaluates them anew; implicit and iterative solves begin from another guess.
     ///
     /// # Errors
     /// [`Error::NotFinite`], [`Error::Crowded`], or what reading says. Speeds that run away are no error here.
     pub async fn snapshot(&mut self) -> Result<State, Error> {
+        self.snapshot_of(&[]).await
+    }
+    /// The same, with the values that these other columns have at the present state.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] when there is no such column, or nothing computes it; and those of [`Simulation::snapshot`].
+    pub async fn snapshot_of(&mut self, columns: &[&str]) -> Result<State, Error> {
         let alarm = self.alarm().await?;
         self.sound(&alarm)?;
         // What a fluid's walls weigh, and its density at rest, are said there.
@@ -200,29 +175,14 @@ impl<B: Backend> Simulation<B> {
             self.begin()?;
         }
         self.backend.run(&self.measure.0, 1)?;
-        let count = self.count as usize;
-        let like = Array::Vec4(Vec::new());
-        let position = self.backend.read(POSITION.name, &like, count).await?;
-        let velocity = self.backend.read(VELOCITY.name, &like, count).await?;
-        let acceleration = self.backend.read(ACCELERATION.name, &like, count).await?;
+        let state = self.gathered(&[columns, &["potential"]].concat()).await;
         // Laws were asked once more.
         let alarm = self.alarm().await?;
         self.backend.run(&self.measure.1, 1)?;
         self.sound(&alarm)?;
-        let mut state = State::default();
-        let mut potential = Vec::with_capacity(count);
-        if let (Array::Vec4(x), Array::Vec4(v), Array::Vec4(a)) = (position, velocity, acceleration) {
-            for ((x, v), a) in x.iter().zip(&v).zip(&a) {
-                state.push(x.truncate(), v.truncate(), x.w, v.w);
-                potential.push(a.w);
-            }
-        }
-        state.species_mut().copy_from_slice(&self.species);
-        state.set("potential", Array::Float(potential))?;
-        if self.mortals > 0 {
-            let life = self.lives().await?;
-            state.set_lives(&life)?;
-        }
+        let mut state = state?;
+        self.ties.give(&mut state);
+        state.links = self.links().await?;
         state.time = self.clock().await?.map_or(self.steps as f64 * self.dt, |clock| clock.time);
         state.step = self.steps;
         Ok(state)

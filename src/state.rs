@@ -6,7 +6,7 @@ mod basic;
 mod life;
 
 use crate::error::Error;
-use crate::kernel::{Array, Column, Columns, Kind, Role, Shape};
+use crate::kernel::{Array, Column, Columns, Kind, Shape};
 use crate::life::{Birth, Drain};
 use crate::links::Links;
 use crate::motion::{Held, Motion};
@@ -16,7 +16,7 @@ use basic::BASIC;
 /// Particles and all that a run needs to go on with them. Every array has one element per particle, in the order of ids. Units
 /// are the scene's own.
 ///
-/// Positions, velocities, masses, sizes and species are always there; any other column is there when somebody has given it.
+/// Positions, velocities, masses, sizes and species are always there; any other column has values when some are given.
 #[derive(Debug, Clone, PartialEq)]
 pub struct State {
     /// The basic columns in the order of [`BASIC`], then the others in the order of their names.
@@ -37,25 +37,21 @@ pub struct State {
     pub step: u64,
 }
 
-/// A column and its values.
+/// A column, and its values where some are given.
 #[derive(Debug, Clone, PartialEq)]
 struct Filled {
     column: Column,
-    values: Array,
-}
-
-impl Filled {
-    fn new(column: Column, particles: usize) -> Self {
-        let values = column.array(particles);
-        Self { column, values }
-    }
+    values: Option<Array>,
 }
 
 impl Default for State {
     /// No particles, at time 0.
     fn default() -> Self {
         let known = Columns::default();
-        let columns = BASIC.iter().filter_map(|name| known.get(name)).map(|column| Filled::new(column.clone(), 0));
+        let columns = BASIC
+            .iter()
+            .filter_map(|name| known.get(name))
+            .map(|column| Filled { column: column.clone(), values: Some(column.array(0)) });
         Self {
             columns: columns.collect(),
             links: Links::default(),
@@ -80,19 +76,23 @@ impl State {
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
-    /// All columns that it has, with their values.
+    /// All columns that have values, with these.
     pub fn columns(&self) -> impl Iterator<Item = (&Column, &Array)> {
-        self.columns.iter().map(|filled| (&filled.column, &filled.values))
+        self.columns.iter().filter_map(|filled| Some((&filled.column, filled.values.as_ref()?)))
     }
-    /// The values of a column.
+    /// All columns that it knows, whether they have values or not.
+    pub fn declared(&self) -> impl Iterator<Item = &Column> {
+        self.columns.iter().map(|filled| &filled.column)
+    }
+    /// The values of a column, where some are given.
     #[must_use]
     pub fn get(&self, name: &str) -> Option<&Array> {
-        self.find(name).map(|filled| &filled.values)
+        self.find(name)?.values.as_ref()
     }
     /// The values of a column, to change in place.
     #[must_use]
     pub fn get_mut(&mut self, name: &str) -> Option<&mut Array> {
-        self.columns.iter_mut().find(|filled| filled.column.name == name).map(|filled| &mut filled.values)
+        self.columns.iter_mut().find(|filled| filled.column.name == name)?.values.as_mut()
     }
     /// The values of a column of real numbers.
     #[must_use]
@@ -109,12 +109,11 @@ impl State {
     pub fn whole(&self, name: &str) -> Option<&[u32]> {
         if let Some(Array::Uint(values)) = self.get(name) { Some(values) } else { None }
     }
-    /// Adds a column, filled with its initial value. One of the same name that is there keeps its values.
+    /// Makes a column known. It gets values by [`State::set`]; a simulation starts with its initial value where nobody gives any.
     ///
     /// # Errors
-    /// [`Error::Scene`] when the one that is there is of another kind or shape.
+    /// [`Error::Scene`] when a column of that name is known, of another kind or shape.
     pub fn declare(&mut self, column: &Column) -> Result<(), Error> {
-        let count = self.len();
         if let Some(known) = self.columns.iter_mut().find(|filled| filled.column.name == column.name) {
             if (known.column.kind, known.column.shape) != (column.kind, column.shape) {
                 return Err(Error::Scene(format!(
@@ -126,12 +125,9 @@ impl State {
                     known.column.shape
                 )));
             }
-            known.column = column.clone();
             return Ok(());
         }
-        let after = BASIC.len();
-        let place = self.columns[after..].partition_point(|filled| filled.column.name < column.name);
-        self.columns.insert(after + place, Filled::new(column.clone(), count));
+        self.put(column, None);
         Ok(())
     }
     /// Gives a column its values. A name that is not declared yet becomes a column of that kind, one value for each particle.
@@ -140,8 +136,9 @@ impl State {
     /// [`Error::Scene`] when the values are of another kind than the column, or not as many.
     pub fn set(&mut self, name: &str, values: Array) -> Result<(), Error> {
         if self.find(name).is_none() {
-            let kind = Kind::of(&values);
-            self.declare(&Column::new(name.to_owned(), kind, "", ""))?;
+            let known = Columns::default().get(name).cloned();
+            let column = known.unwrap_or_else(|| Column::new(name.to_owned(), Kind::of(&values), "", ""));
+            self.declare(&column)?;
         }
         let count = self.len();
         let known = self.columns.iter_mut().find(|filled| filled.column.name == name);
@@ -156,29 +153,36 @@ impl State {
         let wanted = column.shape.len(count);
         if values.len() != wanted {
             return Err(Error::Scene(format!(
-                "the column `{name}` takes {wanted} values, and {} are given: give one for each of {count} particles",
+                "the column `{name}` takes {wanted} values, and {} are given; there are {count} particles",
                 values.len()
             )));
         }
-        *old = values;
+        *old = Some(values);
         Ok(())
     }
-    /// Takes a column away. The basic ones stay.
+    /// Takes a column away, and gives its values. The basic ones stay.
     pub fn remove(&mut self, name: &str) -> Option<Array> {
         let place = self.columns.iter().position(|filled| filled.column.name == name).filter(|n| *n >= BASIC.len())?;
-        Some(self.columns.remove(place).values)
+        self.columns.remove(place).values
     }
-    /// The same, without columns that are recomputed.
-    #[must_use]
-    pub fn without_derived(mut self) -> Self {
-        self.columns.retain(|filled| filled.column.role == Role::State);
-        self
+    /// Puts a column in place of what is known of that name; there must be as many values as its shape has.
+    pub(crate) fn put(&mut self, column: &Column, values: Option<Array>) {
+        let filled = Filled { column: column.clone(), values };
+        match self.columns.iter().position(|known| known.column.name == column.name) {
+            Some(place) => self.columns[place] = filled,
+            None => {
+                let after = BASIC.len();
+                let place = self.columns[after..].partition_point(|known| known.column.name < column.name);
+                self.columns.insert(after + place, filled);
+            }
+        }
     }
     fn find(&self, name: &str) -> Option<&Filled> {
         self.columns.iter().find(|filled| filled.column.name == name)
     }
-    /// Every column with one value, or some, for each particle.
-    fn particle_columns(&mut self) -> impl Iterator<Item = &mut Filled> {
-        self.columns.iter_mut().filter(|filled| !matches!(filled.column.shape, Shape::System(_)))
+    /// Every column with values, one or some for each particle.
+    fn particle_columns(&mut self) -> impl Iterator<Item = (&Column, &mut Array)> {
+        let some = self.columns.iter_mut().filter(|filled| !matches!(filled.column.shape, Shape::System(_)));
+        some.filter_map(|filled| Some((&filled.column, filled.values.as_mut()?)))
     }
 }

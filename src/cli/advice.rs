@@ -2,9 +2,7 @@
 
 use glam::{DVec3, DVec4};
 use motes::forces::{Law, Over, Problem};
-use motes::kernel::{
-    ACCELERATION, Access, Array, Host, Kernel, Machine, POSITION, Pass, SPECIES, Twin, VELOCITY, World,
-};
+use motes::kernel::{ACCELERATION, Array, Host, Machine, POSITION, SPECIES, Twin, VELOCITY, World};
 use motes::links::Links;
 use motes::motion::Hold;
 use motes::scene::Scene;
@@ -54,32 +52,6 @@ fn in_the_plane(name: &str, twin: &Twin, setup: &Setup) -> Result<(), Error> {
              say dimensions = 3 in [box]"
         )))
     })
-}
-
-/// Fields that a shader of a user may read: what a simulation has, and what the file itself writes.
-const FIELDS: &[&str] = &["position", "velocity", "acceleration", "species", "alarm"];
-
-/// A name in a user's file that nobody fills is a slip of the pen.
-fn strangers(kernel: &Kernel) -> Result<(), Error> {
-    let theirs = |pass: &&Pass| !pass.shader.trusted();
-    for pass in kernel.passes.iter().filter(theirs) {
-        let file = pass.shader.sources().iter().find(|s| !s.ours).map_or("", |s| &s.file);
-        for (name, binding) in pass.bindings().filter(|(_, b)| b.access == Access::Read) {
-            let written = kernel.bindings().any(|(field, b)| b.access == Access::Write && field == name);
-            // What goes by another name in the shader is a visit's own: a grid, which a kernel before this one fills.
-            if FIELDS.contains(&name) || written || name != binding.name {
-                continue;
-            }
-            let near =
-                FIELDS.iter().min_by_key(|field| strsim::damerau_levenshtein(field, name)).unwrap_or(&"position");
-            let message = format!(
-                "{file}: nobody fills the field `{name}`; did you mean `{near}`? There are {}",
-                FIELDS.join(", ")
-            );
-            return Err(Error::Shader { message });
-        }
-    }
-    Ok(())
 }
 
 /// What should stay as it is.
@@ -137,7 +109,8 @@ pub fn conserved(setup: &Setup) -> Result<Conserved, Error> {
             Some(twin) => keeps_energy(twin, &setup.bounds)?,
             None => false,
         };
-        conserved.energy &= !law.kernel(&Problem::new(1, MACHINE))?.names("velocity");
+        let problem = Problem::new(1, MACHINE).of_columns(setup.columns()?);
+        conserved.energy &= !law.kernel(&problem)?.names("velocity");
     }
     // What breaks takes its energy with it.
     conserved.energy &= !setup.breaks();
@@ -210,8 +183,7 @@ pub fn advice(scene: &Scene, setup: &Setup) -> Result<Vec<String>, Error> {
         if let Some(twin) = law.twin.as_ref().filter(|_| setup.bounds.dimensions == 2) {
             in_the_plane(&name, twin, setup)?;
         }
-        let kernel = law.kernel(&Problem::new(1, MACHINE))?;
-        strangers(&kernel)?;
+        let kernel = law.kernel(&Problem::new(1, MACHINE).of_columns(setup.columns()?))?;
         let solved = implicit && offered;
         // Velocities count in the springs of the house where they are damped, and nowhere else.
         let calm = over == Over::Links && !untwinned && !damped(&setup.state.links);

@@ -79,7 +79,7 @@ fn keep(last: &State, folder: &Path, formats: &[Format], precision: Precision) -
     }
     if formats.contains(&Format::Npz) || !text {
         let path = folder.join("last_good.npz");
-        atomically(&path, |out| npz::write_npz(out, &last, last.time, last.step, precision))?;
+        atomically(&path, |out| npz::write_npz(out, &last, precision))?;
         files.push(path.display().to_string());
     }
     Ok(files.join(" and "))

@@ -130,7 +130,7 @@ fn weight(setup: &Setup) -> Result<Weight, Error> {
     let machine = Machine::HOST;
     let mut weight = Weight::default();
     for law in setup.forces.iter().flat_map(|force| force.laws()).filter(|law| law.over == Over::Each) {
-        let velocity = law.clone().kernel(&Problem::new(1, machine))?.names("velocity");
+        let velocity = law.clone().kernel(&Problem::new(1, machine).of_columns(setup.columns()?))?.names("velocity");
         if let (Some(twin), false) = (&law.twin, velocity) {
             let places = setup.state.position();
             let middle = places.iter().sum::<DVec3>() / places.len() as f64;

@@ -129,12 +129,11 @@ impl Output {
         let stem = format!("snapshot_{:0width$}", snapshot.step, width = self.digits);
         if self.formats.contains(&Format::Csv) {
             let path = self.folder.file(&format!("{stem}.csv"))?;
-            atomically(&path, |out| csv::write_csv(out, &snapshot, self.precision))?;
+            atomically(&path, |out| csv::write_csv(out, snapshot, self.precision))?;
         }
         if self.formats.contains(&Format::Npz) {
             let path = self.folder.file(&format!("{stem}.npz"))?;
-            let (particles, time, step) = (&snapshot, snapshot.time, snapshot.step);
-            atomically(&path, |out| npz::write_npz(out, particles, time, step, self.precision))?;
+            atomically(&path, |out| npz::write_npz(out, snapshot, self.precision))?;
         }
         Ok(())
     }

@@ -254,9 +254,15 @@ impl Run {
         course: &Course,
         output: &mut Output,
     ) -> Result<Option<Image>, Failure> {
-        let snapshot = simulation.snapshot().await?;
+        let columns = self.scene.output.columns.clone();
+        let wanted: Vec<&str> = columns.iter().map(String::as_str).collect();
+        let mut snapshot = simulation.snapshot_of(&wanted).await?;
         self.enter(simulation, course, &snapshot).await?;
         output.measure(&snapshot)?;
+        // The energies are in their table.
+        if !wanted.contains(&"potential") {
+            snapshot.remove("potential");
+        }
         output.snapshot(&snapshot)?;
         if let Some(links) = simulation.torn().await? {
             output.links(snapshot.step, &links)?;

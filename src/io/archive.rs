@@ -5,15 +5,16 @@ use std::io::{self, Read, Seek};
 use npyz::npz::NpzArchive;
 use npyz::zip::CompressionMethod;
 
-use super::csv::{NUMBERS, unknown};
+use super::csv::unknown;
 use super::npy::Header;
 use super::problems::Problems;
+use super::titles::Title;
 
 /// The best that deflate can do: 258 bytes out of 2 bits.
 const DEFLATED: u64 = 1032;
 
-/// The arrays beside [`NUMBERS`].
-const OTHERS: [&str; 5] = ["species", "life", "id", "time", "step"];
+/// The arrays beside those of columns.
+const OTHERS: [&str; 3] = ["id", "time", "step"];
 
 /// An archive, and what was wrong with it so far.
 pub(super) struct Arrays<R: Read + Seek> {
@@ -22,20 +23,20 @@ pub(super) struct Arrays<R: Read + Seek> {
 }
 
 impl<R: Read + Seek> Arrays<R> {
-    /// Opens an archive, and notes arrays that nobody would read.
-    pub(super) fn opened(from: R) -> io::Result<Self> {
+    /// Opens an archive, and notes arrays that are neither of these titles nor of these names.
+    pub(super) fn opened(from: R, titles: &[Title<'_>], system: &[&str]) -> io::Result<Self> {
         let mut arrays = Self { archive: NpzArchive::new(from)?, problems: Problems::default() };
-        arrays.known();
+        arrays.known(titles, system);
         Ok(arrays)
     }
 
     /// Notes arrays of other names.
-    fn known(&mut self) {
+    fn known(&mut self, titles: &[Title<'_>], system: &[&str]) {
         let mut names: Vec<&str> = self.archive.array_names().collect();
         names.sort_unstable(); // an archive lists them in the order of a hash
         for name in names {
-            if !NUMBERS.iter().any(|(known, _)| *known == name) && !OTHERS.contains(&name) {
-                self.problems.note(|| unknown("array", &name.chars().take(40).collect::<String>(), &OTHERS));
+            if !titles.iter().any(|known| known.text == name) && !OTHERS.contains(&name) && !system.contains(&name) {
+                self.problems.note(|| unknown("array", &name.chars().take(40).collect::<String>(), titles, &OTHERS));
             }
         }
     }

@@ -1,92 +1,84 @@
-//! Text in columns that commas or blanks separate. Columns `x,y,z`, and any of `vx,vy,vz` (0 when left out), `mass` (1), `radius` (0), `species` (0), `life`
-//! (1: it lives; 0: it is yet to be born; 2: it is dead), `id` and `name`; `m` is `mass`. Lines that start with `#` are comments;
-//! the last one before a first row of numbers names the columns, where it has as many words.
+//! Text in columns that commas or blanks separate: a header of titles, then one row for each particle. Lines that start with `#` are
+//! comments; the last one before a first row of numbers names the columns, where it has as many words.
+//!
+//! Titles are `x,y,z`, and any of `vx,vy,vz` (0 when left out), `mass` (1), `size` (0), `species` (0), `life` (1: it is active; 0: it
+//! is pending; 2: it is removed), those of any other column (`charge`, or `spin_x,spin_y,spin_z`), `id` and `name`; `m` is `mass`. A table holds
+//! neither the time nor the step, nor quantities of the system.
 
 use std::fmt::Write as _;
 use std::io::{self, Write};
 use std::path::Path;
 
 use ::csv::ByteRecord;
-use glam::DVec3;
 use rayon::prelude::*;
 
 use super::line::Line;
 use super::problems::{Problems, order};
 use super::rows::{self, Opened};
+use super::titles::{self, Number, Strip, Title};
 use super::{Precision, input, open};
 use crate::error::Error;
-use crate::life::Life;
+use crate::kernel::{Columns, Kind};
 use crate::state::State;
 
-/// The columns with numbers, and what they are when left out.
-pub(super) const NUMBERS: [(&str, f64); 8] =
-    [("x", 0.0), ("y", 0.0), ("z", 0.0), ("vx", 0.0), ("vy", 0.0), ("vz", 0.0), ("mass", 1.0), ("radius", 0.0)];
 /// What else a mass is called.
 const SHORT: &str = "m";
 const ID: &str = "id";
-const SPECIES: &str = "species";
-const LIFE: &str = "life";
 const NAME: &str = "name";
 
-/// Reads particles. With a column `id` the rows may come in any order; ids count from 0.
+/// Reads a state of these columns. With a column `id` the rows may come in any order; ids count from 0.
 ///
 /// # Errors
 /// [`Error::Input`] that lists, with line and column, every cell that is missing, no number, not finite, or negative where
 /// that makes no sense; every column that is unknown, missing or given twice; every id that is missing or given twice.
-pub fn read(path: &Path) -> Result<State, Error> {
+pub fn read(path: &Path, columns: &Columns) -> Result<State, Error> {
     let (file, _) = open(path)?;
     let mut problems = Problems::default();
     let mut record = ByteRecord::new();
     let failed = |error: io::Error| input(path, error.to_string());
-    let Opened { mut rows, titles, bare } = rows::open(file).map_err(failed)?;
-    if titles.is_none() && !rows.next(&mut record).map_err(failed)? {
+    let Opened { mut rows, titles: named, bare } = rows::open(file).map_err(failed)?;
+    if named.is_none() && !rows.next(&mut record).map_err(failed)? {
         return Err(input(path, "is empty; its first line must name the columns, such as x,y,z,vx,vy,vz,mass"));
     }
-    if titles.is_none() && bare {
+    if named.is_none() && bare {
         return Err(input(path, unnamed(&record)));
     }
-    let columns = Columns::named(titles.as_ref().unwrap_or(&record), &mut problems);
-    let (mut particles, mut ids, mut lines) = (State::default(), Vec::new(), Vec::new());
-    let (mut species, mut lives) = (Vec::new(), Vec::new());
+    let titles = titles::all(columns);
+    let header = Header::read(named.as_ref().unwrap_or(&record), &titles, &mut problems);
+    let mut given: Vec<Option<Vec<f64>>> = header.places.iter().map(|place| place.map(|_| Vec::new())).collect();
+    let (mut count, mut ids, mut lines) = (0, Vec::new(), Vec::new());
     while rows.next(&mut record).map_err(failed)? {
         let line = Line::of(path, &record);
-        if record.len() > columns.count {
-            problems.note(|| format!("{line}: {} cells, but {} columns", record.len(), columns.count));
+        if record.len() > header.width {
+            problems.note(|| format!("{line}: {} cells, but {} columns", record.len(), header.width));
         }
-        let [x, y, z, vx, vy, vz, mass, radius] = columns.numbers(&record, &line, &mut problems);
-        particles.push(DVec3::new(x, y, z), DVec3::new(vx, vy, vz), mass, radius);
-        let of = columns.species.and_then(|place| whole(&record, place, SPECIES, &line, &mut problems));
-        species.push(of.unwrap_or_default());
-        if let Some(place) = columns.life {
-            let word = whole(&record, place, LIFE, &line, &mut problems);
-            let life = word.and_then(Life::of);
-            if let (Some(word), None) = (word, life) {
-                problems
-                    .note(|| format!("{line}, column {LIFE}: {word} is none of 0 (waits), 1 (lives) and 2 (is dead)"));
+        for ((title, list), place) in titles.iter().zip(&mut given).zip(&header.places) {
+            let (Some(list), Some(place)) = (list, place) else { continue };
+            let number = if title.column.kind == Kind::Whole {
+                whole(&record, *place, &title.text, &line, &mut problems).map(f64::from)
+            } else {
+                real(&record, *place, &title.text, &line, &mut problems)
+            };
+            if let (Some(number), Some(fault)) = (number, number.and_then(|number| title.fault(number))) {
+                problems.note(|| format!("{line}, column {}: {number} {fault}", title.text));
             }
-            lives.push(life.unwrap_or_default());
+            list.push(number.unwrap_or(0.0));
         }
-        if let Some(id) = columns.id.and_then(|place| whole(&record, place, ID, &line, &mut problems)) {
+        count += 1;
+        if let Some(id) = header.id.and_then(|place| whole(&record, place, ID, &line, &mut problems)) {
             ids.push(u64::from(id));
             lines.push(line);
         }
     }
-    particles.species_mut().copy_from_slice(&species);
-    if columns.life.is_some() {
-        particles.set_lives(&lives)?;
-    }
-    if columns.id.is_none() {
-        problems.check(path)?;
-        return Ok(particles);
-    }
     // Ids that could not be read have been noted; gaps would only repeat them.
-    if ids.len() == particles.len() {
-        let order = order(&ids, |row| lines[row].to_string(), &mut problems);
-        problems.check(path)?;
-        return Ok(particles.picked(&order));
-    }
+    let order =
+        (header.id.is_some() && ids.len() == count).then(|| order(&ids, |row| lines[row].to_string(), &mut problems));
     problems.check(path)?;
-    Ok(particles)
+    let state = titles::state(columns, given, count);
+    Ok(match order {
+        Some(order) => state.picked(&order),
+        None => state,
+    })
 }
 
 /// What to say of a table whose first row is numbers.
@@ -103,30 +95,27 @@ fn unnamed(record: &ByteRecord) -> String {
     )
 }
 
-/// Where each column is.
-struct Columns {
-    count: usize,
-    numbers: [Option<usize>; 8],
+/// Where each title is.
+struct Header {
+    width: usize,
+    /// In the order of the titles that may be there.
+    places: Vec<Option<usize>>,
     id: Option<usize>,
-    species: Option<usize>,
-    life: Option<usize>,
 }
 
-impl Columns {
-    fn named(header: &ByteRecord, problems: &mut Problems) -> Self {
-        let mut columns = Self { count: header.len(), numbers: [None; 8], id: None, species: None, life: None };
+impl Header {
+    fn read(header: &ByteRecord, titles: &[Title<'_>], problems: &mut Problems) -> Self {
+        let mut found = Self { width: header.len(), places: vec![None; titles.len()], id: None };
         let mut name = None;
         for place in 0..header.len() {
             let title = shown(header, place);
             let title = if title == SHORT { "mass".to_owned() } else { title };
-            let slot = match NUMBERS.iter().position(|(known, _)| *known == title) {
-                Some(number) => &mut columns.numbers[number],
-                None if title == ID => &mut columns.id,
-                None if title == SPECIES => &mut columns.species,
-                None if title == LIFE => &mut columns.life,
+            let slot = match titles.iter().position(|known| known.text == title) {
+                Some(number) => &mut found.places[number],
+                None if title == ID => &mut found.id,
                 None if title == NAME => &mut name,
                 None => {
-                    problems.note(|| unknown("column", &title, &[SPECIES, LIFE, ID, NAME]));
+                    problems.note(|| unknown("column", &title, titles, &[ID, NAME]));
                     continue;
                 }
             };
@@ -134,41 +123,29 @@ impl Columns {
                 problems.note(|| format!("the column `{title}` is there twice"));
             }
         }
-        for ((title, _), place) in NUMBERS.iter().zip(columns.numbers).take(3) {
-            if place.is_none() {
-                problems.note(|| format!("the column `{title}` is missing; the first line must name x, y and z"));
+        for (title, place) in titles.iter().zip(&found.places) {
+            if title.column.name == "position" && place.is_none() {
+                problems
+                    .note(|| format!("the column `{}` is missing; the first line must name x, y and z", title.text));
             }
         }
-        columns
+        found
     }
+}
 
-    fn numbers(&self, record: &ByteRecord, line: &Line, problems: &mut Problems) -> [f64; 8] {
-        let mut values = NUMBERS.map(|(_, default)| default);
-        for ((value, (title, _)), place) in values.iter_mut().zip(NUMBERS).zip(self.numbers) {
-            let Some(place) = place else { continue };
-            let at = || format!("{line}, column {title}");
-            let text = record.get(place).unwrap_or_default();
-            if text.is_empty() {
-                problems.note(|| format!("{}: the cell is missing", at()));
-                continue;
-            }
-            match cell(record, place).and_then(|text| text.parse::<f64>().ok()) {
-                Some(number) if number.is_finite() => {
-                    *value = number;
-                    if number < 0.0 && matches!(title, "mass" | "radius") {
-                        problems.note(|| format!("{}: {number} is below 0", at()));
-                    }
-                }
-                Some(_) => {
-                    problems.note(|| format!("{}: `{}` is not finite", at(), shown(record, place)));
-                }
-                None => {
-                    problems.note(|| format!("{}: `{}` is not a number", at(), shown(record, place)));
-                }
-            }
-        }
-        values
+/// A finite number.
+fn real(record: &ByteRecord, place: usize, title: &str, line: &Line, problems: &mut Problems) -> Option<f64> {
+    let at = || format!("{line}, column {title}");
+    if record.get(place).unwrap_or_default().is_empty() {
+        problems.note(|| format!("{}: the cell is missing", at()));
+        return None;
     }
+    match cell(record, place).and_then(|text| text.parse::<f64>().ok()) {
+        Some(number) if number.is_finite() => return Some(number),
+        Some(_) => problems.note(|| format!("{}: `{}` is not finite", at(), shown(record, place))),
+        None => problems.note(|| format!("{}: `{}` is not a number", at(), shown(record, place))),
+    }
+    None
 }
 
 /// A whole number that fits 32 bits.
@@ -194,9 +171,12 @@ fn shown(record: &ByteRecord, place: usize) -> String {
     text.chars().take(40).collect()
 }
 
-/// What to say about a name that is neither one of [`NUMBERS`] nor of `others`.
-pub(super) fn unknown(what: &str, title: &str, others: &[&'static str]) -> String {
-    let known = || NUMBERS.iter().map(|(name, _)| *name).chain(others.iter().copied());
+/// What to say about a name that is neither one of the titles nor of `others`.
+pub(super) fn unknown(what: &str, title: &str, titles: &[Title<'_>], others: &[&'static str]) -> String {
+    if title == "radius" {
+        return format!("unknown {what} `radius`: the radius that is drawn is called `size`");
+    }
+    let known = || titles.iter().map(|known| known.text.as_str()).chain(others.iter().copied());
     let first = title.to_lowercase().chars().next();
     let like = known()
         .filter(|name| name.chars().next() == first)
@@ -209,36 +189,26 @@ pub(super) fn unknown(what: &str, title: &str, others: &[&'static str]) -> Strin
     }
 }
 
-/// Writes a header and one row per particle, in the order of the ids: `id,x,y,z,vx,vy,vz,mass`, `species` where any is not 0, and
-/// `life` where any does not live. Each number is the shortest decimal that reads back to the same bits of the precision, also where it is read as f64
-/// first; radii are not written.
+/// Writes a header and one row per particle, in the order of the ids: `id,x,y,z,vx,vy,vz,mass`, `size` and `species` where any is not 0,
+/// `life` where any is not active, and every other column that the state has. Each number is the shortest decimal that reads back to
+/// the same bits of the precision, also where it is read as f64 first.
 ///
 /// # Errors
 /// Those of `out`.
-pub fn write_csv(mut out: impl Write, particles: &State, precision: Precision) -> io::Result<()> {
+pub fn write_csv(mut out: impl Write, state: &State, precision: Precision) -> io::Result<()> {
     /// Rows per piece of work, and pieces that are in memory at once: about 16 MB of text.
     const ROWS: usize = 4096;
     const PIECES: usize = 32;
-    let species = particles.species().iter().any(|species| *species != 0);
-    out.write_all(b"id,x,y,z,vx,vy,vz,mass")?;
-    let mortal = particles.life().iter().any(|life| *life != Life::Living);
-    out.write_all(if species { b",species" } else { b"" })?;
-    out.write_all(if mortal { b",life\n" } else { b"\n" })?;
+    let strips = titles::strips(state);
+    let header = strips.iter().fold(ID.to_owned(), |all, strip| all + "," + &strip.text);
+    out.write_all(header.as_bytes())?;
+    out.write_all(b"\n")?;
     let mut pieces: Vec<String> = vec![String::new(); PIECES];
-    for start in (0..particles.len()).step_by(ROWS * PIECES) {
+    for start in (0..state.len()).step_by(ROWS * PIECES) {
         pieces.par_iter_mut().enumerate().for_each(|(piece, text)| {
             text.clear();
             let first = start + piece * ROWS;
-            for id in first..particles.len().min(first + ROWS) {
-                row(text, id, particles, precision);
-                if species {
-                    let _ = write!(text, ",{}", particles.species()[id]);
-                }
-                if mortal {
-                    let _ = write!(text, ",{}", particles.life().get(id).copied().unwrap_or_default().word());
-                }
-                text.push('\n');
-            }
+            (first..state.len().min(first + ROWS)).for_each(|id| row(text, id, &strips, precision));
         });
         for text in &pieces {
             out.write_all(text.as_bytes())?;
@@ -247,27 +217,28 @@ pub fn write_csv(mut out: impl Write, particles: &State, precision: Precision) -
     Ok(())
 }
 
-fn row(text: &mut String, id: usize, particles: &State, precision: Precision) {
-    let (x, v) = (particles.position()[id], particles.velocity()[id]);
+fn row(text: &mut String, id: usize, strips: &[Strip<'_>], precision: Precision) {
     // Writing into a String cannot fail. `{:?}` is the shortest decimal that reads back, with an exponent where that is shorter.
     let _ = write!(text, "{id}");
-    for number in [x.x, x.y, x.z, v.x, v.y, v.z, particles.mass()[id]] {
+    for strip in strips {
         let start = text.len();
-        match precision {
-            Precision::Single => {
+        let _ = match (strip.of(id), precision) {
+            (Number::Whole(number), _) => write!(text, ",{number}"),
+            (Number::Real(number), Precision::Double) => write!(text, ",{number:?}"),
+            (Number::Real(number), Precision::Single) => {
                 #[expect(clippy::cast_possible_truncation, reason = "single precision was asked for")]
                 let single = number as f32;
-                let _ = write!(text, ",{single:?}");
-                if !reads_back(&text[start + 1..], single) {
+                let written = write!(text, ",{single:?}");
+                if reads_back(&text[start + 1..], single) {
+                    written
+                } else {
                     text.truncate(start);
-                    let _ = write!(text, ",{:?}", f64::from(single));
+                    write!(text, ",{:?}", f64::from(single))
                 }
             }
-            Precision::Double => {
-                let _ = write!(text, ",{number:?}");
-            }
-        }
+        };
     }
+    text.push('\n');
 }
 
 /// Whether a reader that knows only f64 finds the same f32 when it narrows: rounding twice is not always rounding once. Of all

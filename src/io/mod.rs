@@ -17,6 +17,7 @@ pub mod npz;
 mod problems;
 mod rows;
 pub mod tipsy;
+mod titles;
 
 use std::fs::File;
 use std::io::{BufReader, Read};
@@ -26,6 +27,7 @@ pub use self::atomic::atomically;
 #[cfg(feature = "scene")]
 pub use self::folder::Folder;
 use crate::error::Error;
+use crate::kernel::Columns;
 use crate::state::State;
 
 /// How many digits, or bytes, a number gets in a file.
@@ -38,16 +40,16 @@ pub enum Precision {
     Double,
 }
 
-/// Reads particles from a file of any known format: by its ending `.csv`, `.npz`, `.tipsy` (or `.bin`, `.std`, `.tip`), and
-/// by what it starts with where the ending says nothing.
+/// Reads a state of these columns from a file of any known format: by its ending `.csv`, `.npz`, `.tipsy` (or `.bin`, `.std`,
+/// `.tip`), and by what it starts with where the ending says nothing.
 ///
 /// # Errors
 /// [`Error::Input`], with the file and the line or byte offset of everything that is wrong with it.
-pub fn read(path: &Path) -> Result<State, Error> {
+pub fn read(path: &Path, columns: &Columns) -> Result<State, Error> {
     let ending = path.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase();
     match ending.as_str() {
-        "csv" => csv::read(path),
-        "npz" => npz::read(path),
+        "csv" => csv::read(path, columns),
+        "npz" => npz::read(path, columns),
         "bin" | "std" | "tip" | "tipsy" => tipsy::read(path),
         _ => {
             let mut start = Vec::new();
@@ -56,12 +58,12 @@ pub fn read(path: &Path) -> Result<State, Error> {
             if start.starts_with(b"\x89HDF\r\n\x1a\n") {
                 Err(input(path, "is an HDF5 file, which motes does not read: make it a CSV or NPZ file"))
             } else if start.starts_with(b"PK\x03\x04") {
-                npz::read(path)
+                npz::read(path, columns)
             } else if start.contains(&0) {
                 // A Tipsy header holds small counts, so it holds zeros; text does not.
                 tipsy::read(path)
             } else {
-                csv::read(path)
+                csv::read(path, columns)
             }
         }
     }

@@ -20,6 +20,8 @@ const HEADER: usize = 28;
 const PADDING: usize = 4;
 /// The kinds of records in the order of the file, and their bytes.
 const KINDS: [(&str, u64); 3] = [("gas", 48), ("dark", 36), ("star", 44)];
+/// What it holds of a state.
+const HELD: [&str; 7] = ["x", "y", "z", "vx", "vy", "vz", "mass"];
 /// The longest record.
 const LONGEST: usize = 48;
 
@@ -148,14 +150,16 @@ fn counted(header: &[u8; HEADER]) -> Result<(Bytes, [u64; 3]), String> {
 }
 
 /// Writes the standard form: big-endian, padded header, every particle a dark one in the order of the ids, with the same
-/// `softening` \[length\] and a potential of 0. Numbers are narrowed to f32; radii are not written.
+/// `softening` \[length\] and a potential of 0. Numbers are narrowed to f32. The format holds positions, velocities, masses and the
+/// time; the columns that it cannot hold, and that say more than their initial values, are given back by name.
 ///
 /// # Errors
 /// Those of `out`; and what Tipsy cannot hold: more than 2³¹ - 1 particles, numbers beyond the range of f32.
-pub fn write_tipsy(mut out: impl Write, particles: &State, time: f64, softening: f64) -> io::Result<()> {
+pub fn write_tipsy(mut out: impl Write, state: &State, softening: f64) -> io::Result<Vec<String>> {
+    let particles = state;
     let count = i32::try_from(particles.len())
         .map_err(|_| io::Error::other(format!("{} particles; a Tipsy file counts to {}", particles.len(), i32::MAX)))?;
-    out.write_all(&time.to_be_bytes())?;
+    out.write_all(&state.time.to_be_bytes())?;
     for word in [count, 3, 0, count, 0, 0] {
         out.write_all(&word.to_be_bytes())?;
     }
@@ -173,5 +177,6 @@ pub fn write_tipsy(mut out: impl Write, particles: &State, time: f64, softening:
         }
         out.write_all(&record)?;
     }
-    Ok(())
+    let lost = super::titles::strips(state).into_iter().map(|strip| strip.text);
+    Ok(lost.filter(|title| !HELD.contains(&title.as_str())).collect())
 }

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use glam::DVec3;
 
-use super::build::{CENTER, PARTICLE_RADIUS, Reader, SEED, VELOCITY};
+use super::build::{CENTER, PARTICLE_SIZE, Reader, SEED, VELOCITY};
 use super::random::Random;
 use super::skin::{DENSITY, SPACING, cells, steps};
 use super::{Shape, one_part};
@@ -41,7 +41,7 @@ const KEYS: &[Key] = &[
     SEED,
     CENTER,
     VELOCITY,
-    PARTICLE_RADIUS,
+    PARTICLE_SIZE,
 ];
 
 /// As many particles along each side as fit best, in the middle of their shares; each weighs what the fluid in its share does.
@@ -60,7 +60,7 @@ fn build(settings: &Settings) -> Result<State, Error> {
     let mass = density * if flat { spacing * spacing } else { spacing.powi(3) };
     let jitter = reader.not_negative("jitter")?;
     let (center, velocity) = (reader.vector("center")?, reader.vector("velocity")?);
-    let radius = reader.not_negative("particle_radius")?;
+    let radius = reader.not_negative("particle_size")?;
     let [vortices, strain] = ["vortices", "strain"].map(|key| reader.number(key, "finite", |_| true));
     let (vortices, strain) = (vortices?, strain?);
     let flow = |x: DVec3| {

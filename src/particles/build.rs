@@ -18,8 +18,8 @@ pub(super) const VELOCITY: Key =
 pub(super) const MASS: Key = Key::new("mass", Kind::Positive, Value::Number(1.0), "mass of each particle [mass]");
 pub(super) const TOTAL_MASS: Key =
     Key::new("mass", Kind::Positive, Value::Number(1.0), "mass of all particles together [mass]");
-pub(super) const PARTICLE_RADIUS: Key = Key::new(
-    "particle_radius",
+pub(super) const PARTICLE_SIZE: Key = Key::new(
+    "particle_size",
     Kind::NotNegative,
     Value::Number(0.0),
     "how large each particle is drawn [length]; 0 lets the picture choose",

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use glam::DVec3;
 
-use super::build::{MASS, PARTICLE_RADIUS, Reader, VELOCITY, hold};
+use super::build::{MASS, PARTICLE_SIZE, Reader, VELOCITY, hold};
 use super::{Shape, one_part};
 use crate::error::Error;
 use crate::links::{Joint, Link, Rod};
@@ -57,7 +57,7 @@ const KEYS: &[Key] = &[
         "which of them forces do not move",
     ),
     VELOCITY,
-    PARTICLE_RADIUS,
+    PARTICLE_SIZE,
 ];
 
 /// `count` particles from `from` to `to`, evenly, in that order.
@@ -73,7 +73,7 @@ fn build(settings: &Settings) -> Result<State, Error> {
         ["stiffness", "damping", "rest", "bending"].map(|key| reader.not_negative(key));
     let (stiffness, damping, rest, bending) = (stiffness?, damping?, rest?, bending?);
     let velocity = reader.vector("velocity")?;
-    let radius = reader.not_negative("particle_radius")?;
+    let radius = reader.not_negative("particle_size")?;
     let last = u32::try_from(count - 1).unwrap_or(u32::MAX);
     let distance = from.distance(to) / f64::from(last);
     if distance == 0.0 {

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use glam::DVec3;
 
-use super::build::{CENTER, MASS, PARTICLE_RADIUS, Reader, SEED, VELOCITY, hold};
+use super::build::{CENTER, MASS, PARTICLE_SIZE, Reader, SEED, VELOCITY, hold};
 use super::random::Random;
 use super::{Shape, one_part};
 use crate::error::Error;
@@ -73,7 +73,7 @@ const KEYS: &[Key] = &[
     SEED,
     CENTER,
     VELOCITY,
-    PARTICLE_RADIUS,
+    PARTICLE_SIZE,
 ];
 
 const PINS: &[&str] = &["none", "corners", "row", "column", "rim"];
@@ -97,7 +97,7 @@ fn build(settings: &Settings) -> Result<State, Error> {
     let mass = reader.positive("mass")?;
     let jitter = reader.not_negative("jitter")?;
     let (center, velocity) = (reader.vector("center")?, reader.vector("velocity")?);
-    let radius = reader.not_negative("particle_radius")?;
+    let radius = reader.not_negative("particle_size")?;
     let mut random = Random::new(settings.whole("seed"));
     let normal = right.cross(down).normalize();
     for j in 0..rows {

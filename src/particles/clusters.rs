@@ -6,7 +6,7 @@
 
 use glam::DVec3;
 
-use super::build::{CENTER, COUNT, PARTICLE_RADIUS, Reader, SEED, TOTAL_MASS, VELOCITY};
+use super::build::{CENTER, COUNT, PARTICLE_SIZE, Reader, SEED, TOTAL_MASS, VELOCITY};
 use super::random::Random;
 use super::{Shape, one_part};
 use crate::error::Error;
@@ -47,7 +47,7 @@ const KEYS: &[Key] = &[
     ),
     CENTER,
     VELOCITY,
-    PARTICLE_RADIUS,
+    PARTICLE_SIZE,
 ];
 
 /// `count` particles of equal mass, a clump's side by side; their centre of mass is at `center`, up to `velocity`.
@@ -62,7 +62,7 @@ fn build(settings: &Settings) -> Result<State, Error> {
     }
     let dimension = reader.number("dimension", "above 0 and at most 3", |x| x > 0.0 && x <= 3.0)?;
     let dispersion = reader.not_negative("dispersion")?;
-    let size = reader.not_negative("particle_radius")?;
+    let size = reader.not_negative("particle_size")?;
     let count = u32::try_from(count).unwrap_or(u32::MAX);
     let mut random = Random::new(settings.whole("seed"));
     let shrink = libm::exp(-libm::log(children as f64) / dimension);

@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 use glam::{DMat3, DVec3};
 
 use super::Shape;
-use super::build::{CENTER, COUNT, G, PARTICLE_RADIUS, Reader, SEED, VELOCITY};
+use super::build::{CENTER, COUNT, G, PARTICLE_SIZE, Reader, SEED, VELOCITY};
 use super::halo::Round;
 use super::random::Random;
 use super::rotation::{Galaxy, Rotation, Sphere};
@@ -70,7 +70,7 @@ const KEYS: &[Key] = &[
     G,
     CENTER,
     VELOCITY,
-    PARTICLE_RADIUS,
+    PARTICLE_SIZE,
 ];
 
 /// `count` particles: first those of the disk, then those of the halo and of the bulge, equal masses within each. All have
@@ -92,7 +92,7 @@ fn build(settings: &Settings) -> Result<State, Error> {
     let normal = reader.direction("normal")?;
     let center = reader.vector("center")?;
     let velocity = reader.vector("velocity")?;
-    let radius = reader.not_negative("particle_radius")?;
+    let radius = reader.not_negative("particle_size")?;
     let [disk_count, halo_count, bulge_count] = split(&reader, count)?;
 
     let mut disk = State::default();

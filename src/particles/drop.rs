@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::build::{CENTER, PARTICLE_RADIUS, Reader, VELOCITY};
+use super::build::{CENTER, PARTICLE_SIZE, Reader, VELOCITY};
 use super::skin::{DENSITY, SPACING, cells, steps};
 use super::{Shape, one_part};
 use crate::error::Error;
@@ -24,7 +24,7 @@ const KEYS: &[Key] = &[
     DENSITY,
     CENTER,
     VELOCITY,
-    PARTICLE_RADIUS,
+    PARTICLE_SIZE,
 ];
 
 /// All places of a lattice about its centre that are within the drop; each weighs what the fluid in its share does.
@@ -35,7 +35,7 @@ fn build(settings: &Settings) -> Result<State, Error> {
     reader.fits(numbers.element_product())?;
     let mass = reader.positive("density")? * if flat { spacing * spacing } else { spacing.powi(3) };
     let (center, velocity) = (reader.vector("center")?, reader.vector("velocity")?);
-    let radius = reader.not_negative("particle_radius")?;
+    let radius = reader.not_negative("particle_size")?;
     let middle = (numbers - DVec3::ONE) * 0.5;
     let half = 0.5 * if flat { size.with_z(1.0) } else { size };
     let mut particles = State::default();

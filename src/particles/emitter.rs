@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use glam::DVec3;
 
-use super::build::{CENTER, PARTICLE_RADIUS, Reader, SEED};
+use super::build::{CENTER, PARTICLE_SIZE, Reader, SEED};
 use super::random::Random;
 use crate::error::Error;
 use crate::life::{Birth, Life};
@@ -80,7 +80,7 @@ pub const KEYS: &[Key] = &[
         "the largest angle between their ways and the direction, evenly in the cone [degrees], up to 90",
     ),
     SEED,
-    PARTICLE_RADIUS,
+    PARTICLE_SIZE,
 ];
 
 /// The largest number that single precision holds: no end.
@@ -132,7 +132,7 @@ pub fn build(settings: &Settings, dimensions: u32, end: f64, room: u32) -> Resul
     } else {
         reader.not_negative("mass")?
     };
-    let (center, radius) = (reader.vector("center")?, reader.not_negative("particle_radius")?);
+    let (center, radius) = (reader.vector("center")?, reader.not_negative("particle_size")?);
     let guided = if spacing > 0.0 { reader.not_negative("guide")? * interval } else { 0.0 };
     let mut random = Random::new(settings.whole("seed"));
     for (id, k) in (0..count).zip(0_u32..) {

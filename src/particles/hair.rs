@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::build::{CENTER, PARTICLE_RADIUS, Reader, SEED, hold};
+use super::build::{CENTER, PARTICLE_SIZE, Reader, SEED, hold};
 use super::random::Random;
 use super::{Shape, one_part};
 use crate::error::Error;
@@ -46,7 +46,7 @@ const KEYS: &[Key] = &[
     Key::new("up", Kind::Direction, Value::Vector(DVec3::Z), "the way from the middle of the head to its top"),
     SEED,
     CENTER,
-    PARTICLE_RADIUS,
+    PARTICLE_SIZE,
 ];
 
 /// `strands * points` particles, strand by strand from its root on. Roots lie evenly on the cap (Fibonacci's lattice), and
@@ -66,7 +66,7 @@ fn build(settings: &Settings) -> Result<State, Error> {
     let cap = reader.number("cap", "above 0, and up to 180", |x| x > 0.0 && x <= 180.0)?;
     let (mass, bending) = (reader.positive("mass")?, reader.not_negative("bending")?);
     let (up, center) = (reader.direction("up")?, reader.vector("center")?);
-    let radius = reader.not_negative("particle_radius")?;
+    let radius = reader.not_negative("particle_size")?;
     let (across, along) = up.any_orthonormal_pair();
     let mut random = Random::new(settings.whole("seed"));
     let lowest = libm::cos(cap.to_radians());

@@ -4,7 +4,7 @@
 //! model ends nowhere, so particles are drawn from its inner `cutoff` alone, and have just the mass of that: forces and
 //! motions inside are those of the endless model, and only who leaves the cut meets nobody on the way in.
 
-use super::build::{CENTER, COUNT, G, PARTICLE_RADIUS, Reader, SEED, TOTAL_MASS, VELOCITY};
+use super::build::{CENTER, COUNT, G, PARTICLE_SIZE, Reader, SEED, TOTAL_MASS, VELOCITY};
 use super::random::Random;
 use super::{Shape, one_part};
 use crate::error::Error;
@@ -39,7 +39,7 @@ const KEYS: &[Key] = &[
     ),
     CENTER,
     VELOCITY,
-    PARTICLE_RADIUS,
+    PARTICLE_SIZE,
 ];
 
 /// `count` particles of equal mass; their centre of mass is at rest at `center`, up to `velocity`.
@@ -51,7 +51,7 @@ fn build(settings: &Settings) -> Result<State, Error> {
     let scale = reader.positive("scale")?;
     let g = reader.positive("g")?;
     let cutoff = reader.number("cutoff", "above 0 and below 1", |x| x > 0.0 && x < 1.0)?;
-    let radius = reader.not_negative("particle_radius")?;
+    let radius = reader.not_negative("particle_size")?;
     let mass = total / f64::from(u32::try_from(count).unwrap_or(u32::MAX));
     for _ in 0..count {
         // M(r)/M = r² / (r + a)², turned round.

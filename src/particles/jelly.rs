@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::build::{CENTER, MASS, PARTICLE_RADIUS, Reader, VELOCITY};
+use super::build::{CENTER, MASS, PARTICLE_SIZE, Reader, VELOCITY};
 use super::{Shape, one_part};
 use crate::error::Error;
 use crate::links::{Link, Links};
@@ -27,7 +27,7 @@ const KEYS: &[Key] = &[
     Key::new("damping", Kind::NotNegative, Value::Number(0.0), "damping of each spring, along itself [mass / time]"),
     CENTER,
     VELOCITY,
-    PARTICLE_RADIUS,
+    PARTICLE_SIZE,
 ];
 
 /// `size.x * size.y * size.z` particles, the middle of the block at `center`; x runs fastest. Springs in the surface belong to
@@ -51,7 +51,7 @@ fn build(settings: &Settings) -> Result<State, Error> {
     let mass = reader.positive("mass")?;
     let (stiffness, damping) = (reader.positive("stiffness")?, reader.not_negative("damping")?);
     let (center, velocity) = (reader.vector("center")?, reader.vector("velocity")?);
-    let radius = reader.not_negative("particle_radius")?;
+    let radius = reader.not_negative("particle_size")?;
     let middle = (size - DVec3::ONE) * 0.5;
     let block = Block { cells };
     block.places().for_each(|at| {

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::build::{CENTER, PARTICLE_RADIUS, Reader, SEED, VELOCITY};
+use super::build::{CENTER, PARTICLE_SIZE, Reader, SEED, VELOCITY};
 use super::random::Random;
 use super::zeldovich::displacements;
 use super::{Shape, one_part};
@@ -50,7 +50,7 @@ const KEYS: &[Key] = &[
     SEED,
     CENTER,
     VELOCITY,
-    PARTICLE_RADIUS,
+    PARTICLE_SIZE,
 ];
 
 /// `size.x * size.y * size.z` particles, the middle of the lattice at `center`; x runs fastest, so particle (i, j, k) has
@@ -73,7 +73,7 @@ fn build(settings: &Settings) -> Result<State, Error> {
     let jitter = reader.not_negative("jitter")?;
     let center = reader.vector("center")?;
     let velocity = reader.vector("velocity")?;
-    let radius = reader.not_negative("particle_radius")?;
+    let radius = reader.not_negative("particle_size")?;
     let displacement = reader.not_negative("displacement")?;
     let [spectrum, growth] = ["spectrum", "growth"].map(|key| reader.number(key, "finite", |_| true));
     let (spectrum, growth) = (spectrum?, growth?);

@@ -3,7 +3,7 @@
 
 use std::f64::consts::PI;
 
-use super::build::{CENTER, COUNT, G, PARTICLE_RADIUS, Reader, SEED, TOTAL_MASS, VELOCITY};
+use super::build::{CENTER, COUNT, G, PARTICLE_SIZE, Reader, SEED, TOTAL_MASS, VELOCITY};
 use super::random::Random;
 use super::{Shape, one_part};
 use crate::error::Error;
@@ -38,7 +38,7 @@ const KEYS: &[Key] = &[
     ),
     CENTER,
     VELOCITY,
-    PARTICLE_RADIUS,
+    PARTICLE_SIZE,
 ];
 
 /// `count` particles of equal mass; their centre of mass is at rest at `center`, up to `velocity`.
@@ -50,7 +50,7 @@ fn build(settings: &Settings) -> Result<State, Error> {
     let scale = reader.positive("scale")?;
     let g = reader.positive("g")?;
     let cutoff = reader.number("cutoff", "above 0 and at most 1", |x| x > 0.0 && x <= 1.0)?;
-    let radius = reader.not_negative("particle_radius")?;
+    let radius = reader.not_negative("particle_size")?;
     let mass = total / f64::from(u32::try_from(count).unwrap_or(u32::MAX));
     for _ in 0..count {
         // M(r)/M = (1 + a²/r²)^(-3/2), turned round.

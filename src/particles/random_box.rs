@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::build::{CENTER, COUNT, PARTICLE_RADIUS, Reader, SEED, VELOCITY};
+use super::build::{CENTER, COUNT, PARTICLE_SIZE, Reader, SEED, VELOCITY};
 use super::random::Random;
 use super::{Shape, one_part};
 use crate::error::Error;
@@ -36,7 +36,7 @@ const KEYS: &[Key] = &[
     ),
     CENTER,
     VELOCITY,
-    PARTICLE_RADIUS,
+    PARTICLE_SIZE,
 ];
 
 /// `count` particles. Their mean velocity is `velocity` exactly, so that a warm box does not drift.
@@ -52,7 +52,7 @@ fn build(settings: &Settings) -> Result<State, Error> {
     let speed = reader.not_negative("speed")?;
     let center = reader.vector("center")?;
     let velocity = reader.vector("velocity")?;
-    let radius = reader.not_negative("particle_radius")?;
+    let radius = reader.not_negative("particle_size")?;
     // In a flat box they move in the plane.
     let free = DVec3::select(size.cmpgt(DVec3::ZERO), DVec3::ONE, DVec3::ZERO);
     for _ in 0..count {

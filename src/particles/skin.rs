@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use glam::DVec3;
 
-use super::build::{PARTICLE_RADIUS, Reader, hold};
+use super::build::{PARTICLE_SIZE, Reader, hold};
 use crate::error::Error;
 use crate::fluids::{Smoothing, gap};
 use crate::settings::{Key, Kind, Value};
@@ -46,7 +46,7 @@ pub(super) const LAYERS: Key = Key::new(
     "how many particles a wall is thick; 0: one where it is sampled, on a lattice as many as the support has spacings",
 );
 /// The same for all walls.
-pub(super) const RADIUS: Key = PARTICLE_RADIUS;
+pub(super) const RADIUS: Key = PARTICLE_SIZE;
 
 /// The most layers: supports end at 6 spacings, and no fluid feels what is farther away.
 const MOST: u64 = 64;
@@ -78,7 +78,7 @@ impl Skin {
         let mass = density * if flat { spacing * spacing } else { spacing.powi(3) };
         // The fluid's first layer stands half a spacing before the face.
         let depth = (gap - 0.5) * spacing;
-        Ok(Self { spacing, depth, layers, mass, radius: reader.not_negative("particle_radius")? })
+        Ok(Self { spacing, depth, layers, mass, radius: reader.not_negative("particle_size")? })
     }
     /// How far behind the face each layer is \[length\].
     pub fn depths(&self) -> impl Iterator<Item = f64> {

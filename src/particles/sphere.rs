@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::build::{CENTER, COUNT, G, PARTICLE_RADIUS, Reader, SEED, TOTAL_MASS, VELOCITY};
+use super::build::{CENTER, COUNT, G, PARTICLE_SIZE, Reader, SEED, TOTAL_MASS, VELOCITY};
 use super::random::Random;
 use super::{Shape, one_part};
 use crate::error::Error;
@@ -38,7 +38,7 @@ const KEYS: &[Key] = &[
     G,
     CENTER,
     VELOCITY,
-    PARTICLE_RADIUS,
+    PARTICLE_SIZE,
 ];
 
 /// `count` particles of equal mass. With  |W| = 3 G M² / 5 R  the dispersion per axis is  σ² = 2/5 virial G M / R.
@@ -51,7 +51,7 @@ fn build(settings: &Settings) -> Result<State, Error> {
     let g = reader.positive("g")?;
     let virial = reader.not_negative("virial")?;
     let spin = reader.vector("spin")?;
-    let radius = reader.not_negative("particle_radius")?;
+    let radius = reader.not_negative("particle_size")?;
     let dispersion = (0.4 * virial * g * total / size).sqrt();
     let mass = total / f64::from(u32::try_from(count).unwrap_or(u32::MAX));
     for _ in 0..count {

@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DVec3};
 
-use super::build::{CENTER, COUNT, PARTICLE_RADIUS, Reader, SEED, VELOCITY};
+use super::build::{CENTER, COUNT, PARTICLE_SIZE, Reader, SEED, VELOCITY};
 use super::random::Random;
 use super::{Shape, one_part};
 use crate::error::Error;
@@ -39,7 +39,7 @@ const KEYS: &[Key] = &[
     Key::new("mass", Kind::NotNegative, Value::Number(1.0), "mass of each particle [mass]"),
     CENTER,
     VELOCITY,
-    PARTICLE_RADIUS,
+    PARTICLE_SIZE,
 ];
 
 /// `count` particles that leave the nozzle at `center` all at once, their directions uniform in the solid angle of the cone.
@@ -55,7 +55,7 @@ fn build(settings: &Settings) -> Result<State, Error> {
     let mass = reader.not_negative("mass")?;
     let center = reader.vector("center")?;
     let velocity = reader.vector("velocity")?;
-    let radius = reader.not_negative("particle_radius")?;
+    let radius = reader.not_negative("particle_size")?;
     let (across, along) = axis.any_orthonormal_pair();
     let tilt = DMat3::from_cols(across, along, axis);
     let lowest = libm::cos(angle.to_radians());

@@ -1,12 +1,14 @@
 //! `[[emitter]]`: particles that wait to be born.
 
 use crate::error::Error;
+use crate::kernel::Columns;
 use crate::life::Birth;
 use crate::particles::emitter;
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::state::State;
 
 use super::color;
+use super::column;
 use super::fluid;
 use super::report::{Fault, Report};
 use super::resolved::Writer;
@@ -32,6 +34,7 @@ pub(super) struct Emitted {
 pub(super) fn read(
     table: &Table<'_>,
     (dimensions, end, room, said): (u32, f64, u32, &[Entry]),
+    known: &Columns,
     particles: &mut State,
     out: &mut Writer,
     report: &mut Report,
@@ -39,7 +42,9 @@ pub(super) fn read(
     let faults = report.len();
     let entries = fluid::completed(table, EMITTER_KEYS, said);
     let table = &Table { entries: &entries, ..table.clone() };
-    let settings = table.settings(EMITTER_KEYS, OWN, report);
+    let columns = column::givable(known);
+    let names: Vec<&str> = OWN.iter().copied().chain(columns.iter().map(|column| column.name.as_ref())).collect();
+    let settings = table.settings(EMITTER_KEYS, &names, report);
     let color = table.get("color").and_then(|e| color::read(&e.node, "color", report));
     let own: Settings = [("species", SPECIES), ("first", Key::new("first", Kind::Whole, Value::Number(0.0), ""))]
         .into_iter()
@@ -51,7 +56,7 @@ pub(super) fn read(
     }
     let first = table.get("first").map(|entry| (entry, own.whole("first")));
     let room = if first.is_some() { u32::MAX } else { room };
-    let made = match emitter::build(&settings, dimensions, end, room) {
+    let mut made = match emitter::build(&settings, dimensions, end, room) {
         Ok(made) => made,
         Err(Error::Scene(why) | Error::Limit(why)) => {
             report.push(Fault::at(table.place, why));
@@ -70,6 +75,7 @@ pub(super) fn read(
     out.line("species", &own.whole("species").to_string());
     let count = u32::try_from(made.len()).unwrap_or(u32::MAX);
     let Some((entry, first)) = first else {
+        column::give(table, (&columns, EMITTER_KEYS), &mut made, out, report);
         let species = u32::try_from(own.whole("species")).unwrap_or(u32::MAX);
         if let Err(why) = particles.append(&made.of_species(species)) {
             report.push(Fault::at(table.place, why.to_string()));
@@ -77,6 +83,12 @@ pub(super) fn read(
         return Some(Emitted { count, color });
     };
     out.line("first", &first.to_string());
+    let keys = columns.iter().filter(|column| EMITTER_KEYS.iter().all(|key| key.name != column.name));
+    for given in keys.filter_map(|column| table.get(&column.name)) {
+        let fault =
+            Fault::at(&given.place, format!("`{}` is that of the file where an emitter has `first`", given.key));
+        report.push(fault.label("remove it"));
+    }
     let have = particles.len() as u64;
     if first + u64::from(count) > have {
         let fault =

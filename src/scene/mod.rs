@@ -15,6 +15,7 @@
 mod bounds;
 mod builtin;
 mod color;
+mod column;
 mod diagnostic;
 mod drain;
 mod emitter;
@@ -49,6 +50,7 @@ use crate::settings::Settings;
 use crate::state::State;
 
 pub use builtin::{Builtin, SCENES};
+pub use column::COLUMN_KEYS;
 pub use diagnostic::{Diagnostic, Diagnostics, Excerpt, Mended};
 pub use output::{Format, Output};
 pub use own::Own;
@@ -182,6 +184,20 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
         motions.extend(motion::read(table, &motions, (simulation.dt, &bounds), &mut out, report));
     }
 
+    let mut forces: Vec<Box<dyn Component>> = Vec::new();
+    let (mut of_forces, mut said_of_forces) = (Vec::new(), Writer::default());
+    for table in all("force") {
+        let faults = report.len();
+        let chosen = force::read(table, (files, &motions), report);
+        if let Some(chosen) = chosen.filter(|_| report.len() == faults) {
+            chosen.write(&mut said_of_forces);
+            forces.push(chosen.build());
+            of_forces.push(table);
+        }
+    }
+    let declared = column::read(all("column"), &mut out, report);
+    let columns = column::all(&forces, &declared, report);
+
     let mut particles = State::default();
     let mut groups = Vec::new();
     if all("particles").chain(all("emitter")).next().is_none() {
@@ -194,7 +210,7 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
     for table in all("particles") {
         let start = ids(&particles);
         let room = options.most_particles.saturating_sub(start);
-        if let Some(block) = particles::read(table, room, (files, &motions, &said), report) {
+        if let Some(block) = particles::read(table, room, (files, &motions, &said), &columns, report) {
             if let Err(why) = particles.append(&block.particles) {
                 report.push(Fault::at(table.place, why.to_string()));
             }
@@ -213,8 +229,13 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
         let start = ids(&particles);
         let room = options.most_particles.saturating_sub(start);
         let within = (bounds.dimensions, end, room, said.as_slice());
-        if let Some(emitted) = emitter::read(table, within, &mut particles, &mut out, report) {
+        if let Some(emitted) = emitter::read(table, within, &columns, &mut particles, &mut out, report) {
             groups.push(Group { ids: start..start + emitted.count, color: emitted.color });
+        }
+    }
+    for (column, place) in &declared {
+        if let Err(why) = particles.declare(column) {
+            report.push(Fault::at(place, why.to_string()));
         }
     }
     for table in all("drain") {
@@ -225,18 +246,11 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
         links::read(table, &mut particles, &bounds, files, &mut out, report);
     }
 
-    let mut forces: Vec<Box<dyn Component>> = Vec::new();
     let mut flows = false;
-    for table in all("force") {
-        let faults = report.len();
-        let chosen = force::read(table, (files, &motions), report);
-        if let Some(chosen) = chosen.filter(|_| report.len() == faults) {
-            chosen.write(&mut out);
-            let force = chosen.build();
-            flows |= fluid::check(table, force.as_ref(), (&bounds, &particles, flows), report);
-            forces.push(force);
-        }
+    for (table, force) in of_forces.iter().zip(&forces) {
+        flows |= fluid::check(table, force.as_ref(), (&bounds, &particles, flows), report);
     }
+    out.0 += &said_of_forces.0;
 
     // Who is born or dies, the forces must know of.
     let integrator = (simulation.integrator.build)();
@@ -249,7 +263,7 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
         force::paced(&forces, place, report);
     }
     particles.motions = motions;
-    let output = output::read(one("output"), simulation.steps, report);
+    let output = output::read(one("output"), simulation.steps, &columns, report);
     output.write(&mut out);
     let picture = match one("picture") {
         Some(table) => table.settings(render::KEYS, &[], report),

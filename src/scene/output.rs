@@ -1,5 +1,6 @@
 //! `[output]`: how often the run is written down, and in which formats.
 
+use crate::kernel::Columns;
 use crate::settings::{Key, Kind};
 
 use super::report::{Fault, Report};
@@ -9,7 +10,7 @@ use super::value;
 use super::walk::{self, Table};
 
 pub(super) const KEYS: &[Key] = &[];
-pub(super) const OWN: &[&str] = &["every", "formats", "frames"];
+pub(super) const OWN: &[&str] = &["every", "formats", "frames", "columns"];
 
 /// What a run writes.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -20,6 +21,8 @@ pub struct Output {
     pub formats: Vec<Format>,
     /// How many pictures of a film, evenly spaced over the run; zero for none, and one more than the steps at most.
     pub frames: u64,
+    /// Columns that snapshots have beside those of the state: what laws compute.
+    pub columns: Vec<String>,
 }
 
 /// A format of snapshots.
@@ -48,8 +51,9 @@ impl Format {
     }
 }
 
-pub(super) fn read(table: Option<&Table<'_>>, steps: u64, report: &mut Report) -> Output {
-    let mut output = Output { every: (steps / 10).max(1), formats: vec![Format::Csv, Format::Png], frames: 0 };
+pub(super) fn read(table: Option<&Table<'_>>, steps: u64, known: &Columns, report: &mut Report) -> Output {
+    let mut output =
+        Output { every: (steps / 10).max(1), formats: vec![Format::Csv, Format::Png], frames: 0, columns: Vec::new() };
     let Some(table) = table else { return output };
     table.settings(KEYS, OWN, report);
     if let Some(every) = table.get("every").and_then(|e| walk::whole_from_one(e, report)) {
@@ -75,6 +79,15 @@ pub(super) fn read(table: Option<&Table<'_>>, steps: u64, report: &mut Report) -
         }
         output.frames = frames;
     }
+    if let Some(entry) = table.get("columns") {
+        let names: Vec<&str> = known.iter().map(|column| column.name.as_ref()).collect();
+        if let Data::List(list) = &entry.node.data {
+            let chosen = list.iter().filter_map(|node| value::choice(node, "columns", "column", &names, report));
+            output.columns = chosen.map(str::to_owned).collect();
+        } else {
+            value::refuse::<()>(&entry.node, "columns", "a list, as in [\"acceleration\"]", report);
+        }
+    }
     output
 }
 
@@ -85,5 +98,7 @@ impl Output {
         let names: Vec<_> = self.formats.iter().map(|f| format!("\"{}\"", f.name())).collect();
         out.line("formats", &format!("[{}]", names.join(", ")));
         out.line("frames", &self.frames.to_string());
+        let columns: Vec<_> = self.columns.iter().map(|name| format!("\"{name}\"")).collect();
+        out.line("columns", &format!("[{}]", columns.join(", ")));
     }
 }

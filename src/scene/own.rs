@@ -34,13 +34,19 @@ pub(super) const MOTION: &[Own] = &[
         "where it is when: [{ time = 0 }, { time = 2, shift = [1, 0, 0], turn = [0, 0, 90] }] [time, length, degrees]",
     ),
 ];
+pub(super) const COLUMN: &[Own] = &[
+    own("name", "must be given", "what it is called in WGSL, in scenes and in files"),
+    own("unit", "none", "its unit, such as \"length / time\""),
+    own("initial", "must be given by all", "the value of particles that are given none"),
+    own("rate", "none", "the column that is its rate of change, by which integrators advance it"),
+];
 pub(super) const PARTICLES: &[Own] = &[
     own("shape", "or file, bodies", "a generator: a shape of the README's list, with its keys"),
     own("file", "or shape, bodies", "a CSV, NPZ or Tipsy file in the scene's folder"),
     own(
         "bodies",
         "or shape, file",
-        "written out: [{ position = [1, 0, 0], velocity = [0, 1, 0], mass = 1, radius = 0 }]",
+        "written out: [{ position = [1, 0, 0], velocity = [0, 1, 0], mass = 1, size = 0 }]",
     ),
     own("color", "by the palette", "a colour by name, or as \"#ffcc88\""),
     own("fixed", "none", "those that forces do not move: a list of ids, counted from 0 in this entry"),
@@ -70,5 +76,10 @@ pub(super) const FORCE: &[Own] = &[
 pub(super) const OUTPUT: &[Own] = &[
     own("every", "a tenth of steps", "so many steps from one written state to the next"),
     own("formats", "[\"csv\", \"png\"]", "of states: any of csv, npz and png; [] leaves energy.csv alone"),
+    own(
+        "columns",
+        "[]",
+        "columns that states have beside those that are kept: what laws compute, as in [\"acceleration\"]",
+    ),
     own("frames", "0", "pictures of a film, evenly spaced over the run; 0 for none"),
 ];

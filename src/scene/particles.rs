@@ -6,12 +6,14 @@ use glam::DVec3;
 
 use crate::error::Error;
 use crate::io;
+use crate::kernel::{Column, Columns};
 use crate::motion::{Held, Hold, Motion};
 use crate::particles::{SHAPES, Shape};
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::state::State;
 
 use super::color;
+use super::column;
 use super::files::{Files, Located};
 use super::fluid;
 use super::held;
@@ -39,7 +41,7 @@ const BODY: &[Key] = &[
     Key::required("position", Kind::Vector, "where it is [length]"),
     Key::new("velocity", Kind::Vector, Value::Vector(DVec3::ZERO), "how it moves [length / time]"),
     Key::new("mass", Kind::NotNegative, Value::Number(1.0), "how heavy it is [mass]"),
-    Key::new("radius", Kind::NotNegative, Value::Number(0.0), "how large it is drawn [length]"),
+    Key::new("size", Kind::NotNegative, Value::Number(0.0), "the radius that is drawn [length]"),
     Key::new("fixed", Kind::Flag, Value::Flag(false), "whether it stays where it is"),
 ];
 
@@ -57,8 +59,10 @@ pub(super) fn read(
     table: &Table<'_>,
     room: u32,
     (files, motions, said): (&Files, &[Motion], &[Entry]),
+    known: &Columns,
     report: &mut Report,
 ) -> Option<Block> {
+    let columns = &column::givable(known);
     let color = table.get("color").and_then(|e| color::read(&e.node, "color", report));
     let species = table.get("species").and_then(|e| species(e, report));
     let mut out = Writer::default();
@@ -67,9 +71,9 @@ pub(super) fn read(
     let faults = report.len();
     let mut others = Vec::new();
     let particles = match entry.key.as_str() {
-        "file" => from_file(table, entry, files, &mut out, report),
-        "shape" => from_shape(table, entry, (room, files, said), &mut others, &mut out, report),
-        _ => from_bodies(table, entry, &mut out, report),
+        "file" => from_file(table, entry, (files, known), &mut out, report),
+        "shape" => from_shape(table, entry, (room, files, said), columns, &mut others, &mut out, report),
+        _ => from_bodies(table, entry, columns, &mut out, report),
     };
     let particles = particles.filter(|_| report.len() == faults)?;
     if let Err(fault) = sound(&particles, room, &entry.node.place) {
@@ -85,6 +89,11 @@ pub(super) fn read(
         out.line("species", &species.to_string());
     }
     let mut particles = species.into_iter().fold(particles, State::of_species);
+    let shape = table.get("shape").and_then(|entry| match &entry.node.data {
+        Data::Text(name) => SHAPES.iter().find(|shape| shape.name == name),
+        _ => None,
+    });
+    column::give(table, (columns, shape.map_or(OFFSETS, |shape| shape.keys)), &mut particles, &mut out, report);
     held::read(table, motions, &mut particles, &mut out, report);
     // Parts that nobody tells apart are one.
     if others.iter().all(|(_, own)| own.is_none()) {
@@ -98,8 +107,8 @@ pub(super) fn read(
     Some(Block { particles, parts, resolved: out.0 })
 }
 
-fn beside(what: &'static str) -> Vec<&'static str> {
-    [&[what], &BESIDE[..]].concat()
+fn beside<'a>(what: &'static str, columns: &[&'a Column]) -> Vec<&'a str> {
+    [what].into_iter().chain(BESIDE).chain(columns.iter().map(|column| column.name.as_ref())).collect()
 }
 
 fn species(entry: &Entry, report: &mut Report) -> Option<u32> {
@@ -115,12 +124,19 @@ fn species(entry: &Entry, report: &mut Report) -> Option<u32> {
     Some(number as u32)
 }
 
-fn from_file(table: &Table<'_>, entry: &Entry, files: &Files, out: &mut Writer, report: &mut Report) -> Option<State> {
-    let offsets = table.named(format!("{} file", table.name)).settings(OFFSETS, &beside("file"), report);
+fn from_file(
+    table: &Table<'_>,
+    entry: &Entry,
+    (files, known): (&Files, &Columns),
+    out: &mut Writer,
+    report: &mut Report,
+) -> Option<State> {
+    let columns = column::givable(known);
+    let offsets = table.named(format!("{} file", table.name)).settings(OFFSETS, &beside("file", &columns), report);
     let name = value::text(&entry.node, "file", "the name of a file", report)?;
     let place = &entry.node.place;
     let located = files.locate("file", name, place).and_then(|located| match &located {
-        Located::Disk { path, name } => match io::read(path) {
+        Located::Disk { path, name } => match io::read(path, known) {
             Ok(particles) => Ok((particles, name.clone())),
             Err(why) => Err(Fault::at(place, why.to_string()).in_input()),
         },
@@ -144,6 +160,7 @@ fn from_shape(
     table: &Table<'_>,
     entry: &Entry,
     (room, files, said): (u32, &Files, &[Entry]),
+    columns: &[&Column],
     parts: &mut Vec<(u32, Option<[u8; 3]>)>,
     out: &mut Writer,
     report: &mut Report,
@@ -154,7 +171,7 @@ fn from_shape(
     let faults = report.len();
     let entries = fluid::completed(table, shape.keys, said);
     let table = &Table { entries: &entries, ..table.named(format!("{} {name}", table.name)) };
-    let mut settings = table.settings(shape.keys, &beside("shape"), report);
+    let mut settings = table.settings(shape.keys, &beside("shape", columns), report);
     let shown = located(table, shape, files, &mut settings, report);
     if report.len() > faults {
         return None;
@@ -218,34 +235,45 @@ fn wanted_count(shape: &Shape, settings: &Settings) -> (&'static str, f64) {
     }
 }
 
-fn from_bodies(table: &Table<'_>, entry: &Entry, out: &mut Writer, report: &mut Report) -> Option<State> {
-    let offsets = table.named(format!("{} bodies", table.name)).settings(OFFSETS, &beside("bodies"), report);
+fn from_bodies(
+    table: &Table<'_>,
+    entry: &Entry,
+    columns: &[&Column],
+    out: &mut Writer,
+    report: &mut Report,
+) -> Option<State> {
+    let offsets = table.named(format!("{} bodies", table.name)).settings(OFFSETS, &beside("bodies", columns), report);
     let Data::List(list) = &entry.node.data else {
         return value::refuse(&entry.node, "bodies", "a list of tables, as in [{ position = [1, 0, 0] }]", report);
     };
     let mut particles = State::default();
+    let mut own = column::Bodies::new(columns, list);
     let mut text = String::from("[\n");
     for node in list {
         let Data::Table(entries) = &node.data else {
             value::refuse::<()>(node, "bodies", "a list of tables, as in [{ position = [1, 0, 0] }]", report);
             continue;
         };
-        let body = Table { entries, place: &node.place, name: "a body".to_owned() }.settings(BODY, &[], report);
+        let names: Vec<&str> = columns.iter().map(|column| column.name.as_ref()).collect();
+        let one = Table { entries, place: &node.place, name: "a body".to_owned() };
+        let body = one.settings(BODY, &names, report);
+        let more = own.read(&one, report);
         let [position, velocity] = ["position", "velocity"].map(|k| body.vector(k));
-        let [mass, radius] = ["mass", "radius"].map(|k| body.number(k));
+        let [mass, size] = ["mass", "size"].map(|k| body.number(k));
         if body.flag("fixed") {
             particles.held.push(Held { id: u32::try_from(particles.len()).unwrap_or(u32::MAX), by: Hold::Fixed });
         }
-        particles.push(position, velocity, mass, radius);
+        particles.push(position, velocity, mass, size);
         let fixed = if body.flag("fixed") { ", fixed = true" } else { "" };
         let [position, velocity] = [position, velocity].map(resolved::vector);
-        let [mass, radius] = [mass, radius].map(resolved::number);
+        let [mass, size] = [mass, size].map(resolved::number);
         // Writing to a String cannot fail.
         let _ = writeln!(
             text,
-            "  {{ position = {position}, velocity = {velocity}, mass = {mass}, radius = {radius}{fixed} }},"
+            "  {{ position = {position}, velocity = {velocity}, mass = {mass}, size = {size}{fixed}{more} }},"
         );
     }
+    own.give(&mut particles);
     out.line("bodies", &(text + "]"));
     out.settings(OFFSETS, &offsets);
     Some(moved(particles, &offsets))
@@ -276,7 +304,7 @@ fn sound(particles: &State, room: u32, place: &Place) -> Result<(), Fault> {
         Some((id, *what, format!("{}", list[id]), "finite numbers that fit single precision"))
     });
     let wrong = wrong.or_else(|| {
-        [("mass", particles.mass()), ("radius", particles.size())].iter().find_map(|(what, list)| {
+        [("mass", particles.mass()), ("size", particles.size())].iter().find_map(|(what, list)| {
             let id = list.iter().position(|&x| !(x >= 0.0 && fits(x)))?;
             Some((id, *what, format!("{}", list[id]), "a finite number, zero or above"))
         })

@@ -7,7 +7,7 @@ use crate::render;
 use crate::settings::Key;
 
 use super::own::{self, Own};
-use super::{bounds, drain, emitter, links, motion, particles, simulation, solver};
+use super::{bounds, column, drain, emitter, links, motion, particles, simulation, solver};
 
 /// A section.
 pub struct Section {
@@ -45,6 +45,11 @@ pub const SECTIONS: &[Section] = &[
         about: "what leads held particles and solids, by keyframes",
         own: own::MOTION,
         ..Section::new("motion", true, motion::MOTION_KEYS)
+    },
+    Section {
+        about: "a quantity of particles beside those that all have: laws read and write it, files hold it",
+        own: own::COLUMN,
+        ..Section::new("column", true, column::COLUMN_KEYS)
     },
     Section {
         about: "particles of a shape, of a file, or written out",

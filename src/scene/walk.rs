@@ -7,6 +7,9 @@ use super::sections::SECTIONS;
 use super::tree::{Data, Entry, Node};
 use super::value;
 
+/// Keys that have another name than they had, where the new one is known.
+const RENAMED: [(&str, &str); 2] = [("particle_radius", "particle_size"), ("radius", "size")];
+
 /// A table of the scene, with the name that messages give it.
 #[derive(Clone)]
 pub(super) struct Table<'a> {
@@ -52,12 +55,16 @@ impl<'a> Table<'a> {
     fn unknown(&self, entry: &Entry, keys: &[Key], own: &[&str]) -> Fault {
         let known = || own.iter().copied().chain(keys.iter().map(|k| k.name));
         let fault = Fault::at(&entry.place, format!("unknown key `{}` in {}", shorten(&entry.key), self.name));
-        let fault = match nearest(&entry.key, known()) {
-            Some(near) => fault.label(format!("did you mean `{near}`?")),
-            None => match SECTIONS.iter().find(|s| s.knows(&entry.key) && !self.name.starts_with(&s.header())) {
-                Some(home) => fault.label(format!("it belongs in {}", home.header())),
-                None => fault,
-            },
+        let renamed = RENAMED.iter().find(|(old, new)| *old == entry.key && known().any(|key| key == *new));
+        let fault = match (renamed, nearest(&entry.key, known())) {
+            (Some((_, new)), _) => fault.label(format!("it is called `{new}`")),
+            (None, Some(near)) => fault.label(format!("did you mean `{near}`?")),
+            (None, None) => {
+                match SECTIONS.iter().find(|s| s.knows(&entry.key) && !self.name.starts_with(&s.header())) {
+                    Some(home) => fault.label(format!("it belongs in {}", home.header())),
+                    None => fault,
+                }
+            }
         };
         fault.note(format!("known here: {}", listed(known())))
     }

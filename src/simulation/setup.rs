@@ -2,13 +2,13 @@
 
 use glam::DVec3;
 
-use super::{keepers, mortals};
+use super::{columns, keepers, mortals, unwritten};
 use crate::boundary;
 use crate::error::Error;
 use crate::fluids::{Start, Still};
 use crate::forces::{Component, Problem, Stage};
 use crate::integrators::{Integrator, Step};
-use crate::kernel::{Bounds, Columns, Machine, Plan, Solver, claims};
+use crate::kernel::{Array, Bounds, Column, Columns, Machine, Plan, Solver, claims};
 use crate::life;
 use crate::motion::{self, Hold};
 use crate::state::State;
@@ -64,9 +64,11 @@ impl Setup {
         step.pace();
         step.lead();
         self.integrator.step(&mut step);
+        let columns = problem.columns.clone();
         let measure = Step::measurement(&self.forces, problem)?;
         let plans = Plans { start: start.begun()?, step: step.done()?, measure };
-        claims(plans.all(), &self.problem(machine)?.columns)?;
+        claims(plans.all(), &columns)?;
+        unwritten::check(&plans, &columns)?;
         Ok(plans)
     }
     /// Refuses what does not go with steps of different lengths.
@@ -113,12 +115,31 @@ impl Setup {
             .paced(self.integrator.pace())
             .of_columns(self.columns()?))
     }
-    /// The columns that all simulations have, and those that components declare.
+    /// The columns that all simulations have, those that components declare, and those that the state brings along.
     ///
     /// # Errors
     /// [`Error::Scene`] when two declarations of one name differ, or one makes no sense.
     pub fn columns(&self) -> Result<Columns, Error> {
-        Columns::with(self.forces.iter().flat_map(|force| force.columns()))
+        let forces = self.forces.iter().flat_map(|force| force.columns());
+        let mut all: Vec<Column> = forces.chain(columns::of_held(&self.state.held)).collect();
+        let known = Columns::with(all.clone())?;
+        for column in self.state.declared() {
+            match known.get(&column.name) {
+                Some(known) if (known.kind, known.shape) == (column.kind, column.shape) => {}
+                Some(known) => {
+                    return Err(Error::Scene(format!(
+                        "the column `{}` of the state is {} ({:?}), and a force has it as {} ({:?}): give it another name",
+                        column.name,
+                        column.kind.name(),
+                        column.shape,
+                        known.kind.name(),
+                        known.shape
+                    )));
+                }
+                None => all.push(column.clone()),
+            }
+        }
+        Columns::with(all)
     }
     /// Whether forces do something once, before the first step.
     pub(super) fn begins(&self, machine: Machine) -> Result<bool, Error> {
@@ -181,6 +202,34 @@ impl Setup {
         }
         Ok(())
     }
+    /// Refuses a state that lacks a column that has no initial value, and numbers that are none.
+    fn complete(&self) -> Result<(), Error> {
+        let fits = |x: f64| x.abs() <= f64::from(f32::MAX);
+        for column in self.columns()?.state() {
+            let name = &column.name;
+            let Some(values) = self.state.get(name) else {
+                if column.initial.is_some() {
+                    continue;
+                }
+                return Err(Error::Scene(format!(
+                    "the column `{name}` has no initial value, and the state does not give it: give every particle one"
+                )));
+            };
+            let bad = match values {
+                Array::Float(list) => list.iter().position(|x| !fits(*x)),
+                Array::Vec3(list) => list.iter().position(|v| !v.to_array().into_iter().all(fits)),
+                Array::Vec4(list) => list.iter().position(|v| !v.to_array().into_iter().all(fits)),
+                Array::Uint(_) => None,
+            };
+            if let Some(place) = bad {
+                return Err(Error::Scene(format!(
+                    "particle {} has a `{name}` that is NaN, infinite or beyond single precision",
+                    place / column.shape.len(1).max(1)
+                )));
+            }
+        }
+        Ok(())
+    }
     /// Whether links may change as it runs.
     #[must_use]
     pub fn breaks(&self) -> bool {
@@ -214,6 +263,7 @@ impl Setup {
                 "particle {bad} has a number that is NaN, infinite or beyond single precision, or a negative mass or size"
             )));
         }
+        self.complete()?;
         self.fluids()?;
         links.check(mass)?;
         self.solver.check()?;

@@ -1,10 +1,36 @@
-//! What is left of the links of a simulation.
+//! What ties, moves, spawns and removes the particles of a simulation.
 
 use super::Simulation;
 use crate::error::Error;
 use crate::kernel::{Array, Backend, Element};
+use crate::life::{Birth, Drain};
 use crate::links::{Links, Network, WORDS};
+use crate::motion::{Held, Motion};
+use crate::state::State;
 use crate::visit::LINK;
+
+/// All of a state that is no column.
+pub(super) struct Ties {
+    links: Links,
+    held: Vec<Held>,
+    motions: Vec<Motion>,
+    births: Vec<Birth>,
+    drains: Vec<Drain>,
+}
+
+impl Ties {
+    /// That of a state.
+    pub fn of(state: &State) -> Self {
+        let State { links, held, motions, births, drains, .. } = state;
+        let (links, held, motions) = (links.clone(), held.clone(), motions.clone());
+        Self { links, held, motions, births: births.clone(), drains: drains.clone() }
+    }
+    /// Gives it to a state; the links are as they were at the start.
+    pub fn give(&self, state: &mut State) {
+        (state.links, state.held) = (self.links.clone(), self.held.clone());
+        (state.motions, state.births, state.drains) = (self.motions.clone(), self.births.clone(), self.drains.clone());
+    }
+}
 
 impl<B: Backend> Simulation<B> {
     /// The links as they are now, where springs may break; nothing where none can.
@@ -21,11 +47,11 @@ impl<B: Backend> Simulation<B> {
     /// When the device is lost, or does not answer in time.
     pub async fn links(&mut self) -> Result<Links, Error> {
         if !self.breaks {
-            return Ok(self.links.clone());
+            return Ok(self.ties.links.clone());
         }
-        let network = Network::new(self.count, &self.links);
+        let network = Network::new(self.count, &self.ties.links);
         let ends = network.ends() as usize;
         let table = self.backend.read(LINK, &Array::Uint(Vec::new()), ends * WORDS).await?;
-        Ok(self.links.intact(&network, u32::view(&table).map_or(&[], Vec::as_slice)))
+        Ok(self.ties.links.intact(&network, u32::view(&table).map_or(&[], Vec::as_slice)))
     }
 }

@@ -2,25 +2,38 @@
 
 use super::State;
 use crate::error::Error;
+use crate::kernel::Shape;
 use crate::life::Birth;
 use crate::motion::{Held, Hold};
 
 impl State {
-    /// Adds all particles of another state; their ids follow on. Columns that one of them lacks get their initial values there.
-    /// Time and step stay.
+    /// Adds all particles of another state; their ids follow on. Columns that only one of them gives have their initial values in
+    /// the other. Time and step stay.
     ///
     /// # Errors
-    /// [`Error::Scene`] when both have a column of one name and different kinds.
+    /// [`Error::Scene`] when both have a column of one name and different kinds, or one gives a column that every particle must
+    /// be given, and the other does not.
     pub fn append(&mut self, other: &Self) -> Result<(), Error> {
-        let before = self.len();
+        let (before, added) = (self.len(), other.len());
         let first = u32::try_from(before).unwrap_or(u32::MAX);
-        other.columns().try_for_each(|(column, _)| self.declare(column))?;
-        for filled in self.particle_columns() {
-            match other.get(&filled.column.name) {
-                Some(values) => filled.values.extend(values),
-                None => {
-                    let len = filled.values.len() + filled.column.shape.len(other.len());
-                    filled.values.resize(len, filled.column.initial.unwrap_or_default());
+        other.declared().try_for_each(|column| self.declare(column))?;
+        for filled in self.columns.iter_mut().filter(|filled| !matches!(filled.column.shape, Shape::System(_))) {
+            let column = &filled.column;
+            let missing = |count: usize| match column.initial {
+                None if count > 0 => Err(Error::Scene(format!(
+                    "the column `{}` has no initial value, and {count} particles are not given one: give it to all",
+                    column.name
+                ))),
+                _ => Ok(column.array(count)),
+            };
+            match (&mut filled.values, other.get(&column.name)) {
+                (None, None) => {}
+                (Some(values), Some(more)) => values.extend(more),
+                (Some(values), None) => values.extend(&missing(added)?),
+                (values @ None, Some(more)) => {
+                    let mut all = missing(before)?;
+                    all.extend(more);
+                    *values = Some(all);
                 }
             }
         }
@@ -44,8 +57,8 @@ impl State {
     #[must_use]
     pub fn picked(&self, order: &[usize]) -> Self {
         let mut picked = self.clone();
-        for filled in picked.particle_columns() {
-            filled.values = filled.values.picked(order, filled.column.shape.len(1));
+        for (column, values) in picked.particle_columns() {
+            *values = values.picked(order, column.shape.len(1));
         }
         let mut places = vec![u32::MAX; self.len()];
         order.iter().zip(0..).for_each(|(old, new)| places[*old] = new);

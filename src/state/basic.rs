@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::State;
 use crate::error::Error;
-use crate::kernel::{Array, Shape};
+use crate::kernel::Array;
 
 /// Their names, in the order in which a state keeps them.
 pub(super) const BASIC: [&str; 5] = ["position", "velocity", "mass", "size", "species"];
@@ -16,13 +16,13 @@ macro_rules! basic {
         #[doc = $about]
         #[must_use]
         pub fn $name(&self) -> &[$element] {
-            if let Array::$variant(values) = &self.columns[$place].values { values } else { &[] }
+            if let Some(Array::$variant(values)) = &self.columns[$place].values { values } else { &[] }
         }
         #[doc = $about]
         #[doc = "To change in place."]
         #[must_use]
         pub fn $name_mut(&mut self) -> &mut [$element] {
-            if let Array::$variant(values) = &mut self.columns[$place].values { values } else { &mut [] }
+            if let Some(Array::$variant(values)) = &mut self.columns[$place].values { values } else { &mut [] }
         }
     };
 }
@@ -39,23 +39,19 @@ impl State {
     pub fn phase_mut(&mut self) -> (&mut [DVec3], &mut [DVec3]) {
         let [position, velocity, ..] = self.columns.as_mut_slice() else { return (&mut [], &mut []) };
         match (&mut position.values, &mut velocity.values) {
-            (Array::Vec3(position), Array::Vec3(velocity)) => (position, velocity),
+            (Some(Array::Vec3(position)), Some(Array::Vec3(velocity))) => (position, velocity),
             _ => (&mut [], &mut []),
         }
     }
     /// Adds a particle of species 0. Other columns get their initial values.
     pub fn push(&mut self, position: DVec3, velocity: DVec3, mass: f64, size: f64) {
-        for (place, filled) in self.columns.iter_mut().enumerate() {
-            match (place, &mut filled.values) {
+        for (place, (column, values)) in self.particle_columns().enumerate() {
+            match (place, values) {
                 (0, Array::Vec3(list)) => list.push(position),
                 (1, Array::Vec3(list)) => list.push(velocity),
                 (2, Array::Float(list)) => list.push(mass),
                 (3, Array::Float(list)) => list.push(size),
-                _ if matches!(filled.column.shape, Shape::System(_)) => {}
-                (_, values) => {
-                    let len = values.len() + filled.column.shape.len(1);
-                    values.resize(len, filled.column.initial.unwrap_or_default());
-                }
+                (_, values) => values.resize(values.len() + column.shape.len(1), column.initial.unwrap_or_default()),
             }
         }
     }
@@ -71,8 +67,8 @@ impl State {
     /// When there is not so much memory.
     pub(crate) fn with_room(count: usize) -> Result<Self, TryReserveError> {
         let mut state = Self::default();
-        for filled in &mut state.columns {
-            match &mut filled.values {
+        for (_, values) in state.particle_columns() {
+            match values {
                 Array::Vec4(list) => list.try_reserve_exact(count)?,
                 Array::Vec3(list) => list.try_reserve_exact(count)?,
                 Array::Float(list) => list.try_reserve_exact(count)?,

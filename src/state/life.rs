@@ -2,7 +2,7 @@
 
 use super::State;
 use crate::error::Error;
-use crate::kernel::{Array, Columns, LIFE};
+use crate::kernel::{Array, LIFE};
 use crate::life::{Life, Population};
 
 impl State {
@@ -17,9 +17,6 @@ impl State {
     /// # Errors
     /// [`Error::Scene`] when it is not said of every particle.
     pub fn set_lives(&mut self, life: &[Life]) -> Result<(), Error> {
-        if let Some(column) = Columns::default().get(LIFE.name) {
-            self.declare(column)?;
-        }
         self.set(LIFE.name, Array::Uint(life.iter().map(|life| life.word()).collect()))
     }
     /// Says whether one takes part.

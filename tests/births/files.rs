@@ -1,6 +1,7 @@
 //! States that say who lives, and runs that go on from them.
 
 use motes::io::{Precision, csv, npz};
+use motes::kernel::Columns;
 use motes::life::Life;
 use motes::scene::{Options, Scene, Source};
 use motes::{Cpu, Setup, Simulation, State};
@@ -16,14 +17,14 @@ fn files_say_who_lives() {
     let [table, archive] = ["a.csv", "a.npz"].map(|name| folder.path().join(name));
     csv::write_csv(std::fs::File::create(&table).expect("a file"), &particles, Precision::Double).expect("written");
     let file = std::fs::File::create(&archive).expect("a file");
-    npz::write_npz(file, &particles, 0.3, 4, Precision::Double).expect("written");
-    assert_eq!(csv::read(&table).expect("a table").life(), particles.life());
-    assert_eq!(npz::read(&archive).expect("an archive").life(), particles.life());
+    npz::write_npz(file, &particles, Precision::Double).expect("written");
+    assert_eq!(csv::read(&table, &Columns::default()).expect("a table").life(), particles.life());
+    assert_eq!(npz::read(&archive, &Columns::default()).expect("an archive").life(), particles.life());
     // In another order, and with words that mean nothing.
     std::fs::write(&table, "id,x,y,z,life\n1,0,0,0,2\n0,0,0,0,0\n").expect("written");
-    assert_eq!(csv::read(&table).expect("a table").life(), [Life::Waiting, Life::Dead]);
+    assert_eq!(csv::read(&table, &Columns::default()).expect("a table").life(), [Life::Waiting, Life::Dead]);
     std::fs::write(&table, "x,y,z,life\n0,0,0,3\n").expect("written");
-    let said = csv::read(&table).expect_err("no such life").to_string();
+    let said = csv::read(&table, &Columns::default()).expect_err("no such life").to_string();
     assert!(said.contains("column life: 3 is none of 0 (waits), 1 (lives) and 2 (is dead)"), "{said}");
     // Where everybody lives nothing is said of it.
     particles.remove("life");

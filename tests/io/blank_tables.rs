@@ -1,7 +1,7 @@
 //! Tables whose cells are separated by blanks.
 
+use crate::read;
 use glam::DVec3;
-use motes::io::read;
 
 use crate::{folder, put, refused};
 

@@ -1,9 +1,9 @@
 //! CSV: the text itself, what may be left out, and all that can be wrong with it.
 
 use glam::DVec3;
-use motes::io::{Precision, read};
+use motes::io::Precision;
 
-use crate::{bits, csv_bytes, folder, put, refused, some};
+use crate::{bits, csv_bytes, folder, put, read, refused, some};
 
 #[test]
 fn a_csv_snapshot_is_the_shortest_text() {
@@ -59,7 +59,7 @@ fn a_csv_may_leave_out_much_and_come_in_any_order() {
     assert_eq!((p.velocity(), p.mass(), p.size()), (&[DVec3::ZERO; 2][..], &[2.0, 0.0][..], &[0.0; 2][..]));
     assert_eq!(p.species(), [0, 0]);
     let p =
-        read(&put(&folder, "b.txt", "radius,z,y,x,id,species\n0.5,3,2,1,1,4\n0.25,6,5,4,0,4294967295\n")).expect("csv");
+        read(&put(&folder, "b.txt", "size,z,y,x,id,species\n0.5,3,2,1,1,4\n0.25,6,5,4,0,4294967295\n")).expect("csv");
     assert_eq!(p.position(), [DVec3::new(4.0, 5.0, 6.0), DVec3::new(1.0, 2.0, 3.0)]);
     assert_eq!((p.mass(), p.size()), (&[1.0; 2][..], &[0.25, 0.5][..]));
     assert_eq!(p.species(), [u32::MAX, 4]);
@@ -83,7 +83,7 @@ fn a_csv_reports_all_that_is_wrong_at_once() {
             "line 6, column mass: -7 is below 0",
         ],
     );
-    refused("a.csv", "x,y,z,temperature\n", &["unknown column `temperature`; known are x, y, z, vx"]);
+    refused("a.csv", "x,y,z,temperature\n", &["unknown column `temperature`; known are x, y, z, mass"]);
     refused("a.csv", "", &["is empty"]);
     refused("a.csv", "x,y,z\n".to_owned() + &"a,2,3\n".repeat(500), &["line 21", "and 480 more"]);
     refused("a.csv", b"x,y,z\n1,\xff\xfe,3\n", &["line 2, column y", "is not a number"]);

@@ -34,7 +34,7 @@ fn read(bytes: &[u8]) -> Result<motes::State, Error> {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join("a.npz");
     std::fs::write(&path, bytes).expect("a file");
-    npz::read(Path::new(&path))
+    npz::read(Path::new(&path), &motes::kernel::Columns::default())
 }
 
 /// x is the array given, y and z are fine.
@@ -66,7 +66,7 @@ fn any_type_order_and_packing() {
         ("id", npy("\"<i4\"", "(2,)", &[1, 0, 0, 0, 0, 0, 0, 0])),
         ("time", npy("'<f8'", "()", &9.5_f64.to_le_bytes())),
         ("step", npy("'<u4'", "(1,)", &[3, 0, 0, 0])),
-        ("radius", f4(&[0.0, 4.0])),
+        ("size", f4(&[0.0, 4.0])),
         ("species", npy("'<u4'", "(2,)", &[7, 0, 0, 0, 255, 255, 255, 255])),
     ];
     for method in [CompressionMethod::Stored, CompressionMethod::Deflated] {
@@ -106,9 +106,9 @@ fn archives_that_lie_are_refused() {
     let with = |name, bytes| stored(&[x.clone(), y.clone(), z.clone(), (name, bytes)]);
     says(&with("mas", two.clone()), &["unknown array `mas`; did you mean `mass`?"]);
     says(&with("mass", f4(&[1.0, -1.0])), &["mass[1] is -1, which is below 0"]);
-    says(&with("id", f4(&[0.0, 2.5])), &["id[1] is 2.5, not a whole number"]);
-    says(&with("species", f4(&[0.0, 2.5])), &["species[1] is 2.5, not a whole number"]);
-    says(&with("species", f4(&[-1.0, 2.0])), &["species[0] is -1, not a whole number"]);
+    says(&with("id", f4(&[0.0, 2.5])), &["id[1] is 2.5, which is not a whole number"]);
+    says(&with("species", f4(&[0.0, 2.5])), &["species[1] is 2.5, which is not a whole number"]);
+    says(&with("species", f4(&[-1.0, 2.0])), &["species[0] is -1, which is not a whole number"]);
     says(&with("species", f4(&[1.0])), &["the array `species` holds 1 numbers"]);
     says(&with("id", f4(&[0.0, 2.0])), &["id[1]: id 2, but id 1 is missing"]);
     says(&with("time", two.clone()), &["`time` holds 2 numbers"]);

@@ -2,10 +2,10 @@
 
 use glam::DVec3;
 use motes::State;
-use motes::io::{Precision, npz, read, tipsy};
+use motes::io::{Precision, tipsy};
 use proptest::prelude::*;
 
-use crate::{bits, csv_bytes, folder, npz_bytes, put, some, tipsy_bytes};
+use crate::{bits, csv_bytes, folder, npz_bytes, put, read, some, tipsy_bytes};
 
 /// The same, all numbers narrowed to f32.
 fn narrow(p: &State) -> Vec<u32> {
@@ -68,7 +68,7 @@ proptest! {
         let text = put(&folder, "a.csv", csv_bytes(&particles, Precision::Double));
         prop_assert_eq!(bits(&read(&text).expect("csv")), bits(&particles));
         let archive = put(&folder, "a.npz", npz_bytes(&particles, Precision::Double));
-        let back = npz::read(&archive).expect("npz");
+        let back = read(&archive).expect("npz");
         prop_assert_eq!((bits(&back), back.time, back.step), (bits(&particles), 2.5, 77));
     }
 

@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 use motes::State;
-use motes::io::{read, tipsy};
+use motes::io::tipsy;
 
-use crate::{folder, put, refused, some};
+use crate::{folder, put, read, refused, some};
 
 /// A Tipsy file of one byte order, with or without padding, of the kinds' own records; and what it holds.
 fn tipsy_file(little: bool, padded: bool, counts: [u32; 3]) -> (Vec<u8>, State) {
@@ -82,6 +82,6 @@ fn a_tipsy_that_lies_is_refused() {
 
     let mut wide = some(3);
     wide.velocity_mut()[2].y = 1e39;
-    let error = tipsy::write_tipsy(std::io::sink(), &wide, 0.0, 0.0).expect_err("too wide");
+    let error = tipsy::write_tipsy(std::io::sink(), &wide, 0.0).expect_err("too wide");
     assert!(error.to_string().contains("particle 2 holds 1"), "{error}");
 }

@@ -5,9 +5,9 @@ use std::io::Write;
 use std::path::Path;
 
 use motes::error::Error;
-use motes::io::{Precision, atomically, csv, read};
+use motes::io::{Precision, atomically, csv};
 
-use crate::{csv_bytes, folder, npz_bytes, put, refusal, some, tipsy_bytes};
+use crate::{csv_bytes, folder, npz_bytes, put, read, refusal, some, tipsy_bytes};
 
 #[test]
 fn what_was_cut_off_is_an_error() {

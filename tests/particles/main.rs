@@ -151,7 +151,7 @@ fn totals_are_exact() {
                     ("virial", 0.4),
                     ("speed", 1.0),
                     ("dispersion", 1.0),
-                    ("particle_radius", 0.1),
+                    ("particle_size", 0.1),
                 ],
             )
             .with("center", Value::Vector(center))

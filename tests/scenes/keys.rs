@@ -112,7 +112,7 @@ sede = 3
    |
  7 | sede = 3
    | ^^^^ did you mean `seed`?
-   = known here: `shape`, `color`, `species`, `fixed`, `motion`, `count`, `seed`, `mass`, `scale`, `g`, `cutoff`, `center`, `velocity`, `particle_radius`
+   = known here: `shape`, `color`, `species`, `fixed`, `motion`, `count`, `seed`, `mass`, `scale`, `g`, `cutoff`, `center`, `velocity`, `particle_size`
 
 a.toml: 1 error",
     );

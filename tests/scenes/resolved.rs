@@ -112,7 +112,7 @@ solves = 8
 
 [[particles]]
 bodies = [
-  { position = [0.0, 0.0, 0.0], velocity = [0.0, 0.0, 0.0], mass = 1.0, radius = 0.0 },
+  { position = [0.0, 0.0, 0.0], velocity = [0.0, 0.0, 0.0], mass = 1.0, size = 0.0 },
 ]
 center = [0.0, 0.0, 0.0]
 velocity = [0.0, 0.0, 0.0]

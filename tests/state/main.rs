@@ -1,5 +1,7 @@
 //! State that a caller writes, and a device that a caller loses.
 
+mod columns;
+#[path = "../support/mod.rs"]
 mod support;
 
 use glam::Vec4;

@@ -1,0 +1,213 @@
+//! The columns of a simulation: which of them lie on the device, and the values of the others.
+
+use std::borrow::Cow;
+use std::collections::{BTreeMap, BTreeSet};
+
+use glam::{DVec3, DVec4};
+
+use super::{Plans, Setup, Simulation};
+use crate::boundary;
+use crate::error::Error;
+use crate::kernel::{
+    ACCELERATION, Array, Backend, Column, Columns, HOME, Kind, LIFE, Name, POSITION, Role, TARGET, VELOCITY, insert,
+};
+use crate::motion::{self, Held, Hold};
+use crate::state::State;
+
+/// The column that says where particles that a motion leads were at time 0: the motion is that of these places.
+const ANCHOR: &str = "anchor";
+
+/// The columns that held particles have: where they are led to, and from where.
+pub(super) fn of_held(held: &[Held]) -> Vec<Column> {
+    let any = |of: fn(&Hold) -> bool| held.iter().any(|one| of(&one.by));
+    let mut columns = Vec::new();
+    if any(|by| *by == Hold::Target) {
+        let about = "where a kinematic particle shall be; where it is, unless it is given";
+        columns.push(Column::new(TARGET.name, Kind::Vector, "length", about));
+        let about = "the time at which it shall be there";
+        columns.push(Column::new("kinematic_time", Kind::Scalar, "time", about).within(TARGET.name, 3));
+    }
+    if any(|by| matches!(by, Hold::Motion(_))) {
+        columns.push(Column::new(ANCHOR, Kind::Vector, "length", "where a particle that a motion leads was at time 0"));
+    }
+    columns
+}
+
+/// The columns of a simulation.
+pub(super) struct Store {
+    columns: Columns,
+    /// The buffers of columns that are on the device.
+    bound: BTreeSet<Name>,
+    /// Columns that no plan binds: nothing changes them.
+    idle: BTreeMap<Name, Array>,
+}
+
+impl Store {
+    /// The columns of a setup, of which plans bind some.
+    pub fn new(setup: &Setup, plans: &Plans, count: u32) -> Result<Self, Error> {
+        let columns = setup.columns()?;
+        let fields: BTreeSet<String> = plans.all().flat_map(|plan| plan.fields(count).into_keys()).collect();
+        let bound = columns.iter().map(|column| column.place.buffer.clone());
+        let bound = bound.filter(|buffer| fields.contains(buffer.as_ref())).collect();
+        let mut store = Self { columns, bound, idle: BTreeMap::new() };
+        let given = setup.state.columns().filter(|(column, _)| store.is_state(column) && !store.lies_on_device(column));
+        let idle = given.map(|(column, values)| (column.name.clone(), values.clone())).collect();
+        store.idle = idle;
+        // Where motions lead particles from is known from the first start on.
+        if setup.state.held.iter().any(|one| matches!(one.by, Hold::Motion(_))) && !store.idle.contains_key(ANCHOR) {
+            store.idle.insert(ANCHOR.into(), Array::Vec3(setup.state.position().to_vec()));
+        }
+        Ok(store)
+    }
+    fn is_state(&self, column: &Column) -> bool {
+        self.columns.get(&column.name).is_some_and(|known| known.role == Role::State)
+    }
+    fn lies_on_device(&self, column: &Column) -> bool {
+        self.bound.contains(&column.place.buffer)
+    }
+    /// Fills the buffers of the device.
+    pub fn write<B: Backend>(&self, backend: &mut B, setup: &Setup) -> Result<(), Error> {
+        let (state, count) = (&setup.state, setup.state.len());
+        for buffer in &self.bound {
+            if !self.columns.of_buffer(buffer).any(|column| column.role == Role::State) {
+                continue;
+            }
+            let values = |column: &Column| state.get(&column.name).filter(|_| column.role == Role::State);
+            let Some(mut elements) = self.columns.packed(buffer, count, values) else { continue };
+            if let Array::Vec4(elements) = &mut elements {
+                started(setup, buffer, elements);
+            }
+            backend.write(buffer, &elements)?;
+        }
+        backend.write(ACCELERATION.name, &Array::Vec4(vec![DVec4::ZERO; count]))
+    }
+    /// Fills the places of held particles, in their order, where a plan asks for them.
+    pub fn anchor<B: Backend>(&self, backend: &mut B, setup: &Setup) -> Result<(), Error> {
+        let places = match self.idle.get(ANCHOR) {
+            Some(Array::Vec3(places)) => Cow::Borrowed(places.as_slice()),
+            _ => Cow::Borrowed(setup.state.position()),
+        };
+        let inside = |x: DVec3| boundary::wrapped(&setup.bounds, x).extend(0.0);
+        let held = motion::sorted(&setup.state.held);
+        backend.write(HOME.name, &Array::Vec4(held.iter().map(|one| inside(places[one.id as usize])).collect()))
+    }
+    fn named(&self, name: &str) -> Result<&Column, Error> {
+        self.columns.get(name).ok_or_else(|| {
+            let known: Vec<&str> = self.columns.iter().map(|column| column.name.as_ref()).collect();
+            Error::Scene(format!("there is no column `{name}`; there are {}", known.join(", ")))
+        })
+    }
+}
+
+/// What a simulation makes of the elements of positions and velocities, and of targets, before it starts.
+fn started(setup: &Setup, buffer: &str, elements: &mut [DVec4]) {
+    let state = &setup.state;
+    let inside = |x: DVec4| boundary::wrapped(&setup.bounds, x.truncate()).extend(x.w);
+    if buffer == POSITION.name {
+        elements.iter_mut().for_each(|x| *x = inside(*x));
+        // Particles that are not active have no mass, and no velocity.
+        elements.iter_mut().enumerate().filter(|(id, _)| !state.lives(*id)).for_each(|(_, x)| x.w = 0.0);
+    } else if buffer == VELOCITY.name {
+        let rest = |v: &mut DVec4| *v = DVec4::ZERO.with_w(v.w);
+        elements.iter_mut().enumerate().filter(|(id, _)| !state.lives(*id)).for_each(|(_, v)| rest(v));
+        state.held.iter().for_each(|one| rest(&mut elements[one.id as usize]));
+    } else if buffer == TARGET.name && state.get(TARGET.name).is_none() {
+        elements.iter_mut().zip(state.position()).for_each(|(to, x)| *to = inside(x.extend(0.0)));
+    }
+}
+
+impl<B: Backend> Simulation<B> {
+    /// The columns of the simulation.
+    #[must_use]
+    pub fn columns(&self) -> &Columns {
+        &self.store.columns
+    }
+    /// Reads a column by its name. One that is recomputed has the values of the last evaluation.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] when there is no such column, or nothing computes it; or what reading says.
+    pub async fn read_column(&mut self, name: &str) -> Result<Array, Error> {
+        let column = self.store.named(name)?.clone();
+        if !self.store.lies_on_device(&column) {
+            return match self.store.idle.get(&column.name) {
+                Some(values) => Ok(values.clone()),
+                None if column.role == Role::State => Ok(column.array(self.count as usize)),
+                None => Err(Error::Scene(format!(
+                    "nothing computes the column `{name}`: add a force that writes it, or leave it out"
+                ))),
+            };
+        }
+        let elements = self.elements(&column.place.buffer).await?;
+        Ok(Columns::unpacked(&column, &elements))
+    }
+    /// Writes a column by its name. Where positions, velocities or masses change, the next step begins with the accelerations
+    /// there.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] when there is no such column, or the values are of another kind or number; or what the device says.
+    pub async fn write_column(&mut self, name: &str, values: &Array) -> Result<(), Error> {
+        let column = self.store.named(name)?.clone();
+        let wanted = column.array(self.count as usize);
+        if std::mem::discriminant(&wanted) != std::mem::discriminant(values) || wanted.len() != values.len() {
+            return Err(Error::Scene(format!(
+                "the column `{name}` is {} and takes {} values: these are {}, {} of them",
+                column.kind.name(),
+                wanted.len(),
+                crate::kernel::Kind::of(values).name(),
+                values.len()
+            )));
+        }
+        if !self.store.lies_on_device(&column) {
+            self.store.idle.insert(column.name.clone(), values.clone());
+            return Ok(());
+        }
+        let buffer = column.place.buffer.clone();
+        self.begun &= buffer != POSITION.name && buffer != VELOCITY.name;
+        let elements = match self.elements(&buffer).await? {
+            Array::Vec4(mut elements) => {
+                insert(&mut elements, &column, values);
+                Array::Vec4(elements)
+            }
+            _ => values.clone(),
+        };
+        self.backend.write(&buffer, &elements)
+    }
+    /// The elements of a buffer of columns.
+    async fn elements(&mut self, buffer: &str) -> Result<Array, Error> {
+        let missing = || Error::Device(format!("there is no field `{buffer}`"));
+        let like = self.store.columns.element(buffer).ok_or_else(missing)?;
+        let len = self.store.columns.len_of(buffer, self.count as usize).ok_or_else(missing)?;
+        self.backend.read(buffer, &like, len).await
+    }
+    /// Reads all columns that a state keeps, and others of these names.
+    pub(super) async fn gathered(&mut self, others: &[&str]) -> Result<State, Error> {
+        others.iter().try_for_each(|name| self.store.named(name).map(drop))?;
+        let wanted = |column: &&Column| column.role == Role::State || others.contains(&column.name.as_ref());
+        let columns: Vec<Column> = self.store.columns.iter().filter(wanted).cloned().collect();
+        let mut state = State::default();
+        let mut buffers: BTreeMap<Name, Array> = BTreeMap::new();
+        for column in &columns {
+            let values = if self.store.lies_on_device(column) {
+                let buffer = &column.place.buffer;
+                if !buffers.contains_key(buffer) {
+                    let elements = self.elements(buffer).await?;
+                    buffers.insert(buffer.clone(), elements);
+                }
+                buffers.get(buffer).map(|elements| Columns::unpacked(column, elements))
+            } else if column.role == Role::State {
+                self.store.idle.get(&column.name).cloned()
+            } else {
+                Some(self.read_column(&column.name).await?)
+            };
+            // Nobody speaks of life where all are active.
+            if values.is_some() || column.name != LIFE.name {
+                state.put(column, values);
+            }
+        }
+        // Declarations go on, so that a setup of this state has the same columns.
+        let base = Columns::default();
+        let others = self.store.columns.iter().filter(|column| !wanted(column) && base.get(&column.name).is_none());
+        others.cloned().collect::<Vec<_>>().iter().try_for_each(|column| state.declare(column))?;
+        Ok(state)
+    }
+}
