@@ -87,14 +87,14 @@ fn it_runs_over_a_tree_and_means_nearly_the_same() {
 }
 
 #[test]
-fn a_name_that_nobody_fills_is_refused() {
+fn a_name_that_nothing_fills_is_refused() {
     let folder = tempfile::tempdir().expect("a folder");
     let law = LAW.replace("species[you.index]", "colour[you.index]");
     let law = format!("@group(3) @binding(1) var<storage, read> colour: array<u32>;\n{law}");
     std::fs::write(folder.path().join("law.wgsl"), law).expect("written");
     let output = run(folder.path(), "over = \"near\"\nrange = 0.4");
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert!(!output.status.success() && said.contains("nobody fills the field `colour`"), "{said}");
+    assert!(!output.status.success() && said.contains("nothing fills the field `colour`"), "{said}");
 }
 
 #[test]

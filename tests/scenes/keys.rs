@@ -133,7 +133,7 @@ bodies = [{ position = [0, 0, 0], speed = [1, 0, 0] }]
    |
  5 | bodies = [{ position = [0, 0, 0], speed = [1, 0, 0] }]
    |                                   ^^^^^ it belongs in [[particles]]
-   = known here: `position`, `velocity`, `mass`, `radius`, `fixed`
+   = known here: `position`, `velocity`, `mass`, `size`, `fixed`
 
 a.toml: 1 error",
     );
@@ -156,7 +156,7 @@ g = 1.0
    |
  6 | [forces]
    |  ^^^^^^ did you mean [[force]]?
-   = the sections are [simulation], [solver], [box], [[motion]], [[particles]], [[emitter]], [[drain]], [[links]], [[force]], [output], [picture]
+   = the sections are [simulation], [solver], [box], [[motion]], [[column]], [[particles]], [[emitter]], [[drain]], [[links]], [[force]], [output], [picture]
 
 a.toml: 1 error",
     );
@@ -179,7 +179,7 @@ name = "H200"
    |
  6 | [gpu]
    |  ^^^
-   = the sections are [simulation], [solver], [box], [[motion]], [[particles]], [[emitter]], [[drain]], [[links]], [[force]], [output], [picture]
+   = the sections are [simulation], [solver], [box], [[motion]], [[column]], [[particles]], [[emitter]], [[drain]], [[links]], [[force]], [output], [picture]
 
 a.toml: 1 error",
     );

@@ -122,6 +122,7 @@ species = 0
 every = 1
 formats = ["csv", "png"]
 frames = 0
+columns = []
 
 [picture]
 "#;
