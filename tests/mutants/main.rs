@@ -3,6 +3,7 @@
 mod alarms;
 mod births;
 mod boundary;
+mod columns;
 mod crowds;
 mod curious;
 mod dfsph;
@@ -138,6 +139,7 @@ fn every_mutant_is_noticed() {
         fluids::EQUIVALENT,
         pairs::EQUIVALENT,
         repeat::EQUIVALENT,
+        columns::EQUIVALENT,
     ]
     .concat();
     let ledger = Mutex::new(Ledger::new(&equivalents));

@@ -17,7 +17,7 @@ use motes::{Gpu, Setup, Simulation, wgpu};
 use crate::support::machines::{alone, cut, kernel, machines};
 use crate::support::states::{force, integrator};
 use crate::support::{self, Shared};
-use crate::{alarms, laws, primitives};
+use crate::{alarms, columns, laws, primitives};
 
 /// Large, and not a round number: what is wrong in a step shows.
 const DT: f64 = 0.37;
@@ -205,6 +205,7 @@ pub fn all(shared: &Shared) -> Vec<Stage> {
     laws::all(&device, &mut stages);
     laws::firsts(&device, &mut stages);
     laws::corners(&device, &mut stages);
+    columns::all(&device, &mut stages);
     laws::planes(&device, &mut stages);
     crate::held::all(&device, &mut stages);
     crate::pairs::all(&device, &mut stages);
