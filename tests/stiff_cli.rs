@@ -99,7 +99,7 @@ fn lost_numbers_leave_neighbors_advice_and_the_last_good_state() {
         "--backend",
         "cpu",
         "--set",
-        "simulation.dt=0.0345",
+        "simulation.dt=0.0328",
         "--json",
         "--steps",
         "2000",
