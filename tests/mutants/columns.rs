@@ -11,8 +11,16 @@ use crate::stages::{Device, FEW, Stage, stage};
 use crate::support;
 use crate::support::equivalents::{Equivalent, same};
 
-pub const EQUIVALENT: &[Equivalent] =
-    &[same("law/pair_index.wgsl", "override SPECIES: u32 = 1u;", "1u", "2u", "the table always sets it")];
+pub const EQUIVALENT: &[Equivalent] = &[
+    same("law/pair_index.wgsl", "override SPECIES: u32 = 1u;", "1u", "2u", "the table always sets it"),
+    same(
+        "visit/each_columns.wgsl",
+        "if i < world.count {",
+        "<",
+        "<=",
+        "the last particle is written by two lanes that read before either writes",
+    ),
+];
 
 const FIELD: &str = "
 struct Pair { strength: f32 }
