@@ -78,7 +78,7 @@ impl<B: Backend> Simulation<B> {
         store.write(&mut backend, setup)?;
         backend.write(ALARM.name, &Array::Uint(QUIET.to_vec()))?;
         if plans.all().any(|plan| plan.fields(count).contains_key(HOME.name)) {
-            store.anchor(&mut backend, setup)?;
+            Store::anchor(&mut backend, setup)?;
         }
         let ties = Ties::of(state);
         let (mortal, breaks) = (state.is_mortal(), setup.breaks());
@@ -151,12 +151,11 @@ impl<B: Backend> Simulation<B> {
         self.begun &= field.name != POSITION.name && field.name != VELOCITY.name;
         self.backend.write(field.name, &T::array(values.iter().map(|v| v.widen()).collect()))
     }
-    /// The state at the end of the last step, with the column `potential`: a setup of it goes on from there. It evaluates the
-    /// forces once more, and leaves no trace of that in the run.
+    /// The state at the end of the last step, with the column `potential` and all that ties, moves, spawns and removes particles. It
+    /// evaluates the forces once more, and leaves no trace of that in the run.
     ///
-    /// What follows has the same bits as the run itself where forces depend on positions alone and the state is read in single
-    /// precision or kept in memory. Where they depend on velocities too, an integrator that reuses the accelerations of the step
-    /// before evaluates them anew; implicit and iterative solves begin from another guess.
+    /// A setup of it goes on from there, but for its clock, which begins at time 0 and step 0: motions, births and forces that depend
+    /// on time begin anew. What integrators and solvers keep beside columns is not in it.
     ///
     /// # Errors
     /// [`Error::NotFinite`], [`Error::Crowded`], or what reading says. Speeds that run away are no error here.

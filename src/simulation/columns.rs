@@ -1,6 +1,5 @@
 //! The columns of a simulation: which of them lie on the device, and the values of the others.
 
-use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 
 use glam::{DVec3, DVec4};
@@ -14,10 +13,7 @@ use crate::kernel::{
 use crate::motion::{self, Held, Hold};
 use crate::state::State;
 
-/// The column that says where particles that a motion leads were at time 0: the motion is that of these places.
-const ANCHOR: &str = "anchor";
-
-/// The columns that held particles have: where they are led to, and from where.
+/// The columns that held particles have: where they are led to.
 pub(super) fn of_held(held: &[Held]) -> Vec<Column> {
     let any = |of: fn(&Hold) -> bool| held.iter().any(|one| of(&one.by));
     let mut columns = Vec::new();
@@ -26,9 +22,6 @@ pub(super) fn of_held(held: &[Held]) -> Vec<Column> {
         columns.push(Column::new(TARGET.name, Kind::Vector, "length", about));
         let about = "the time at which it shall be there";
         columns.push(Column::new("kinematic_time", Kind::Scalar, "time", about).within(TARGET.name, 3));
-    }
-    if any(|by| matches!(by, Hold::Motion(_))) {
-        columns.push(Column::new(ANCHOR, Kind::Vector, "length", "where a particle that a motion leads was at time 0"));
     }
     columns
 }
@@ -53,10 +46,6 @@ impl Store {
         let given = setup.state.columns().filter(|(column, _)| store.is_state(column) && !store.lies_on_device(column));
         let idle = given.map(|(column, values)| (column.name.clone(), values.clone())).collect();
         store.idle = idle;
-        // Where motions lead particles from is known from the first start on.
-        if setup.state.held.iter().any(|one| matches!(one.by, Hold::Motion(_))) && !store.idle.contains_key(ANCHOR) {
-            store.idle.insert(ANCHOR.into(), Array::Vec3(setup.state.position().to_vec()));
-        }
         Ok(store)
     }
     fn is_state(&self, column: &Column) -> bool {
@@ -82,11 +71,8 @@ impl Store {
         backend.write(ACCELERATION.name, &Array::Vec4(vec![DVec4::ZERO; count]))
     }
     /// Fills the places of held particles, in their order, where a plan asks for them.
-    pub fn anchor<B: Backend>(&self, backend: &mut B, setup: &Setup) -> Result<(), Error> {
-        let places = match self.idle.get(ANCHOR) {
-            Some(Array::Vec3(places)) => Cow::Borrowed(places.as_slice()),
-            _ => Cow::Borrowed(setup.state.position()),
-        };
+    pub fn anchor<B: Backend>(backend: &mut B, setup: &Setup) -> Result<(), Error> {
+        let places = setup.state.position();
         let inside = |x: DVec3| boundary::wrapped(&setup.bounds, x).extend(0.0);
         let held = motion::sorted(&setup.state.held);
         backend.write(HOME.name, &Array::Vec4(held.iter().map(|one| inside(places[one.id as usize])).collect()))
