@@ -352,7 +352,8 @@ impl Law {
                     self.name
                 )));
             }
-            if !kernel.writes().iter().any(|written| written == name) {
+            // Of no particles there is nothing to write.
+            if !kernel.passes.is_empty() && !kernel.writes().iter().any(|written| written == name) {
                 return Err(Error::Scene(format!(
                     "`{}` is to write the column `{name}`, but {file} binds no `var<storage, read_write> {name}` that it uses",
                     self.name
