@@ -41,6 +41,7 @@ pub async fn run(device: &wgpu::Device, queue: &wgpu::Queue) -> Result<Vec<Findi
     let mut gpu = Gpu::new(device, queue, 1)?;
     let mut findings = examine(&mut gpu, &Questions::default()).await?;
     findings.push(timestamps(&mut gpu).await?);
+    findings.extend(gpu.warning().map(|text| Finding { name: "driver", outcome: Outcome::Warn, text }));
     Ok(findings)
 }
 

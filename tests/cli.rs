@@ -156,6 +156,28 @@ fn without_a_driver_the_twins_run_and_say_so() {
     assert!(code == 0 && stdout.contains("no GPU driver was found"), "{stdout}");
 }
 
+/// Where there is OpenGL, it takes the place of a driver that is named wrongly; else the references do. Either is said.
+#[test]
+fn a_driver_that_is_not_there_is_named() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = path(&folder, "out");
+    let wrong = |args: &[&str]| {
+        let mut command = motes(args);
+        command.env("VK_DRIVER_FILES", "/no/driver.json").env_remove("VK_ICD_FILENAMES").env_remove("WGPU_BACKEND");
+        output(&mut command)
+    };
+    let (code, _, run) = wrong(&["run", "kepler", "--steps", "2", "-o", &out, "--set", "output.formats=[\"csv\"]"]);
+    let (_, adapters, doctor) = wrong(&["doctor"]);
+    assert_eq!(code, 0, "{run}");
+    if adapters.contains("no GPU driver was found") {
+        assert!(run.contains("no GPU driver was found"), "{run}");
+    } else {
+        for words in [&run, &doctor] {
+            assert!(words.contains("VK_DRIVER_FILES names /no/driver.json, which is not there; OpenGL"), "{words}");
+        }
+    }
+}
+
 #[test]
 fn programs_read_lines_of_json_and_quiet_is_quiet() {
     let folder = tempfile::tempdir().expect("a folder");

@@ -31,6 +31,9 @@ pub async fn doctor(args: &DoctorArgs) -> Result<(), Failure> {
                 continue;
             }
         };
+        if let Some(note) = found.substitute() {
+            note!("note: {note}");
+        }
         let findings = selftest::run(&found.device, &found.queue).await?;
         failed |= findings.iter().any(|f| f.outcome == Outcome::Fail);
         if args.json {

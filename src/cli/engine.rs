@@ -53,17 +53,19 @@ impl Engine {
         let far = far::remarks(setup, self.machine(1)?)?;
         let single = matches!(self, Self::Gpu(_));
         let rounded = if single { rounding::remarks(setup) } else { Vec::new() };
-        Ok(self.remark().into_iter().chain(far).chain(rounded).collect())
+        Ok(self.own().into_iter().chain(far).chain(rounded).collect())
     }
-    fn remark(&self) -> Option<String> {
+    fn own(&self) -> Vec<String> {
         match self {
             Self::Cpu(Some(reason)) => {
-                Some(format!("{reason}; running the f64 twins instead, which are exact and slow"))
+                vec![format!("{reason}; running the f64 twins instead, which are exact and slow")]
             }
-            Self::Gpu(found) if found.software() => {
-                Some("this adapter is software: it runs on the processor".to_owned())
+            Self::Cpu(None) => Vec::new(),
+            Self::Gpu(found) => {
+                let software =
+                    found.software().then(|| "this adapter is software: it runs on the processor".to_owned());
+                found.substitute().into_iter().chain(software).collect()
             }
-            _ => None,
         }
     }
 }

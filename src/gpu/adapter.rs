@@ -1,6 +1,6 @@
 //! Adapters: what there is, which one to take, and what a device opened on it may do.
 
-use super::Faults;
+use super::{Faults, driver};
 use crate::error::Error;
 use crate::kernel::Machine;
 
@@ -35,6 +35,11 @@ impl Found {
     #[must_use]
     pub fn describe(&self) -> String {
         describe(&self.adapter.get_info())
+    }
+    /// Why OpenGL runs the kernels, where nobody has asked for it.
+    #[must_use]
+    pub fn substitute(&self) -> Option<String> {
+        driver::substitute(&self.adapter.get_info())
     }
     /// Whether it is a processor that plays a GPU.
     #[must_use]

@@ -3,6 +3,7 @@
 
 mod adapter;
 mod buffers;
+mod driver;
 mod fault;
 mod pipeline;
 mod program;
@@ -97,6 +98,11 @@ impl Gpu {
     #[must_use]
     pub fn describe(&self) -> String {
         adapter::describe(&self.device.adapter_info())
+    }
+    /// What its driver does that costs time and memory, if it is known for that.
+    #[must_use]
+    pub fn warning(&self) -> Option<String> {
+        driver::warning(&self.device.adapter_info())
     }
     /// Waits until the device has done all that was submitted.
     ///
