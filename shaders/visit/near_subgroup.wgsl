@@ -69,14 +69,14 @@ fn near(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
                     if PERIODIC { shift = subgroupShuffle(own.shift, next); }
                 }
                 let q = candidate(min(slot + place, end - 1u));
-                consider(k, slot, end, shift, me, told0(q), with_me, &sum);
-                consider(k, slot + 1u, end, shift, me, told1(q), with_me, &sum);
-                consider(k, slot + 2u, end, shift, me, told2(q), with_me, &sum);
-                consider(k, slot + 3u, end, shift, me, told3(q), with_me, &sum);
-                consider(k, slot + 4u, end, shift, me, told4(q), with_me, &sum);
-                consider(k, slot + 5u, end, shift, me, told5(q), with_me, &sum);
-                consider(k, slot + 6u, end, shift, me, told6(q), with_me, &sum);
-                consider(k, slot + 7u, end, shift, me, told7(q), with_me, &sum);
+                consider(k, slot, end, shift, me, broadcast0(q), with_me, &sum);
+                consider(k, slot + 1u, end, shift, me, broadcast1(q), with_me, &sum);
+                consider(k, slot + 2u, end, shift, me, broadcast2(q), with_me, &sum);
+                consider(k, slot + 3u, end, shift, me, broadcast3(q), with_me, &sum);
+                consider(k, slot + 4u, end, shift, me, broadcast4(q), with_me, &sum);
+                consider(k, slot + 5u, end, shift, me, broadcast5(q), with_me, &sum);
+                consider(k, slot + 6u, end, shift, me, broadcast6(q), with_me, &sum);
+                consider(k, slot + 7u, end, shift, me, broadcast7(q), with_me, &sum);
                 slot += LANES;
             }
         }

@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::{DENSITY, DENSITY_RATE, Medium};
 use crate::error::Error;
 use crate::kernel::{Host, Kernel, Pass, Problem, Scalar, Shader};
-use crate::visit::{Sweep, block, gathered};
+use crate::visit::{Candidate, Sweep, block, gathered};
 
 /// How the density of a fluid follows it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,8 +39,11 @@ pub fn rest(medium: &Medium, problem: &Problem) -> Result<Kernel, Error> {
 /// When the range is none, or a shader does not compile.
 pub fn rate(medium: &Medium, continuity: Continuity, factor: f64, problem: &Problem) -> Result<Kernel, Error> {
     let (holding, tables) = problem.holding();
-    let asked = [holding, crate::shader!("fluids/dense.wgsl"), crate::shader!("fluids/flowing_told.wgsl")];
-    let files = medium.asking(&asked, crate::shader!("fluids/density_rate.wgsl"));
+    let files = medium.files(&[holding, crate::shader!("fluids/density_rate.wgsl")]);
+    let candidate = Candidate {
+        particle: crate::shader!("fluids/dense.wgsl"),
+        broadcast: crate::shader!("fluids/flowing_broadcast.wgsl"),
+    };
     let diffusion = 2.0 * continuity.diffusion * 0.5 * medium.range() * medium.sound;
     let params = vec![
         ("factor", Scalar::Float(factor)),
@@ -77,6 +80,7 @@ pub fn rate(medium: &Medium, continuity: Continuity, factor: f64, problem: &Prob
     let sweep = Sweep {
         name: "fluid density rate".to_owned(),
         grid: medium.grid(problem)?,
+        candidate,
         files,
         params,
         constants: medium.constants(),

@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::{DENSITY, Medium};
 use crate::error::Error;
 use crate::kernel::{Host, Kernel, Problem};
-use crate::visit::{Sweep, gathered};
+use crate::visit::{Candidate, Sweep, gathered};
 
 /// The kernel that sums it, for everybody that is not held.
 ///
@@ -15,7 +15,7 @@ use crate::visit::{Sweep, gathered};
 /// When the range is none, or a shader does not compile.
 pub fn density(medium: &Medium, problem: &Problem) -> Result<Kernel, Error> {
     let (holding, tables) = problem.holding();
-    let files = medium.search(holding, crate::shader!("fluids/density.wgsl"));
+    let files = medium.files(&[holding, crate::shader!("fluids/density.wgsl")]);
     let (me, who) = (*medium, problem.clone());
     let twin = move |host: &Host| {
         let range = me.range();
@@ -40,6 +40,7 @@ pub fn density(medium: &Medium, problem: &Problem) -> Result<Kernel, Error> {
     let sweep = Sweep {
         name: "fluid density".to_owned(),
         grid: medium.grid(problem)?,
+        candidate: Candidate::STILL,
         files,
         params: Vec::new(),
         constants: medium.constants(),

@@ -9,7 +9,7 @@ use glam::{DVec4, Vec4};
 use super::Medium;
 use crate::error::Error;
 use crate::kernel::{ACCELERATION, Field, Host, Kernel, Pass, Plan, Problem, Scalar, Shader, URGES, VELOCITY};
-use crate::visit::{Sweep, block, gathered};
+use crate::visit::{Candidate, Sweep, block, gathered};
 
 /// How far a particle may go in a step, in spacings, where no speed of sound limits it (Courant, Friedrichs & Lewy 1928; 0.4 as
 /// Bender & Koschier 2015 have it).
@@ -66,7 +66,7 @@ pub fn limits(medium: &Medium, limits: Limits, plan: &mut Plan, problem: &Proble
 
 fn closing(medium: &Medium, problem: &Problem) -> Result<Kernel, Error> {
     let (holding, tables) = problem.holding();
-    let files = medium.search(holding, crate::shader!("fluids/closing.wgsl"));
+    let files = medium.files(&[holding, crate::shader!("fluids/closing.wgsl")]);
     let (me, who) = (*medium, problem.clone());
     let twin = move |host: &Host| {
         let length = 0.5 * me.range();
@@ -88,6 +88,7 @@ fn closing(medium: &Medium, problem: &Problem) -> Result<Kernel, Error> {
     let sweep = Sweep {
         name: "fluid closing".to_owned(),
         grid: medium.grid(problem)?,
+        candidate: Candidate::STILL,
         files,
         params: Vec::new(),
         constants: medium.constants(),

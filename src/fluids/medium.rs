@@ -6,6 +6,7 @@ use super::Smoothing;
 use crate::error::Error;
 use crate::kernel::{Problem, Source};
 use crate::neighbors::Grid;
+use crate::visit::Candidate;
 
 /// A fluid: its density at rest, how compressible it is, and how its particles smooth it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,6 +28,12 @@ pub struct Medium {
     /// 2 or 3.
     pub dimensions: u32,
 }
+
+/// What a fluid's searches load of a neighbour: velocity, density and pressure, too.
+pub(super) const FLOWING: Candidate = Candidate {
+    particle: crate::shader!("fluids/flowing.wgsl"),
+    broadcast: crate::shader!("fluids/flowing_broadcast.wgsl"),
+};
 
 impl Medium {
     /// How far the kernel reaches \[length\].
@@ -93,17 +100,9 @@ impl Medium {
     pub fn grid(&self, problem: &Problem) -> Result<Grid, Error> {
         Grid::apart(self.range(), problem)
     }
-    /// What a search is made of whose neighbours are asked for their places and masses, and whether they are held.
-    pub(super) fn search(&self, holding: Source, own: Source) -> Vec<Source> {
-        self.asking(&[holding, crate::shader!("visit/near_still.wgsl"), crate::shader!("visit/near_told.wgsl")], own)
-    }
-    /// The same where they are asked for their velocities, densities and pressures.
-    pub(super) fn flow(&self, own: Source) -> Vec<Source> {
-        self.asking(&[crate::shader!("fluids/flowing.wgsl"), crate::shader!("fluids/flowing_told.wgsl")], own)
-    }
-    /// The same where these files say what they are asked for.
-    pub(super) fn asking(&self, asked: &[Source], own: Source) -> Vec<Source> {
-        [asked, &[self.smoothing.source(), crate::shader!("fluids/medium.wgsl"), own]].concat()
+    /// What a search of the fluid is made of, with such files of its own.
+    pub(super) fn files(&self, own: &[Source]) -> Vec<Source> {
+        [&[self.smoothing.source(), crate::shader!("fluids/medium.wgsl")], own].concat()
     }
     /// The `override`s of `shaders/fluids/medium.wgsl`: a simulation has one fluid, and kernels few enough uniform blocks.
     #[must_use]

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::{DVec3, Vec4};
 
+use super::medium::FLOWING;
 use super::{FLOW, Medium};
 use crate::error::Error;
 use crate::kernel::{ACCELERATION, Host, Kernel, Problem, Scalar};
@@ -39,7 +40,7 @@ pub enum Walls {
 /// When the range is none, or a shader does not compile.
 pub fn pressure(medium: &Medium, friction: Friction, walls: Walls, problem: &Problem) -> Result<Kernel, Error> {
     let grid = medium.grid(problem)?;
-    let files = medium.flow(crate::shader!("fluids/pressure.wgsl"));
+    let files = medium.files(&[crate::shader!("fluids/pressure.wgsl")]);
     let params = vec![
         ("alpha", Scalar::Float(friction.alpha)),
         ("viscosity", Scalar::Float(friction.viscosity)),
@@ -62,7 +63,7 @@ pub fn pressure(medium: &Medium, friction: Friction, walls: Walls, problem: &Pro
         Ok(())
     };
     let (name, constants) = ("fluid pressure".to_owned(), medium.constants());
-    let sweep = Sweep { name, files, params, constants, twin: Arc::new(twin), grid };
+    let sweep = Sweep { name, candidate: FLOWING, files, params, constants, twin: Arc::new(twin), grid };
     flowing(sweep, &[], problem)
 }
 

@@ -5,11 +5,12 @@ use std::sync::Arc;
 
 use glam::{DVec3, Vec4};
 
+use super::medium::FLOWING;
 use super::pressure::{by_id, flowing, states};
 use super::{Medium, NORMAL};
 use crate::error::Error;
 use crate::kernel::{ACCELERATION, Host, Kernel, Problem, Scalar};
-use crate::visit::{Particle, Sweep, gathered};
+use crate::visit::{Candidate, Particle, Sweep, gathered};
 
 /// How a surface pulls.
 ///
@@ -37,7 +38,7 @@ pub fn tension(medium: &Medium, tension: Tension, problem: &Problem) -> Result<[
 
 fn normals(medium: &Medium, problem: &Problem) -> Result<Kernel, Error> {
     let grid = medium.grid(problem)?;
-    let files = medium.flow(crate::shader!("fluids/normal.wgsl"));
+    let files = medium.files(&[crate::shader!("fluids/normal.wgsl")]);
     let (me, slots) = (*medium, grid.clone());
     let twin = move |host: &Host| {
         let states = states(host, &slots)?;
@@ -56,14 +57,17 @@ fn normals(medium: &Medium, problem: &Problem) -> Result<Kernel, Error> {
         Ok(())
     };
     let (name, params, constants) = ("fluid normals".to_owned(), Vec::new(), medium.constants());
-    let sweep = Sweep { name, files, params, constants, twin: Arc::new(twin), grid };
+    let sweep = Sweep { name, candidate: FLOWING, files, params, constants, twin: Arc::new(twin), grid };
     flowing(sweep, &[NORMAL], problem)
 }
 
 fn pull(medium: &Medium, tension: Tension, problem: &Problem) -> Result<Kernel, Error> {
     let grid = medium.grid(problem)?;
-    let asked = [crate::shader!("fluids/bent.wgsl"), crate::shader!("fluids/bent_told.wgsl")];
-    let files = medium.asking(&asked, crate::shader!("fluids/tension.wgsl"));
+    let candidate = Candidate {
+        particle: crate::shader!("fluids/bent.wgsl"),
+        broadcast: crate::shader!("fluids/bent_broadcast.wgsl"),
+    };
+    let files = medium.files(&[crate::shader!("fluids/tension.wgsl")]);
     let volume = medium.range().powi(if medium.dimensions == 2 { 2 } else { 3 });
     let [cohesion, curvature, adhesion] =
         [32.0 / PI * tension.tension / volume, tension.tension, 0.007 * tension.adhesion / volume];
@@ -91,7 +95,7 @@ fn pull(medium: &Medium, tension: Tension, problem: &Problem) -> Result<Kernel, 
         Ok(())
     };
     let (name, constants) = ("fluid tension".to_owned(), medium.constants());
-    let sweep = Sweep { name, files, params, constants, twin: Arc::new(twin), grid };
+    let sweep = Sweep { name, candidate, files, params, constants, twin: Arc::new(twin), grid };
     flowing(sweep, &[NORMAL], problem)
 }
 

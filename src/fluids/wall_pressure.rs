@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::{DVec3, Vec4};
 
+use super::medium::FLOWING;
 use super::pressure::states;
 use super::{FLOW, Medium};
 use crate::error::Error;
@@ -21,7 +22,7 @@ const WALL_PRESSURE: &str = "wall_pressure";
 /// When the range is none, or a shader does not compile.
 pub fn wall_pressure(medium: &Medium, weight: DVec3, problem: &Problem) -> Result<[Kernel; 2], Error> {
     let grid = medium.grid(problem)?;
-    let files = medium.flow(crate::shader!("fluids/wall_pressure.wgsl"));
+    let files = medium.files(&[crate::shader!("fluids/wall_pressure.wgsl")]);
     let (me, slots, who) = (*medium, grid.clone(), problem.clone());
     let twin = move |host: &Host| {
         let states = states(host, &slots)?;
@@ -49,7 +50,7 @@ pub fn wall_pressure(medium: &Medium, weight: DVec3, problem: &Problem) -> Resul
     };
     let (params, constants) = (vec![("weight", Scalar::Vector(weight))], medium.constants());
     let name = "fluid wall pressure".to_owned();
-    let sweep = Sweep { name, files, params, constants, twin: Arc::new(twin), grid: grid.clone() };
+    let sweep = Sweep { name, candidate: FLOWING, files, params, constants, twin: Arc::new(twin), grid: grid.clone() };
     let mut find = sweep.kernel_of_all(problem)?;
     let fields = [WALL_PRESSURE, FLOW].map(|name| grid.field(name));
     find.passes.iter_mut().for_each(|pass| pass.fields.extend_from_slice(&fields));

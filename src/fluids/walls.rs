@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::Medium;
 use crate::error::Error;
 use crate::kernel::{Host, Kernel, POSITION, Problem, Scalar};
-use crate::visit::{Sweep, gathered};
+use crate::visit::{Candidate, Sweep, gathered};
 
 /// What the particles of walls weigh.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -24,7 +24,7 @@ pub enum WallMass {
 /// When the range is none, or a shader does not compile.
 pub fn walls(medium: &Medium, weighs: WallMass, problem: &Problem) -> Result<Kernel, Error> {
     let (holding, tables) = problem.holding();
-    let files = medium.search(holding, crate::shader!("fluids/walls.wgsl"));
+    let files = medium.files(&[holding, crate::shader!("fluids/walls.wgsl")]);
     let (me, who) = (*medium, problem.clone());
     let twin = move |host: &Host| {
         let range = me.range();
@@ -51,6 +51,7 @@ pub fn walls(medium: &Medium, weighs: WallMass, problem: &Problem) -> Result<Ker
     let sweep = Sweep {
         name: "fluid walls".to_owned(),
         grid: medium.grid(problem)?,
+        candidate: Candidate::STILL,
         files,
         params: vec![("mass", Scalar::Float(mass))],
         constants: medium.constants(),

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::Medium;
+use super::medium::FLOWING;
 use super::pressure::{flowing, states};
 use crate::error::Error;
 use crate::kernel::{ACCELERATION, Host, Kernel, Problem, Scalar};
@@ -16,7 +17,7 @@ use crate::visit::{Sweep, gathered};
 /// When the range is none, or a shader does not compile.
 pub fn xsph(medium: &Medium, strength: f64, problem: &Problem) -> Result<Kernel, Error> {
     let grid = medium.grid(problem)?;
-    let files = medium.flow(crate::shader!("fluids/xsph.wgsl"));
+    let files = medium.files(&[crate::shader!("fluids/xsph.wgsl")]);
     let (me, slots) = (*medium, grid.clone());
     let twin = move |host: &Host| {
         let states = states(host, &slots)?;
@@ -38,5 +39,17 @@ pub fn xsph(medium: &Medium, strength: f64, problem: &Problem) -> Result<Kernel,
         Ok(())
     };
     let (params, constants) = (vec![("xsph", Scalar::Float(strength))], medium.constants());
-    flowing(Sweep { name: "fluid xsph".to_owned(), files, params, constants, twin: Arc::new(twin), grid }, &[], problem)
+    flowing(
+        Sweep {
+            name: "fluid xsph".to_owned(),
+            candidate: FLOWING,
+            files,
+            params,
+            constants,
+            twin: Arc::new(twin),
+            grid,
+        },
+        &[],
+        problem,
+    )
 }

@@ -142,22 +142,38 @@ pub fn choose(mut adapters: Vec<wgpu::Adapter>, choice: &Choice) -> Result<wgpu:
     }
 }
 
-/// Opens a device with the features that kernels can use and the largest fields that it offers.
+/// The optional features of an adapter that are worth asking for. None is needed: a device with [`wgpu::Features::empty`] runs
+/// everything.
+///
+/// * `SUBGROUP` buys speed: lanes pass particles and nodes of a tree on to each other, mostly on software adapters.
+/// * `TIMESTAMP_QUERY` buys times by the device's own clock, in [`Gpu::timed`](crate::Gpu::timed), `motes bench` and `motes doctor`.
+#[must_use]
+pub fn wanted_features(adapter: &wgpu::Adapter) -> wgpu::Features {
+    adapter.features() & (wgpu::Features::SUBGROUP | wgpu::Features::TIMESTAMP_QUERY)
+}
+
+/// The limits of an adapter that are worth asking for: WebGPU's defaults, and the largest buffers and bindings that it offers. None
+/// above [`wgpu::Limits::default`] is needed; `max_buffer_size` and `max_storage_buffer_binding_size` buy more particles: a field
+/// takes 16 bytes of each, so that 128 MiB, the default, are enough for 8 million.
+#[must_use]
+pub fn wanted_limits(adapter: &wgpu::Adapter) -> wgpu::Limits {
+    let offered = adapter.limits();
+    wgpu::Limits {
+        max_buffer_size: offered.max_buffer_size,
+        max_storage_buffer_binding_size: offered.max_storage_buffer_binding_size,
+        ..wgpu::Limits::default().or_worse_values_from(&offered)
+    }
+}
+
+/// Opens a device with [`wanted_features`] and [`wanted_limits`].
 ///
 /// # Errors
 /// [`Error::NoAdapter`] when the adapter refuses.
 pub async fn open(adapter: wgpu::Adapter) -> Result<Found, Error> {
-    let wanted = wgpu::Features::SUBGROUP | wgpu::Features::TIMESTAMP_QUERY;
-    let offered = adapter.limits();
-    let limits = wgpu::Limits {
-        max_buffer_size: offered.max_buffer_size,
-        max_storage_buffer_binding_size: offered.max_storage_buffer_binding_size,
-        ..wgpu::Limits::default().or_worse_values_from(&offered)
-    };
     let descriptor = wgpu::DeviceDescriptor {
         label: Some("motes"),
-        required_features: adapter.features() & wanted,
-        required_limits: limits,
+        required_features: wanted_features(&adapter),
+        required_limits: wanted_limits(&adapter),
         ..Default::default()
     };
     let opened = adapter.request_device(&descriptor).await;

@@ -21,6 +21,7 @@ mod walk;
 pub use jacobian::{Jacobian, ROW, ROWS};
 pub use law::{Distant, Law};
 pub use links::{LINK, LINK_START, bind};
+pub use near::Candidate;
 pub use over::Over;
 pub use pair_table::{MOST_SPECIES, PAIR_TABLE, PairRow, PairTable};
 pub use particle::{Particle, View};

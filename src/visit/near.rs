@@ -27,23 +27,38 @@ pub fn grid(law: &Law, problem: &Problem) -> Result<Option<(Grid, bool)>, Error>
     }
 }
 
-/// What a law meets its neighbours as.
-fn particles(law: &Law, moving: bool) -> Vec<Source> {
-    match law.over {
-        Over::Nearest { .. } => vec![crate::shader!("particle.wgsl"), crate::shader!("visit/nearest.wgsl")],
-        _ if moving => vec![crate::shader!("visit/near_moving.wgsl"), crate::shader!("visit/near_told.wgsl")],
-        _ => vec![crate::shader!("visit/near_still.wgsl"), crate::shader!("visit/near_told.wgsl")],
-    }
+/// What a search loads of a neighbour.
+#[derive(Debug, Clone)]
+pub struct Candidate {
+    /// The file with `struct Particle` and `fn candidate(slot: u32) -> Particle`.
+    pub particle: Source,
+    /// The file with `fn broadcast0(q: Particle) -> Particle` to `broadcast7`: what lane 0 to 7 has loaded. It is joined only
+    /// with the walk of subgroups, for devices without them refuse it.
+    pub broadcast: Source,
 }
 
-/// What everybody in range is searched with.
-pub fn search(grid: &Grid, machine: &Machine) -> Vec<Source> {
-    let mut files = vec![match grid.of {
+impl Candidate {
+    /// Place and mass.
+    pub const STILL: Self = Self {
+        particle: crate::shader!("visit/near_still.wgsl"),
+        broadcast: crate::shader!("visit/near_broadcast.wgsl"),
+    };
+    /// Place, mass and velocity.
+    pub const MOVING: Self = Self {
+        particle: crate::shader!("visit/near_moving.wgsl"),
+        broadcast: crate::shader!("visit/near_broadcast.wgsl"),
+    };
+}
+
+/// What all neighbours in range are searched with.
+pub fn search(grid: &Grid, machine: &Machine, candidate: Candidate) -> Vec<Source> {
+    let by = match grid.of {
         Some(_) => crate::shader!("visit/near_ids.wgsl"),
         None => crate::shader!("visit/near_slots.wgsl"),
-    }];
+    };
+    let mut files = vec![candidate.particle, by];
     match (machine.software, machine.subgroup) {
-        (true, 8) => files.push(crate::shader!("visit/near_subgroup.wgsl")),
+        (true, 8) => files.extend([candidate.broadcast, crate::shader!("visit/near_subgroup.wgsl")]),
         _ => files.extend([crate::shader!("visit/near_walk.wgsl"), crate::shader!("visit/near_lanes.wgsl")]),
     }
     files
@@ -68,10 +83,10 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
     let mut sources = ground();
     sources.push(grid.present(problem));
     sources.push(crate::shader!("visit/near_conclude.wgsl"));
-    sources.extend(particles(&law, moving));
-    if let Over::Near { .. } = law.over {
-        sources.extend(search(&grid, &problem.machine));
-    }
+    sources.extend(match law.over {
+        Over::Nearest { .. } => vec![crate::shader!("particle.wgsl"), crate::shader!("visit/nearest.wgsl")],
+        _ => search(&grid, &problem.machine, if moving { Candidate::MOVING } else { Candidate::STILL }),
+    });
     sources.push(law.result());
     sources.extend(law.choice());
     sources.extend(law.files());

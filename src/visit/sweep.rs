@@ -3,21 +3,21 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::near;
+use super::near::{self, Candidate};
 use super::particle::{Particle, View};
 use crate::error::Error;
 use crate::kernel::{Host, Kernel, Pass, Problem, Scalar, Shader, Source, Twin};
 use crate::neighbors::Grid;
 
-/// A search of everybody for those in range. Its files say, between them: `struct Particle` with `fn candidate(slot: u32)`
-/// and, told of lane 0 to 7, `fn told0(q: Particle) -> Particle` to `told7` (see `shaders/visit/near_told.wgsl`);
-/// `struct Sum`, `fn acts_on(me: Particle) -> bool`, `fn gather(me, you, r, sum)` and `fn deliver(k: u32, me, sum)`, which is
+/// A search of everybody for those in range. Its files say, between them: `struct Sum`, `fn acts_on(me: Particle) -> bool`, `fn gather(me, you, r, sum)` and `fn deliver(k: u32, me, sum)`, which is
 /// for who stands in slot k.
 pub struct Sweep {
     /// What it is called in a plan.
     pub name: String,
     /// What it searches; it holds everybody.
     pub grid: Grid,
+    /// What it loads of a neighbour.
+    pub candidate: Candidate,
     /// Its own files.
     pub files: Vec<Source>,
     /// The members of its `Params`, by name; none where it has none.
@@ -51,7 +51,7 @@ impl Sweep {
     fn from(self, targets: u32, problem: &Problem) -> Result<Kernel, Error> {
         let mut sources = near::ground();
         sources.push(self.grid.present(problem));
-        sources.extend(near::search(&self.grid, &problem.machine));
+        sources.extend(near::search(&self.grid, &problem.machine, self.candidate));
         sources.push(crate::shader!("own/no_turns.wgsl"));
         sources.extend(self.files);
         let shader = Shader::join(&sources)?;

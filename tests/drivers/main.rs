@@ -1,5 +1,6 @@
 //! What old and bare drivers ask of kernels.
 
+mod bare;
 mod blocks;
 mod kernels;
 #[path = "../support/mod.rs"]

@@ -9,7 +9,7 @@ use motes::integrators::Step;
 use motes::kernel::{ACCELERATION, Backend, Host, Kernel, Machine, Problem, Source};
 use motes::neighbors::Grid;
 use motes::settings::Value;
-use motes::visit::{Sweep, gathered};
+use motes::visit::{Candidate, Sweep, gathered};
 use motes::{Gpu, Setup, Side, Simulation};
 
 use crate::stages::{Device, FEW, Stage};
@@ -205,14 +205,14 @@ fn curious(problem: &Problem) -> Kernel {
         acceleration.iter_mut().zip(felt).for_each(|(a, felt)| *a += felt.unwrap_or_default());
         Ok(())
     };
-    let files = vec![
-        Source::ours("shaders/fluids/flowing.wgsl", include_str!("../../shaders/fluids/flowing.wgsl")),
-        Source::ours("shaders/fluids/flowing_told.wgsl", include_str!("../../shaders/fluids/flowing_told.wgsl")),
-        Source::ours("curious", CURIOUS),
-    ];
+    let files = vec![Source::ours("curious", CURIOUS)];
+    let candidate = Candidate {
+        particle: motes::shader!("fluids/flowing.wgsl"),
+        broadcast: motes::shader!("fluids/flowing_broadcast.wgsl"),
+    };
     let flow = grid.field("flow");
     let (params, constants) = (Vec::new(), Vec::new());
-    let sweep = Sweep { name: "told".to_owned(), grid, files, params, constants, twin: Arc::new(twin) };
+    let sweep = Sweep { name: "told".to_owned(), grid, candidate, files, params, constants, twin: Arc::new(twin) };
     let mut kernel = sweep.kernel_of_all(problem).expect("a search");
     kernel.passes.iter_mut().for_each(|pass| pass.fields.push(flow.clone()));
     kernel

@@ -12,15 +12,6 @@ override STRIDE: u32 = 1u;
 override ROOM: u32 = 1u;
 
 fn candidate(slot: u32) -> Particle { return Particle(sorted_id[slot], sorted_position[slot].xyz, slot); }
-// What lane 0, 1, … holds, of what is asked of a neighbour; the lane of a broadcast must be a constant.
-fn told0(q: Particle) -> Particle { return Particle(q.index, subgroupBroadcast(q.position, 0u), subgroupBroadcast(q.slot, 0u)); }
-fn told1(q: Particle) -> Particle { return Particle(q.index, subgroupBroadcast(q.position, 1u), subgroupBroadcast(q.slot, 1u)); }
-fn told2(q: Particle) -> Particle { return Particle(q.index, subgroupBroadcast(q.position, 2u), subgroupBroadcast(q.slot, 2u)); }
-fn told3(q: Particle) -> Particle { return Particle(q.index, subgroupBroadcast(q.position, 3u), subgroupBroadcast(q.slot, 3u)); }
-fn told4(q: Particle) -> Particle { return Particle(q.index, subgroupBroadcast(q.position, 4u), subgroupBroadcast(q.slot, 4u)); }
-fn told5(q: Particle) -> Particle { return Particle(q.index, subgroupBroadcast(q.position, 5u), subgroupBroadcast(q.slot, 5u)); }
-fn told6(q: Particle) -> Particle { return Particle(q.index, subgroupBroadcast(q.position, 6u), subgroupBroadcast(q.slot, 6u)); }
-fn told7(q: Particle) -> Particle { return Particle(q.index, subgroupBroadcast(q.position, 7u), subgroupBroadcast(q.slot, 7u)); }
 
 fn acts_on(me: Particle) -> bool { return true; }
 

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::Vec4;
 
-use super::push::changes;
+use super::push::{PUSHED, changes};
 use super::{Dfsph, KAPPA, KEPT, PUSHES, RESPONSE, RESPONSES, STATE, STATES, STIFFNESS, UNKNOWN, UNKNOWNS, WARM, with};
 use crate::error::Error;
 use crate::kernel::{ACCELERATION, Host, Kernel};
@@ -51,11 +51,7 @@ pub fn predict(of: &Dfsph<'_>) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    let files = vec![
-        crate::shader!("fluids/dfsph/pushed.wgsl"),
-        crate::shader!("fluids/dfsph/change.wgsl"),
-        crate::shader!("fluids/dfsph/predict.wgsl"),
-    ];
-    let kernel = of.sweep("fluid predict".to_owned(), files, Arc::new(twin))?;
+    let files = vec![crate::shader!("fluids/dfsph/change.wgsl"), crate::shader!("fluids/dfsph/predict.wgsl")];
+    let kernel = of.sweep("fluid predict".to_owned(), PUSHED, files, Arc::new(twin))?;
     Ok(with(kernel, &[("WARM", WARM), ("RELAXATION", relaxes)]))
 }

@@ -18,7 +18,7 @@ use super::Medium;
 use crate::error::Error;
 use crate::kernel::{Host, Kernel, Name, Pass, Plan, Problem, Scalar, Shader, Source, Twin};
 use crate::neighbors::{Grid, SORTED_ID, SORTED_POSITION, SORTED_VELOCITY, STARTS};
-use crate::visit::{Sweep, block};
+use crate::visit::{Candidate, Sweep, block};
 
 use pairs::Pairs;
 
@@ -153,26 +153,27 @@ impl<'a> Dfsph<'a> {
         all
     }
     /// A search of all pairs, before these are known, with a `gather` of where they are.
-    fn search(&self, name: &str, files: Vec<Source>, twin: Twin) -> Result<Kernel, Error> {
+    fn search(&self, name: &str, candidate: Candidate, files: Vec<Source>, twin: Twin) -> Result<Kernel, Error> {
         let all = self.files(files);
         let kernel = match self.pairs {
-            Some(pairs) => pairs.find(self, name, all, twin)?,
-            None => self.walk(name.to_owned(), all, twin)?,
+            Some(pairs) => pairs.find(self, name, candidate, all, twin)?,
+            None => self.walk(name.to_owned(), candidate, all, twin)?,
         };
         Ok(self.bound(kernel))
     }
     /// A sweep over all pairs: each `meet`s the other with its V g r.
-    fn sweep(&self, name: String, files: Vec<Source>, twin: Twin) -> Result<Kernel, Error> {
+    fn sweep(&self, name: String, candidate: Candidate, files: Vec<Source>, twin: Twin) -> Result<Kernel, Error> {
         let mut all = self.files(files);
         if let Some(pairs) = self.pairs {
+            all.push(candidate.particle);
             return Ok(self.bound(pairs.sweep(self, name, all, twin)?));
         }
         all.push(crate::shader!("fluids/dfsph/walked.wgsl"));
-        Ok(self.bound(self.walk(name, all, twin)?))
+        Ok(self.bound(self.walk(name, candidate, all, twin)?))
     }
-    fn walk(&self, name: String, files: Vec<Source>, twin: Twin) -> Result<Kernel, Error> {
+    fn walk(&self, name: String, candidate: Candidate, files: Vec<Source>, twin: Twin) -> Result<Kernel, Error> {
         let constants = self.medium.constants();
-        let sweep = Sweep { name, grid: self.grid.clone(), files, params: Vec::new(), constants, twin };
+        let sweep = Sweep { name, grid: self.grid.clone(), candidate, files, params: Vec::new(), constants, twin };
         sweep.kernel(self.problem)
     }
     /// A kernel over slots or particles, or of so many invocations.

@@ -5,7 +5,7 @@ use crate::error::Error;
 use crate::fluids::Medium;
 use crate::kernel::{Kernel, Pass, Problem, Shader, Source, Twin};
 use crate::neighbors::Grid;
-use crate::visit::Sweep;
+use crate::visit::{Candidate, Sweep};
 
 /// How many more neighbours there is room for than a fluid at rest has: somebody with more is told, and ends the run.
 const ROOM: u32 = 2;
@@ -41,13 +41,24 @@ impl Pairs {
         [("STRIDE", f64::from(self.stride)), ("ROOM", f64::from(self.rows))]
     }
     /// The kernel that finds them, and meets everybody once.
-    pub fn find(self, of: &Dfsph<'_>, name: &str, files: Vec<Source>, twin: Twin) -> Result<Kernel, Error> {
-        let own = vec![crate::shader!("fluids/dfsph/neighbors.wgsl")];
-        let (grid, params, constants) = (of.grid.clone(), Vec::new(), Vec::new());
-        let search = Sweep { name: name.to_owned(), grid, files: own, params, constants, twin };
+    pub fn find(
+        self,
+        of: &Dfsph<'_>,
+        name: &str,
+        candidate: Candidate,
+        files: Vec<Source>,
+        twin: Twin,
+    ) -> Result<Kernel, Error> {
+        let slots = Candidate {
+            particle: crate::shader!("fluids/dfsph/neighbors.wgsl"),
+            broadcast: crate::shader!("fluids/dfsph/neighbors_broadcast.wgsl"),
+        };
+        let (params, constants, own) = (Vec::new(), Vec::new(), Vec::new());
+        let (name, grid) = (name.to_owned(), of.grid.clone());
+        let search = Sweep { name, grid, candidate: slots, files: own, params, constants, twin };
         let mut kernel = search.kernel(of.problem)?;
         let mut all = files;
-        all.push(crate::shader!("fluids/dfsph/listed.wgsl"));
+        all.extend([candidate.particle, crate::shader!("fluids/dfsph/listed.wgsl")]);
         kernel.passes.push(self.pass(of, &all)?);
         kernel.scratch.push(of.name(PAIRS));
         Ok(self.bound(of, kernel))

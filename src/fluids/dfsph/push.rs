@@ -8,7 +8,7 @@ use super::{Dfsph, ERRORS, PUSHES, STATE, STATES, Solve, UNKNOWN, UNKNOWNS, WALL
 use crate::error::Error;
 use crate::fluids::Medium;
 use crate::kernel::{Host, Kernel, Name};
-use crate::visit::gathered;
+use crate::visit::{Candidate, gathered};
 
 /// Accelerations by pressure.
 pub fn push(of: &Dfsph<'_>, solve: Solve) -> Result<Kernel, Error> {
@@ -37,9 +37,19 @@ pub fn push(of: &Dfsph<'_>, solve: Solve) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    let files = vec![crate::shader!("fluids/dfsph/stiff.wgsl"), crate::shader!("fluids/dfsph/push.wgsl")];
-    of.sweep(format!("fluid {} push", solve.name()), files, Arc::new(twin))
+    let candidate = Candidate {
+        particle: crate::shader!("fluids/dfsph/stiff.wgsl"),
+        broadcast: crate::shader!("fluids/dfsph/stiff_broadcast.wgsl"),
+    };
+    let (name, files) = (format!("fluid {} push", solve.name()), vec![crate::shader!("fluids/dfsph/push.wgsl")]);
+    of.sweep(name, candidate, files, Arc::new(twin))
 }
+
+/// What a search of accelerations loads of a neighbour.
+pub const PUSHED: Candidate = Candidate {
+    particle: crate::shader!("fluids/dfsph/pushed.wgsl"),
+    broadcast: crate::shader!("fluids/dfsph/pushed_broadcast.wgsl"),
+};
 
 /// How fast accelerations make the density grow, as a part of that at rest, by slot; of those that are solved for.
 pub fn changes(host: &Host, medium: &Medium, ids: &[usize], pushes: &Name) -> Result<Vec<Option<f64>>, Error> {
@@ -88,11 +98,7 @@ pub fn correct(of: &Dfsph<'_>, solve: Solve) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    let files = vec![
-        crate::shader!("fluids/dfsph/pushed.wgsl"),
-        crate::shader!("fluids/dfsph/change.wgsl"),
-        crate::shader!("fluids/dfsph/correct.wgsl"),
-    ];
-    let kernel = of.sweep(format!("fluid {} correct", solve.name()), files, Arc::new(twin))?;
+    let files = vec![crate::shader!("fluids/dfsph/change.wgsl"), crate::shader!("fluids/dfsph/correct.wgsl")];
+    let kernel = of.sweep(format!("fluid {} correct", solve.name()), PUSHED, files, Arc::new(twin))?;
     Ok(with(kernel, &[("SOLVE", f64::from(solve as u32))]))
 }

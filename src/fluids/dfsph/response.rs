@@ -8,7 +8,7 @@ use super::{Dfsph, RESPONSE, RESPONSES};
 use crate::error::Error;
 use crate::fluids::DENSITY;
 use crate::kernel::{Host, Kernel};
-use crate::visit::gathered;
+use crate::visit::{Candidate, gathered};
 
 /// Of 1 / α times h²: who has less has nobody to push against.
 const LEAST: f64 = 1e-6;
@@ -61,12 +61,7 @@ pub fn kernel(of: &Dfsph<'_>) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    let files = vec![
-        holding,
-        crate::shader!("visit/near_moving.wgsl"),
-        crate::shader!("visit/near_told.wgsl"),
-        crate::shader!("fluids/dfsph/response.wgsl"),
-    ];
-    let kernel = of.search("fluid response", files, Arc::new(twin))?;
+    let files = vec![holding, crate::shader!("fluids/dfsph/response.wgsl")];
+    let kernel = of.search("fluid response", Candidate::MOVING, files, Arc::new(twin))?;
     Ok(Kernel { tables, ..kernel })
 }
