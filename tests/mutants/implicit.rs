@@ -11,7 +11,7 @@ use motes::motion::{Held, Hold};
 use motes::settings::Value;
 use motes::{Bounds, Gpu, Setup, Simulation, Solver, State};
 
-use crate::stages::{Device, Stage};
+use crate::stages::{Device, Stage, next};
 use crate::support::machines::alone;
 use crate::support::states::{force, integrator, vector, word};
 use crate::support::{self};
@@ -128,7 +128,8 @@ type Shared = Rc<RefCell<Simulation<Gpu>>>;
 fn amid(case: &str, simulation: Simulation<Gpu>, plan: &Plan, stages: &mut Vec<Stage>) {
     let simulation = Rc::new(RefCell::new(simulation));
     let mut begun = 0;
-    for kernel in plan.steps() {
+    let mut walk = plan.walk();
+    while let Some(kernel) = next(&mut walk, &simulation) {
         let file = |name: &str| kernel.passes[0].shader.sources().iter().any(|source| source.file.contains(name));
         let name = format!("a solve that {case}, {}", kernel.name);
         let here = || Stage::amid(&name, &simulation, alone(kernel.clone()));

@@ -4,7 +4,7 @@ use super::Step;
 use crate::forces::{Component, Law, Over, Stage};
 use crate::integrators::verbs::keep::copy;
 use crate::integrators::verbs::solve::{
-    EXPLICIT, START_POSITION, START_VELOCITY, System, begin, iterate, report, rows, update,
+    EXPLICIT, START_POSITION, START_VELOCITY, STATE, System, begin, iterate, report, rows, update,
 };
 use crate::kernel::{ACCELERATION, POSITION, VELOCITY};
 use crate::visit::Jacobian;
@@ -88,8 +88,8 @@ impl Step<'_> {
         } else {
             self.at(by.until);
         }
-        let solves = if by.form == Form::Newton { solver.solves } else { 1 };
-        if by.form == Form::Newton && explicit {
+        let newton = by.form == Form::Newton;
+        if newton && explicit {
             self.add(copy(count, "keep explicit", ACCELERATION, EXPLICIT));
         }
         let laws: Vec<Law> =
@@ -99,31 +99,32 @@ impl Step<'_> {
         let tied = links.is_some();
         let problem = self.problem.clone();
         let system = System { problem: &problem, factor, links };
-        for turn in 0..solves {
-            let start = turn == 0;
-            if !start {
-                self.again(explicit);
+        // In exact numbers it ends after as many as there are unknowns; twice that is for rounding.
+        let unknowns = count.saturating_mul(3);
+        let limit = if tied { solver.iterations.min(unknowns.saturating_mul(2).saturating_add(8)) } else { 0 };
+        let linear = |step: &mut Self, start: bool| {
+            step.gather(|place| which[place]);
+            step.rows(&system, &each, start);
+            if tied || newton {
+                step.iterate(&system, limit, if newton { INNER } else { 1.0 });
             }
-            self.gather(|place| which[place]);
-            self.rows(&system, &each, start);
-            // In exact numbers it ends after as many as there are unknowns; twice that is for rounding.
-            let unknowns = count.saturating_mul(3);
-            let limit = if tied { solver.iterations.min(unknowns.saturating_mul(2).saturating_add(8)) } else { 0 };
-            if tied || by.form == Form::Newton {
-                self.iterate(&system, limit, if by.form == Form::Newton { INNER } else { 1.0 });
-            }
-            self.add(update::kernel(&system, start));
-            self.add(update::reach(count, factor));
-        }
-        if by.form == Form::Newton {
+            step.add(update::kernel(&system, start));
+            step.add(update::reach(count, factor));
+        };
+        linear(self, true);
+        if newton {
+            self.repeat(solver.solves - 1, "settled", |step| {
+                step.again(explicit);
+                linear(step, false);
+            });
             // One look more, which decides.
             self.again(explicit);
             self.gather(|place| which[place]);
             self.rows(&system, &[], false);
             self.iterate(&system, 0, INNER);
         }
-        if tied || by.form == Form::Newton {
-            self.add(report::kernel(&system, by.form == Form::Newton));
+        if tied || newton {
+            self.add(report::kernel(&system, newton));
         }
         self.solved_pairs(factor, by.until);
     }
@@ -157,24 +158,31 @@ impl Step<'_> {
         }
         self.add(begin::kernel(system, start));
     }
-    /// As many iterations, and a look at what is left. Their number is odd, so that the state ends where it is sought.
+    /// As many iterations, and a look at what is left. Two states take turns: one iteration, and then pairs of them, so that the
+    /// last one ends where the state is sought. Of a pair whose first half is the last that is needed, the other only hands on
+    /// the state.
     fn iterate(&mut self, system: &System<'_>, limit: u32, part: f64) {
-        let kernels = [true, false].map(|turned| {
-            let product = iterate::product(system, turned);
-            product.and_then(|product| Ok([product, iterate::advance(system, turned, limit, part)?]))
+        let half = |step: &mut Self, turned: bool| {
+            step.add(iterate::product(system, turned));
+            step.add(iterate::advance(system, turned, limit, part));
+        };
+        half(self, true);
+        self.repeat(limit.div_ceil(2), "code", |step| {
+            half(step, false);
+            half(step, true);
         });
-        match kernels {
-            [Ok(first), Ok(second)] => {
-                for turn in 0..(limit + 1) | 1 {
-                    let pair = if turn % 2 == 0 { &first } else { &second };
-                    for kernel in pair {
-                        self.plan.add(kernel.clone());
-                    }
-                }
-            }
-            [Err(error), _] | [_, Err(error)] => {
-                self.error.get_or_insert(error);
-            }
+    }
+    /// A loop until a member of the state of the solve is set.
+    fn repeat(&mut self, most: u32, until: &'static str, write: impl FnOnce(&mut Self)) {
+        if most == 0 {
+            return;
+        }
+        self.flush();
+        let before = std::mem::take(&mut self.plan);
+        write(self);
+        let body = std::mem::replace(&mut self.plan, before);
+        if let Err(error) = self.plan.repeat(most, STATE, 0, until, body) {
+            self.error.get_or_insert(error);
         }
     }
 }
