@@ -12,15 +12,21 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
         let me = target_of(k);
         let here = place_of(mine, mine * GROUP);
         let own = leaf_of(mine);
+        let kept = k - tree.first;
         var near = Sum();
         var far = Sum();
         var node = 1u;
-        var depth = 0u;
+        if tree.again > 0u {
+            near = tree_kept[kept].sum;
+            node = tree_kept[kept].at;
+        }
+        let walks = node > 0u;
+        var depth = firstLeadingBit(node);
         var slot = 0u;
         var bodies = 0u;
-        var more = true;
+        var more = walks;
         var spent = GROUP;
-        while (more || bodies > 0u) && spent <= MOST {
+        while bodies > 0u || more && spent <= MOST {
             if bodies > 0u {
                 if slot != k && slot < tree.count {
                     let you = target_of(slot);
@@ -30,8 +36,13 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
                 bodies -= 1u;
             } else {
                 let real = exists(node, depth);
-                let open = real && (is_own(node, depth, own) || opens(node, here));
-                if real && !open { distant(me, group_at(node, true), shortest(tree_center[node].xyz - me.position), &far); }
+                let itself = real && is_own(node, depth, own);
+                var open = itself || real && reaches_box(node, here);
+                if open && !itself && is_doubtful(node, here) {
+                    open = reaches_target(node, here);
+                    spent += GROUP;
+                }
+                if real && !open { distant(me, group_at(node), shortest(tree_center[node].xyz - me.position), &far); }
                 if open && depth < tree.height {
                     node = 2u * node;
                     depth += 1u;
@@ -45,11 +56,12 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
                     more = node > 1u;
                 }
             }
-            spent += 1u;
+            // A loop that has nothing to do takes a turn to see that.
+            spent += 2u;
         }
-        if more || bodies > 0u { atomicMin(&alarm[2], me.index); }
         merge(&near, far);
-        if acts_on(me) { deliver(me, near); }
+        tree_kept[kept] = Kept(near, select(0u, node, more));
+        if walks && !more && acts_on(me) { deliver(me, near); }
         check_turns(me);
     }
 }

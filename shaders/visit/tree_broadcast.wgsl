@@ -2,26 +2,21 @@
 // passed round by broadcast. The lane of a broadcast must be a constant.
 const LANES: u32 = 8u;
 
-// What stands in the way of a lane's own body, or of nobody's: the way is not 0, and nothing is there.
-fn meet_body(me: Particle, slot: u32, mine: u32, index: u32, b: vec4f, sum: ptr<function, Sum>) {
-    let nobody = slot == mine || slot >= tree.count;
-    let r = shortest(b.xyz - me.position);
-    gather(me, Particle(index, b.xyz, select(b.w, 0.0, nobody)), select(r, vec3f(1.0), nobody), sum);
+// A body of a place along the curve, if it is there, and four targets from `mine` on, of which one may be that body: nobody
+// meets itself. Both ways are computed and one is kept.
+fn meet_other(slot: u32, mine: u32, me: Particle, you: Particle, sum: ptr<function, Sum>) {
+    var met = *sum;
+    gather(me, you, shortest(you.position - me.position), &met);
+    if slot != mine && slot < tree.count { *sum = met; }
 }
 
-// Everybody of the group meets everybody else of it.
-fn meet_own(first: u32, place: u32, a: Particle, b: Particle, c: Particle, d: Particle,
-            sum_a: ptr<function, Sum>, sum_b: ptr<function, Sum>, sum_c: ptr<function, Sum>, sum_d: ptr<function, Sum>) {
-    let mine = first + place;
-    for (var i = 0u; i < GROUP; i += 1u) {
-        let slot = first + i;
-        let you = body(min(slot, tree.count - 1u), true);
-        let index = tree_id[min(slot, tree.count - 1u)];
-        meet_body(a, slot, mine, index, you, sum_a);
-        meet_body(b, slot, mine + LANES, index, you, sum_b);
-        meet_body(c, slot, mine + 2u * LANES, index, you, sum_c);
-        meet_body(d, slot, mine + 3u * LANES, index, you, sum_d);
-    }
+fn meet_others(slot: u32, mine: u32, a: Particle, b: Particle, c: Particle, d: Particle,
+               sum_a: ptr<function, Sum>, sum_b: ptr<function, Sum>, sum_c: ptr<function, Sum>, sum_d: ptr<function, Sum>) {
+    let you = target_of(min(slot, tree.count - 1u));
+    meet_other(slot, mine, a, you, sum_a);
+    meet_other(slot, mine + LANES, b, you, sum_b);
+    meet_other(slot, mine + 2u * LANES, c, you, sum_c);
+    meet_other(slot, mine + 3u * LANES, d, you, sum_d);
 }
 
 fn meet(index: u32, you: vec4f, a: Particle, b: Particle, c: Particle, d: Particle,
@@ -50,3 +45,27 @@ fn group4(g: Group) -> Group { return Group(subgroupBroadcast(g.mass, 4u), subgr
 fn group5(g: Group) -> Group { return Group(subgroupBroadcast(g.mass, 5u), subgroupBroadcast(g.diagonal, 5u), subgroupBroadcast(g.mixed, 5u)); }
 fn group6(g: Group) -> Group { return Group(subgroupBroadcast(g.mass, 6u), subgroupBroadcast(g.diagonal, 6u), subgroupBroadcast(g.mixed, 6u)); }
 fn group7(g: Group) -> Group { return Group(subgroupBroadcast(g.mass, 7u), subgroupBroadcast(g.diagonal, 7u), subgroupBroadcast(g.mixed, 7u)); }
+
+fn meet_bodies(index: u32, you: vec4f, a: Particle, b: Particle, c: Particle, d: Particle,
+               sum_a: ptr<function, Sum>, sum_b: ptr<function, Sum>, sum_c: ptr<function, Sum>, sum_d: ptr<function, Sum>) {
+    meet(subgroupBroadcast(index, 0u), subgroupBroadcast(you, 0u), a, b, c, d, sum_a, sum_b, sum_c, sum_d);
+    meet(subgroupBroadcast(index, 1u), subgroupBroadcast(you, 1u), a, b, c, d, sum_a, sum_b, sum_c, sum_d);
+    meet(subgroupBroadcast(index, 2u), subgroupBroadcast(you, 2u), a, b, c, d, sum_a, sum_b, sum_c, sum_d);
+    meet(subgroupBroadcast(index, 3u), subgroupBroadcast(you, 3u), a, b, c, d, sum_a, sum_b, sum_c, sum_d);
+    meet(subgroupBroadcast(index, 4u), subgroupBroadcast(you, 4u), a, b, c, d, sum_a, sum_b, sum_c, sum_d);
+    meet(subgroupBroadcast(index, 5u), subgroupBroadcast(you, 5u), a, b, c, d, sum_a, sum_b, sum_c, sum_d);
+    meet(subgroupBroadcast(index, 6u), subgroupBroadcast(you, 6u), a, b, c, d, sum_a, sum_b, sum_c, sum_d);
+    meet(subgroupBroadcast(index, 7u), subgroupBroadcast(you, 7u), a, b, c, d, sum_a, sum_b, sum_c, sum_d);
+}
+
+fn meet_groups(x: vec3f, g: Group, a: Particle, b: Particle, c: Particle, d: Particle,
+               sum_a: ptr<function, Sum>, sum_b: ptr<function, Sum>, sum_c: ptr<function, Sum>, sum_d: ptr<function, Sum>) {
+    meet_group(subgroupBroadcast(x, 0u), group0(g), a, b, c, d, sum_a, sum_b, sum_c, sum_d);
+    meet_group(subgroupBroadcast(x, 1u), group1(g), a, b, c, d, sum_a, sum_b, sum_c, sum_d);
+    meet_group(subgroupBroadcast(x, 2u), group2(g), a, b, c, d, sum_a, sum_b, sum_c, sum_d);
+    meet_group(subgroupBroadcast(x, 3u), group3(g), a, b, c, d, sum_a, sum_b, sum_c, sum_d);
+    meet_group(subgroupBroadcast(x, 4u), group4(g), a, b, c, d, sum_a, sum_b, sum_c, sum_d);
+    meet_group(subgroupBroadcast(x, 5u), group5(g), a, b, c, d, sum_a, sum_b, sum_c, sum_d);
+    meet_group(subgroupBroadcast(x, 6u), group6(g), a, b, c, d, sum_a, sum_b, sum_c, sum_d);
+    meet_group(subgroupBroadcast(x, 7u), group7(g), a, b, c, d, sum_a, sum_b, sum_c, sum_d);
+}

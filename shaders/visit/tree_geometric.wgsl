@@ -1,7 +1,7 @@
-// A node is opened where the group may be nearer to it than l / θ + s, which it holds (Barnes & Hut 1986, Barnes 1994).
+// A node reaches l / θ + s, which it holds (Barnes & Hut 1986, Barnes 1994); d is squared.
 fn demand_of(group: u32) -> f32 { return 0.0; }
 
-fn opens(node: u32, place: Place) -> bool {
-    let center = tree_center[node];
-    return apart(place, center.xyz) <= center.w * center.w;
+fn reaches(node: u32, d: f32, demand: f32) -> bool {
+    let reach = tree_center[node].w;
+    return d <= reach * reach;
 }

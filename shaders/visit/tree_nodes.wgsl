@@ -3,7 +3,8 @@
 // and it may say fn distant(me, you: Group, r: vec3f, sum: ptr<function, Sum>), with r from me to the centre of mass.
 //
 // Nodes have a heap's numbers: 1 is the root, 2 n and 2 n + 1 are below n, and leaves stand `height` levels below the root.
-struct Tree { unused_word: u32, first: u32, end: u32, count: u32, leaves: u32, height: u32, widened: f32 }
+// A dispatch has the targets first ≤ k < end. With `again` it goes on where another one of the same targets had to stop.
+struct Tree { unused_word: u32, first: u32, end: u32, count: u32, leaves: u32, height: u32, widened: f32, again: u32 }
 
 @group(2) @binding(0) var<uniform> tree: Tree;
 @group(2) @binding(1) var<storage, read> tree_id: array<u32>;
@@ -11,13 +12,10 @@ struct Tree { unused_word: u32, first: u32, end: u32, count: u32, leaves: u32, h
 @group(2) @binding(3) var<storage, read> tree_center: array<vec4f>; // of mass, xyz; how near one may come to it
 @group(2) @binding(4) var<storage, read> tree_mass: array<vec4f>; // second moments xx, xy, xz about the centre of mass; mass
 @group(2) @binding(5) var<storage, read> tree_shape: array<vec4f>; // second moments yy, yz, zz; the longest side of its box
-@group(2) @binding(7) var<storage, read_write> alarm: array<atomic<u32>>;
 
 // Particles of a leaf, and of a group.
 override LEAF: u32;
 override GROUP: u32;
-// Turns that the loops of an invocation may take: with more, some adapters end them before they are done.
-override MOST: u32;
 
 // A far group of particles: its mass, and its second moments Σ m y yᵀ about the centre of mass.
 struct Group { mass: f32, diagonal: vec3f, mixed: vec3f }
@@ -29,14 +27,21 @@ fn moments(group: Group, r: vec3f) -> vec3f {
                                       group.mixed.y * r.x + group.mixed.z * r.y);
 }
 
-// Where a group of targets is: the middle of its box, half the sides, and how far apart its nodes must be.
-struct Place { middle: vec3f, half_side: vec3f, demand: f32 }
+// Where a group of targets is: the first of them, the middle of their box and half its sides, how far apart its nodes must
+// be, and a quarter of the longest side of the box, squared.
+struct Place { first: u32, middle: vec3f, half_side: vec3f, demand: f32, wide: f32 }
 
-// What a node holds; nothing, where it only fills a place.
-fn group_at(node: u32, real: bool) -> Group {
-    let m = select(vec4f(), tree_mass[node], real);
-    let q = select(vec4f(), tree_shape[node], real);
+// What a node holds.
+fn group_at(node: u32) -> Group {
+    let m = tree_mass[node];
+    let q = tree_shape[node];
     return Group(m.w, vec3f(m.x, q.x, q.z), vec3f(m.yz, q.y));
+}
+
+fn place_at(group: u32, first: u32, low: vec3f, high: vec3f) -> Place {
+    let half_side = 0.5 * (high - low);
+    let longest = max(half_side.x, max(half_side.y, half_side.z));
+    return Place(first, 0.5 * (low + high), half_side, demand_of(group), 0.25 * longest * longest);
 }
 
 // Where a group is: the box of its targets, of which `first` is there.
@@ -47,7 +52,7 @@ fn place_of(group: u32, first: u32) -> Place {
         low = min(low, tree_body[k].xyz);
         high = max(high, tree_body[k].xyz);
     }
-    return Place(0.5 * (low + high), 0.5 * (high - low), demand_of(group));
+    return place_at(group, first, low, high);
 }
 
 // The leaf at which a group begins.
@@ -59,16 +64,31 @@ fn is_own(node: u32, depth: u32, leaf: u32) -> bool {
     return leaf >> below == node || (node << below) - leaf < GROUP / LEAF;
 }
 
+fn squared_size(d: vec3f) -> f32 { return d.x * d.x + d.y * d.y + d.z * d.z; }
+
 // The least distance from the group's box to a place, squared.
 fn apart(place: Place, x: vec3f) -> f32 {
-    let d = max(abs(shortest(x - place.middle)) - place.half_side, vec3f());
-    return d.x * d.x + d.y * d.y + d.z * d.z;
+    return squared_size(max(abs(shortest(x - place.middle)) - place.half_side, vec3f()));
 }
 
-// A particle; without its mass, where it only fills a place.
-fn body(slot: u32, real: bool) -> vec4f {
-    let p = tree_body[slot];
-    return vec4f(p.xyz, select(0.0, p.w, real));
+// The least distance from any of the targets to a place, squared.
+fn nearest(place: Place, x: vec3f) -> f32 {
+    var least = squared_size(shortest(x - tree_body[place.first].xyz));
+    for (var k = place.first + 1u; k < min(place.first + GROUP, tree.count); k += 1u) {
+        least = min(least, squared_size(shortest(x - tree_body[k].xyz)));
+    }
+    return least;
+}
+
+// A node is opened where it reaches a target. Where it reaches the box of all of them, that is as good as certain, unless
+// the box is four times as wide as the node reaches: bodies that follow each other along the curve where few are have a box that may
+// hold the core of the whole system, and are nowhere near it. Then they are asked one by one.
+fn reaches_box(node: u32, place: Place) -> bool {
+    return reaches(node, apart(place, tree_center[node].xyz), place.demand);
+}
+fn is_doubtful(node: u32, place: Place) -> bool { return !reaches(node, place.wide, place.demand); }
+fn reaches_target(node: u32, place: Place) -> bool {
+    return reaches(node, nearest(place, tree_center[node].xyz), place.demand);
 }
 
 fn target_of(slot: u32) -> Particle {

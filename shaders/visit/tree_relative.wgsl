@@ -1,14 +1,12 @@
-// A node is opened where G M l² / d⁴ > α a, with a the least acceleration that any of the group felt last (Springel 2005), or
-// where d ≤ l + s, which it holds; where one has felt nothing yet, where d ≤ l / θ + s.
+// A node reaches as far as G M l² / d⁴ > α a, with a the least acceleration that any of the group felt last (Springel 2005),
+// and l + s at least, which it holds; where one has felt nothing yet, l / θ + s. Here d is squared.
 @group(2) @binding(6) var<storage, read> tree_demand: array<f32>; // G / (α a)
 
 fn demand_of(group: u32) -> f32 { return tree_demand[group]; }
 
-fn opens(node: u32, place: Place) -> bool {
-    let center = tree_center[node];
+fn reaches(node: u32, d: f32, demand: f32) -> bool {
     let length = tree_shape[node].w;
-    let d = apart(place, center.xyz);
-    let reach = center.w + select(0.0, tree.widened * length, place.demand == 0.0);
+    let reach = tree_center[node].w + select(0.0, tree.widened * length, demand == 0.0);
     // l² / d² is at most 1 here, so that nothing overflows.
-    return d <= reach * reach || place.demand * tree_mass[node].w * (length * length / d) > d;
+    return d <= reach * reach || demand * tree_mass[node].w * (length * length / d) > d;
 }

@@ -1,146 +1,101 @@
-// Groups of targets walk the tree, for adapters whose subgroups are all of eight lanes (lavapipe with 256-bit vectors): the
-// eight lanes look at the eight nodes three levels below one, and at the six between. Who is far enough goes into one list,
-// leaves go into another; when a list is long, each lane loads an entry of it and the eight are passed round by broadcast.
-const WORKGROUP: u32 = 8u;
-// Entries of the lists that are met together, and room for what a look at eight nodes adds. Powers of two: they are rings.
-const FAR: u32 = 128u;
-const NEAR: u32 = 64u;
-
-// First the far groups, then the leaves.
-var<workgroup> list: array<u32, 2u * FAR + 2u * NEAR>;
-
+// Groups of targets walk the tree, for adapters whose subgroups are all of eight lanes (lavapipe with 256-bit vectors): lanes
+// look at nodes side by side and list what is met. When a list is long, each lane loads an entry of it and the eight are
+// passed round by broadcast.
 @compute @workgroup_size(WORKGROUP)
 fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(subgroup_invocation_id) place: u32) {
     let mine = tree.first / GROUP + folded(group, groups);
-    let first = min(mine * GROUP, tree.end - 1u);
+    let there = mine * GROUP < tree.end;
+    let first = select(tree.first, mine * GROUP, there);
     let last = tree.count - 1u;
-    let k = mine * GROUP + place;
+    let k = first + place;
     let a = target_of(min(k, last));
     let b = target_of(min(k + LANES, last));
     let c = target_of(min(k + 2u * LANES, last));
     let d = target_of(min(k + 3u * LANES, last));
+    let low = subgroupMin(min(min(a.position, b.position), min(c.position, d.position)));
+    let high = subgroupMax(max(max(a.position, b.position), max(c.position, d.position)));
+    let here = place_at(first / GROUP, first, low, high);
+    // The leaf at which the group begins: what is above it holds the group.
+    let own = leaf_of(first / GROUP);
+
     var sum_a = Sum();
     var sum_b = Sum();
     var sum_c = Sum();
     var sum_d = Sum();
-    meet_own(first, place, a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
-
-    let low = subgroupMin(min(min(a.position, b.position), min(c.position, d.position)));
-    let high = subgroupMax(max(max(a.position, b.position), max(c.position, d.position)));
-    let here = Place(0.5 * (low + high), 0.5 * (high - low), demand_of(mine));
-    // The leaf at which the group begins: what is above it holds the group.
-    let own = (1u << tree.height) + first / LEAF;
-    let lower = (1u << place) - 1u;
-
-    // Nodes that are still to be looked at, as bits: eight children of a node are a byte, those of the lowest come last. Of
-    // 25 levels at most, the lowest three are leaves' and wait for nobody: that leaves eight bytes.
-    var waits = vec2u();
-    var node = 1u;
-    var depth = 0u;
-    var levels = (tree.height + 2u) % 3u + 1u;
-    let top = levels;
-    var more = tree.leaves > GROUP / LEAF;
-    var listed = vec2u();
+    var search = begun();
+    // Those of the group itself are met one by one.
+    var ours = GROUP;
+    let kept = first - tree.first;
+    if tree.again > 0u {
+        sum_a = tree_kept[kept + place].sum;
+        sum_b = tree_kept[kept + place + LANES].sum;
+        sum_c = tree_kept[kept + place + 2u * LANES].sum;
+        sum_d = tree_kept[kept + place + 3u * LANES].sum;
+        search = resumed(vec3u(tree_kept[kept].at, tree_kept[kept + 1u].at, tree_kept[kept + 2u].at));
+        ours = 0u;
+    }
+    let walks = there && (tree.again == 0u || search.more);
     var met = vec2u();
-    var spent = 0u;
-    while more && spent <= MOST {
+    loop {
         // Looks at nodes until a list is long, or until there are none.
-        while more && listed.x - met.x < FAR
-            && listed.y - met.y < NEAR && spent <= MOST {
-            let below = depth + levels;
-            let n = (node << levels) + place;
-            let real = exists(n, below);
-            let holds = own >> (tree.height - below) == n;
-            let itself = holds && below + 3u == tree.height;
-            // A node between stands on a lane that is below it: of the level above on the even ones, of the next on 1 and 5.
-            let upper = (place & 3u) == 1u;
-            let m = select(n >> 1u, n >> 2u, upper);
-            let between = select(below - 1u, depth + 1u, upper);
-            let some = select((place & 1u) == 0u, levels == 3u, upper);
-            let also = some && exists(m, between) && own >> (tree.height - between) != m;
-            let wide = also && !opens(select(1u, m, also), here);
-            let above = subgroupBallot(wide).x;
-            let over = (above >> ((place & 4u) + 1u)) & 1u;
-            let taken = (over | (above >> (place & 6u))) & 1u;
-            let shut = real && taken == 0u && !holds && !opens(select(1u, n, real), here);
-            let far = shut || wide && (upper || over == 0u);
-            let others = real && taken == 0u && !shut && !itself;
-            let leaf = below == tree.height;
-
-            let fars = subgroupBallot(far).x;
-            let rest = subgroupBallot(others).x;
-            let at_far = (listed.x + countOneBits(fars & lower)) % (2u * FAR);
-            let at_near = 2u * FAR + (listed.y + countOneBits(rest & lower)) % (2u * NEAR);
-            if far || others && leaf { list[select(at_near, at_far, far)] = select(n, m, wide); }
-            listed.x += countOneBits(fars);
-            listed.y += select(0u, countOneBits(rest), leaf);
-            let open = select(rest << select(0u, 1u << levels, levels < 3u), 0u, leaf);
-            if open != 0u {
-                waits = (waits << vec2u(8u)) | vec2u(open, waits.x >> 24u);
-                node = n - place;
-                depth = below;
-            }
-            while (waits.x & 255u) == 0u && depth > top {
-                waits = (waits >> vec2u(8u)) | vec2u(waits.y << 24u, 0u);
-                node = node / 8u;
-                depth -= 3u;
-                spent += 1u;
-            }
-            more = (waits.x & 255u) != 0u;
-            node = (node & ~7u) + countTrailingZeros(waits.x & 255u);
-            waits.x &= waits.x - 1u;
-            levels = 3u;
-            spent += 1u;
+        while search.more && search.listed.x - met.x < FAR
+            && search.listed.y - met.y < NEAR && search.spent <= MOST {
+            look(&search, here, own, place);
         }
         workgroupBarrier();
-        // Whole eights are met, and at the end what is left.
-        let ends = select(listed, listed - listed % vec2u(LANES, LANES / LEAF), vec2<bool>(more));
+        // Whole eights are met, and at the end what is left, one by one: the very last leaf may not be full.
+        let ends = !search.more || search.spent > MOST;
+        let listed = search.listed;
         var part_a = Sum();
         var part_b = Sum();
         var part_c = Sum();
         var part_d = Sum();
-        for (; met.x < ends.x; met.x += LANES) {
-            let n = list[min(met.x + place, ends.x - 1u) % (2u * FAR)];
+        for (; met.x + LANES <= listed.x; met.x += LANES) {
+            let n = list[(met.x + place) % (2u * FAR)];
             let x = tree_center[n].xyz;
-            let g = group_at(n, met.x + place < ends.x);
-            meet_group(subgroupBroadcast(x, 0u), group0(g), a, b, c, d, &part_a, &part_b, &part_c, &part_d);
-            meet_group(subgroupBroadcast(x, 1u), group1(g), a, b, c, d, &part_a, &part_b, &part_c, &part_d);
-            meet_group(subgroupBroadcast(x, 2u), group2(g), a, b, c, d, &part_a, &part_b, &part_c, &part_d);
-            meet_group(subgroupBroadcast(x, 3u), group3(g), a, b, c, d, &part_a, &part_b, &part_c, &part_d);
-            meet_group(subgroupBroadcast(x, 4u), group4(g), a, b, c, d, &part_a, &part_b, &part_c, &part_d);
-            meet_group(subgroupBroadcast(x, 5u), group5(g), a, b, c, d, &part_a, &part_b, &part_c, &part_d);
-            meet_group(subgroupBroadcast(x, 6u), group6(g), a, b, c, d, &part_a, &part_b, &part_c, &part_d);
-            meet_group(subgroupBroadcast(x, 7u), group7(g), a, b, c, d, &part_a, &part_b, &part_c, &part_d);
-            spent += 1u;
+            meet_groups(x, group_at(n), a, b, c, d, &part_a, &part_b, &part_c, &part_d);
+            search.spent += 1u;
         }
-        for (; met.y < ends.y; met.y += LANES / LEAF) {
-            let entry = met.y + place / LEAF;
-            let leaf = list[2u * FAR + min(entry, ends.y - 1u) % (2u * NEAR)];
+        for (; ends && met.x < listed.x; met.x += 1u) {
+            let n = list[met.x % (2u * FAR)];
+            meet_group(tree_center[n].xyz, group_at(n), a, b, c, d, &part_a, &part_b, &part_c, &part_d);
+            search.spent += 1u;
+        }
+        for (; met.y + select(LANES / LEAF, LANES / LEAF + 1u, ends) <= listed.y; met.y += LANES / LEAF) {
+            let leaf = list[2u * FAR + (met.y + place / LEAF) % (2u * NEAR)];
             let slot = (leaf - (1u << tree.height)) * LEAF + place % LEAF;
-            let p = body(min(slot, last), slot < tree.count && entry < ends.y);
-            let i = tree_id[min(slot, last)];
-            meet(subgroupBroadcast(i, 0u), subgroupBroadcast(p, 0u), a, b, c, d, &part_a, &part_b, &part_c, &part_d);
-            meet(subgroupBroadcast(i, 1u), subgroupBroadcast(p, 1u), a, b, c, d, &part_a, &part_b, &part_c, &part_d);
-            meet(subgroupBroadcast(i, 2u), subgroupBroadcast(p, 2u), a, b, c, d, &part_a, &part_b, &part_c, &part_d);
-            meet(subgroupBroadcast(i, 3u), subgroupBroadcast(p, 3u), a, b, c, d, &part_a, &part_b, &part_c, &part_d);
-            meet(subgroupBroadcast(i, 4u), subgroupBroadcast(p, 4u), a, b, c, d, &part_a, &part_b, &part_c, &part_d);
-            meet(subgroupBroadcast(i, 5u), subgroupBroadcast(p, 5u), a, b, c, d, &part_a, &part_b, &part_c, &part_d);
-            meet(subgroupBroadcast(i, 6u), subgroupBroadcast(p, 6u), a, b, c, d, &part_a, &part_b, &part_c, &part_d);
-            meet(subgroupBroadcast(i, 7u), subgroupBroadcast(p, 7u), a, b, c, d, &part_a, &part_b, &part_c, &part_d);
-            spent += 1u;
+            let p = tree_body[slot];
+            meet_bodies(tree_id[slot], p, a, b, c, d, &part_a, &part_b, &part_c, &part_d);
+            search.spent += 1u;
         }
-        met = ends;
+        let single = ours + select(0u, (listed.y - met.y) * LEAF, ends);
+        for (var i = 0u; i < single; i += 1u) {
+            let leaf = list[2u * FAR + (met.y + (i - ours) / LEAF) % (2u * NEAR)];
+            let slot = select((leaf - (1u << tree.height)) * LEAF + i % LEAF, first + i, i < ours);
+            meet_others(slot, k, a, b, c, d, &part_a, &part_b, &part_c, &part_d);
+            search.spent += 1u;
+        }
+        ours = 0u;
         merge(&sum_a, part_a);
         merge(&sum_b, part_b);
         merge(&sum_c, part_c);
         merge(&sum_d, part_d);
-        spent += 3u;
+        search.spent += 6u;
         workgroupBarrier();
+        if ends { break; }
     }
-    if more { atomicMin(&alarm[2], a.index); }
-    if k < tree.end && acts_on(a) { deliver(a, sum_a); }
-    if k + LANES < tree.end && acts_on(b) { deliver(b, sum_b); }
-    if k + 2u * LANES < tree.end && acts_on(c) { deliver(c, sum_c); }
-    if k + 3u * LANES < tree.end && acts_on(d) { deliver(d, sum_d); }
+    if walks {
+        let at = stands(search);
+        tree_kept[kept + place] = Kept(sum_a, select(at.x, select(at.y, at.z, place == 2u), place > 0u));
+        tree_kept[kept + place + LANES] = Kept(sum_b, 0u);
+        tree_kept[kept + place + 2u * LANES] = Kept(sum_c, 0u);
+        tree_kept[kept + place + 3u * LANES] = Kept(sum_d, 0u);
+        if !search.more {
+            if k < tree.end && acts_on(a) { deliver(a, sum_a); }
+            if k + LANES < tree.end && acts_on(b) { deliver(b, sum_b); }
+            if k + 2u * LANES < tree.end && acts_on(c) { deliver(c, sum_c); }
+            if k + 3u * LANES < tree.end && acts_on(d) { deliver(d, sum_d); }
+        }
+    }
     check_turns(a);
 }

@@ -52,10 +52,9 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
     var sum = Sum();
     var far = 0u;
     var near = 0u;
-    var spent = GROUP;
     var top = 1u;
     if lane == 0u { waits[0] = 1u; }
-    while top > 0u && spent <= MOST {
+    while top > 0u {
         let some = min(top, WORKGROUP);
         top -= some;
         if lane <= OPEN { atomicStore(&votes[lane], 0u); }
@@ -63,7 +62,9 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
         let node = waits[top + lane];
         let depth = firstLeadingBit(node);
         let real = lane < some && exists(node, depth);
-        let open = real && (is_own(node, depth, own) || opens(node, here));
+        let itself = real && is_own(node, depth, own);
+        var open = itself || real && reaches_box(node, here);
+        if open && !itself && is_doubtful(node, here) { open = reaches_target(node, here); }
         let kind = select(FAR, select(OPEN, NEAR, depth == tree.height), open);
         if real { atomicOr(&votes[kind], 1u << lane); }
         workgroupBarrier();
@@ -79,7 +80,6 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
         far += more[FAR];
         near += more[NEAR];
         top += 2u * more[OPEN];
-        spent += 1u;
         // Whole tiles are met, and at the end what is left.
         let done = top == 0u;
         while far >= select(WORKGROUP, 1u, done) {
@@ -87,11 +87,10 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
             far -= full;
             let n = fars[far + lane];
             workgroupBarrier();
-            tile[lane] = group_at(n, true);
+            tile[lane] = group_at(n);
             places[lane] = tree_center[n];
             workgroupBarrier();
             meet_groups(me, full, &sum);
-            spent += full + 1u;
         }
         while near >= select(WORKGROUP / LEAF, 1u, done) {
             let full = min(near, WORKGROUP / LEAF);
@@ -104,10 +103,8 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
             slots[lane] = slot;
             workgroupBarrier();
             meet_bodies(me, k, full * LEAF, &sum);
-            spent += full * LEAF + 1u;
         }
     }
-    if top > 0u { atomicMin(&alarm[2], me.index); }
     if k < tree.end && acts_on(me) { deliver(me, sum); }
     check_turns(me);
 }

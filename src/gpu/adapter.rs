@@ -212,5 +212,6 @@ pub(super) fn machine(device: &wgpu::Device) -> Machine {
     let invocations = if software { 256 } else { 1 << 18 };
     let limits = device.limits();
     let workgroups = limits.max_compute_workgroups_per_dimension;
-    Machine { software, subgroup, invocations, bindable: bindable(&limits), workgroups }
+    let turns = if software { Machine::TURNS } else { u32::MAX };
+    Machine { software, subgroup, invocations, bindable: bindable(&limits), workgroups, turns }
 }

@@ -16,11 +16,22 @@ pub struct Machine {
     pub bindable: u64,
     /// Workgroups that it dispatches in one dimension, at most.
     pub workgroups: u32,
+    /// Turns that the loops of an invocation may take, all together: some drivers of processors end them after 65 535.
+    pub turns: u32,
 }
 
 impl Machine {
     /// The host, which runs the twins.
-    pub const HOST: Self = Self { software: true, subgroup: 0, invocations: 1, bindable: 0, workgroups: 65_535 };
+    pub const HOST: Self = Self {
+        software: true,
+        subgroup: 0,
+        invocations: 1,
+        bindable: 0,
+        workgroups: 65_535,
+        turns: Self::TURNS,
+    };
+    /// Turns below which no known driver ends a loop, with room for a turn that is not counted.
+    pub const TURNS: u32 = 60_000;
 }
 
 /// Runs plans. The two backends are the GPU and the twins.

@@ -1,5 +1,8 @@
 //! Everybody meets who is near, and far groups as one, through a tree.
 
+use std::ops::Range;
+use std::sync::Arc;
+
 use super::{Law, Over};
 use crate::error::Error;
 use crate::kernel::{
@@ -7,8 +10,11 @@ use crate::kernel::{
 };
 use crate::tree::{GROUP, LEAF, Opening, Tree};
 
-/// Turns that loops may take where a driver ends them after 65 535.
-const TURNS: u32 = 60_000;
+/// Dispatches in which walks go on that open all there is, beyond those that need no search among single targets: only few
+/// groups search, and for a small part of their nodes.
+const MORE: u32 = 4;
+/// Bytes of what is kept of walks that go on.
+const KEPT: u64 = 1 << 27;
 /// Targets of one dispatch, at most: a whole number of groups.
 const TARGETS: u32 = 1 << 18;
 /// What one dispatch meets, at most: about a tenth of a second on a GPU that is not fast.
@@ -35,7 +41,7 @@ impl Over {
     }
 }
 
-fn join(law: &Law, tree: &Tree, machine: &Machine) -> Result<std::sync::Arc<Shader>, Error> {
+fn join(law: &Law, tree: &Tree, variant: Vec<Source>) -> Result<Arc<Shader>, Error> {
     let mut files = vec![
         crate::shader!("world.wgsl"),
         crate::shader!("fields.wgsl"),
@@ -47,7 +53,7 @@ fn join(law: &Law, tree: &Tree, machine: &Machine) -> Result<std::sync::Arc<Shad
         },
         law.distant.wgsl.clone().unwrap_or(crate::shader!("visit/tree_monopole.wgsl")),
     ];
-    files.extend(variant(machine));
+    files.extend(variant);
     files.push(law.result());
     files.extend(law.choice());
     files.extend(law.files());
@@ -56,10 +62,38 @@ fn join(law: &Law, tree: &Tree, machine: &Machine) -> Result<std::sync::Arc<Shad
 
 fn variant(machine: &Machine) -> Vec<Source> {
     match (machine.software, machine.subgroup) {
-        (true, 8) => vec![crate::shader!("visit/tree_broadcast.wgsl"), crate::shader!("visit/tree_subgroup.wgsl")],
-        (true, _) => vec![crate::shader!("visit/tree_alone.wgsl")],
+        (true, 8) => vec![
+            crate::shader!("visit/tree_kept.wgsl"),
+            crate::shader!("visit/tree_broadcast.wgsl"),
+            crate::shader!("visit/tree_look.wgsl"),
+            crate::shader!("visit/tree_subgroup.wgsl"),
+        ],
+        (true, _) => vec![crate::shader!("visit/tree_kept.wgsl"), crate::shader!("visit/tree_alone.wgsl")],
         (false, _) => vec![crate::shader!("visit/tree_tile.wgsl")],
     }
+}
+
+/// How many dispatches go on with a walk where loops may take so many turns: enough for one that opens every node and meets
+/// every body.
+fn rounds(tree: &Tree, machine: &Machine) -> u32 {
+    if !machine.software {
+        return 0;
+    }
+    let (leaves, group) = (u64::from(tree.leaves()), u64::from(GROUP));
+    // Turns of all loops, and of those that search among single targets. Eight lanes look at eight nodes at once, of which
+    // each holds eight of the next, and meet two leaves at once; a lane alone looks at a node, or at a body.
+    let (walk, search) = if machine.subgroup == 8 {
+        let looks = leaves / 7 + 10;
+        (5 * looks + leaves / 2 + 6 * (leaves / 64 + 2) + 2 * group, 2 * group * looks)
+    } else {
+        let nodes = 2 * leaves + 32;
+        (2 * (nodes + u64::from(LEAF) * leaves) + group, group * nodes)
+    };
+    let turns = u64::from(machine.turns);
+    if walk + search <= turns {
+        return 0;
+    }
+    u32::try_from(walk / turns).unwrap_or(u32::MAX).saturating_add(MORE)
 }
 
 pub fn kernel(law: Law, tree: &Tree, problem: &Problem) -> Result<Kernel, Error> {
@@ -78,35 +112,71 @@ pub fn kernel(law: Law, tree: &Tree, problem: &Problem) -> Result<Kernel, Error>
             law.name
         )));
     }
-    let shader = join(&law, tree, &problem.machine)?;
+    let machine = &problem.machine;
+    let shader = join(&law, tree, variant(machine))?;
     let params = law.uniforms(&shader)?;
     let mut constants = problem.constants(&shader);
-    let most = if problem.machine.software { TURNS } else { u32::MAX };
-    constants.extend([("GROUP", GROUP), ("LEAF", LEAF), ("MOST", most)].map(|(name, n)| (name, f64::from(n))));
+    constants.extend([("GROUP", f64::from(GROUP)), ("LEAF", f64::from(LEAF))]);
     constants.extend(law.mark());
     let each = meetings(tree, problem);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "few")]
-    let groups = (MEETINGS / each / f64::from(GROUP)).clamp(1.0, f64::from(TARGETS / GROUP)) as u32;
+    let mut groups = (MEETINGS / each / f64::from(GROUP)).clamp(1.0, f64::from(TARGETS / GROUP)) as u32;
+    if let Some(kept) = shader.reflection().binding("tree_kept") {
+        constants.push(("MOST", f64::from(machine.turns)));
+        groups = groups.min(u32::try_from(KEPT / kept.stride / u64::from(GROUP)).unwrap_or(groups)).max(1);
+    }
+    let rounds = rounds(tree, machine);
+    let rest = match rounds {
+        0 => None,
+        _ => Some(join(&law, tree, vec![crate::shader!("visit/tree_kept.wgsl"), crate::shader!("visit/tree_rest.wgsl")])?),
+    };
     let mut passes = Vec::new();
     let mut first = 0;
     while first < problem.count {
         let end = problem.count.min(first.saturating_add(groups * GROUP));
-        let mut uniforms = params.clone();
-        if let Some(binding) = shader.reflection().binding("tree") {
-            uniforms.push(("tree", uniform(tree, binding, first, end)?));
+        let walk = |again: u32| -> Result<Pass, Error> {
+            let mut uniforms = params.clone();
+            if let Some(binding) = shader.reflection().binding("tree") {
+                uniforms.push(("tree", uniform(tree, binding, first..end, again)?));
+            }
+            let lanes = (end - first).div_ceil(GROUP) * shader.reflection().workgroup;
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "an estimate")]
+            let work = (each * f64::from(end - first)) as u64;
+            let threads = Threads::new(lanes);
+            let pass = Pass { constants: constants.clone(), uniforms, threads, work, ..Pass::new(shader.clone(), 0) };
+            Ok(pass.on(&tree.fields()))
+        };
+        // Whether walks of a dispatch had to stop.
+        let look = |of: &Pass, rest: &Arc<Shader>| Pass {
+            constants: [&constants[..], &[("ROW", f64::from(machine.workgroups))]].concat(),
+            uniforms: of.uniforms.iter().filter(|(name, _)| *name == "tree").cloned().collect(),
+            fields: of.fields.clone(),
+            ..Pass::new(rest.clone(), rest.reflection().workgroup)
+        };
+        passes.push(walk(0)?);
+        if let Some(rest) = &rest {
+            // Few walks go on, if any: what all of them would take is not what they take.
+            let again = walk(1)?;
+            let again = Pass { told: Some((GO.into(), 0)), work: again.work / 4, ..again };
+            let (seen, last) = (look(&walk(0)?, rest), look(&again, rest));
+            passes.push(seen);
+            passes.extend(std::iter::repeat_n(again, rounds as usize));
+            passes.push(last);
         }
-        let lanes = (end - first).div_ceil(GROUP) * shader.reflection().workgroup;
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "an estimate")]
-        let work = (each * f64::from(end - first)) as u64;
-        let threads = Threads::new(lanes);
-        let pass = Pass { constants: constants.clone(), uniforms, threads, work, ..Pass::new(shader.clone(), 0) };
-        passes.push(pass.on(&tree.fields()));
         first = end;
     }
     let mut sizes = tree.sizes();
     sizes.push((ALARM.name.into(), ALARM_WORDS as u64));
-    Ok(Kernel { name: law.name, passes, twin: law.distant.walk, sizes, scratch: Vec::new(), tables: Vec::new() })
+    sizes.push((KEPT_WALKS.into(), u64::from(groups.min(tree.groups()) * GROUP)));
+    sizes.push((GO.into(), 3));
+    let scratch = vec![KEPT_WALKS.into(), GO.into()];
+    Ok(Kernel { name: law.name, passes, twin: law.distant.walk, sizes, scratch, tables: Vec::new() })
 }
+
+/// What targets of a dispatch have met, and where their walks stand.
+const KEPT_WALKS: &str = "tree_kept";
+/// How many workgroups go on with a walk.
+const GO: &str = "tree_go";
 
 /// About how many meetings of two a target's walk is worth: a guess of time alone.
 fn meetings(tree: &Tree, problem: &Problem) -> f64 {
@@ -119,15 +189,16 @@ fn meetings(tree: &Tree, problem: &Problem) -> f64 {
     (700.0 + 180.0 * levels / theta.powi(2)).min(f64::from(problem.count))
 }
 
-/// The block `tree` of a shader, for the targets `first` ≤ k < `end`.
-fn uniform(tree: &Tree, binding: &Binding, first: u32, end: u32) -> Result<Vec<u8>, Error> {
+/// The block `tree` of a shader, for some targets, by their places along the curve.
+fn uniform(tree: &Tree, binding: &Binding, targets: Range<u32>, again: u32) -> Result<Vec<u8>, Error> {
     let values = [
-        ("first", Scalar::Uint(first)),
-        ("end", Scalar::Uint(end)),
+        ("first", Scalar::Uint(targets.start)),
+        ("end", Scalar::Uint(targets.end)),
         ("count", Scalar::Uint(tree.count)),
         ("leaves", Scalar::Uint(tree.leaves())),
         ("height", Scalar::Uint(tree.height())),
         ("widened", Scalar::Float(1.0 / tree.opening.theta() - 1.0)),
+        ("again", Scalar::Uint(again)),
     ];
     binding.packed.pack("tree", &values)
 }

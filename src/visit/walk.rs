@@ -21,6 +21,7 @@ pub struct Group {
 
 /// Where a group of targets is, as the device has it.
 struct Place {
+    targets: Vec<Vec3>,
     middle: Vec3,
     half_side: Vec3,
     demand: f32,
@@ -29,20 +30,33 @@ struct Place {
 impl Place {
     #[expect(clippy::cast_possible_truncation, reason = "as the device holds it")]
     fn new(bodies: &[DVec4], demand: f64) -> Self {
-        let places = || bodies.iter().map(|x| x.truncate().as_vec3());
-        let (low, high) = (places().fold(Vec3::INFINITY, Vec3::min), places().fold(Vec3::NEG_INFINITY, Vec3::max));
-        Self { middle: 0.5 * (low + high), half_side: 0.5 * (high - low), demand: demand as f32 }
+        let targets: Vec<Vec3> = bodies.iter().map(|x| x.truncate().as_vec3()).collect();
+        let low = targets.iter().copied().fold(Vec3::INFINITY, Vec3::min);
+        let high = targets.iter().copied().fold(Vec3::NEG_INFINITY, Vec3::max);
+        Self { targets, middle: 0.5 * (low + high), half_side: 0.5 * (high - low), demand: demand as f32 }
     }
-    /// The least distance to a place, squared, by the device's own arithmetic.
+    /// The least distance from the box of the targets to a place, squared, by the device's own arithmetic.
     fn apart(&self, x: DVec3, bounds: &Bounds) -> f32 {
         let r = bounds.shortest_single((x.as_vec3() - self.middle).as_dvec3());
-        let d = (r.abs() - self.half_side).max(Vec3::ZERO);
-        d.x * d.x + d.y * d.y + d.z * d.z
+        squared_size((r.abs() - self.half_side).max(Vec3::ZERO))
     }
-    /// Whether a node is opened.
-    #[expect(clippy::cast_possible_truncation, reason = "as the device holds it")]
+    /// The least distance from any of the targets to a place, squared.
+    fn nearest(&self, x: DVec3, bounds: &Bounds) -> f32 {
+        let away = |target: &Vec3| squared_size(bounds.shortest_single((x.as_vec3() - *target).as_dvec3()));
+        self.targets.iter().map(away).fold(f32::INFINITY, f32::min)
+    }
+    /// Whether a node is opened: where it reaches the box of the targets and, if that is four times as wide as the node
+    /// reaches, one of the targets.
     fn opens(&self, tree: &Tree, nodes: &Nodes<'_>, node: u32, bounds: &Bounds) -> bool {
-        let d = self.apart(nodes.center(node), bounds);
+        let reaches = |d| self.reaches(tree, nodes, node, d);
+        let longest = self.half_side.max_element();
+        let wide = 0.25 * longest * longest;
+        let center = nodes.center(node);
+        reaches(self.apart(center, bounds)) && (reaches(wide) || reaches(self.nearest(center, bounds)))
+    }
+    /// Whether a node reaches so far, squared.
+    #[expect(clippy::cast_possible_truncation, reason = "as the device holds it")]
+    fn reaches(&self, tree: &Tree, nodes: &Nodes<'_>, node: u32, d: f32) -> bool {
         let reach = nodes.reach(node);
         let Opening::Relative { theta, .. } = tree.opening else { return d <= reach * reach };
         let (mass, length) = (nodes.mass(node) as f32, nodes.length(node) as f32);
@@ -50,6 +64,11 @@ impl Place {
         let reach = if self.demand == 0.0 { reach + widened * length } else { reach };
         d <= reach * reach || self.demand * mass * (length * length / d) > d
     }
+}
+
+/// In the order in which the device adds.
+fn squared_size(d: Vec3) -> f32 {
+    d.x * d.x + d.y * d.y + d.z * d.z
 }
 
 /// Every group of targets, from the root on.

@@ -14,7 +14,7 @@ use crate::support::{self, choices, machines, states};
 pub fn machines() -> Vec<(&'static str, Machine)> {
     let machine = |software, subgroup, invocations| {
         let (bindable, workgroups) = (128 << 20, 65_535);
-        Machine { software, subgroup, invocations, bindable, workgroups }
+        Machine { software, subgroup, invocations, bindable, workgroups, ..Machine::HOST }
     };
     vec![
         ("software with subgroups of eight", machine(true, 8, 256)),
