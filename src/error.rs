@@ -72,7 +72,7 @@ pub enum Error {
     /// range, or by a greater opening angle.
     #[error(
         "particle {particle} has more others close around it than can be visited at once (240000 in the cells of a search, \
-         some 300000 that a tree cannot take as one, and twice as many as at rest in a fluid with solver = \"dfsph\"): choose a \
+         all dispatches of a walk of a tree, and twice as many as at rest in a fluid with solver = \"dfsph\"): choose a \
          shorter range or a greater theta, for a fluid a shorter dt or the spacing that its particles have, or look for what \
          drives all particles to one place"
     )]

@@ -1,11 +1,21 @@
-// What a group of targets asks for where the opening is relative: G / (α a) with the least a that any of them felt last.
+// What a group of targets asks for where the opening is relative: G / (α a) with the least a that any of them felt last, or
+// with a sixty-fourth of what the sizes of all pulls on the group add up to, where that is more: where pulls cancel, a force
+// has no size that errors could be measured by, and a group would open all there is.
 @group(1) @binding(1) var<storage, read> acceleration: array<vec4f>; // xyz, potential
 @group(2) @binding(0) var<storage, read> tree_id: array<u32>;
 @group(2) @binding(1) var<storage, read_write> tree_demand: array<f32>;
+@group(2) @binding(2) var<storage, read> tree_body: array<vec4f>; // xyz, mass
+@group(2) @binding(3) var<storage, read> tree_center: array<vec4f>; // of mass, xyz
+@group(2) @binding(4) var<storage, read> tree_mass: array<vec4f>; // w: mass
+@group(2) @binding(5) var<storage, read> tree_shape: array<vec4f>; // w: longest side
 
 override GROUP: u32;
-// G / α
+// The nodes whose pulls are added: of one level, the first, and how many there are.
+override FIRST: u32;
+override NODES: u32;
+// G / α, and the part of G M / (r² + l²) that counts as a force.
 override STRICTNESS: f32;
+override PART: f32;
 const WORKGROUP: u32 = 64u;
 const ENDLESS: f32 = 3.4e38;
 
@@ -15,6 +25,18 @@ fn size(a: vec3f) -> f32 {
     return select(0.0, most * length(a / most), most > 0.0);
 }
 
+// A part of what the sizes of all pulls at a place add up to, about.
+fn pulls(x: vec3f) -> f32 {
+    var sum = 0.0;
+    for (var n = FIRST; n < FIRST + NODES; n++) {
+        let r = shortest(tree_center[n].xyz - x);
+        let side = tree_shape[n].w;
+        let square = dot(r, r) + side * side;
+        if square > 0.0 { sum += abs(tree_mass[n].w) / square; }
+    }
+    return PART * sum;
+}
+
 @compute @workgroup_size(WORKGROUP)
 fn demand(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let g = folded(group, groups) * WORKGROUP + lane;
@@ -22,6 +44,6 @@ fn demand(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: 
     if first < world.count {
         var least = ENDLESS;
         for (var k = first; k < min(first + GROUP, world.count); k++) { least = min(least, size(acceleration[tree_id[k]].xyz)); }
-        tree_demand[g] = select(0.0, STRICTNESS / least, least > 0.0);
+        tree_demand[g] = select(0.0, STRICTNESS / max(least, pulls(tree_body[first].xyz)), least > 0.0);
     }
 }

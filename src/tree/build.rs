@@ -19,6 +19,11 @@ pub(super) const CUBE: Field<glam::Vec4> = Field::new("tree_cube");
 pub(super) const KEY: Field<u32> = Field::new("tree_key");
 pub(super) const UPPER: Field<u32> = Field::new("tree_upper");
 
+/// Below the root, the level whose nodes tell how large all pulls are together.
+pub(super) const PULLS: u32 = 6;
+/// The part of them that counts as a force where they cancel.
+pub(super) const PART: f64 = 1.0 / 64.0;
+
 /// What a twin of a tree is.
 type Rule = fn(&Tree, &Host) -> Result<(), Error>;
 
@@ -47,8 +52,11 @@ impl Tree {
         ];
         if let Opening::Relative { alpha, g, .. } = self.opening {
             let mut pass = self.each(&[crate::shader!("tree/demand.wgsl")], self.groups())?;
-            pass.constants = vec![("GROUP", f64::from(GROUP)), ("STRICTNESS", g / alpha)];
-            pass.work = u64::from(count);
+            let (first, nodes) = self.level(self.height().saturating_sub(PULLS));
+            pass.constants.extend(problem.constants(&pass.shader));
+            pass.constants.extend([("GROUP", f64::from(GROUP)), ("STRICTNESS", g / alpha), ("PART", g * PART)]);
+            pass.constants.extend([("FIRST", first), ("NODES", nodes)].map(|(name, n)| (name, f64::from(n))));
+            pass.work = 3 * u64::from(count);
             kernels.push(self.kernel("demand", pass, twin::demand));
         }
         Ok(kernels)

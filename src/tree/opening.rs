@@ -1,7 +1,8 @@
 //! When a node is too near to be taken as one.
 
-/// The opening criteria. `d` is the least distance from the box of a group of targets to a node's centre of mass, `l` the
-/// longest side of the node's tight box, `s` the distance of its centre of mass from the middle of that box.
+/// The opening criteria. `d` is the least distance from the box of a group of targets to a node's centre of mass, and from the
+/// targets themselves where the box is four times as wide as the node reaches; `l` is the longest side of the node's tight box,
+/// `s` the distance of its centre of mass from the middle of that box.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Opening {
     /// A node is opened where d ≤ l / θ + s (Barnes & Hut 1986; the offset: Barnes 1994; for groups: Bédorf, Gaburov &
@@ -11,7 +12,8 @@ pub enum Opening {
         theta: f64,
     },
     /// A node of mass M is opened where G M l² / d⁴ > α a, with a the least acceleration that any of the group felt last
-    /// (Springel 2005), or d ≤ l + s. Where somebody has felt nothing yet the criterion is the geometric one.
+    /// (Springel 2005), or d ≤ l + s. Where somebody has felt nothing yet the criterion is the geometric one. Where pulls
+    /// cancel, a is a sixty-fourth of the sum of their sizes.
     Relative {
         /// α: about the relative error of a force.
         alpha: f64,

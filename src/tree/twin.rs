@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DVec3, DVec4, Vec4};
 
-use super::build::{CUBE, GREATEST, KEY, LEAST, UPPER};
+use super::build::{CUBE, GREATEST, KEY, LEAST, PART, PULLS, UPPER};
 use super::{
     GROUP, Opening, TREE_BODY, TREE_CENTER, TREE_DEMAND, TREE_HIGH, TREE_ID, TREE_LOW, TREE_MASS, TREE_SHAPE, Tree,
     curve,
@@ -86,11 +86,24 @@ pub(super) fn nodes(tree: &Tree, host: &Host) -> Result<(), Error> {
 pub(super) fn demand(tree: &Tree, host: &Host) -> Result<(), Error> {
     let Opening::Relative { alpha, g, .. } = tree.opening else { return Ok(()) };
     let (ids, acceleration) = (host.reading::<u32>(&tree.field(TREE_ID).1)?, host.read(ACCELERATION)?);
+    let field = |name| host.reading::<Vec4>(&tree.field(name).1);
+    let (bodies, center) = (field(TREE_BODY)?, field(TREE_CENTER)?);
+    let (mass, shape) = (field(TREE_MASS)?, field(TREE_SHAPE)?);
+    let (first, nodes) = tree.level(tree.height().saturating_sub(PULLS));
+    let bounds = host.world().bounds;
+    let pulls = |x: DVec3| -> f64 {
+        let pull = |n: usize| {
+            let square = bounds.shortest(center[n].truncate() - x).length_squared() + shape[n].w * shape[n].w;
+            if square > 0.0 { mass[n].w.abs() / square } else { 0.0 }
+        };
+        PART * g * (first as usize..(first + nodes) as usize).map(pull).sum::<f64>()
+    };
     let mut demand = host.writing::<f32>(&tree.field(TREE_DEMAND).1)?;
-    for (demand, group) in demand.iter_mut().zip(ids.chunks(GROUP as usize)) {
+    let groups = ids.chunks(GROUP as usize).zip(bodies.iter().step_by(GROUP as usize));
+    for (demand, (group, body)) in demand.iter_mut().zip(groups) {
         let felt = group.iter().filter_map(|id| acceleration.get(*id as usize)).map(|a| a.truncate().length());
         let least = felt.fold(f64::INFINITY, f64::min);
-        *demand = if least > 0.0 { g / (alpha * least) } else { 0.0 };
+        *demand = if least > 0.0 { g / (alpha * least.max(pulls(body.truncate()))) } else { 0.0 };
     }
     Ok(())
 }

@@ -4,6 +4,7 @@ mod agents;
 mod bodies;
 mod cells;
 mod direct;
+mod effort;
 mod fluids;
 mod gravity;
 mod neighbors;

@@ -9,6 +9,7 @@ use motes::tree::{Opening, Tree};
 use motes::{ACCELERATION, Bounds, Error, Gpu, POSITION, Setup, Simulation, forces, gpu, integrators, particles};
 use serde_json::json;
 
+use super::effort::{Effort, effort};
 use super::{direct, median, repeats, scaling, time};
 use crate::cli::args::BenchArgs;
 use crate::cli::failure::Failure;
@@ -52,6 +53,8 @@ struct Walk {
     build: Vec<f64>,
     /// Of its forces: median, 99th percentile, maximum.
     error: [f64; 3],
+    /// What targets meet.
+    effort: Effort,
 }
 
 /// One set at one size.
@@ -69,14 +72,16 @@ pub fn bench(args: &BenchArgs, found: &gpu::Found) -> Result<serde_json::Value, 
         if !args.json {
             out!("\ntree, gravity with potential, {}, leapfrog, whole steps", set.name);
             out!(
-                "{:>9}  {:>14}  {:>12}  {:>14}  {:>6}  {:>28}  {:>7}",
+                "{:>9}  {:>14}  {:>12}  {:>14}  {:>6}  {:>28}  {:>7}  {:>12}  {:>7}",
                 "bodies",
                 "",
                 "step",
                 "bodies/s",
                 "build",
                 "force error, median 99 % max",
-                "ratio"
+                "ratio",
+                "met (mean)",
+                "largest"
             );
         }
         let measure = |count, last: Option<&Row>| pollster::block_on(measure(args, found, set, count, last));
@@ -148,7 +153,9 @@ async fn measure(
         let bodies: Vec<Vec4> = runner.simulation.read(POSITION).await?;
         let accelerations: Vec<Vec4> = runner.simulation.read(ACCELERATION).await?;
         let error = direct::errors(&bodies, &accelerations, SOFTENING);
-        walks.push(Walk { seconds: std::mem::take(&mut runner.seconds), build, error });
+        let problem = problem(&setup, &mut runner.simulation)?;
+        let effort = effort(variant.opening(), &problem, &mut runner.simulation).await?;
+        walks.push(Walk { seconds: std::mem::take(&mut runner.seconds), build, error, effort });
     }
     let pairs = runners.get_mut(VARIANTS.len()).map(|runner| std::mem::take(&mut runner.seconds));
     Ok(Row { count, walks, pairs: pairs.unwrap_or_default() })
@@ -166,6 +173,20 @@ fn probe(found: &gpu::Found, set: &Set, count: u32) -> Result<f64, Failure> {
     Ok(runner.run()? * (f64::from(count) / f64::from(FEW)).powi(2))
 }
 
+impl Variant {
+    fn opening(&self) -> Opening {
+        let theta = self.theta;
+        match self.alpha {
+            alpha if alpha > 0.0 => Opening::Relative { alpha, g: 1.0, theta },
+            _ => Opening::Geometric { theta },
+        }
+    }
+}
+
+fn problem(setup: &Setup, simulation: &mut Simulation<Gpu>) -> Result<Problem, Error> {
+    Ok(Problem::new(setup.check()?, simulation.backend().machine()).at(setup.state.position(), setup.bounds))
+}
+
 /// Seconds of building the tree, without the walk.
 fn build(
     args: &BenchArgs,
@@ -173,14 +194,9 @@ fn build(
     setup: &Setup,
     simulation: &mut Simulation<Gpu>,
 ) -> Result<Vec<f64>, Failure> {
-    let problem = Problem::new(setup.check()?, simulation.backend().machine()).at(setup.state.position(), setup.bounds);
-    let theta = variant.theta;
-    let opening = match variant.alpha {
-        alpha if alpha > 0.0 => Opening::Relative { alpha, g: 1.0, theta },
-        _ => Opening::Geometric { theta },
-    };
+    let problem = problem(setup, simulation)?;
     let mut plan = Plan::default();
-    Tree::new(opening, 0.0, &problem).kernels(&problem)?.into_iter().for_each(|kernel| plan.add(kernel));
+    Tree::new(variant.opening(), 0.0, &problem).kernels(&problem)?.into_iter().for_each(|kernel| plan.add(kernel));
     let backend = simulation.backend();
     let program = backend.compile(&plan)?;
     let mut run = |turns| time(turns, || backend.run(&program, turns).and_then(|()| backend.wait()));
@@ -263,9 +279,10 @@ fn json(set: &Set, rows: &[Row]) -> serde_json::Value {
 }
 
 fn size(row: &Row, variant: usize) -> serde_json::Value {
-    let Walk { seconds, build, error: [middle, p99, max] } = &row.walks[variant];
+    let Walk { seconds, build, error: [middle, p99, max], effort } = &row.walks[variant];
     json!({ "bodies": row.count, "seconds_per_step": seconds, "seconds_per_build": build,
         "bodies_per_second": f64::from(row.count) / median(seconds), "ratio": row.ratio(variant),
+        "met_per_target": { "mean": effort.mean, "largest": effort.largest, "largest_by_mean": effort.ratio() },
         "relative_force_error": { "median": middle, "p99": p99, "max": max } })
 }
 
@@ -284,9 +301,12 @@ impl std::fmt::Display for Row {
             let [middle, p99, max] = walk.error;
             write!(f, "\n{:>25}  {:>12}  {:>14}", variant.name, text(&walk.seconds), rate(&walk.seconds))?;
             write!(f, "  {share:>4.0} %  {middle:>10.1e} {p99:>8.1e} {max:>8.1e}")?;
-            if !self.pairs.is_empty() {
+            if self.pairs.is_empty() {
+                write!(f, "  {:>7}", "")?;
+            } else {
                 write!(f, "  {:>7.2}", self.ratio(n))?;
             }
+            write!(f, "  {:>12.0}  {:>6.2}x", walk.effort.mean, walk.effort.ratio())?;
         }
         Ok(())
     }

@@ -1,0 +1,55 @@
+//! What groups of targets meet on their walks through a tree: on average, and the one that meets the most.
+
+use glam::{DVec3, DVec4, Vec4};
+use motes::forces::{Law, Over, Particle};
+use motes::kernel::{Backend, Plan, Problem, Source};
+use motes::tree::{Opening, Tree};
+use motes::{ACCELERATION, Error, Gpu, Simulation};
+
+/// Counts what is met: far groups, and particles by themselves.
+const WGSL: &str = "struct Sum { far: f32, near: f32 }
+fn merge(total: ptr<function, Sum>, part: Sum) {
+    (*total).far += part.far;
+    (*total).near += part.near;
+}
+fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
+    if you.index < world.count { (*sum).near += 1.0; } else { (*sum).far += 1.0; }
+}
+fn finish(me: Particle, sum: Sum) -> vec4f { return vec4f(sum.far, sum.near, 0.0, 0.0); }";
+
+/// Far groups and particles that a target meets.
+pub struct Effort {
+    pub mean: f64,
+    pub largest: f64,
+}
+
+impl Effort {
+    /// How many times the average the target meets that meets the most: a dispatch waits for it.
+    pub fn ratio(&self) -> f64 {
+        self.largest / self.mean
+    }
+}
+
+/// Walks a tree over particles where they are now, by what they felt last. It leaves numbers of no worth in place of
+/// accelerations.
+pub async fn effort(
+    opening: Opening,
+    problem: &Problem,
+    simulation: &mut Simulation<Gpu>,
+) -> Result<Effort, Error> {
+    let nothing = |_: &Particle, _: &Particle, _: DVec3, (): &mut ()| ();
+    let over = Over::Tree { opening, core: 0.0, auto: false };
+    let wgsl = Source::ours("met", WGSL);
+    let law = Law::gathering("met", over, wgsl, Vec::new(), nothing, |_, (), _| DVec4::ZERO);
+    let mut plan = Plan::default();
+    Tree::new(opening, 0.0, problem).kernels(problem)?.into_iter().for_each(|kernel| plan.add(kernel));
+    plan.add(law.kernel(problem)?);
+    let before: Vec<Vec4> = simulation.read(ACCELERATION).await?;
+    let backend = simulation.backend();
+    let program = backend.compile(&plan)?;
+    backend.run(&program, 1)?;
+    let after: Vec<Vec4> = simulation.read(ACCELERATION).await?;
+    let met = |(after, before): (&Vec4, &Vec4)| f64::from(after.x - before.x) + f64::from(after.y - before.y);
+    let met: Vec<f64> = after.iter().zip(&before).map(met).collect();
+    Ok(Effort { mean: met.iter().sum::<f64>() / met.len() as f64, largest: met.into_iter().fold(0.0, f64::max) })
+}
