@@ -22,7 +22,7 @@ pub(super) const UPPER: Field<u32> = Field::new("tree_upper");
 /// Below the root, the level whose nodes tell how large all pulls are together.
 pub(super) const PULLS: u32 = 6;
 /// The part of them that counts as a force where they cancel.
-pub(super) const PART: f64 = 1.0 / 64.0;
+pub(super) const PART: f64 = 1.0 / 32.0;
 
 /// What a twin of a tree is.
 type Rule = fn(&Tree, &Host) -> Result<(), Error>;

@@ -13,7 +13,7 @@ pub enum Opening {
     },
     /// A node of mass M is opened where G M l² / d⁴ > α a, with a the least acceleration that any of the group felt last
     /// (Springel 2005), or d ≤ l + s. Where somebody has felt nothing yet the criterion is the geometric one. Where pulls
-    /// cancel, a is a sixty-fourth of the sum of their sizes.
+    /// cancel, a is a thirty-second of the sum of their sizes.
     Relative {
         /// α: about the relative error of a force.
         alpha: f64,

@@ -13,6 +13,8 @@ use crate::tree::{GROUP, LEAF, Opening, Tree};
 /// Dispatches in which walks go on that open all there is, beyond those that need no search among single targets: only few
 /// groups search, and for a small part of their nodes.
 const MORE: u32 = 4;
+/// Dispatches that go on with walks, at most: a plan holds them all.
+const MOST: u32 = 1 << 15;
 /// Bytes of what is kept of walks that go on.
 const KEPT: u64 = 1 << 27;
 /// Targets of one dispatch, at most: a whole number of groups.
@@ -89,7 +91,8 @@ fn rounds(tree: &Tree, machine: &Machine) -> u32 {
         let nodes = 2 * leaves + 32;
         (2 * (nodes + u64::from(LEAF) * leaves) + group, group * nodes)
     };
-    let turns = u64::from(machine.turns);
+    // Each dispatch begins anew, and stops a look too late.
+    let turns = u64::from(machine.turns).saturating_sub(2 * group).max(1);
     if walk + search <= turns {
         return 0;
     }
@@ -125,7 +128,7 @@ pub fn kernel(law: Law, tree: &Tree, problem: &Problem) -> Result<Kernel, Error>
         constants.push(("MOST", f64::from(machine.turns)));
         groups = groups.min(u32::try_from(KEPT / kept.stride / u64::from(GROUP)).unwrap_or(groups)).max(1);
     }
-    let rounds = rounds(tree, machine);
+    let rounds = rounds(tree, machine).min((MOST / problem.count.div_ceil(groups * GROUP).max(1)).max(MORE));
     let rest = match rounds {
         0 => None,
         _ => Some(join(&law, tree, vec![crate::shader!("visit/tree_kept.wgsl"), crate::shader!("visit/tree_rest.wgsl")])?),

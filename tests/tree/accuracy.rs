@@ -130,7 +130,8 @@ fn errors_of_sets_that_are_far_from_a_sphere_are_octupoles() {
     }
 }
 
-fn apart(a: &[Vec4], b: &[Vec4]) -> f64 {
+/// The root mean square of how far forces are apart, by that of their sizes.
+pub fn apart(a: &[Vec4], b: &[Vec4]) -> f64 {
     let apart = |(a, b): (&Vec4, &Vec4)| (a.as_dvec4() - b.as_dvec4()).truncate().length_squared();
     let size: f64 = a.iter().map(|a| a.as_dvec4().truncate().length_squared()).sum();
     (a.iter().zip(b).map(apart).sum::<f64>() / size).sqrt()

@@ -154,29 +154,37 @@ fn leaves_and_levels_part_the_bodies() {
     }
 }
 
-/// The weakest of a group decides, and who has felt nothing leaves it to the other criterion. A length of three roots is
-/// wrong by four epsilons or less, a quotient by two and a half.
+/// The weakest of a group decides, and who has felt nothing leaves it to the other criterion. Where pulls cancel, a part of
+/// their sizes is what counts: 64 roundings of half an epsilon. A length of three roots is wrong by four or less, a quotient by
+/// two and a half.
 #[test]
 fn groups_demand_by_whoever_felt_the_least() {
     let shared = support::device();
     let count = 999;
-    for scale in [1.0, 1e-25, 1e18] {
-        let mut felt: Vec<Vec4> = cloud(count, 12).into_iter().map(|a| (scale * a.as_dvec4()).as_vec4()).collect();
+    for (scale, left) in [(1.0, 1.0), (1e-25, 1.0), (1e18, 1.0), (1.0, 0.05), (1e-20, 1e-5)] {
+        let scaled = |a: Vec4| (scale * a.as_dvec4()).as_vec4();
+        let mut felt: Vec<Vec4> = cloud(count, 12).into_iter().map(|a| left as f32 * scaled(a)).collect();
         felt[500] = Vec4::ZERO.with_w(1.0);
         felt[600].x = 0.0;
-        let mut built = Built::new(&shared, &cloud(count, 2), &felt, RELATIVE, 0.0, MACHINES[0]).run();
+        let bodies: Vec<Vec4> = cloud(count, 2).into_iter().map(|b| b.truncate().extend(scaled(b).w)).collect();
+        let mut built = Built::new(&shared, &bodies, &felt, RELATIVE, 0.0, MACHINES[0]).run();
         let host = built.host();
         let nodes = Nodes::of(&built.tree, &host).expect("a tree");
-        let mut quiet = 0;
+        let (mut quiet, mut cancelled) = (0, 0);
         for (g, ids) in nodes.ids().chunks(GROUP as usize).enumerate() {
             let sizes = ids.iter().map(|id| felt[*id as usize].as_dvec4().truncate().length());
             let least = sizes.fold(f64::INFINITY, f64::min);
-            let want = if least > 0.0 { 1.3 / 0.005 / least } else { 0.0 };
+            let place = nodes.bodies()[g * GROUP as usize].truncate();
+            let pull = |n| nodes.mass(n) / (nodes.center(n).distance_squared(place) + nodes.length(n).powi(2));
+            let pulls = 1.3 / 32.0 * (64..128).filter(|n| nodes.exists(*n)).map(pull).sum::<f64>();
+            let want = if least > 0.0 { 1.3 / 0.005 / least.max(pulls) } else { 0.0 };
             let error = (nodes.demand(g) - want).abs();
-            assert!(error <= 8.0 * f64::from(f32::EPSILON) * want, "{g}: {} for {want}", nodes.demand(g));
+            assert!(error <= 40.0 * f64::from(f32::EPSILON) * want, "{g}: {} for {want}", nodes.demand(g));
             quiet += u32::from(want == 0.0);
+            cancelled += u32::from(pulls > least);
         }
         assert_eq!(quiet, 1);
+        assert!(if left < 1.0 { cancelled > 3 } else { cancelled < 3 }, "{cancelled} groups whose pulls cancel");
     }
 }
 

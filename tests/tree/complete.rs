@@ -22,13 +22,13 @@ const WGSL: &str = "struct Sum { mass: f32, met: f32 }
     }
     fn finish(me: Particle, sum: Sum) -> vec4f { return vec4f(sum.mass, sum.met, me.mass, 0.0); }";
 
-fn counted(over: Over) -> Law {
+pub fn counted(over: Over) -> Law {
     let gather = |_: &Particle, _: &Particle, _: DVec3, (): &mut ()| ();
     Law::gathering("counted", over, Source::ours("counted", WGSL), Vec::new(), gather, |_, (), _| glam::DVec4::ZERO)
 }
 
 /// Whole masses, most of them 1, some 0 or 10⁶; together below 2²⁴.
-fn weighed(mut bodies: Vec<Vec4>, heavy: bool) -> Vec<Vec4> {
+pub fn weighed(mut bodies: Vec<Vec4>, heavy: bool) -> Vec<Vec4> {
     let step = bodies.len() / 9 + 1;
     for (i, b) in bodies.iter_mut().enumerate() {
         b.w = match i {
@@ -47,7 +47,7 @@ fn roundings() -> Vec<Vec4> {
     (0..1024).map(|_| Vec4::new(place(), place(), place(), 0.0)).collect()
 }
 
-fn complete(of: &str, walk: &mut Walk, bodies: &[Vec4]) -> f32 {
+pub fn complete(of: &str, walk: &mut Walk, bodies: &[Vec4]) -> f32 {
     let total: f32 = bodies.iter().map(|b| b.w).sum();
     let seen = walk.run();
     for (i, (a, me)) in seen.iter().zip(bodies).enumerate() {
@@ -117,4 +117,26 @@ fn so_they_do_in_a_deep_tree() {
     let bodies: Vec<Vec4> = (0..COUNT).map(|i| place(i).extend(1.0).as_vec4()).collect();
     let mut walk = Walk::new(&shared, machine, &bodies, Box::new(Alone(counted(over(1.0)))));
     complete("deep", &mut walk, &bodies);
+}
+
+/// What fills a place, and a particle itself, is met by no law: one that does not multiply by mass would notice.
+#[test]
+fn padding_and_oneself_are_not_met() {
+    let shared = support::device();
+    for count in [1, 2, 5, 31, 32, 33, 63, 70, 333, 1001] {
+        let bodies = weighed(crate::sets::cloud(count, 15), false);
+        let mut met: Vec<Vec<Vec4>> = Vec::new();
+        for (name, machine) in walkers(&shared) {
+            let met_beyond = |core| {
+                let law = crate::bounded::met(Opening::Geometric { theta: 0.9 }, core);
+                Walk::new(&shared, machine, &bodies, Box::new(Alone(law))).run()
+            };
+            let all = met_beyond(10.0);
+            let others = Vec4::new(0.0, count as f32 - 1.0, 0.0, 0.0);
+            assert!(all.iter().all(|met| *met == others), "{name}, {count}: {:?}", all[0]);
+            met.push(met_beyond(0.0));
+        }
+        assert!(met.windows(2).all(|walks| walks[0] == walks[1]), "{count}: walks do not meet the same");
+        assert!(count < 333 || met[0].iter().any(|met| met.x > 0.0), "{count}: nobody is far");
+    }
 }

@@ -6,10 +6,12 @@
 mod support;
 
 mod accuracy;
+mod bounded;
 mod build;
 mod choice;
 mod complete;
 mod curve;
 mod lockstep;
 mod sets;
+mod turns;
 mod walks;

@@ -121,6 +121,14 @@ impl Walk {
         let mut passes = self.plan.kernels.iter().flat_map(|kernel| &kernel.passes);
         passes.any(|pass| pass.shader.sources().iter().any(|source| source.file.ends_with(file)))
     }
+    /// How many times a walk goes on, at most, summed over its dispatches.
+    pub fn rounds(&mut self) -> usize {
+        self.passes().iter().filter(|pass| pass.told.is_some()).count()
+    }
+    /// Particles in it.
+    pub fn count(&self) -> usize {
+        self.count as usize
+    }
     /// The walk in dispatches of so many targets, which are whole groups.
     pub fn cut(mut self, targets: u32) -> Self {
         let count = self.count;
