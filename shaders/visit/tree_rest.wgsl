@@ -1,7 +1,6 @@
 // Whether walks had to stop: then another dispatch of all their groups goes on, and otherwise none does. A walk that has gone
 // on and is still not done in the end is an alarm.
 @group(2) @binding(8) var<storage, read_write> tree_go: array<u32>;
-@group(2) @binding(9) var<storage, read_write> alarm: array<atomic<u32>>;
 
 // Workgroups that a device has in a row.
 override ROW: u32;

@@ -43,7 +43,7 @@ impl Over {
     }
 }
 
-fn join(law: &Law, tree: &Tree, variant: Vec<Source>) -> Result<Arc<Shader>, Error> {
+fn join(law: &Law, tree: &Tree, variant: Vec<Source>, alarm: Option<Source>) -> Result<Arc<Shader>, Error> {
     let mut files = vec![
         crate::shader!("world.wgsl"),
         crate::shader!("fields.wgsl"),
@@ -58,6 +58,7 @@ fn join(law: &Law, tree: &Tree, variant: Vec<Source>) -> Result<Arc<Shader>, Err
     files.extend(variant);
     files.push(law.result());
     files.extend(law.choice());
+    files.extend(alarm);
     files.extend(law.files());
     Shader::join(&files)
 }
@@ -115,8 +116,8 @@ pub fn kernel(law: Law, tree: &Tree, problem: &Problem) -> Result<Kernel, Error>
             law.name
         )));
     }
-    let machine = &problem.machine;
-    let shader = join(&law, tree, variant(machine))?;
+    let machine = &law.leaves(&problem.machine);
+    let shader = join(&law, tree, variant(machine), law.alarm_file())?;
     let params = law.uniforms(&shader)?;
     let mut constants = problem.constants(&shader);
     constants.extend([("GROUP", f64::from(GROUP)), ("LEAF", f64::from(LEAF))]);
@@ -131,7 +132,10 @@ pub fn kernel(law: Law, tree: &Tree, problem: &Problem) -> Result<Kernel, Error>
     let rounds = rounds(tree, machine).min((MOST / problem.count.div_ceil(groups * GROUP).max(1)).max(MORE));
     let rest = match rounds {
         0 => None,
-        _ => Some(join(&law, tree, vec![crate::shader!("visit/tree_kept.wgsl"), crate::shader!("visit/tree_rest.wgsl")])?),
+        _ => {
+            let rest = vec![crate::shader!("visit/tree_kept.wgsl"), crate::shader!("visit/tree_rest.wgsl")];
+            Some(join(&law, tree, rest, Some(crate::shader!("own/alarm.wgsl")))?)
+        }
     };
     let mut passes = Vec::new();
     let mut first = 0;

@@ -1,7 +1,7 @@
 //! Laws with loops of their own: what is joined with them, and what their visits leave them.
 
 use super::Law;
-use crate::kernel::{ALARM, ALARM_WORDS, LAW, Name, Source};
+use crate::kernel::{ALARM, ALARM_WORDS, LAW, Machine, Name, Source};
 
 /// Turns that the loops of a visit and of its law may take in one invocation on a processor that plays a GPU.
 const TURNS: u32 = 60_000;
@@ -31,6 +31,15 @@ impl Law {
     /// The alarm's size, where its loops raise one.
     pub(super) fn alarm(&self) -> Vec<(Name, u64)> {
         if self.has_loops() { vec![(ALARM.name.into(), ALARM_WORDS as u64)] } else { Vec::new() }
+    }
+    /// The machine as its visit sees it where a walk may stop and go on: a loop in it leaves a walk fewer turns, and one particle
+    /// is met at a time.
+    pub(super) fn leaves(&self, machine: &Machine) -> Machine {
+        if self.has_loops() && machine.software {
+            Machine { subgroup: 0, turns: machine.turns / EXPECTED, ..*machine }
+        } else {
+            *machine
+        }
     }
     /// Sources that one invocation of `pairs` meets in one dispatch, at most, each by so many targets.
     pub(super) fn sources(&self, most: u32, targets: u32, software: bool) -> u32 {

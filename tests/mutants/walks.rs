@@ -23,9 +23,6 @@ const EDGE: &str = "no node is just so far";
 const ROOM: &str = "it is more room than there need be";
 const ALL_KNOW: &str = "all know the same, and whoever says it says the same";
 const DEEP: &str = "only trees of more than 131 072 bodies wait in a second word; tests/tree/complete.rs counts one";
-const LAST_LEAF: &str = "turns would have to end within the very last leaf";
-const NO_GROUP: &str = "a group that is not there only has to stay inside of the fields";
-const FILLS: &str = "who only fills a place has no mass";
 const SET_FIRST: &str = "it is set before it is looked at";
 
 pub const EQUIVALENT: &[Equivalent] = &[
@@ -39,43 +36,27 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("tree_tile", "let last =", "-", "+", "who is not there is not met, and meets nobody"),
     same("tree_tile", "if lane == 0u {", "==", "!=", ALL_KNOW),
     same("tree_tile", "if lane == 0u {", "0u", "1u", ALL_KNOW),
-    same("tree_subgroup", "const FAR", "128u", "129u", ROOM),
-    same("tree_subgroup", "var<workgroup> list", "2u", "3u", ROOM),
-    same("tree_subgroup", "let first =", "-", "+", NO_GROUP),
-    same("tree_subgroup", "let first =", "1u", "2u", NO_GROUP),
+    same("tree_look", "const FAR", "128u", "129u", ROOM),
+    same("tree_look", "var<workgroup> list", "2u", "3u", ROOM),
     same(
-        "tree_subgroup",
-        "while more && spent",
-        "<=",
-        "<",
-        "turns are counted in threes here, and it is in the loop within that they end",
-    ),
-    same("tree_subgroup", "while more && spent", "&&", "||", "it turns idly until turns are spent"),
-    same("tree_subgroup", "while more && listed.x", "<", "<=", ROOM),
-    same(
-        "tree_subgroup",
+        "tree_look",
         "let also =",
         "-",
         "+",
         "what holds the group is nearer than its own side, or it is the root",
     ),
-    same("tree_subgroup", "waits = (waits << ", "24u", "25u", DEEP),
-    same("tree_subgroup", "waits = (waits >> ", "24u", "25u", DEEP),
-    same("tree_subgroup", "waits = (waits >> ", "0u", "1u", "a bit that comes in from above is behind what waits"),
-    same("tree_subgroup", "let wide =", "1u", "2u", "it only is a place to read from"),
-    same("tree_subgroup", "let shut =", "1u", "2u", "it only is a place to read from"),
+    same("tree_look", "s.waits = (s.waits << ", "24u", "25u", DEEP),
+    same("tree_look", "s.waits = (s.waits >> ", "24u", "25u", DEEP),
+    same("tree_look", "s.waits = (s.waits >> ", "0u", "1u", "a bit that comes in from above is behind what waits"),
+    same("tree_look", "let real_m =", "1u", "2u", "it only is a place to read from"),
+    same("tree_look", "let real_n =", "1u", "2u", "it only is a place to read from"),
     same(
-        "tree_subgroup",
+        "tree_look",
         "if far || others && leaf",
         "&&",
         "||",
         "what is written behind the end of a list is written over",
     ),
-    same("tree_subgroup", "let n = list[", "-", "+", FILLS),
-    same("tree_subgroup", "let leaf = list[", "-", "+", FILLS),
-    same("tree_broadcast", "gather(me, Particle(index", "1.0", "1.5", "nobody is there, wherever that is"),
-    same("tree_broadcast", "let you = body(", "-", "+", "who is not there is not met"),
-    same("tree_broadcast", "let index = tree_id[", "-", "+", "who is not there is not met"),
     same("tree_tile", "var far = 0u;", "0u", "1u", "fields and lists begin with zeros: node 0 of a heap is nobody"),
     same(
         "tree_tile",
@@ -84,11 +65,8 @@ pub const EQUIVALENT: &[Equivalent] = &[
         "1u",
         "lists begin with zeros, and 0 is no leaf: its particles are behind the last",
     ),
-    same("tree_tile", "while top > 0u", ">", ">=", "it turns idly until turns are spent"),
-    same("tree_tile", "if top > 0u", "0u", "1u", "turns would have to end with just one node waiting"),
+    same("tree_tile", "while top > 0u", ">", ">=", "it turns idly until the driver ends the loop"),
     same("tree_alone", "if k < tree.end {", "<", "<=", "behind the last stands nobody whose id is in the fields"),
-    same("tree_alone", "if more || bodies", ">", "<", LAST_LEAF),
-    same("tree_alone", "if more || bodies", "0u", "1u", LAST_LEAF),
     same("tree_alone", "var slot = 0u;", "0u", "1u", SET_FIRST),
     same("tree_alone", "more = node > 1u;", "1u", "2u", "it is odd"),
 ];
@@ -96,9 +74,6 @@ pub const EQUIVALENT: &[Equivalent] = &[
 /// Nine workgroups in a row, nine times, are two more than these many have groups.
 const ROW: u32 = 9;
 const MANY: usize = 79 * 32 - 3;
-
-/// The turns that each walk takes for many, at most: with one less there is an alarm.
-const TURNS: [(&str, u32); 3] = [("tile", 1724), ("alone", 2602), ("subgroup", 303)];
 
 /// Bodies of which half are in a small part of the place, some without mass.
 fn bodies(count: usize) -> Vec<Vec4> {
@@ -168,42 +143,36 @@ fn scene(device: &Device, machine: Machine, bodies: &[Vec4], felt: f64, law: Box
 }
 
 impl Scene {
-    fn with_most(&self, most: u32) -> Plan {
+    fn plan(&self) -> Plan {
+        alone(self.walk.clone())
+    }
+    /// The walk with fewer dispatches that go on than it takes.
+    fn stopped(&self, rounds: usize) -> Plan {
         let mut kernel = self.walk.clone();
-        let constants = kernel.passes.iter_mut().flat_map(|pass| &mut pass.constants);
-        constants.filter(|(name, _)| *name == "MOST").for_each(|(_, n)| *n = f64::from(most));
+        let mut gone = 0;
+        kernel.passes.retain(|pass| {
+            gone += usize::from(pass.told.is_some());
+            pass.told.is_none() || gone <= rounds
+        });
         alone(kernel)
     }
-    /// What the alarm says after a walk of so many turns at most.
-    fn alarm(&self, most: u32) -> Vec<f32> {
-        let mut simulation = self.simulation.borrow_mut();
-        simulation.write(ALARM, &QUIET).expect("an alarm");
-        let gpu = simulation.backend();
-        let program = gpu.compile(&self.with_most(most)).expect("a program");
-        gpu.run(&program, 1).expect("a run");
-        let bytes = pollster::block_on(gpu.bytes(ALARM.name, 0, 4 * QUIET.len() as u64)).expect("an alarm");
-        simulation.write(ALARM, &QUIET).expect("an alarm");
-        bytemuck::pod_collect_to_vec(&bytes)
-    }
-    /// The fewest turns that are enough.
-    fn turns(&self) -> u32 {
-        let (mut few, mut enough) = (1, 3000);
-        while enough - few > 1 {
-            let middle = u32::midpoint(few, enough);
-            if self.alarm(middle)[2].to_bits() == u32::MAX { enough = middle } else { few = middle }
-        }
-        enough
-    }
-    /// What everybody counts.
-    fn counts(&self) -> Vec<f32> {
+    /// What a field holds after a plan.
+    fn holds(&self, field: &str, words: u64, plan: &Plan) -> Vec<f32> {
         let mut simulation = self.simulation.borrow_mut();
         let last = pollster::block_on(simulation.read(ACCELERATION)).expect("what is there");
+        simulation.write(ALARM, &QUIET).expect("an alarm");
         let gpu = simulation.backend();
-        let program = gpu.compile(&self.with_most(60_000)).expect("a program");
+        let program = gpu.compile(plan).expect("a program");
         gpu.run(&program, 1).expect("a run");
-        let felt = pollster::block_on(simulation.read(ACCELERATION)).expect("masses");
+        let bytes = pollster::block_on(gpu.bytes(field, 0, 4 * words)).expect("a field");
+        simulation.write(ALARM, &QUIET).expect("an alarm");
         simulation.write(ACCELERATION, &last).expect("what was there");
-        felt.iter().flat_map(Vec4::to_array).collect()
+        bytemuck::pod_collect_to_vec(&bytes)
+    }
+    /// A stage that is judged by the bits of a field.
+    fn told(&self, name: &str, field: &'static str, words: u64, plan: Plan) -> Stage {
+        let told = self.holds(field, words, &plan);
+        self.stage(name, plan).told(field, told)
     }
     /// The walk in dispatches of so many targets.
     fn in_parts(&self, targets: u32) -> Plan {
@@ -217,6 +186,35 @@ impl Scene {
     }
 }
 
+/// A dense middle, and few around it: boxes of groups hold the middle, and their targets are far from it.
+fn halo(count: usize) -> Vec<Vec4> {
+    let mut random = Random::new(59);
+    let place = |i: usize, x: DVec3| if i % 4 < 3 { 0.05 * x } else { 2.0 * x + x.normalize() };
+    (0..count).map(|i| place(i, random.vector()).extend((0.3 + 0.01 * (i % 7) as f64) / count as f64).as_vec4()).collect()
+}
+
+/// Walks that stop after a few turns and go on: the agreement with the reference; sums to the bit, which tell where they
+/// stopped; and with too few dispatches the alarm, and how many workgroups would go on.
+fn stops(device: &Device, name: &str, machine: Machine, stages: &mut Vec<Stage>) {
+    for (case, bodies, law) in [
+        ("many", bodies(MANY), gravity(["plummer", "quadrupole"], 0.5, 0.0)),
+        ("a halo", halo(1000), gravity(["plummer", "monopole"], 0.7, 0.0)),
+    ] {
+        let words = 4 * bodies.len() as u64;
+        let scene = scene(device, Machine { turns: 230, workgroups: ROW, ..machine }, &bodies, 3.7, law);
+        stages.push(scene.stage(&format!("walk {name}, {case}, stopping"), scene.plan()));
+        stages.push(scene.told(&format!("walk {name}, {case}, bits"), ACCELERATION.name, words, scene.plan()));
+        for rounds in [1, 3] {
+            let plan = || scene.stopped(rounds);
+            let silent = scene.holds(ALARM.name, QUIET.len() as u64, &plan())[2].to_bits() == u32::MAX;
+            assert!(!silent, "{name}, {case}: it is done after {rounds} rounds");
+            let of = |what| format!("walk {name}, {case}, {what} after {rounds} rounds");
+            stages.push(scene.told(&of("alarm"), ALARM.name, QUIET.len() as u64, plan()));
+            stages.push(scene.told(&of("workgroups"), "tree_go", 3, plan()));
+        }
+    }
+}
+
 pub fn all(shared: &Shared, stages: &mut Vec<Stage>) {
     let device = &pollster::block_on(crate::support::limited(shared, |limits| {
         limits.max_compute_workgroups_per_dimension = ROW;
@@ -226,33 +224,29 @@ pub fn all(shared: &Shared, stages: &mut Vec<Stage>) {
         let openings = [Opening::Geometric { theta: 1.0 }, Opening::Relative { alpha: 0.5, g: 1e-9, theta: 1.0 }];
         for opening in openings {
             let scene = scene(device, machine, &crowd(), 3.7, Box::new(Counted(opening)));
-            let told = scene.counts();
-            let stage = scene.stage(&format!("walk {name}, counted by {opening}"), scene.with_most(60_000));
-            stages.push(stage.told(ACCELERATION.name, told));
+            let words = 4 * crowd().len() as u64;
+            stages.push(scene.told(
+                &format!("walk {name}, counted by {opening}"),
+                ACCELERATION.name,
+                words,
+                scene.plan(),
+            ));
         }
-        for (case, count, law) in [
+        for (case, bodies, law) in [
             // One group, and two of which the last is not whole.
-            ("a group", 32, gravity(["plummer", "monopole"], 0.9, 0.0)),
-            ("two groups", 37, gravity(["plummer", "monopole"], 0.9, 0.0)),
-            ("few", 300, gravity(["plummer", "quadrupole"], 0.7, 0.0)),
-            ("many", MANY, gravity(["plummer", "quadrupole"], 0.5, 0.0)),
-            ("relative", 1000, gravity(["plummer", "monopole"], 0.6, 0.03)),
-            ("spline", 1000, gravity(["spline", "quadrupole"], 0.8, 0.0)),
+            ("a group", bodies(32), gravity(["plummer", "monopole"], 0.9, 0.0)),
+            ("two groups", bodies(37), gravity(["plummer", "monopole"], 0.9, 0.0)),
+            ("few", bodies(300), gravity(["plummer", "quadrupole"], 0.7, 0.0)),
+            ("many", bodies(MANY), gravity(["plummer", "quadrupole"], 0.5, 0.0)),
+            ("relative", bodies(1000), gravity(["plummer", "monopole"], 0.6, 0.03)),
+            ("spline", bodies(1000), gravity(["spline", "quadrupole"], 0.8, 0.0)),
+            ("a halo", halo(1000), gravity(["plummer", "monopole"], 0.8, 0.0)),
         ] {
-            let scene = scene(device, machine, &bodies(count), 3.7, law);
-            if case != "many" {
-                stages.push(scene.stage(&format!("walk {name}, {case}"), scene.with_most(60_000)));
-                continue;
-            }
-            let most = TURNS.iter().find(|(of, _)| *of == name).expect("its turns").1;
-            stages.push(scene.stage(&format!("walk {name}, {case}"), scene.with_most(most)));
-            let quiet = |most: u32| scene.alarm(most)[2].to_bits() == u32::MAX;
-            assert!(quiet(most) && !quiet(most - 1), "{name}: {} turns are the fewest", scene.turns());
-            for less in [1, 5, 40] {
-                let told = scene.alarm(most - less);
-                let stage = scene.stage(&format!("walk {name}, {less} turns too few"), scene.with_most(most - less));
-                stages.push(stage.told(ALARM.name, told));
-            }
+            let scene = scene(device, machine, &bodies, 3.7, law);
+            stages.push(scene.stage(&format!("walk {name}, {case}"), scene.plan()));
+        }
+        if machine.software {
+            stops(device, name, machine, stages);
         }
         // Ends that are whole groups, and one that is not.
         let scene = scene(device, machine, &bodies(300), 3.7, gravity(["plummer", "quadrupole"], 0.9, 0.0));
