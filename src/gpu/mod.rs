@@ -14,9 +14,7 @@ mod timing;
 
 use std::time::Duration;
 
-pub use adapter::{
-    Choice, Found, NO_DRIVER, adapters, choose, flags, instance, open, wanted_features, wanted_limits,
-};
+pub use adapter::{Choice, Found, NO_DRIVER, adapters, choose, flags, instance, open, wanted_features, wanted_limits};
 use buffers::Buffers;
 pub use fault::Faults;
 use pipeline::Pipelines;

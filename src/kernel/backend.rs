@@ -22,14 +22,8 @@ pub struct Machine {
 
 impl Machine {
     /// The host, which runs the twins.
-    pub const HOST: Self = Self {
-        software: true,
-        subgroup: 0,
-        invocations: 1,
-        bindable: 0,
-        workgroups: 65_535,
-        turns: Self::TURNS,
-    };
+    pub const HOST: Self =
+        Self { software: true, subgroup: 0, invocations: 1, bindable: 0, workgroups: 65_535, turns: Self::TURNS };
     /// Turns below which no known driver ends a loop, with room for a turn that is not counted.
     pub const TURNS: u32 = 60_000;
 }

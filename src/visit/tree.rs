@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::{Law, Over};
 use crate::error::Error;
 use crate::kernel::{
-    ALARM, ALARM_WORDS, Binding, Kernel, Machine, Pass, Problem, Scalar, Shader, Side, Source, Threads,
+    ALARM, ALARM_WORDS, Binding, Indirect, Kernel, Machine, Pass, Problem, Scalar, Shader, Side, Source, Threads,
 };
 use crate::tree::{GROUP, LEAF, Opening, Tree};
 
@@ -164,7 +164,7 @@ pub fn kernel(law: Law, tree: &Tree, problem: &Problem) -> Result<Kernel, Error>
         if let Some(rest) = &rest {
             // Few walks go on, if any: what all of them would take is not what they take.
             let again = walk(1)?;
-            let again = Pass { told: Some((GO.into(), 0)), work: again.work / 4, ..again };
+            let again = Pass { indirect: Some(Indirect { field: GO.into(), word: 0 }), work: again.work / 4, ..again };
             let (seen, last) = (look(&walk(0)?, rest), look(&again, rest));
             passes.push(seen);
             passes.extend(std::iter::repeat_n(again, rounds as usize));

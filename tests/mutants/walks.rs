@@ -38,13 +38,7 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("tree_tile", "if lane == 0u {", "0u", "1u", ALL_KNOW),
     same("tree_look", "const FAR", "128u", "129u", ROOM),
     same("tree_look", "var<workgroup> list", "2u", "3u", ROOM),
-    same(
-        "tree_look",
-        "let also =",
-        "-",
-        "+",
-        "what holds the group is nearer than its own side, or it is the root",
-    ),
+    same("tree_look", "let also =", "-", "+", "what holds the group is nearer than its own side, or it is the root"),
     same("tree_look", "s.waits = (s.waits << ", "24u", "25u", DEEP),
     same("tree_look", "s.waits = (s.waits >> ", "24u", "25u", DEEP),
     same("tree_look", "s.waits = (s.waits >> ", "0u", "1u", "a bit that comes in from above is behind what waits"),
@@ -151,8 +145,8 @@ impl Scene {
         let mut kernel = self.walk.clone();
         let mut gone = 0;
         kernel.passes.retain(|pass| {
-            gone += usize::from(pass.told.is_some());
-            pass.told.is_none() || gone <= rounds
+            gone += usize::from(pass.indirect.is_some());
+            pass.indirect.is_none() || gone <= rounds
         });
         alone(kernel)
     }
@@ -190,7 +184,9 @@ impl Scene {
 fn halo(count: usize) -> Vec<Vec4> {
     let mut random = Random::new(59);
     let place = |i: usize, x: DVec3| if i % 4 < 3 { 0.05 * x } else { 2.0 * x + x.normalize() };
-    (0..count).map(|i| place(i, random.vector()).extend((0.3 + 0.01 * (i % 7) as f64) / count as f64).as_vec4()).collect()
+    (0..count)
+        .map(|i| place(i, random.vector()).extend((0.3 + 0.01 * (i % 7) as f64) / count as f64).as_vec4())
+        .collect()
 }
 
 /// Walks that stop after a few turns and go on: the agreement with the reference; sums to the bit, which tell where they

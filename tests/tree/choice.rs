@@ -51,7 +51,7 @@ fn plans_for_none_and_for_the_most() {
             let law = gravity("tree", USUAL).laws().swap_remove(0);
             let kernel = law.kernel(&Problem::new(count, machine)).expect("a kernel");
             assert!(kernel.passes.len() >= least && (count > 33 || kernel.passes.len() == least), "{count}");
-            let begins = |pass: &&Pass| pass.shader.reflection().entry == "walk" && pass.told.is_none();
+            let begins = |pass: &&Pass| pass.shader.reflection().entry == "walk" && pass.indirect.is_none();
             let lanes: u64 = kernel.passes.iter().filter(begins).map(|pass| u64::from(pass.threads.count)).sum();
             let workgroup = kernel.passes.first().map_or(1, |pass| pass.shader.reflection().workgroup);
             assert_eq!(lanes, u64::from(count.div_ceil(32)) * u64::from(workgroup), "{count}");

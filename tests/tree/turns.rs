@@ -60,8 +60,8 @@ fn a_walk_that_is_not_done_is_an_alarm() {
             let mut walk = Walk::new(&shared, machine, &bodies, gravity("tree", USUAL));
             let mut left = rounds;
             walk.passes().retain(|pass| {
-                let kept = pass.told.is_none() || left > 0;
-                left -= usize::from(pass.told.is_some() && left > 0);
+                let kept = pass.indirect.is_none() || left > 0;
+                left -= usize::from(pass.indirect.is_some() && left > 0);
                 kept
             });
             walk.run();

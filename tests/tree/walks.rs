@@ -123,7 +123,7 @@ impl Walk {
     }
     /// How many times a walk goes on, at most, summed over its dispatches.
     pub fn rounds(&mut self) -> usize {
-        self.passes().iter().filter(|pass| pass.told.is_some()).count()
+        self.passes().iter().filter(|pass| pass.indirect.is_some()).count()
     }
     /// Particles in it.
     pub fn count(&self) -> usize {

@@ -32,11 +32,7 @@ impl Effort {
 
 /// Walks a tree over particles where they are now, by what they felt last. It leaves numbers of no worth in place of
 /// accelerations.
-pub async fn effort(
-    opening: Opening,
-    problem: &Problem,
-    simulation: &mut Simulation<Gpu>,
-) -> Result<Effort, Error> {
+pub async fn effort(opening: Opening, problem: &Problem, simulation: &mut Simulation<Gpu>) -> Result<Effort, Error> {
     let nothing = |_: &Particle, _: &Particle, _: DVec3, (): &mut ()| ();
     let over = Over::Tree { opening, core: 0.0, auto: false };
     let wgsl = Source::ours("met", WGSL);
