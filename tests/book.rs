@@ -75,6 +75,8 @@ fn methods() -> String {
         ("Fluids", "fluids"),
         ("DFSPH", "fluids/dfsph"),
         ("Integrators", "integrators"),
+        ("Columns that are advanced", "integrators/pairs"),
+        ("Rigid bodies", "rotation"),
         ("Tree", "tree"),
     ] {
         let _ = write!(page, "\n## {title}\n");

@@ -1,10 +1,8 @@
-// Continuity (Monaghan 1994), with r from me to you where a drift by `factor` of the step has led, v = v_you − v_me, g r the
-// gradient of W at you, and all of it taken in the middle of that drift, at r − v dt / 2:
-//   dρ/dt = Σ m g r·v
+// Continuity (Monaghan 1994), with r from me to you, v = v_you − v_me, g r the gradient of W at you:  dρ/dt = Σ m g r·v
 // Diffusion (Molteni & Colagrossi 2009) of what is not the density of a fluid at rest (Fourtakas et al. 2019), s the smoothing length:
 //   dρ/dt −= 2 δ s c Σ m/ρ' (ρ' − ρ − (1 − (γ − 2) e) ρ₀ w·r / c²) g r² / (r² + 0.01 s²),  e = (ρ + ρ') / 2 ρ₀ − 1
 // By Tait's equation sound is faster where a fluid is denser, and weight does less to it there: dρ = ρ w·dr / c(ρ)², to first order in e.
-struct Params { unused_word: u32, factor: f32, diffusion: f32, weight: vec3f }
+struct Params { unused_word: u32, diffusion: f32, weight: vec3f }
 struct Sum { rate: f32 }
 
 @group(3) @binding(0) var<uniform> params: Params;
@@ -14,9 +12,7 @@ fn acts_on(me: Particle) -> bool { return me.density > 0.0; }
 
 fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
     let v = you.velocity - me.velocity;
-    let middle = r - (0.5 * params.factor * world.dt) * v;
-    // Who was out of range then was not there.
-    if in_range(middle) { (*sum).rate += you.mass * gradient(middle) * (middle.x * v.x + middle.y * v.y + middle.z * v.z); }
+    (*sum).rate += you.mass * gradient(r) * (r.x * v.x + r.y * v.y + r.z * v.z);
     if you.density > 0.0 {
         let d2 = r.x * r.x + r.y * r.y + r.z * r.z;
         let weighs = params.weight.x * r.x + params.weight.y * r.y + params.weight.z * r.z;

@@ -6,8 +6,8 @@ use glam::DVec3;
 
 use super::{DENSITY, DENSITY_RATE, Medium};
 use crate::error::Error;
-use crate::kernel::{Host, Kernel, Pass, Problem, Scalar, Shader};
-use crate::visit::{Candidate, Sweep, block, gathered};
+use crate::kernel::{Column, Host, Kernel, Kind, Problem, Scalar};
+use crate::visit::{Candidate, Sweep, gathered};
 
 /// How the density of a fluid follows it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,26 +18,23 @@ pub struct Continuity {
     pub weight: DVec3,
 }
 
-/// The kernel that sets everybody's density to that of rest.
-///
-/// # Errors
-/// When a shader does not compile.
-pub fn rest(medium: &Medium, problem: &Problem) -> Result<Kernel, Error> {
-    let (me, who) = (*medium, problem.clone());
-    let source =
-        [medium.smoothing.source(), crate::shader!("fluids/medium.wgsl"), crate::shader!("fluids/density_rest.wgsl")];
-    alone("fluid rest", &source, &[], &medium.constants(), problem, move |host| {
-        let mut density = host.write(DENSITY)?;
-        density.iter_mut().enumerate().filter(|(i, _)| !who.is_held(*i)).for_each(|(_, rho)| *rho = me.density);
-        Ok(())
-    })
+/// The columns of such a density, which starts as that of rest. It is carried along with positions: integrators compute its rate in
+/// the middle of each drift.
+#[must_use]
+pub fn columns(rest: f64) -> Vec<Column> {
+    vec![
+        Column::new("density", Kind::Scalar, "mass / length³", "how dense the fluid is there; of walls it says nothing")
+            .carried("density_rate")
+            .starting([rest, 0.0, 0.0, 0.0]),
+        Column::new("density_rate", Kind::Scalar, "mass / (length³ time)", "how fast that changes").derived(),
+    ]
 }
 
-/// The kernel that finds how fast density changes, after a drift by `factor` of the step.
+/// The kernel that finds how fast density changes, where particles are and as they move.
 ///
 /// # Errors
 /// When the range is none, or a shader does not compile.
-pub fn rate(medium: &Medium, continuity: Continuity, factor: f64, problem: &Problem) -> Result<Kernel, Error> {
+pub fn rate(medium: &Medium, continuity: Continuity, problem: &Problem) -> Result<Kernel, Error> {
     let (holding, tables) = problem.holding();
     let files = medium.files(&[holding, crate::shader!("fluids/density_rate.wgsl")]);
     let candidate = Candidate {
@@ -46,23 +43,19 @@ pub fn rate(medium: &Medium, continuity: Continuity, factor: f64, problem: &Prob
     };
     let diffusion = 2.0 * continuity.diffusion * 0.5 * medium.range() * medium.sound;
     let params = vec![
-        ("factor", Scalar::Float(factor)),
         ("diffusion", Scalar::Float(diffusion)),
         ("weight", Scalar::Vector(continuity.weight)),
     ];
     let (me, who) = (*medium, problem.clone());
     let twin = move |host: &Host| {
-        let (density, half) = (host.read(DENSITY)?, 0.5 * factor * host.world().dt);
+        let density = host.read(DENSITY)?;
         let smoothing = 0.5 * me.range();
         let rates = gathered(
             host,
             me.range(),
             |body| !who.is_held(body.index),
             |a, b, r, rate: &mut f64| {
-                let v = b.velocity - a.velocity;
-                let middle = r - half * v;
-                // Beyond the range the kernel has no slope.
-                *rate += b.mass * me.gradient(middle) * middle.dot(v);
+                *rate += b.mass * me.gradient(r) * r.dot(b.velocity - a.velocity);
                 if !who.is_held(b.index) {
                     let (mine, yours) = (density[a.index], density[b.index]);
                     let denser = 0.5 * (mine + yours) - me.density;
@@ -87,44 +80,4 @@ pub fn rate(medium: &Medium, continuity: Continuity, factor: f64, problem: &Prob
         twin: Arc::new(twin),
     };
     Ok(Kernel { tables, ..sweep.kernel(problem)? })
-}
-
-/// The kernel that advances density by `factor` of the step.
-///
-/// # Errors
-/// When a shader does not compile.
-pub fn advance(factor: f64, problem: &Problem) -> Result<Kernel, Error> {
-    let who = problem.clone();
-    let (files, params) = ([crate::shader!("fluids/density_advance.wgsl")], [("factor", Scalar::Float(factor))]);
-    alone("fluid density advance", &files, &params, &[], problem, move |host| {
-        let (mut density, rate) = (host.write(DENSITY)?, host.read(DENSITY_RATE)?);
-        let each = density.iter_mut().zip(rate.iter()).enumerate();
-        each.filter(|(i, _)| !who.is_held(*i)).for_each(|(_, (rho, rate))| *rho += factor * host.world().dt * rate);
-        Ok(())
-    })
-}
-
-/// A kernel for each particle alone, who knows whether it is held, with such parameters and constants.
-fn alone(
-    name: &str,
-    files: &[crate::kernel::Source],
-    params: &[(&'static str, Scalar)],
-    constants: &[(&'static str, f64)],
-    problem: &Problem,
-    twin: impl Fn(&Host) -> Result<(), Error> + Send + Sync + 'static,
-) -> Result<Kernel, Error> {
-    let (holding, tables) = problem.holding();
-    let mut sources = vec![holding, crate::shader!("world.wgsl"), crate::shader!("fields.wgsl")];
-    sources.extend_from_slice(files);
-    let shader = Shader::join(&sources)?;
-    let uniforms = block(name, &shader, "params", params)?;
-    let constants = shader.reflection().known(constants);
-    Ok(Kernel {
-        name: name.to_owned(),
-        passes: vec![Pass { constants, uniforms, ..Pass::new(shader, problem.count) }],
-        twin: Some(Arc::new(twin)),
-        sizes: Vec::new(),
-        scratch: Vec::new(),
-        tables,
-    })
 }

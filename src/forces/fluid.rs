@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::fluids::{
     self, Asked, COURANT, Continuity, Continuum, Dfsph, Friction, Limits, Medium, Rates, Smoothing, Tension, WallMass, Walls,
 };
-use crate::kernel::Plan;
+use crate::kernel::{Column, Plan};
 use crate::settings::{Key, Kind, Settings, Value};
 
 /// What a scene may say.
@@ -146,6 +146,11 @@ impl Fluid {
 }
 
 impl Component for Fluid {
+    fn columns(&self) -> Vec<Column> {
+        // Settings that contradict each other are refused where the fluid is resolved.
+        let carried = matches!(self.continuity(), Ok(Some(_)));
+        if carried { fluids::continuity_columns(self.0.number("density")) } else { Vec::new() }
+    }
     fn properties(&self) -> Properties {
         let on = |name| self.0.number(name) > 0.0;
         let (rubs, solves) = (on("viscosity") || on("xsph"), self.solves());
@@ -189,11 +194,10 @@ impl Component for Fluid {
         match stage {
             Stage::Start => self.begin(plan, problem),
             Stage::Evaluate { .. } => self.evaluate(plan, problem),
-            Stage::AfterDrift { factor } => self.advance_density(plan, problem, factor),
-            Stage::AfterAdvance { .. } => self.refuse_stages(),
+            Stage::Carry { .. } => self.carry(plan, problem),
             Stage::StepLimit => self.limit_steps(plan, problem),
             Stage::EndOfStep if self.solves() => self.dfsph(self.medium(problem)?, problem)?.conclude(plan),
-            Stage::Carry { .. } | Stage::AfterKick | Stage::EndOfStep => Ok(()),
+            Stage::AfterKick | Stage::AfterDrift { .. } | Stage::AfterAdvance { .. } | Stage::EndOfStep => Ok(()),
         }
     }
 }
@@ -204,9 +208,6 @@ impl Fluid {
         if !problem.held.is_empty() {
             plan.add(medium.grid(problem)?.kernel(problem, true)?);
             plan.add(fluids::walls(&medium, self.wall_mass(), problem)?);
-        }
-        if self.continuity()?.is_some() {
-            plan.add(fluids::rest(&medium, problem)?);
         }
         Ok(())
     }
@@ -245,25 +246,11 @@ impl Fluid {
         }
         Ok(())
     }
-    /// Density goes along with positions, where it is a state: the neighbours are those where the drift has led.
-    fn advance_density(&self, plan: &mut Plan, problem: &Problem, factor: f64) -> Result<(), Error> {
+    /// The rate of a density that is carried along with positions.
+    fn carry(&self, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
         if let Some(continuity) = self.continuity()? {
-            let medium = self.medium(problem)?;
-            plan.add(medium.grid(problem)?.kernel(problem, true)?);
-            plan.add(fluids::rate(&medium, continuity, factor, problem)?);
-            plan.add(fluids::advance(factor, problem)?);
+            plan.add(fluids::rate(&self.medium(problem)?, continuity, problem)?);
         }
         Ok(())
-    }
-    fn refuse_stages(&self) -> Result<(), Error> {
-        if self.continuity()?.is_none() {
-            return Ok(());
-        }
-        Err(Error::Scene(
-            "density_by = \"continuity\" makes density a state that is advanced with each drift, and this integrator \
-             advances by stages that it throws away: choose leapfrog, symplectic_euler, forest_ruth or pefrl, or \
-             density_by = \"summation\""
-                .to_owned(),
-        ))
     }
 }

@@ -1,13 +1,14 @@
 //! Density as a state, and what is drawn along.
 
 use glam::DVec3;
+use motes::integrators::INTEGRATORS;
 use motes::kernel::Array;
 use motes::settings::Value;
-use motes::{Cpu, Setup, Side, Simulation, State};
+use motes::{Cpu, Side, Simulation, State};
 
 use crate::setup;
 use crate::support::fluids::{DENSITY, bounds, cloud, fluid};
-use crate::support::states::{accelerations_in, cpu_in, word};
+use crate::support::states::{accelerations_in, cpu_in, phase, word};
 use Value::Number;
 
 fn densities(simulation: &mut Simulation<Cpu>) -> Vec<f64> {
@@ -45,7 +46,8 @@ fn continuity_follows_the_sums() {
     let sums = change("summation", "leapfrog", 0.02, 2);
     let size = apart(&sums, &vec![0.0; sums.len()]);
     assert!(size > 0.02 * DENSITY, "{size}");
-    for name in ["leapfrog", "symplectic_euler", "forest_ruth", "pefrl"] {
+    for entry in INTEGRATORS {
+        let name = entry.name;
         let [coarse, fine] =
             [(0.02, 2), (0.01, 4)].map(|(dt, steps)| apart(&change("continuity", name, dt, steps), &sums));
         // The second derivative of the kernel jumps at its edge, and steps of forest_ruth go back and forth.
@@ -53,25 +55,53 @@ fn continuity_follows_the_sums() {
     }
 }
 
+/// A fluid without friction, whose pressure presses it: where particles are and how dense it is there, after such steps.
+fn pressed(name: &str, diffusion: f64, steps: u32) -> Vec<f64> {
+    let all = bounds(64, true, Side::Periodic);
+    let quiet = [("alpha", Number(0.0)), ("viscosity", Number(0.0)), ("kernel", word("wendland")), ("support", Number(2.6))];
+    let state = [("density_by", word("continuity")), ("diffusion", Number(diffusion))];
+    let forces = vec![fluid(&[&quiet[..], &state].concat())];
+    let mut simulation = cpu_in(&all, &cloud(64, true, false), forces, name, 0.02 / f64::from(steps));
+    simulation.step(steps).expect("steps");
+    let dense = densities(&mut simulation).into_iter().map(|rho| rho / DENSITY);
+    // Across the box it is one place.
+    let (x, _) = phase(&mut simulation);
+    let turns = x.iter().flat_map(|x| (x.truncate() * std::f64::consts::TAU / all.period().x).truncate().to_array());
+    dense.chain(turns.flat_map(|turn| [turn.sin(), turn.cos()])).collect()
+}
+
+/// Of the orders that are declared: explicit methods of kicks and drifts have 2 for what is carried, and 1 where its rate depends on
+/// itself, as by diffusion; implicit ones take a fluid explicitly.
 #[test]
-fn stages_that_are_thrown_away_are_refused() {
-    let particles = cloud(20, true, false);
-    let refusal = |name: &str, more: &[(&'static str, Value)]| {
-        let setup: Setup = setup(&particles, vec![fluid(more)], name, 0.01, bounds(20, true, Side::Open));
-        let machine = motes::kernel::Machine::HOST;
-        setup.plans(machine).err().map(|error| error.to_string())
-    };
-    let continuity = [("density_by", word("continuity"))];
-    for name in ["midpoint", "heun", "rk4", "backward_euler", "implicit_midpoint"] {
-        let words = refusal(name, &continuity).unwrap_or_default();
-        assert!(words.contains("choose leapfrog"), "{name}: {words}");
-        assert_eq!(refusal(name, &[]), None, "{name}");
+fn every_integrator_carries_density_along() {
+    for (entry, diffusion) in INTEGRATORS.iter().flat_map(|entry| [(entry, 0.0), (entry, 0.3)]) {
+        let its = (entry.build)();
+        let (order, staged) = (its.order(), its.order_with_velocity() > 1);
+        let order = match (its.is_implicit(), staged) {
+            (true, _) => 1,
+            (false, true) => order,
+            (false, false) if diffusion > 0.0 => 1,
+            (false, false) => order.min(2),
+        };
+        let exact = pressed("rk4", diffusion, 512);
+        let error = |steps: u32| {
+            let apart = pressed(entry.name, diffusion, steps).into_iter().zip(&exact).map(|(a, b)| (a - b).powi(2));
+            apart.sum::<f64>().sqrt()
+        };
+        let steps = [0, 64, 16, 0, 4][order as usize];
+        let [coarse, fine] = [steps, 2 * steps].map(error);
+        let slope = (coarse / fine).log2();
+        let name = format!("{} with diffusion {diffusion}: {coarse:e}, {fine:e}", entry.name);
+        println!("{name}: {slope}, {order}");
+        assert!((slope - f64::from(order)).abs() < 0.3, "{name}: slope {slope}, not {order}");
     }
-    for name in ["leapfrog", "symplectic_euler", "forest_ruth", "pefrl", "forward_euler"] {
-        assert_eq!(refusal(name, &continuity), None, "{name}");
-    }
-    let words = refusal("leapfrog", &[("diffusion", Number(0.1))]).unwrap_or_default();
-    assert!(words.contains("no state to diffuse"), "{words}");
+}
+
+#[test]
+fn diffusion_needs_a_density_that_is_a_state() {
+    let setup = setup(&cloud(20, true, false), vec![fluid(&[("diffusion", Number(0.1))])], "leapfrog", 0.01, bounds(20, true, Side::Open));
+    let told = setup.plans(motes::kernel::Machine::HOST).err().map(|error| error.to_string()).unwrap_or_default();
+    assert!(told.contains("no state to diffuse"), "{told}");
 }
 
 /// Diffusion levels densities and keeps their sum; with its weight, those of a fluid at rest stay.

@@ -31,8 +31,8 @@ fn agree(shared: &Shared, count: usize, flat: bool, side: Side, walls: bool, mor
     }
     let weighs = |kernel: &&str| walls || !kernel.contains("walls");
     if more.len() > 5 {
-        for kernel in ["rest", "density rate", "density advance", "wall pressure", "wall state", "xsph"] {
-            assert!(seen.iter().any(|name| *name == format!("fluid {kernel}")), "{name}: {kernel} changes nothing");
+        for kernel in ["fluid density rate", "carry density", "fluid wall pressure", "fluid wall state", "fluid xsph"] {
+            assert!(seen.iter().any(|name| name == kernel), "{name}: {kernel} changes nothing");
         }
         return;
     }

@@ -109,7 +109,7 @@ fn forget(simulation: &mut Simulation<Gpu>, kernel: &Kernel) {
     let anew = |name: &str| match kernel.name.as_str() {
         "fluid state" => name.starts_with("flow"),
         "fluid normals" => name.starts_with("normal"),
-        "fluid density" | "fluid rest" | "fluid density rate" => kernel.writes().iter().any(|other| other == name),
+        "fluid density" | "fluid density rate" => kernel.writes().iter().any(|other| other == name),
         other => other.contains("wall") && name.starts_with("wall_"),
     };
     let plan = alone(kernel.clone());

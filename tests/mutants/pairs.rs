@@ -5,13 +5,14 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
+use motes::forces::Component;
 use motes::kernel::{ALARM, Array, Backend, Column, Columns, Kernel, QUIET};
 use motes::life::Life;
 use motes::motion::{Held, Hold};
 use motes::{Gpu, Setup, Simulation};
 
 use crate::stages::{Device, FEW, Stage};
-use crate::support::columns::{Bodies, Columned, Grouped, fill, numbers};
+use crate::support::columns::{Bodies, Columned, Grouped, fill, give, numbers};
 use crate::support::equivalents::{Equivalent, same};
 use crate::support::machines::alone;
 use crate::support::{self, Random};
@@ -51,9 +52,12 @@ fn setup(integrator: &str) -> Setup {
     particles.held = fixed.map(|id| Held { id, by: Hold::Fixed }).collect();
     let lives: Vec<Life> = (0..FEW).map(|id| if id % 7 == 5 { Life::Dead } else { Life::Living }).collect();
     particles.set_lives(&lives).expect("one for each");
+    let forces: Vec<Box<dyn Component>> = vec![Box::new(Columned), Box::new(Bodies { field: false }), Box::new(Grouped)];
+    let columns: Vec<Column> = forces.iter().flat_map(|force| force.columns()).collect();
+    give(&mut particles, &columns, 17);
     Setup {
         state: particles,
-        forces: vec![Box::new(Columned), Box::new(Bodies { field: false }), Box::new(Grouped)],
+        forces,
         integrator: support::states::integrator(integrator),
         dt: 0.37,
         bounds: motes::Bounds::default(),

@@ -10,7 +10,7 @@ use motes::motion::{Held, Hold};
 use motes::settings::Value;
 use motes::{Setup, Simulation};
 
-use crate::support::columns::{Bodies, Columned, Grouped, fill};
+use crate::support::columns::{Bodies, Columned, Grouped, fill, give};
 use crate::support::machines::gpu;
 use crate::support::states::{force, integrator, word};
 use crate::{by_references, column, setup, support};
@@ -36,6 +36,7 @@ fn scene(count: usize, name: &str) -> Setup {
         let lives: Vec<Life> = (0..count).map(|id| if id % 7 == 5 { Life::Dead } else { Life::Living }).collect();
         particles.set_lives(&lives).expect("one for each");
     }
+    give(&mut particles, &columns(), 17);
     setup(&particles, forces(), name, 0.07)
 }
 

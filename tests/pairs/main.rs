@@ -27,6 +27,19 @@ fn setup(state: &State, forces: Vec<Box<dyn Component>>, name: &str, dt: f64) ->
     }
 }
 
+/// The same, where the columns begin so.
+fn beginning(state: &State, columns: &[(&str, Array)]) -> State {
+    let mut state = state.clone();
+    for (name, values) in columns {
+        let values = match values {
+            Array::Vec4(all) if *name != "orientation" => Array::Vec3(all.iter().map(|v| v.truncate()).collect()),
+            other => other.clone(),
+        };
+        state.set(name, values).expect("values");
+    }
+    state
+}
+
 /// A simulation by the references, whose columns begin so.
 fn by_references(setup: &Setup, columns: &[(&str, Array)]) -> Simulation<Cpu> {
     let count = u32::try_from(setup.state.len()).expect("few");

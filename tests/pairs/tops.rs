@@ -11,7 +11,7 @@ use crate::elliptic::{complete, jacobi};
 use crate::support::columns::{Bodies, FIELD};
 use crate::support::machines::gpu;
 use crate::support::states::one;
-use crate::{by_references, column, setup, support};
+use crate::{beginning, by_references, column, setup, support};
 
 const INERTIA: DVec3 = DVec3::new(1.0, 2.0, 3.0);
 /// Along its own axes, as the middle one turns over; −I₁ ω₁² (I₂ − I₁) + I₃ ω₃² (I₃ − I₂) is just above 0, so that it dwells there.
@@ -54,15 +54,18 @@ impl Solution {
     }
 }
 
-fn top(name: &str, dt: f64, field: bool) -> Simulation<Cpu> {
-    let setup = setup(&one(DVec3::ZERO, DVec3::ZERO), vec![Box::new(Bodies { field })], name, dt);
+fn start() -> [(&'static str, Array); 3] {
     let q = facing();
-    let start = [
+    [
         ("orientation", Array::Vec4(vec![DVec4::from(q)])),
         ("angular_velocity", Array::Vec4(vec![(q * SPIN).extend(0.0)])),
         ("inertia", Array::Vec4(vec![INERTIA.extend(0.0)])),
-    ];
-    by_references(&setup, &start)
+    ]
+}
+
+fn top(name: &str, dt: f64, field: bool) -> Simulation<Cpu> {
+    let state = beginning(&one(DVec3::ZERO, DVec3::ZERO), &start());
+    by_references(&setup(&state, vec![Box::new(Bodies { field })], name, dt), &start())
 }
 
 fn vector(simulation: &mut Simulation<Cpu>, name: &str) -> DVec4 {
@@ -242,7 +245,8 @@ fn a_top_turns_over_on_a_device() {
     let (flip, dt) = (Solution::new().flip(), 0.02);
     let steps = (2.3 * flip / dt) as u32;
     for name in ["leapfrog", "rk4"] {
-        let setup = setup(&one(DVec3::ZERO, DVec3::ZERO), vec![Box::new(Bodies { field: false })], name, dt);
+        let state = beginning(&one(DVec3::ZERO, DVec3::ZERO), &start());
+        let setup = setup(&state, vec![Box::new(Bodies { field: false })], name, dt);
         let mut simulation = Simulation::on(gpu(&shared, 1), &setup).expect("a simulation");
         let mut exact = top(name, dt, false);
         for field in ["orientation", "angular_velocity", "inertia"] {

@@ -2,8 +2,8 @@
 
 use glam::{DVec3, DVec4};
 use motes::forces::{Component, Law};
-use motes::kernel::{Array, Backend, Column, Kind, Shape, Source};
-use motes::{Simulation, rotation};
+use motes::kernel::{Array, Backend, Column, Kind, Role, Shape, Source};
+use motes::{Simulation, State, rotation};
 
 use super::Random;
 
@@ -135,7 +135,20 @@ pub fn numbers(column: &Column, count: usize, seed: u64) -> Array {
     }
 }
 
-/// Fills every column that some forces declare.
+/// Gives a state such numbers for every column that some components declare and that it keeps.
+pub fn give(state: &mut State, columns: &[Column], seed: u64) {
+    let count = state.len();
+    for (column, place) in columns.iter().zip(seed..).filter(|(column, _)| column.role == Role::State) {
+        let values = match numbers(column, count, place) {
+            Array::Vec4(all) if column.kind == Kind::Vector => Array::Vec3(all.into_iter().map(|v| v.truncate()).collect()),
+            other => other,
+        };
+        state.declare(column).expect("a column");
+        state.set(&column.name, values).expect("values");
+    }
+}
+
+/// Fills every column that some components declare on a backend.
 pub fn fill<B: Backend>(simulation: &mut Simulation<B>, columns: &[Column], seed: u64) {
     let count = simulation.count() as usize;
     for (column, place) in columns.iter().filter(|column| !column.is_packed()).zip(seed..) {
