@@ -6,6 +6,7 @@ mod column;
 mod columns;
 mod field;
 mod host;
+mod list_shape;
 mod message;
 mod op;
 mod own;
@@ -34,6 +35,7 @@ pub use field::{
 pub use host::{Host, Reading, Writing};
 pub use op::{Flag, Next, Op, Walk};
 pub use own::claims;
+pub use list_shape::ListShape;
 pub use pace::{PACE, PACE_WORDS, Pace, Reason, STOP, TICKS, URGENT, URGES, split, ticks, time};
 pub use pack::{Member, Packed, Scalar};
 pub use packing::insert;
