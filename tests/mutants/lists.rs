@@ -63,7 +63,10 @@ impl Place<'_> {
             0 => law(MOVING, Over::List { range: RANGE, skin: Some(SKIN), slots: 0 }),
             slots => winding(slots),
         };
-        Plan { kernels: vec![list, law.kernel(problem).expect("a kernel")], order: vec![0, 1] }
+        let mut plan = Plan::default();
+        plan.add(list);
+        plan.add(law.kernel(problem).expect("a kernel"));
+        plan
     }
     fn stage(&self, since: Since) -> Stage {
         let count = FEW;
