@@ -23,9 +23,14 @@ pub struct Continuity {
 #[must_use]
 pub fn columns(rest: f64) -> Vec<Column> {
     vec![
-        Column::new("density", Kind::Scalar, "mass / length³", "how dense the fluid is there; of walls it says nothing")
-            .carried("density_rate")
-            .starting([rest, 0.0, 0.0, 0.0]),
+        Column::new(
+            "density",
+            Kind::Scalar,
+            "mass / length³",
+            "how dense the fluid is there; of walls it says nothing",
+        )
+        .carried("density_rate")
+        .starting([rest, 0.0, 0.0, 0.0]),
         Column::new("density_rate", Kind::Scalar, "mass / (length³ time)", "how fast that changes").derived(),
     ]
 }
@@ -42,10 +47,7 @@ pub fn rate(medium: &Medium, continuity: Continuity, problem: &Problem) -> Resul
         broadcast: crate::shader!("fluids/flowing_broadcast.wgsl"),
     };
     let diffusion = 2.0 * continuity.diffusion * 0.5 * medium.range() * medium.sound;
-    let params = vec![
-        ("diffusion", Scalar::Float(diffusion)),
-        ("weight", Scalar::Vector(continuity.weight)),
-    ];
+    let params = vec![("diffusion", Scalar::Float(diffusion)), ("weight", Scalar::Vector(continuity.weight))];
     let (me, who) = (*medium, problem.clone());
     let twin = move |host: &Host| {
         let density = host.read(DENSITY)?;

@@ -33,9 +33,9 @@ pub use field::{
     VELOCITY,
 };
 pub use host::{Host, Reading, Writing};
+pub use list_shape::ListShape;
 pub use op::{Flag, Next, Op, Walk};
 pub use own::claims;
-pub use list_shape::ListShape;
 pub use pace::{PACE, PACE_WORDS, Pace, Reason, STOP, TICKS, URGENT, URGES, split, ticks, time};
 pub use pack::{Member, Packed, Scalar};
 pub use packing::insert;

@@ -6,7 +6,8 @@ use glam::{DVec3, DVec4};
 
 use super::twin::{ByTables, Sample};
 use super::{
-    Group, Jacobian, Memory, Outcome, Over, PAIR_TABLE, PairTable, Particle, Tables, each, links, list, near, pairs, tree, twin, walk,
+    Group, Jacobian, Memory, Outcome, Over, PAIR_TABLE, PairTable, Particle, Tables, each, links, list, near, pairs,
+    tree, twin, walk,
 };
 use crate::error::Error;
 use crate::kernel::{ACCELERATION, Access, Kernel, Name, Problem, Scalar, Shader, Side, Source, Table, Twin, World};

@@ -157,7 +157,7 @@ pub fn kernel(law: Law, tree: &Tree, problem: &Problem) -> Result<Kernel, Error>
         let look = |of: &Pass, rest: &Arc<Shader>| Pass {
             constants: [&constants[..], &[("ROW", f64::from(machine.workgroups))]].concat(),
             uniforms: of.uniforms.iter().filter(|(name, _)| *name == "tree").cloned().collect(),
-            fields: of.fields.clone(),
+            fields: [&of.fields[..], &[("tree_go", GO.into())]].concat(),
             ..Pass::new(rest.clone(), rest.reflection().workgroup)
         };
         passes.push(walk(0)?);
@@ -183,7 +183,7 @@ pub fn kernel(law: Law, tree: &Tree, problem: &Problem) -> Result<Kernel, Error>
 /// What targets of a dispatch have met, and where their walks stand.
 const KEPT_WALKS: &str = "tree_kept";
 /// How many workgroups go on with a walk.
-const GO: &str = "tree_go";
+const GO: &str = "tree go";
 
 /// About how many meetings of two a target's walk is worth: a guess of time alone.
 fn meetings(tree: &Tree, problem: &Problem) -> f64 {

@@ -62,7 +62,8 @@ fn continuity_follows_the_sums() {
 /// steps.
 fn pressed(name: &str, diffusion: f64, steps: u32) -> Vec<f64> {
     let all = bounds(64, true, Side::Periodic);
-    let quiet = [("alpha", Number(0.0)), ("viscosity", Number(0.0)), ("kernel", word("wendland")), ("support", Number(2.6))];
+    let quiet =
+        [("alpha", Number(0.0)), ("viscosity", Number(0.0)), ("kernel", word("wendland")), ("support", Number(2.6))];
     let state = [("density_by", word("continuity")), ("diffusion", Number(diffusion))];
     let forces = vec![fluid(&[&quiet[..], &state].concat())];
     let mut simulation = cpu_in(&all, &cloud(64, true, false), forces, name, 0.06 / f64::from(steps));
@@ -104,7 +105,13 @@ fn every_integrator_carries_density_along() {
 
 #[test]
 fn diffusion_needs_a_density_that_is_a_state() {
-    let setup = setup(&cloud(20, true, false), vec![fluid(&[("diffusion", Number(0.1))])], "leapfrog", 0.01, bounds(20, true, Side::Open));
+    let setup = setup(
+        &cloud(20, true, false),
+        vec![fluid(&[("diffusion", Number(0.1))])],
+        "leapfrog",
+        0.01,
+        bounds(20, true, Side::Open),
+    );
     let told = setup.plans(motes::kernel::Machine::HOST).err().map(|error| error.to_string()).unwrap_or_default();
     assert!(told.contains("no state to diffuse"), "{told}");
 }

@@ -52,7 +52,8 @@ fn setup(integrator: &str) -> Setup {
     particles.held = fixed.map(|id| Held { id, by: Hold::Fixed }).collect();
     let lives: Vec<Life> = (0..FEW).map(|id| if id % 7 == 5 { Life::Dead } else { Life::Living }).collect();
     particles.set_lives(&lives).expect("one for each");
-    let forces: Vec<Box<dyn Component>> = vec![Box::new(Columned), Box::new(Bodies { field: false }), Box::new(Grouped)];
+    let forces: Vec<Box<dyn Component>> =
+        vec![Box::new(Columned), Box::new(Bodies { field: false }), Box::new(Grouped)];
     let columns: Vec<Column> = forces.iter().flat_map(|force| force.columns()).collect();
     give(&mut particles, &columns, 17);
     Setup {

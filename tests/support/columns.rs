@@ -140,7 +140,9 @@ pub fn give(state: &mut State, columns: &[Column], seed: u64) {
     let count = state.len();
     for (column, place) in columns.iter().zip(seed..).filter(|(column, _)| column.role == Role::State) {
         let values = match numbers(column, count, place) {
-            Array::Vec4(all) if column.kind == Kind::Vector => Array::Vec3(all.into_iter().map(|v| v.truncate()).collect()),
+            Array::Vec4(all) if column.kind == Kind::Vector => {
+                Array::Vec3(all.into_iter().map(|v| v.truncate()).collect())
+            }
             other => other,
         };
         state.declare(column).expect("a column");
