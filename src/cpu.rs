@@ -10,11 +10,11 @@ use crate::kernel::{Access, Array, Backend, Host, Machine, Next, POSITION, Plan,
 /// # Errors
 /// [`Error::Threads`] when the system starts none.
 pub fn threads() -> Result<usize, Error> {
+    static POOL: OnceLock<Result<(), String>> = OnceLock::new();
     // There rayon makes do with the thread that there is, unless it is asked.
     if cfg!(target_family = "wasm") {
         return Ok(rayon::current_num_threads());
     }
-    static POOL: OnceLock<Result<(), String>> = OnceLock::new();
     let pool = POOL.get_or_init(|| match rayon::ThreadPoolBuilder::new().build_global() {
         // Without a cause there is a pool already.
         Err(why) => std::error::Error::source(&why).map_or(Ok(()), |cause| Err(cause.to_string())),

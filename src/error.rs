@@ -159,8 +159,13 @@ impl Error {
             Self::Scene(_) | Self::Shader { .. } => 3,
             Self::Input { .. } => 4,
             Self::NoAdapter(_) | Self::Limit(_) => 5,
-            Self::NotFinite { .. } | Self::Runaway { .. } | Self::Crowded { .. } | Self::TooShort { .. } => 6,
-            Self::CutShort { .. } | Self::Endless { .. } | Self::ListFull { .. } => 6,
+            Self::NotFinite { .. }
+            | Self::Runaway { .. }
+            | Self::Crowded { .. }
+            | Self::TooShort { .. }
+            | Self::CutShort { .. }
+            | Self::Endless { .. }
+            | Self::ListFull { .. } => 6,
             Self::Lost(_) | Self::OutOfMemory(_) | Self::Timeout { .. } | Self::Threads(_) | Self::Device(_) => 7,
             Self::Output { .. } => 8,
         }

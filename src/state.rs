@@ -168,13 +168,12 @@ impl State {
     /// Puts a column in place of what is known of that name; there must be as many values as its shape has.
     pub(crate) fn put(&mut self, column: &Column, values: Option<Array>) {
         let filled = Filled { column: column.clone(), values };
-        match self.columns.iter().position(|known| known.column.name == column.name) {
-            Some(place) => self.columns[place] = filled,
-            None => {
-                let after = BASIC.len();
-                let place = self.columns[after..].partition_point(|known| known.column.name < column.name);
-                self.columns.insert(after + place, filled);
-            }
+        if let Some(place) = self.columns.iter().position(|known| known.column.name == column.name) {
+            self.columns[place] = filled;
+        } else {
+            let after = BASIC.len();
+            let place = self.columns[after..].partition_point(|known| known.column.name < column.name);
+            self.columns.insert(after + place, filled);
         }
     }
     fn find(&self, name: &str) -> Option<&Filled> {

@@ -74,12 +74,12 @@ fn keep(last: &State, folder: &Path, formats: &[Format], precision: Precision) -
     let text = formats.contains(&Format::Csv);
     if text {
         let path = folder.join("last_good.csv");
-        atomically(&path, |out| csv::write_csv(out, &last, precision))?;
+        atomically(&path, |out| csv::write_csv(out, last, precision))?;
         files.push(path.display().to_string());
     }
     if formats.contains(&Format::Npz) || !text {
         let path = folder.join("last_good.npz");
-        atomically(&path, |out| npz::write_npz(out, &last, precision))?;
+        atomically(&path, |out| npz::write_npz(out, last, precision))?;
         files.push(path.display().to_string());
     }
     Ok(files.join(" and "))

@@ -25,7 +25,7 @@ impl Looks {
     }
     /// The step of the next look.
     pub fn next(&self, done: u64) -> u64 {
-        if self.interval == 0 { u64::MAX } else { (done / self.interval + 1) * self.interval }
+        done.checked_div(self.interval).map_or(u64::MAX, |looks| (looks + 1) * self.interval)
     }
     /// Whether one is taken at this step.
     pub fn is_due(&self, done: u64) -> bool {

@@ -157,7 +157,7 @@ impl Output {
         };
         let groups: Vec<u32> = (0..snapshot.len()).map(of).collect();
         let trail = self.trail.clone();
-        let mut picture = Picture::with(&self.picture, &snapshot, &groups, trail, &self.scenery.at(snapshot.time))?;
+        let mut picture = Picture::with(&self.picture, snapshot, &groups, trail, &self.scenery.at(snapshot.time))?;
         // Colours that the scene gives count before those of the palette, unless another was asked for.
         if !["speed", "heading"].contains(&self.picture.text("color")) && self.groups.iter().any(|g| g.color.is_some())
         {

@@ -86,8 +86,9 @@ impl<'a> Step<'a> {
         self.neighbors(&chosen);
         let mut laws = Plan::default();
         let all = || self.forces.iter().enumerate().filter(|(place, _)| chosen(*place));
-        let last = |force: &Box<dyn Component>| force.properties().evaluated_last;
-        let ordered = all().filter(|(_, force)| !last(*force)).chain(all().filter(|(_, force)| last(*force)));
+        let last = |force: &dyn Component| force.properties().evaluated_last;
+        let ordered =
+            all().filter(|(_, force)| !last(force.as_ref())).chain(all().filter(|(_, force)| last(force.as_ref())));
         for (place, force) in ordered {
             let earlier = self.earlier(place);
             if self.error.is_none() {

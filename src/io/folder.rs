@@ -229,7 +229,7 @@ fn results(path: &Path, scenes: &[Option<&str>]) -> io::Result<Vec<PathBuf>> {
 /// Files that a run which was killed has left half written.
 fn parts(path: &Path) -> Vec<PathBuf> {
     let inside = |folder: PathBuf| fs::read_dir(folder).into_iter().flatten().flatten();
-    let is_part = |name: &str| name.starts_with(".motes-") && name.ends_with(".part");
+    let is_part = |name: &str| name.strip_suffix(".part").is_some_and(|stem| stem.starts_with(".motes-"));
     let entries = inside(path.to_owned()).chain(inside(path.join(FRAMES)));
     entries.filter(|entry| entry.file_name().to_str().is_some_and(is_part)).map(|entry| entry.path()).collect()
 }

@@ -139,6 +139,18 @@ impl Strip<'_> {
     }
 }
 
+/// The strips of one column.
+fn of<'a>(column: &'a Column, values: &'a Array) -> impl Iterator<Item = Strip<'a>> {
+    let (slots, components) = (column.shape.len(1), column.kind.components());
+    titles(column).into_iter().map(move |title| Strip {
+        text: title.text,
+        values,
+        slots,
+        slot: title.place / components,
+        axis: title.place % components,
+    })
+}
+
 /// All that a table of particles holds of a state: positions, velocities and masses; sizes and species where one is not 0, life where
 /// one is not active; and every other column that it has.
 pub(super) fn strips(state: &State) -> Vec<Strip<'_>> {
@@ -148,15 +160,5 @@ pub(super) fn strips(state: &State) -> Vec<Strip<'_>> {
         name if name == LIFE.name => (0..state.len()).any(|id| !state.lives(id)),
         _ => !matches!(column.shape, Shape::System(_)),
     };
-    fn of<'a>(column: &'a Column, values: &'a Array) -> impl Iterator<Item = Strip<'a>> {
-        let (slots, components) = (column.shape.len(1), column.kind.components());
-        titles(column).into_iter().map(move |title| Strip {
-            text: title.text,
-            values,
-            slots,
-            slot: title.place / components,
-            axis: title.place % components,
-        })
-    }
     state.columns().filter(|(column, _)| usual(column)).flat_map(|(c, v)| of(c, v)).collect()
 }

@@ -104,8 +104,9 @@ fn kernel(
         ("angular_acceleration", body.acceleration()),
     ];
     let constants: Vec<_> = factor.map(|factor| ("FACTOR", factor)).into_iter().collect();
-    let shown =
-        factor.filter(|factor| *factor != 1.0).map(|factor| format!(" FACTOR={}", crate::kernel::short(factor)));
+    let shown = factor
+        .filter(|factor| (*factor - 1.0).abs() > 0.0)
+        .map(|factor| format!(" FACTOR={}", crate::kernel::short(factor)));
     let pass = Pass { constants, ..Pass::new(shader, problem.count) }.on(&fields);
     Ok(Kernel {
         name: format!("{verb} {}{}", body.orientation, shown.unwrap_or_default()),

@@ -23,7 +23,7 @@ pub(super) const OWN: &[&str] =
 /// A force as the scene gives it.
 pub(super) enum Chosen {
     Known(&'static forces::Entry, Settings),
-    Own { law: Custom, path: String },
+    Own { law: Box<Custom>, path: String },
 }
 
 pub(super) fn read(table: &Table<'_>, (files, motions): (&Files, &[Motion]), report: &mut Report) -> Option<Chosen> {
@@ -59,7 +59,16 @@ fn read_own(table: &Table<'_>, wgsl: &Entry, files: &Files, report: &mut Report)
             let stem =
                 Path::new(name).file_stem().map_or_else(|| name.to_owned(), |s| s.to_string_lossy().into_owned());
             Some(Chosen::Own {
-                law: Custom { name: stem, over: over?, wgsl: text, file: name.to_owned(), params, pairs, tables, into },
+                law: Box::new(Custom {
+                    name: stem,
+                    over: over?,
+                    wgsl: text,
+                    file: name.to_owned(),
+                    params,
+                    pairs,
+                    tables,
+                    into,
+                }),
                 path,
             })
         }
@@ -229,7 +238,7 @@ impl Chosen {
     pub(super) fn build(self) -> Box<dyn Component> {
         match self {
             Self::Known(entry, settings) => (entry.build)(&settings),
-            Self::Own { law, .. } => Box::new(law),
+            Self::Own { law, .. } => law,
         }
     }
     pub(super) fn write(&self, out: &mut Writer) {

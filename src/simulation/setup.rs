@@ -70,7 +70,7 @@ impl Setup {
         let columns = problem.columns.clone();
         let measure = Step::measurement(&self.forces, problem)?;
         let plans = Plans { start: start.begun()?, step: step.done()?, measure, list };
-        claims(plans.all(), &columns)?;
+        claims(&plans.all(), &columns)?;
         unwritten::check(&plans, &columns)?;
         Ok(plans)
     }

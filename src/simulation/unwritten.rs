@@ -13,7 +13,7 @@ pub(super) fn check(plans: &Plans, columns: &Columns) -> Result<(), Error> {
     if kernels().all(|kernel| kernel.passes.iter().all(|pass| pass.shader.trusted())) {
         return Ok(());
     }
-    let written: BTreeSet<String> = kernels().flat_map(|kernel| kernel.writes()).collect();
+    let written: BTreeSet<String> = kernels().flat_map(crate::kernel::Kernel::writes).collect();
     let held = |name: &str| columns.of_buffer(name).any(|column| column.role == Role::State);
     for kernel in kernels() {
         for pass in kernel.passes.iter().filter(|pass| !pass.shader.trusted()) {

@@ -342,7 +342,7 @@ impl Law {
                     self.name, self.wgsl.file
                 )));
             };
-            tables.push((pairs.words(&self.name, &binding, &present)?, binding.stride));
+            tables.push((pairs.words(&self.name, binding, &present)?, binding.stride));
             let side = f64::from(pairs.side(&present));
             let tells = |pass: &&mut crate::kernel::Pass| pass.shader.reflection().overrides.contains_key("SPECIES");
             kernel.passes.iter_mut().filter(tells).for_each(|pass| pass.constants.push(("SPECIES", side)));

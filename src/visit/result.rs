@@ -91,13 +91,12 @@ pub(super) fn write(
         }
         for (name, change) in outcome.changes {
             let place = columns.iter().position(|(known, _)| *known == name);
-            let place = match place {
-                Some(place) => place,
-                None => {
-                    let array = host.get(&name).ok_or_else(|| missing(&name))?;
-                    columns.push((name.clone(), array));
-                    columns.len() - 1
-                }
+            let place = if let Some(place) = place {
+                place
+            } else {
+                let array = host.get(&name).ok_or_else(|| missing(&name))?;
+                columns.push((name.clone(), array));
+                columns.len() - 1
             };
             change.apply(&mut columns[place].1, index).ok_or_else(|| missing(&name))?;
         }

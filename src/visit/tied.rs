@@ -19,6 +19,7 @@ pub enum Tables {
 
 impl Tables {
     /// Those of a visit over links.
+    #[must_use]
     pub fn of(problem: &Problem) -> Self {
         if !problem.breaks && problem.network.alike() { Self::Alike } else { Self::Each }
     }

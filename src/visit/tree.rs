@@ -130,12 +130,11 @@ pub fn kernel(law: Law, tree: &Tree, problem: &Problem) -> Result<Kernel, Error>
         groups = groups.min(u32::try_from(KEPT / kept.stride / u64::from(GROUP)).unwrap_or(groups)).max(1);
     }
     let rounds = rounds(tree, machine).min((MOST / problem.count.div_ceil(groups * GROUP).max(1)).max(MORE));
-    let rest = match rounds {
-        0 => None,
-        _ => {
-            let rest = vec![crate::shader!("visit/tree_kept.wgsl"), crate::shader!("visit/tree_rest.wgsl")];
-            Some(join(&law, tree, rest, Some(crate::shader!("own/alarm.wgsl")))?)
-        }
+    let rest = if rounds == 0 {
+        None
+    } else {
+        let rest = vec![crate::shader!("visit/tree_kept.wgsl"), crate::shader!("visit/tree_rest.wgsl")];
+        Some(join(&law, tree, rest, Some(crate::shader!("own/alarm.wgsl")))?)
     };
     let mut passes = Vec::new();
     let mut first = 0;

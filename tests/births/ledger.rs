@@ -29,7 +29,7 @@ fn the_dead_stay_dead_and_ids_are_never_reused() {
         simulation.step(7).expect("steps");
         let snapshot = state(&mut simulation);
         let (now, energies) = (&snapshot, snapshot.energies().expect("energies"));
-        for id in 0..count {
+        for (id, energy) in energies.iter().enumerate().take(count) {
             let (then, is) = (last.life()[id], now.life()[id]);
             // Life goes on, and never back.
             assert!(then.word() <= is.word(), "{id}: {then:?} and then {is:?}");
@@ -39,7 +39,7 @@ fn the_dead_stay_dead_and_ids_are_never_reused() {
                 assert_eq!(now.position()[id], last.position()[id], "{id} stays");
             }
             if is != Life::Living {
-                assert_eq!((now.velocity()[id], now.mass()[id], energies[id]), (DVec3::ZERO, 0.0, 0.0), "{id} rests");
+                assert_eq!((now.velocity()[id], now.mass()[id], *energy), (DVec3::ZERO, 0.0, 0.0), "{id} rests");
             }
         }
         let of = now.population();

@@ -69,7 +69,7 @@ fn both_orders_of_a_pair_find_its_row() {
 
 #[test]
 fn a_pair_that_is_missing_or_given_twice_is_named() {
-    let refused = |rows| tabled(rows).kernel(&problem(300, Machine::HOST)).err().expect("refused").to_string();
+    let refused = |rows| tabled(rows).kernel(&problem(300, Machine::HOST)).expect_err("refused").to_string();
     let mut rows = all();
     rows.remove(0);
     let text = refused(rows);

@@ -6,7 +6,7 @@ use motes::kernel::{Column, Columns, Kind, Machine, Source};
 use super::{charged, problem};
 
 fn refusal(law: Law) -> String {
-    law.kernel(&problem(10, Machine::HOST)).err().expect("it is refused").to_string()
+    law.kernel(&problem(10, Machine::HOST)).expect_err("it is refused").to_string()
 }
 
 #[test]

@@ -87,7 +87,7 @@ pub fn rods(device: &Device, stages: &mut Vec<Stage>) {
         velocity[4].y = if first == 3 { (9.0 / clock.dt) as f32 } else { 0.0 };
         simulation.write(VELOCITY, &velocity).expect("velocities");
         let kernel = kernel(&links, &held, |plan, problem| {
-            rod.stage(motes::component::Stage::AfterDrift { factor: 1.0 }, plan, problem).expect("a kernel")
+            rod.stage(motes::component::Stage::AfterDrift { factor: 1.0 }, plan, problem).expect("a kernel");
         });
         let mut told: Vec<f32> = position.iter().flat_map(Vec4::to_array).collect();
         let lost = 4 * (7 - first);

@@ -104,7 +104,8 @@ fn the_list_and_the_law_agree_with_brute_force() {
     for (place, Place { name, particles, bounds, range }) in places::all().into_iter().enumerate() {
         for (turn, (variant, machine)) in variants(&shared).into_iter().enumerate() {
             // Every pipeline takes its time: half of them with a skin.
-            for skin in [[0.0, 0.2][(place + turn) % 2]] {
+            {
+                let skin = [0.0, 0.2][(place + turn) % 2];
                 let of = format!("{name}, {variant}, skin {skin}");
                 let setup = setup(&particles, bounds, Box::new(Curious(list(range, skin * range))), 1e-3);
                 let mut simulation = on(&shared, machine, &setup);

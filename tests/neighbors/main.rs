@@ -1,4 +1,10 @@
 //! Neighbours: the grid against its twin, and searches through it against those that visit everybody.
+#![allow(
+    clippy::cast_sign_loss,
+    clippy::cast_possible_truncation,
+    clippy::items_after_statements,
+    reason = "numbers are small, and what a test needs stands in it"
+)]
 
 #[path = "../support/mod.rs"]
 mod support;

@@ -57,9 +57,8 @@ impl Component for Changed {
         let file = "shaders/own/turns.wgsl";
         let mut kernel = self.laws().swap_remove(0).kernel(problem)?;
         for pass in &mut kernel.passes {
-            let changed = |source: &Source| match source.file == file {
-                true => Source::theirs(file.to_owned(), self.turns.clone()),
-                false => source.clone(),
+            let changed = |source: &Source| {
+                if source.file == file { Source::theirs(file.to_owned(), self.turns.clone()) } else { source.clone() }
             };
             let sources: Vec<_> = pass.shader.sources().iter().map(changed).collect();
             pass.shader = Shader::join(&sources)?;

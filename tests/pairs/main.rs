@@ -1,6 +1,5 @@
 //! Columns that integrators advance by their rates: orders, lockstep, fixed and inactive particles, rigid bodies, refusals.
-
-#![allow(clippy::cast_possible_truncation, reason = "numbers are rounded to what f32 holds")]
+#![allow(clippy::cast_sign_loss, clippy::cast_possible_truncation, reason = "numbers of steps are small")]
 
 #[path = "../support/mod.rs"]
 mod support;

@@ -172,9 +172,9 @@ fn a_free_top_keeps_its_integrals() {
                 let (q, spin) = body(&mut simulation);
                 let off = (energy(q, spin, INERTIA) / first - 1.0).abs();
                 if 2 * step < steps {
-                    early = early.max(off)
+                    early = early.max(off);
                 } else {
-                    late = late.max(off)
+                    late = late.max(off);
                 }
                 turned = turned.max((angular_momentum(q, spin, INERTIA) - momentum).length() / momentum.length());
             }

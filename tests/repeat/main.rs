@@ -67,7 +67,7 @@ fn a_caller_encodes_loops_in_its_own_encoder() {
     let mut gpu = gpu(&shared);
     let toy = Toy { outer: 2, inner: 4, most: [5, 7] };
     let program = gpu.compile(&toy.plan()).expect("a program");
-    let mut encoder = shared.found.device.create_command_encoder(&Default::default());
+    let mut encoder = shared.found.device.create_command_encoder(&motes::wgpu::CommandEncoderDescriptor::default());
     gpu.encode(&program, 3, &mut encoder);
     shared.found.queue.submit([encoder.finish()]);
     assert!(left(&mut gpu) == toy.counts().map(|times| vec![3 * times; COUNT as usize]));

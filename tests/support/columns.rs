@@ -141,7 +141,7 @@ pub fn give(state: &mut State, columns: &[Column], seed: u64) {
     for (column, place) in columns.iter().zip(seed..).filter(|(column, _)| column.role == Role::State) {
         let values = match numbers(column, count, place) {
             Array::Vec4(all) if column.kind == Kind::Vector => {
-                Array::Vec3(all.into_iter().map(|v| v.truncate()).collect())
+                Array::Vec3(all.into_iter().map(glam::DVec4::truncate).collect())
             }
             other => other,
         };

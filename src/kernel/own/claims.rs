@@ -7,7 +7,7 @@ use crate::kernel::{Columns, Kernel, Plan};
 ///
 /// # Errors
 /// [`Error::Shader`] that names the law, the field and the kernel whose it is.
-pub fn check<'a>(plans: impl Iterator<Item = &'a Plan> + Clone, columns: &Columns) -> Result<(), Error> {
+pub fn check<'a>(plans: &(impl Iterator<Item = &'a Plan> + Clone), columns: &Columns) -> Result<(), Error> {
     let kernels = || plans.clone().flat_map(|plan| &plan.kernels);
     let law = |kernel: &Kernel| {
         let mut sources = kernel.passes.iter().flat_map(|pass| pass.shader.sources());

@@ -148,7 +148,7 @@ fn sum(joined: &Joined, function: &Function, known: &mut HashMap<Handle<Function
 /// Counts the statements of a block, and notes what it calls.
 fn statements(block: &Block, calls: &mut Vec<Handle<Function>>) -> u64 {
     let mut count = 0;
-    for statement in block.iter() {
+    for statement in block {
         count += 1;
         match statement {
             Statement::Block(inner) => count += statements(inner, calls),
@@ -157,7 +157,7 @@ fn statements(block: &Block, calls: &mut Vec<Handle<Function>>) -> u64 {
                 count += cases.iter().map(|case| statements(&case.body, calls)).sum::<u64>();
             }
             Statement::Loop { body, continuing, .. } => {
-                count += statements(body, calls) + statements(continuing, calls)
+                count += statements(body, calls) + statements(continuing, calls);
             }
             Statement::Call { function, .. } => calls.push(*function),
             _ => {}

@@ -169,8 +169,10 @@ pub fn kernel(
     };
     let (sizes, threads) = (sizes(&fields), Threads::new(number));
     let pass = Pass { constants, fields, threads, ..Pass::new(shader, number) };
-    let factors = pass.constants.iter().filter(|(name, value)| ["FACTOR", "WEIGHT"].contains(name) && *value != 1.0);
-    let factors: String = factors.map(|(name, value)| format!(" {name}={}", crate::kernel::short(*value))).collect();
+    let factors =
+        pass.constants.iter().filter(|(name, value)| ["FACTOR", "WEIGHT"].contains(name) && (*value - 1.0).abs() > 0.0);
+    let factors = factors.map(|(name, value)| format!(" {name}={}", crate::kernel::short(*value)));
+    let factors = factors.collect::<Vec<_>>().concat();
     Ok(Kernel {
         name: format!("{verb} {}{factors}", part.name),
         passes: vec![pass],
