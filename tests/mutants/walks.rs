@@ -206,7 +206,7 @@ fn stops(device: &Device, name: &str, machine: Machine, stages: &mut Vec<Stage>)
             assert!(!silent, "{name}, {case}: it is done after {rounds} rounds");
             let of = |what| format!("walk {name}, {case}, {what} after {rounds} rounds");
             stages.push(scene.told(&of("alarm"), ALARM.name, QUIET.len() as u64, plan()));
-            stages.push(scene.told(&of("workgroups"), "tree_go", 3, plan()));
+            stages.push(scene.told(&of("workgroups"), "tree go", 3, plan()));
         }
     }
 }
