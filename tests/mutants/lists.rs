@@ -63,10 +63,7 @@ impl Place<'_> {
             0 => law(MOVING, Over::List { range: RANGE, skin: Some(SKIN), slots: 0 }),
             slots => winding(slots),
         };
-        let mut plan = Plan::default();
-        plan.add(list);
-        plan.add(law.kernel(problem).expect("a kernel"));
-        plan
+        Plan { kernels: vec![list, law.kernel(problem).expect("a kernel")], order: vec![0, 1] }
     }
     fn stage(&self, since: Since) -> Stage {
         let count = FEW;

@@ -58,8 +58,9 @@ impl<'a> Step<'a> {
             ![tick::NAME, life::BEAR].into_iter().any(|entry| runs(kernel, entry))
                 && kernel.passes.iter().any(|p| p.shader.reflection().reads_time)
         };
-        if !self.plan.kernels.iter().any(|kernel| !runs(kernel, at::NAME) && asked(kernel)) {
-            self.plan.retain(|kernel| !runs(kernel, at::NAME));
+        let within: Vec<_> = self.plan.kernels.iter().map(|k| runs(k, at::NAME)).collect();
+        if !self.plan.kernels.iter().zip(&within).any(|(kernel, at)| !at && asked(kernel)) {
+            self.plan.order.retain(|index| !within.get(*index).is_some_and(|at| *at));
         }
         self.error.map_or(Ok(self.plan), Err)
     }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::error::Error;
-use crate::kernel::{ALARM, ALARM_WORDS, Host, Indirect, Kernel, Name, Pass, Problem, Shader, Source, Threads, Twin};
+use crate::kernel::{ALARM, ALARM_WORDS, Host, Kernel, Name, Pass, Problem, Shader, Source, Threads, Twin};
 use crate::neighbors::{HISTORY, LIST, LIST_STATE, List, SORTED_ID, SORTED_POSITION, STARTS};
 use crate::visit::Sweep;
 use crate::visit::near::Candidate;
@@ -11,7 +11,7 @@ use crate::visit::near::Candidate;
 /// Neighbours as the cells are walked.
 const FOUND: &str = "list_found";
 /// Indirect arguments of the dispatches that build it: as they are, and as they are when it is built.
-const GO: &str = "arguments of the list";
+const GO: &str = "list_go";
 const ALL: &str = "list_all";
 /// The list and the history of its pairs before it is built anew, and the row of each particle.
 const BEFORE: &str = "list_before";
@@ -52,15 +52,14 @@ pub fn kernel(list: List, problem: &Problem) -> Result<Kernel, Error> {
         builds.push(order);
     }
     let mut all = Vec::new();
-    for (pass, word) in builds.iter_mut().zip((0..).step_by(EACH as usize)) {
+    for (pass, from) in builds.iter_mut().zip((0..).step_by(EACH as usize)) {
         all.extend(pass.workgroups(problem.machine.workgroups)?);
-        pass.indirect = Some(Indirect { field: GO.into(), word });
+        pass.told = Some((GO.into(), from));
         pass.work /= SELDOM;
     }
     let words = u64::try_from(all.len()).unwrap_or(u64::MAX);
     let decide = [crate::shader!("world.wgsl"), state(), crate::shader!("neighbors/list_decide.wgsl")];
     let decide = Pass { constants: vec![("WORDS", words as f64)], ..Pass::new(Shader::join(&decide)?, 1) };
-    let decide = decide.on(&[("list_go", GO.into())]);
     let passes = [moved(&list, problem)?, decide].into_iter().chain(builds).collect();
 
     let [(_, starts), (_, ids), (_, places)] = [STARTS, SORTED_ID, SORTED_POSITION].map(|name| list.grid.field(name));
