@@ -58,9 +58,8 @@ impl<'a> Step<'a> {
             ![tick::NAME, life::BEAR].into_iter().any(|entry| runs(kernel, entry))
                 && kernel.passes.iter().any(|p| p.shader.reflection().reads_time)
         };
-        let within: Vec<_> = self.plan.kernels.iter().map(|k| runs(k, at::NAME)).collect();
-        if !self.plan.kernels.iter().zip(&within).any(|(kernel, at)| !at && asked(kernel)) {
-            self.plan.order.retain(|index| !within.get(*index).is_some_and(|at| *at));
+        if !self.plan.kernels.iter().any(|kernel| !runs(kernel, at::NAME) && asked(kernel)) {
+            self.plan.retain(|kernel| !runs(kernel, at::NAME));
         }
         self.error.map_or(Ok(self.plan), Err)
     }
