@@ -3,7 +3,6 @@
 mod alarm;
 mod columns;
 mod keepers;
-mod lists;
 mod mortals;
 mod pace;
 mod pictures;
@@ -25,7 +24,7 @@ use crate::error::Error;
 use crate::fluids::DFSPH_REPORT;
 use crate::gpu::Gpu;
 use crate::integrators::SOLVE_REPORT;
-use crate::kernel::{ALARM, Array, Backend, Element, Field, HOME, ListShape, POSITION, Pace, QUIET, VELOCITY, World};
+use crate::kernel::{ALARM, Array, Backend, Element, Field, HOME, POSITION, Pace, QUIET, VELOCITY, World};
 use crate::state::State;
 use columns::Store;
 use ties::Ties;
@@ -55,8 +54,6 @@ pub struct Simulation<B: Backend> {
     dt: f64,
     /// How long steps are, where they are not all alike.
     pace: Option<Pace>,
-    /// The list of neighbours that laws share, if any.
-    list: Option<ListShape>,
     steps: u64,
 }
 
@@ -72,7 +69,6 @@ impl<B: Backend> Simulation<B> {
         let (plan, marks) = (plans.step.to_string(), alarm::marks(&plans));
         let reports =
             [SOLVE_REPORT, DFSPH_REPORT].map(|name| plans.step.kernels.iter().any(|kernel| kernel.names(name)));
-        let list = plans.list;
         let start = backend.compile(&plans.start)?;
         let step = backend.compile(&plans.step)?;
         let measure = (backend.compile(&plans.measure.0)?, backend.compile(&plans.measure.1)?);
@@ -105,7 +101,6 @@ impl<B: Backend> Simulation<B> {
             mortals: if mortal { count } else { 0 },
             dt,
             pace,
-            list,
             steps,
         };
         pace.map_or(Ok(()), |pace| made.wind(&pace))?;
@@ -184,7 +179,6 @@ impl<B: Backend> Simulation<B> {
         let alarm = self.alarm().await?;
         self.backend.run(&self.measure.1, 1)?;
         self.sound(&alarm)?;
-        self.check_list().await?;
         let mut state = state?;
         self.ties.give(&mut state);
         state.links = self.links().await?;

@@ -79,26 +79,14 @@ fn params(settings: &Settings, names: &[&str]) -> Vec<(String, Scalar)> {
 /// Who meets whom, where a force looks within a range; `of` are those whom it looks for.
 fn over(settings: &Settings, of: Option<u32>) -> Over {
     let range = settings.number("range");
-    let skin = Some(settings.number("skin")).filter(|skin| *skin > 0.0);
-    match settings.text("over") {
-        "within" => Over::Within { range },
-        "list" => Over::List { range, skin, slots: 0 },
-        _ => Over::Near { range, of },
-    }
+    if settings.text("over") == "within" { Over::Within { range } } else { Over::Near { range, of } }
 }
 
 const SEE_NEAR: Key = Key::new(
     "over",
-    crate::settings::Kind::Choice(&["near", "list", "within"]),
+    crate::settings::Kind::Choice(&["near", "within"]),
     Value::Text(std::borrow::Cow::Borrowed("near")),
-    "which pairs: all in range, by a cell list, by a list of neighbours that is kept over steps, or by brute force",
-);
-
-const SKIN: Key = Key::new(
-    "skin",
-    crate::settings::Kind::NotNegative,
-    Value::Number(0.0),
-    "over = \"list\": how much farther than the range the list reaches; 0: a part of the range [length]",
+    "who meets whom: everybody in range, by a grid or by force",
 );
 
 const SEED: Key = Key::new(

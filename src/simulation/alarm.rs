@@ -42,7 +42,6 @@ impl<B: Backend> Simulation<B> {
             return Err(Error::Runaway { particle, step: u64::from(fast.saturating_sub(1)) });
         }
         self.sound(&alarm)?;
-        self.check_list().await?;
         self.on_pace().await
     }
     pub(super) async fn alarm(&mut self) -> Result<[u32; ALARM_WORDS], Error> {

@@ -2,13 +2,13 @@
 
 use glam::DVec3;
 
-use super::{columns, keepers, lists, mortals, unwritten};
+use super::{columns, keepers, mortals, unwritten};
 use crate::boundary;
 use crate::error::Error;
 use crate::fluids::{Start, Still};
 use crate::forces::{Component, Problem, Stage};
 use crate::integrators::{Integrator, Step};
-use crate::kernel::{Array, Bounds, Column, Columns, ListShape, Machine, Plan, Solver, claims};
+use crate::kernel::{Array, Bounds, Column, Columns, Machine, Plan, Solver, claims};
 use crate::life;
 use crate::motion::{self, Hold};
 use crate::state::State;
@@ -37,8 +37,6 @@ pub struct Plans {
     pub step: Plan,
     /// Before and after the state is read.
     pub measure: (Plan, Plan),
-    /// The list of neighbours that they share, if any.
-    pub list: Option<ListShape>,
 }
 
 impl Plans {
@@ -56,7 +54,6 @@ impl Setup {
     pub fn plans(&self, machine: Machine) -> Result<Plans, Error> {
         let problem = self.problem(machine)?;
         self.weigh(&problem)?;
-        let list = problem.list;
         let mut start = Step::new(&self.forces, problem.clone());
         start.enclose();
         start.lead();
@@ -69,7 +66,7 @@ impl Setup {
         self.integrator.step(&mut step);
         let columns = problem.columns.clone();
         let measure = Step::measurement(&self.forces, problem)?;
-        let plans = Plans { start: start.begun()?, step: step.done()?, measure, list };
+        let plans = Plans { start: start.begun()?, step: step.done()?, measure };
         claims(&plans.all(), &columns)?;
         unwritten::check(&plans, &columns)?;
         Ok(plans)
@@ -107,7 +104,7 @@ impl Setup {
     /// # Errors
     /// When the setup makes no sense.
     pub fn problem(&self, machine: Machine) -> Result<Problem, Error> {
-        let problem = Problem::new(self.check()?, machine)
+        Ok(Problem::new(self.check()?, machine)
             .at(self.state.position(), self.bounds)
             .of_species(self.state.species())
             .tied(&self.state.links, &self.state.held)
@@ -116,8 +113,7 @@ impl Setup {
             .breaking(self.breaks())
             .solved(self.solver)
             .paced(self.integrator.pace())
-            .of_columns(self.columns()?);
-        lists::counted(self, problem)
+            .of_columns(self.columns()?))
     }
     /// The columns that all simulations have, those that components declare, and those that the state brings along.
     ///

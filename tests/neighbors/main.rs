@@ -11,8 +11,6 @@ mod support;
 
 mod exact;
 mod far;
-mod history;
-mod list;
 mod places;
 mod properties;
 mod refusals;
