@@ -148,7 +148,9 @@ pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
                 let name = format!("{}, {}, {place}", kernel.name, case.name);
                 let mut simulation = simulation(device, *machine, &setup);
                 forget(&mut simulation, &kernel);
-                stages.push(Stage::of(&name, simulation, alone(kernel)));
+                // Near neighbours of a surface pull by small differences: rounding of the inputs is worth 1.6 of the limit.
+                let slack = if kernel.name == "fluid tension" { 2.0 } else { 1.0 };
+                stages.push(Stage::of(&name, simulation, alone(kernel)).slack(slack));
             }
         }
         told(device, *machine, stages);
