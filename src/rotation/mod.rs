@@ -9,7 +9,7 @@
 //! written in quaternions as by Miller et al. (2002, J. Chem. Phys. 116, 8649): [`kick`] changes the angular momentum
 //! L = R I Rᵀ ω by the torque, and [`drift`] turns the free body. It is of order 2 under every integrator of kicks and drifts,
 //! symplectic, reversible, and keeps L but for rounding. Between the stages of a Runge–Kutta step [`slopes`] are q' = ω q / 2 and
-//! Euler's equations (1765), and [`unit`] brings q back onto the units at its end; it has the order of the method.
+//! Euler's equations (1765), and `unit` brings q back onto the units at its end; it has the order of the method.
 
 mod drift;
 mod kick;
