@@ -181,7 +181,7 @@ fn a_periodic_box_holds_two_reaches() {
 #[test]
 fn notes_are_true_of_what_they_are_about() {
     let (_, said) = motes("check", DAM, &["simulation.integrator=linear_backward_euler"]);
-    assert!(said.contains("with a limit on dt: `uniform`, `fluid`"), "{said}");
+    assert!(said.contains("with a limit on dt: `fluid`"), "{said}");
     let order = "`fluid` depends on velocity: leapfrog is of order 2";
     says(DAM, &[], 0, &[order]);
     assert!(!motes("check", DAM, &["force.1.alpha=0"]).1.contains(order));

@@ -68,7 +68,8 @@ fn solids_leak_nothing() {
 /// Splash is faster than the flow, and goes where nobody thought it would: what we show ends with none out of its box.
 #[test]
 fn splash_stays_in_the_box_of_what_we_show() {
-    let readme = include_str!("../../README.md").split("# dam.toml\n").nth(1).expect("a dam in the README");
+    let readme =
+        include_str!("../../docs/pages/tutorials/dam_break.md").split("```toml\n").nth(1).expect("a dam in the book");
     let coarse = ["force.1.spacing=0.1", "simulation.dt=0.001"];
     let small = setup(readme.split("```").next().expect("a scene"));
     for (setup, fluid, until, high) in
