@@ -10,7 +10,7 @@ use super::value;
 use super::walk::{self, Table};
 
 pub(super) const KEYS: &[Key] = &[];
-pub(super) const OWN: &[&str] = &["every", "formats", "frames", "columns"];
+pub(super) const OWN: &[&str] = &["every", "formats", "columns", "frames"];
 
 /// What a run writes.
 #[derive(Debug, Clone, PartialEq, Eq)]
