@@ -1,4 +1,4 @@
-// The circles model of FLAME GPU 2 (Richmond et al. 2023): who is nearer than the radius pushes or pulls by a sine of
+// The circles model of FLAME GPU 2 (Richmond et al. 2023): an agent nearer than the radius pushes or pulls by a sine of
 // the distance, so that agents come to stand on circles around each other.
 const RADIUS: f32 = 2.0;
 const REPULSE: f32 = 0.05;

@@ -1,7 +1,7 @@
 //! A window that shares its device with a simulation and draws the position buffer: no copy, no read-back.
 //!
 //! `cargo run --release --example window`; space pauses, Escape ends. `--frames N --screenshot FILE` draws N frames, saves the last
-//! one as a PNG and ends, so that it can be checked where nobody looks. `--count N` takes another number of bodies.
+//! one as a PNG and ends, so that it can be checked without a person. `--count N` takes another number of bodies.
 
 #[path = "window/screenshot.rs"]
 mod screenshot;

@@ -1,4 +1,4 @@
-//! The backend that runs the twins: f64 on the host, over all cores, with no driver at all.
+//! The backend that runs the references: f64 on the host, over all cores, with no driver at all.
 
 use std::sync::OnceLock;
 
@@ -23,7 +23,7 @@ pub fn threads() -> Result<usize, Error> {
     pool.clone().map(|()| rayon::current_num_threads()).map_err(Error::Threads)
 }
 
-/// Runs plans by their twins.
+/// Runs plans by their references.
 pub struct Cpu {
     host: Host,
     count: usize,
@@ -40,13 +40,13 @@ impl Cpu {
             return Err(Error::Scene("there are no particles: a simulation needs one or more".to_owned()));
         }
         let mut host = Host::default();
-        // A twin may look at more of a particle than its shader does.
+        // A reference may look at more of a particle than its shader does.
         for always in [POSITION.name, VELOCITY.name] {
             host.insert(always, Array::Vec4(Vec::new()).zeros(count as usize));
         }
         Ok(Self { host, count: count as usize })
     }
-    /// The arrays, as the twins see them.
+    /// The arrays, as the references see them.
     #[must_use]
     pub fn host(&self) -> &Host {
         &self.host
@@ -63,7 +63,7 @@ impl Backend for Cpu {
         for kernel in &plan.kernels {
             if kernel.twin.is_none() {
                 let text = format!(
-                    "`{}` is a WGSL file without an f64 twin: it needs a GPU or a software driver, not --backend cpu",
+                    "`{}` is a WGSL file without an f64 reference: it needs a GPU or a software driver, not --backend cpu",
                     kernel.name
                 );
                 return Err(Error::Scene(text));

@@ -1,4 +1,4 @@
-//! Errors, sorted by who can mend them.
+//! Errors, sorted by what mends them.
 
 use std::path::PathBuf;
 
@@ -6,7 +6,7 @@ use std::path::PathBuf;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// The scene (or the caller's setup) asks for something that makes no sense. Mended by whoever wrote it.
+    /// The scene (or the caller's setup) asks for something that makes no sense. Mended in the scene or by the caller.
     #[error("{0}")]
     Scene(String),
     /// A file of particles cannot be read. Mended in that file.
@@ -65,7 +65,7 @@ pub enum Error {
         least: f64,
         /// What limits it.
         reason: &'static str,
-        /// Whose it is.
+        /// The particle that it belongs to.
         particle: String,
     },
     /// More particles are within reach of one than a search for neighbours or a walk of a tree can visit. Mended by a shorter

@@ -1,4 +1,4 @@
-//! The second opinion: every kernel of a plan against its f64 twin, each given the device's own inputs, so that errors
+//! The second opinion: every kernel of a plan against its f64 reference, each given the device's own inputs, so that errors
 //! do not accumulate and one tolerance serves all.
 
 mod nudge;
@@ -35,13 +35,13 @@ pub struct Verdict {
     pub field: String,
     /// The largest error, as a part of what is allowed: above 1 is wrong.
     pub worst: f64,
-    /// The same, where what rounding of the inputs does to the twin is allowed as well, fourfold. A stiff spring near its
-    /// length at rest is the small difference of large numbers: nobody knows it better. Where the twin jumps, as at the touch of
-    /// a solid, it is enough to agree with what it says on either side of where everybody is. As `worst`, where that is good.
+    /// The same, where what rounding of the inputs does to the reference is allowed as well, fourfold. A stiff spring near its
+    /// length at rest is the small difference of large numbers: no arithmetic knows it better. Where the reference jumps, as at the touch of
+    /// a solid, it is enough to agree with what it says on either side of the positions. As `worst`, where that is good.
     pub conditioned: f64,
     /// The element where that is.
     pub element: usize,
-    /// The median, 99th percentile and maximum of |device − twin| / |change|, over elements that changed.
+    /// The median, 99th percentile and maximum of |device − reference| / |change|, over elements that changed.
     pub relative: [f64; 3],
     /// Whether anything changed at all. A kernel that changes nothing proves nothing.
     pub changed: bool,
@@ -50,19 +50,19 @@ pub struct Verdict {
 }
 
 impl Verdict {
-    /// Whether the device agrees with the twin.
+    /// Whether the device agrees with the reference.
     #[must_use]
     pub fn good(&self) -> bool {
         self.worst <= 1.0 && !self.spilled
     }
-    /// Whether the device agrees with the twin as far as the inputs, which are rounded, say anything.
+    /// Whether the device agrees with the reference as far as the inputs, which are rounded, say anything.
     #[must_use]
     pub fn sound(&self) -> bool {
         self.conditioned <= 1.0 && !self.spilled
     }
 }
 
-/// Runs a plan once, kernel by kernel, and compares each with its twin. Kernels without a twin run, and are left out.
+/// Runs a plan once, kernel by kernel, and compares each with its reference. Kernels without a reference run, and are left out.
 ///
 /// # Errors
 /// What the device says.
@@ -87,7 +87,7 @@ pub async fn compare(gpu: &mut Gpu, plan: &Plan, count: u32) -> Result<Vec<Verdi
             continue;
         };
         let mut fields = fields(kernel, count);
-        // A twin may look at more of a particle than its shader does.
+        // A reference may look at more of a particle than its shader does.
         for always in [POSITION.name, VELOCITY.name] {
             if fields.iter().all(|(name, ..)| name != always) && gpu.size(always) >= 16 * u64::from(count) {
                 fields.push((always.to_owned(), 16 * u64::from(count), Array::Vec4(Vec::new()), 1));
@@ -142,7 +142,7 @@ pub async fn compare(gpu: &mut Gpu, plan: &Plan, count: u32) -> Result<Vec<Verdi
             let spilled = tail.chunks_exact(4).any(|word| word != sentinel(place));
             let (Some(start), Some(want)) = (began, host.get(name)) else { continue };
             // What has another length than particles have is made anew each time, whatever it was. Whole numbers are exact.
-            // So is what is felt by the first to be asked.
+            // So is the acceleration by the first law.
             let first =
                 name == ACCELERATION.name && kernel.passes.iter().any(|p| p.constants.contains(&("FIRST", 1.0)));
             let anew = first || kernel.size(name).is_some() && !matches!(start, Array::Uint(_));
@@ -190,8 +190,8 @@ fn fields(kernel: &Kernel, count: u32) -> Vec<(String, u64, Array, usize)> {
     list
 }
 
-/// Compares what a kernel made: what was there before, what the twin wants, and what came. The members of a struct are different
-/// things, each with a usual change of its own. `aside` is what else the twin may want.
+/// Compares what a kernel made: what was there before, what the reference wants, and what came. The members of a struct are different
+/// things, each with a usual change of its own. `aside` is what else the reference may want.
 fn judge(
     (before, want, got): (&Array, &Array, &Array),
     members: usize,

@@ -114,7 +114,7 @@ impl Settings {
         self.0.insert(name, value);
         self
     }
-    /// What is wrong with these, for who has such keys: a name that is none of them, or a value of another kind.
+    /// What is wrong with these, for the owner of such keys: a name that is none of them, or a value of another kind.
     #[must_use]
     pub fn fault(&self, keys: &[Key]) -> Option<String> {
         self.0.iter().find_map(|(name, value)| {

@@ -53,7 +53,7 @@ fn bytes<B: Backend>(simulation: &mut Simulation<B>) -> Vec<u8> {
     })
 }
 
-/// The same, all 53 bits of the twins.
+/// The same, all 53 bits of the references.
 fn wide(simulation: &mut Simulation<Cpu>) -> String {
     let host = simulation.backend().host();
     let fields = [POSITION, VELOCITY, ACCELERATION].map(|field| host.get(field.name).expect("a field"));

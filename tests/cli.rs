@@ -146,8 +146,8 @@ fn without_a_driver_the_twins_run_and_say_so() {
     };
     let (code, _, stderr) = blind(&["run", "kepler", "--steps", "10", "-o", &out, "--set", "output.formats=[\"csv\"]"]);
     assert_eq!(code, 0, "{stderr}");
-    assert!(stderr.contains("f64 twins") && stderr.contains("mesa-vulkan-drivers"), "{stderr}");
-    // The twins' digits are those of f64.
+    assert!(stderr.contains("f64 references") && stderr.contains("mesa-vulkan-drivers"), "{stderr}");
+    // The references' digits are those of f64.
     let row = text(&out, "snapshot_10.csv").lines().nth(1).map(str::len);
     assert!(row > Some(80), "{row:?}");
     let (code, _, stderr) = blind(&["run", "kepler", "--backend", "gpu", "-o", &out]);

@@ -194,10 +194,11 @@ fn a_users_shader_is_told_what_is_wrong_and_where() {
 
 #[test]
 fn the_twins_cannot_run_a_users_shader() {
-    let error =
-        on_cpu(&setup(support::cloud(3, 1), custom(Over::Each, SWIRL, &good()), 0.1)).map(|_| ()).expect_err("no twin");
+    let error = on_cpu(&setup(support::cloud(3, 1), custom(Over::Each, SWIRL, &good()), 0.1))
+        .map(|_| ())
+        .expect_err("no reference");
     assert!(matches!(error, Error::Scene(_)), "{error:?}");
-    for word in ["swirl", "twin", "GPU"] {
+    for word in ["swirl", "reference", "GPU"] {
         assert!(error.to_string().contains(word), "`{error}` does not say `{word}`");
     }
 }

@@ -85,7 +85,7 @@ fn a_comparison_tells_what_is_left_out_from_what_is_rounded() {
     assert!(code == Some(0) && stdout.contains("they agree"), "{stdout}{stderr}");
     let part = stdout.split("\n\n").find(|part| part.starts_with("gravity θ=0.7: ")).expect("a part for the tree");
     let lines: Vec<_> = part.lines().collect();
-    assert_eq!(lines[0], "gravity θ=0.7: 600 targets against everybody, summed in f64: |a − a′| / |a′|");
+    assert_eq!(lines[0], "gravity θ=0.7: 600 targets against direct summation in f64: |a − a′| / |a′|");
     let numbers = |line: &str, what: &str| -> [f64; 3] {
         let rest = line.trim_start().strip_prefix(what).unwrap_or_else(|| panic!("no {what} in {line}"));
         let all: Vec<f64> = rest.split_whitespace().map(|cell| cell.parse().expect("a number")).collect();
@@ -130,8 +130,9 @@ fn whom_auto_lets_meet_is_said_below_and_above_the_crossing() {
     let told = words.split("from about ").nth(1).and_then(|rest| rest.split(' ').next()?.parse().ok());
     let from: u32 = told.unwrap_or_else(|| panic!("no crossing is told: {words}"));
     assert!(crossings.contains(&from) && crossings[0] < crossings[1], "{from} is none of {crossings:?}");
-    let pairs =
-        format!("note: `gravity` lets everybody meet everybody: a tree is faster from about {from} particles on here");
+    let pairs = format!(
+        "note: `gravity` is summed directly over all pairs: a tree is faster from about {from} particles on here"
+    );
     let tree = |more: &str| {
         format!(
             "note: `gravity` takes far groups as one, through a tree (θ=0.9{more}): `motes compare` says how exact that is"

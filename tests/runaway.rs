@@ -36,7 +36,7 @@ fn runaway(result: Result<(), Error>) -> Option<(u32, u64)> {
     }
 }
 
-/// A step a little beyond the limit; the same step and particle, however the steps are put together, on device and twins.
+/// A step a little beyond the limit; the same step and particle, however the steps are put together, on device and references.
 #[test]
 fn too_long_a_step_is_noticed() {
     let shared = support::device();

@@ -80,7 +80,7 @@ fn who_feels_nothing_bears_everything() {
     assert!(limit("forward_euler", 0.0, 0.0, 1e9).is_infinite());
 }
 
-/// The device's step is the twins' step.
+/// The device's step is the references' step.
 #[test]
 fn growth_is_the_same_on_the_device() {
     let shared = support::device();

@@ -123,7 +123,7 @@ fn divided_steps_are_run_and_written_down() {
     assert!(code == 0 && !words.contains("explode"), "{words}");
 }
 
-/// Device and twins measure what theory says, to the digits that are shown, under every integrator.
+/// Device and references measure what theory says, to the digits that are shown, under every integrator.
 #[test]
 fn the_picture_of_all_integrators() {
     let folder = tempfile::tempdir().expect("a folder");

@@ -19,7 +19,7 @@ fn acts_on(me: Particle) -> bool { return is_of(me.index, params.species); }
 fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
     let d2 = r.x * r.x + r.y * r.y + r.z * r.z;
     let v = velocity_of(me);
-    // Who is at rest looks nowhere, and sees all round; so does everybody who stands at one's own place.
+    // A bird at rest looks nowhere, and sees all round; birds at its own place are seen too.
     let seen = dot(v, r) >= params.cosine * sqrt(dot(v, v) * d2);
     if seen && is_of(me.index, params.species) && is_of(you.index, params.species) {
         if d2 < params.separation_range * params.separation_range && d2 > COINCIDENT { (*sum).separation -= r / d2; }

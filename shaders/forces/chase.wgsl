@@ -12,7 +12,7 @@ fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
 
 fn merge(total: ptr<function, Sum>, part: Sum) { (*total).displacement += part.displacement; }
 
-// Where nobody is to be seen, and in the very middle, one flies straight on.
+// Where no prey is in range, and in the very middle of it, one flies straight on.
 fn finish(me: Particle, sum: Sum) -> vec4f {
     let way = unit(sum.displacement);
     if all(way == vec3f()) { return vec4f(); }

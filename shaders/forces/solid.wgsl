@@ -1,7 +1,7 @@
-// A solid that lets nobody in: who is nearer than the margin to its surface is put there, along n = ∇φ, and loses velocity to
+// A solid that lets no particle in: what is nearer than the margin to its surface is put there, along n = ∇φ, and loses velocity to
 // it, in the frame of the surface:  vₙ ← −e vₙ,  |Δvₜ| ≤ μ |Δvₙ|  (restitution: Newton 1687; friction: Coulomb 1785).
-// What that changes, it changes from the touch on: x gets it times the part of the drift behind the surface, so that who
-// rests does not creep.
+// What that changes, it changes from the touch on: x gets it times the part of the drift behind the surface, so that a particle
+// at rest does not creep.
 struct Params {
     unused_word: u32,
     position: vec3f, radius: f32, size: vec3f, shape: u32, axis: vec3f, margin: f32,
@@ -21,7 +21,7 @@ const PLANE: u32 = 2u;
 
 struct Touch { n: vec3f, depth: f32, r: vec3f }
 
-// How far somebody is behind the margin, and the way out.
+// How far a particle is behind the margin, and the way out.
 fn touch(frame: Frame, x: vec3f) -> Touch {
     var r = x - frame.centre;
     // A plane has no images.

@@ -20,12 +20,12 @@ fn gather(me: Particle, you: Particle, r: vec3f, link: Link, sum: ptr<function, 
 }
 
 fn finish(me: Particle, sum: Sum) -> vec4f {
-    // Who has no mass is tied to nobody.
+    // A particle without mass has no links.
     if me.mass > 0.0 { return vec4f(sum.force, sum.energy) / me.mass; }
     return vec4f();
 }
 
-// k (t dx + (1 − t) (u · dx) u) + c (u · dv) u with t = 1 − L / l, but not below zero: who pushes a spring together would be
+// k (t dx + (1 − t) (u · dx) u) + c (u · dv) u with t = 1 − L / l, but not below zero: a particle that compresses a spring would be
 // pushed aside by it, and the matrix would not be positive (Choi & Ko 2002).
 fn jvp(me: Particle, you: Particle, r: vec3f, link: Link, dx: vec3f, dv: vec3f) -> vec3f {
     let distance = length(r);

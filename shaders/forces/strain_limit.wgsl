@@ -5,7 +5,7 @@
 override STRAIN: f32 = 0.1;
 const WORKGROUP: u32 = 64u;
 
-fn lightness(who: Particle) -> f32 { return select(1.0 / who.mass, 0.0, is_held(who.index)); }
+fn lightness(particle: Particle) -> f32 { return select(1.0 / particle.mass, 0.0, is_held(particle.index)); }
 
 fn springs_of(id: u32) -> f32 { return f32(link_start[id + 1u] - link_start[id]); }
 
@@ -25,7 +25,7 @@ fn strain_limit(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gr
         let l = length(r);
         let rest = abs(one.rest);
         let excess = l - (1.0 + STRAIN) * rest;
-        // What has no length at rest has no strain, and what is broken ties nobody.
+        // What has no length at rest has no strain, and what is broken ties no particles.
         let tied = rest > 0.0 && (one.stiffness > 0.0 || one.damping > 0.0);
         let strained = excess > 0.0;
         if tied && strained && mine > 0.0 {

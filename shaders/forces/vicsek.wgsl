@@ -33,7 +33,7 @@ fn finish(me: Particle, sum: Sum) -> vec4f {
         let s = sin(params.eta * xi);
         way = vec2f(c * way.x - s * way.y, s * way.x + c * way.y);
     }
-    // Headings that cancel out leave everybody its own; who has none goes along x.
+    // Headings that cancel out leave each particle its own; a particle without heading goes along x.
     if dot(way, way) == 0.0 { way = own; }
     if dot(way, way) == 0.0 { way = vec2f(1.0, 0.0); }
     return vec4f((params.speed * unit(vec3f(way, 0.0)) - v) / world.dt, 0.0);

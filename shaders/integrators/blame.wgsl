@@ -1,6 +1,6 @@
-// Who asked for a step as short as this: the lowest id of those who want as many as the one who wants most.
+// The limiting particle: the lowest id of those whose criterion wants as many steps as the maximum.
 @group(0) @binding(0) var<uniform> world: World;
-@group(1) @binding(0) var<storage, read_write> pace: array<atomic<u32>>; // 4 why, 5 of whom; 6 to 8 the alarm: step, why, of whom
+@group(1) @binding(0) var<storage, read_write> pace: array<atomic<u32>>; // 4 reason, 5 particle; 6 to 8 the alarm: step, reason, particle
 @group(1) @binding(1) var<storage, read> urges: array<vec4f>;
 @group(1) @binding(2) var<storage, read> urgent: array<vec4f>;
 

@@ -1,8 +1,8 @@
 // How long the step is:  dt = min over the limits, of which each says how many of it would make a longest step; no more than a
 // fifth above the last; and where it would pass the stop, shorter: two of one length reach it rather than a long and a tiny one.
 @group(0) @binding(0) var<storage, read_write> world: World;
-// 0 and 1 the time in longest steps and ticks; 2 the ticks of this step, 3 those that only limits shorten, 4 why, 5 of whom;
-// 6 to 9 the alarm: the step, why, of whom, how many; 10 and 11 the shortest and the longest; from 12 on steps by their reasons
+// 0 and 1 the time in longest steps and ticks; 2 the ticks of this step, 3 those that only limits shorten, 4 reason, 5 particle;
+// 6 to 9 the alarm: the step, reason, particle, how many; 10 and 11 the shortest and the longest; from 12 on steps by their reasons
 @group(1) @binding(0) var<storage, read_write> pace: array<u32>;
 @group(1) @binding(1) var<storage, read> urgent: array<vec4f>; // how many steps acceleration, signal and speed want
 @group(1) @binding(2) var<storage, read> pace_stop: array<u32>;
@@ -12,7 +12,7 @@ override LEAST: u32 = 1u;        // the ticks of the shortest
 override VISCOUS: f32 = 0.0;     // how many steps viscosity wants
 const TICKS: f32 = 16777216.0;
 const DIGITS: u32 = 11u;
-const NOBODY: u32 = 4294967295u;
+const NONE: u32 = 4294967295u;
 const GROWTH: u32 = 5u;
 const STOP: u32 = 6u;
 const REASONS: u32 = 12u;
@@ -28,12 +28,12 @@ fn pace_step() {
             reason = k + 1u;
         }
     }
-    // Twelve digits tell lengths apart: what a division rounds, no device and no twin sees.
+    // Twelve digits tell lengths apart: what a division rounds, no device and no reference sees.
     var ticks = u32(TICKS / rate);
     let spare = max(firstLeadingBit(ticks), DIGITS) - DIGITS;
     ticks = (ticks >> spare) << spare;
     if ticks < LEAST {
-        if pace[6] == NOBODY {
+        if pace[6] == NONE {
             pace[6] = world.step;
             pace[7] = reason;
             pace[9] = bitcast<u32>(rate);
@@ -64,9 +64,9 @@ fn pace_step() {
     }
     pace[2] = ticks;
     pace[4] = reason;
-    pace[5] = NOBODY;
+    pace[5] = NONE;
     world.dt = (f32(ticks) / TICKS) * UNIT;
-    // Who rests leaves no trace of that.
+    // A step of no length leaves no trace in these.
     if ticks > 0u {
         pace[3] = free;
         pace[10] = min(pace[10], ticks);

@@ -61,7 +61,7 @@ fn solve_advance(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) g
         let end = min(first + extent.chunk, world.count);
         for (var i = first + lane; i < end; i += WORKGROUP) {
             let inverse = rows[i].inverse;
-            // Who is not tied has no part in it.
+            // Particles without links take no part.
             if inverse.x != 0.0 {
                 let p = residuals[i].z + beta * directions[i].p;
                 let s = rows[i].image + beta * directions[i].s;

@@ -1,5 +1,5 @@
 // A linear solve begins at Δv = 0, with the residual b = h M a + h² K v₀ where the step begins (Baraff & Witkin 1998), and
-// b = M (v₀ − v) + h M a at the later iterates of Newton's method. Who is alone is solved at once.
+// b = M (v₀ − v) + h M a at the later iterates of Newton's method. Particles without links are solved at once.
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(1) var<storage, read> velocity: array<vec4f>;
 @group(1) @binding(2) var<storage, read> acceleration: array<vec4f>;
@@ -51,7 +51,7 @@ fn solve_begin(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gro
         var due = row.image.xyz;
         if !START { due = weight * (start_velocity[i].xyz - velocity[i].xyz); }
         let whole = row.diagonal.xyz + row.inverse.xyz;
-        // What would move nobody by a part of the last place of its position is rounding, which no iterate takes away.
+        // A change that moves no particle by a part of the last place of its position is rounding, which no iterate removes.
         let noise = length(whole) * row.image.w * RESOLUTION;
         let lost = !START && length(push + due) * FACTOR * world.dt <= noise;
         let b = select(push + due, vec3f(), way == HELD || lost);

@@ -1,6 +1,6 @@
 // What links add to the product with the matrix, without the matrix. The law says:
 // fn jvp(me, you, r, link, dx, dv) -> vec3f, the change of the force on me when you move by dx, and by dv in velocity,
-// relative to me. Who calls says what the direction is.
+// relative to me. The caller defines the direction.
 struct Expansion { pull: vec3f, own: vec3f }
 
 fn is_tied(i: u32) -> bool { return link_start[i] < link_start[i + 1u]; }

@@ -12,7 +12,7 @@ fn direction(i: u32) -> vec3f { return residuals[i].z.xyz; }
 
 @compute @workgroup_size(WORKGROUP)
 fn solve_product(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
-    // All or nobody: a solve that is done stays done.
+    // All lanes or none: a solve that is done stays done.
     if solve_state[0].code > 0.0 { return; }
     let block = folded(group, groups);
     let first = block * extent.chunk;

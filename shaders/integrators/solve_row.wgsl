@@ -2,7 +2,7 @@
 // velocity (Baraff & Witkin 1998), and the state of its solution.
 struct Row {
     diagonal: vec4f, // xx, yy, zz of its own block; how it is solved: 0 not at all, 1 with others, 2 alone
-    across: vec4f,   // xy, yz, zx of its own block; its weight: the mass, or 1 for who has none
+    across: vec4f,   // xy, yz, zx of its own block; its weight: the mass, or 1 where there is none
     inverse: vec4f,  // one over the diagonal, with what ties it to others
     image: vec4f,    // the matrix times a direction; before there is one, h² K v, and the distance from the origin
 }

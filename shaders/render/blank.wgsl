@@ -16,8 +16,8 @@ fn blank(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: v
         canvas[3u * i] = 0u;
         canvas[3u * i + 1u] = 0u;
         canvas[3u * i + 2u] = 0u;
-        front[i] = NOBODY;
-        owner[i] = NOBODY;
+        front[i] = NONE;
+        owner[i] = NONE;
         streak[i] = 0u;
     }
     if i < BINS { histogram[i] = 0u; }

@@ -1,5 +1,5 @@
 // Facets in the picture: triangles by their barycentric coordinates, lines by the distance from them.
-@group(1) @binding(4) var<storage, read> facet: array<u32>;   // three ids; of a line the third is nobody
+@group(1) @binding(4) var<storage, read> facet: array<u32>;   // three ids; of a line the third is NONE
 @group(1) @binding(10) var<storage, read> vertex: array<vec4f>; // pixels right and down, flat depth, 1 if seen; normal, 0
 
 const WORKGROUP: u32 = 64u;
@@ -13,7 +13,7 @@ struct Facet { ids: vec3u, line: bool, a: vec4f, b: vec4f, c: vec4f }
 // The third corner of a line is its second.
 fn facet_of(i: u32) -> Facet {
     var third = facet[3u * i + 2u];
-    let line = third == NOBODY;
+    let line = third == NONE;
     if line { third = facet[3u * i + 1u]; }
     let ids = vec3u(facet[3u * i], facet[3u * i + 1u], third);
     return Facet(ids, line, vertex[2u * ids.x], vertex[2u * ids.y], vertex[2u * ids.z]);

@@ -1,4 +1,4 @@
-// Whose sample it is: of all facets that are as near as the nearest the one with the lowest number.
+// The facet of each sample: of all facets that are as near as the nearest the one with the lowest number.
 @group(3) @binding(12) var<storage, read> nearest: array<u32>;
 @group(3) @binding(13) var<storage, read_write> holder: array<atomic<u32>>;
 

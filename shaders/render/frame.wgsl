@@ -49,7 +49,7 @@ struct Frame {
 }
 @group(3) @binding(0) var<uniform> frame: Frame;
 
-const NOBODY: u32 = 0xffffffffu;
+const NONE: u32 = 0xffffffffu;
 // Nearer to the eye than this part of its distance nothing is seen.
 const NEAR: f32 = 0.05;
 // What is so many pixels away is out of the picture; further on whole numbers would end.

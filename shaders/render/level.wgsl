@@ -21,7 +21,7 @@ fn levels(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: 
         level[i] = NEVER;
         thickness[i] = 0.0;
         dye[i] = 0u;
-        if crest[i] != NOBODY {
+        if crest[i] != NONE {
             level[i] = unkey(crest[i]);
             thickness[i] = frame.layer * f32(volume[i]);
             dye[i] = color[source[i]];

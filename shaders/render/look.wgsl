@@ -57,7 +57,7 @@ fn screen(a: vec3f, b: vec3f) -> vec3f { return a + b - a * b; }
 fn look(i: u32, under: vec3f) -> vec3f {
     let place = middle(i32(i % frame.width), i32(i / frame.width));
     var c = under;
-    if owner[i] != NOBODY { c = ball(c, owner[i], place); }
+    if owner[i] != NONE { c = ball(c, owner[i], place); }
     let light = vec3f(f32(canvas[3u * i]), f32(canvas[3u * i + 1u]), f32(canvas[3u * i + 2u]));
     if frame.ink > 0.0 { c = ink(c, light); } else { c = screen(c, glow(light)); }
     let line = streak[i];

@@ -45,7 +45,7 @@ fn look_at(place: vec2f, id: u32, jitter: vec2f) -> Looks {
     let o = select(vec3f(off, 0.0), vec3f(0.0, 0.0, frame.distance), eye);
     let d = select(vec3f(0.0, 0.0, -1.0), vec3f(off / frame.distance, -1.0), eye);
     let m = meet(o, d, select(-NEVER, NEAR * frame.distance, eye));
-    if id != NOBODY {
+    if id != NONE {
         let f = facet_of(id);
         let w = parts(f, place);
         let depth = depth_of(f, w);
@@ -66,7 +66,7 @@ fn shade(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: v
         for (var y = corner.y; y < corner.y + frame.fine; y += 1u) {
             for (var x = corner.x; x < corner.x + frame.fine; x += 1u) {
                 let id = holder[y * frame.width * frame.fine + x];
-                if id == NOBODY && frame.solids == 0u { continue; }
+                if id == NONE && frame.solids == 0u { continue; }
                 let place = vec2f(f32(x) + 0.5, f32(y) + 0.5) / f32(frame.fine);
                 let one = look_at(place, id, fract(place) - 0.5);
                 sum += one.cover * vec4f(one.color, 1.0);

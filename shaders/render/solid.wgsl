@@ -51,7 +51,7 @@ fn meet_box(o: vec3f, d: vec3f, s: Solid) -> vec4f {
 
 // The nearest of all that is further along than `least`.
 fn meet(o: vec3f, d: vec3f, least: f32) -> Meeting {
-    var best = Meeting(NEVER, vec3f(), NOBODY);
+    var best = Meeting(NEVER, vec3f(), NONE);
     for (var k = 0u; k < frame.solids; k += 1u) {
         let s = solid[k];
         let own = unturned(s.turn, o - s.place);

@@ -13,7 +13,7 @@ fn tear(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
     if i < frame.facets {
         var result = 0u;
         for (var side = 3u * i; side < 3u * i + 3u; side += 1u) {
-            if slot[side] != NOBODY {
+            if slot[side] != NONE {
                 let one = link[slot[side]];
                 if one.stiffness == 0.0 && one.damping == 0.0 { result = 1u; }
             }

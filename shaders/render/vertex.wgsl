@@ -2,7 +2,7 @@
 // around it (Gouraud 1971); along a line its direction,  Σ (b − a).  In the picture's axes: right, up, towards the eye.
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read> position: array<vec4f>;      // xyz, mass
-@group(1) @binding(4) var<storage, read> facet: array<u32>;           // three ids; of a line the third is nobody
+@group(1) @binding(4) var<storage, read> facet: array<u32>;           // three ids; of a line the third is NONE
 @group(1) @binding(7) var<storage, read> torn: array<u32>;
 @group(1) @binding(8) var<storage, read> around_start: array<u32>;    // one for each particle, and the end
 @group(1) @binding(9) var<storage, read> around: array<u32>;          // facets
@@ -24,7 +24,7 @@ fn vertices(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups
             let a = position[facet[3u * t]].xyz;
             var part = position[facet[3u * t + 1u]].xyz - a;
             let third = facet[3u * t + 2u];
-            if third != NOBODY { part = cross(part, position[third].xyz - a); }
+            if third != NONE { part = cross(part, position[third].xyz - a); }
             if torn[t] == 0u && !broken(vec4f(part, 1.0)) { sum += part; }
         }
         let turned = vec3f(dot(sum, frame.right), dot(sum, frame.up), dot(sum, frame.back));

@@ -10,8 +10,8 @@ use motes::{Bounds, Error, Setup, Side};
 
 use super::{births, jumps, rounding, solves};
 
-/// What a law's twin says to a particle at rest somewhere.
-pub fn felt(twin: &Twin, (time, step): (f64, u32), position: DVec3, bounds: Bounds) -> Result<DVec4, Error> {
+/// What a law's reference says to a particle at rest somewhere.
+pub fn acceleration_at(twin: &Twin, (time, step): (f64, u32), position: DVec3, bounds: Bounds) -> Result<DVec4, Error> {
     let mut host = Host::default();
     host.insert(POSITION.name, Array::Vec4(vec![position.extend(1.3)]));
     host.insert(VELOCITY.name, Array::Vec4(vec![DVec4::ZERO]));
@@ -24,11 +24,11 @@ pub fn felt(twin: &Twin, (time, step): (f64, u32), position: DVec3, bounds: Boun
 /// Whether a law does the same at another time, and to the particle's images in a periodic box.
 fn keeps_energy(twin: &Twin, bounds: &Bounds) -> Result<bool, Error> {
     let x = DVec3::new(0.31, -0.23, 0.17);
-    let here = felt(twin, (0.0, 0), x, *bounds)?;
-    let image = felt(twin, (0.0, 0), x + bounds.period(), *bounds)?;
+    let here = acceleration_at(twin, (0.0, 0), x, *bounds)?;
+    let image = acceleration_at(twin, (0.0, 0), x + bounds.period(), *bounds)?;
     // Images are where they are up to rounding; time takes part or does not.
     let alike = (here - image).abs().max_element() <= 1e-9 * here.abs().max_element();
-    Ok(alike && here == felt(twin, (0.7, 3), x, *bounds)?)
+    Ok(alike && here == acceleration_at(twin, (0.7, 3), x, *bounds)?)
 }
 
 /// Whether a law leaves the first particles of a flat world in their plane.
@@ -48,7 +48,7 @@ fn in_the_plane(name: &str, twin: &Twin, setup: &Setup) -> Result<(), Error> {
     let across = host.read(ACCELERATION)?.iter().map(|a| a.z).find(|z| z.abs() > 0.0);
     across.map_or(Ok(()), |z| {
         Err(Error::Scene(format!(
-            "`{name}` pushes across the plane (by {z:e}), and in 2 dimensions nobody leaves it: give its vectors no z, or \
+            "`{name}` pushes across the plane (by {z:e}), and in 2 dimensions particles stay in it: give its vectors no z, or \
              say dimensions = 3 in [box]"
         )))
     })
@@ -114,7 +114,7 @@ pub fn conserved(setup: &Setup) -> Result<Conserved, Error> {
     }
     // What breaks takes its energy with it.
     conserved.energy &= !setup.breaks();
-    // Who is held takes momentum; who is led does work as well.
+    // Fixed particles take momentum; prescribed motions do work as well.
     let held = &setup.state.held;
     conserved.momentum &= held.is_empty();
     conserved.angular_momentum &= held.is_empty();
@@ -136,7 +136,7 @@ pub fn conserved(setup: &Setup) -> Result<Conserved, Error> {
 
 const MACHINE: Machine = Machine::HOST;
 
-/// Who begins inside of a solid, or nearer to it than its thickness, is put out of it in the first step.
+/// Particles that begin inside of a solid, or nearer to it than its thickness, are put out of it in the first step.
 fn inside(setup: &Setup) -> Result<Option<String>, Error> {
     let moved = setup.put_out()?;
     let Some((first, depth)) = moved.first() else { return Ok(None) };
@@ -192,7 +192,7 @@ pub fn advice(scene: &Scene, setup: &Setup) -> Result<Vec<String>, Error> {
         }
         if over == Over::Pairs && setup.bounds.has(Side::Periodic) && !all_images {
             remarks.push(format!(
-                "`{name}` in a periodic box comes from the nearest image of everybody alone: all other images are left \
+                "`{name}` in a periodic box comes from nearest images alone: all other images are left \
                  out, there is no Ewald sum{}",
                 if name == "gravity" {
                     "; images = \"ewald\" has it, in a cube that is periodic on all sides"
@@ -204,10 +204,10 @@ pub fn advice(scene: &Scene, setup: &Setup) -> Result<Vec<String>, Error> {
         if let Over::Near { of: Some(kind), .. } = over
             && !setup.state.species().contains(&kind)
         {
-            remarks.push(format!("`{name}` looks for species {kind}, and nobody is of that"));
+            remarks.push(format!("`{name}` acts on species {kind}, and no particle is of that species"));
         }
         if untwinned {
-            remarks.push(format!("`{name}` has no f64 twin: nothing checks it, and it needs a device"));
+            remarks.push(format!("`{name}` has no f64 reference: nothing checks it, and it needs a device"));
         }
     }
     let name = scene.integrator.name;
@@ -227,7 +227,7 @@ pub fn advice(scene: &Scene, setup: &Setup) -> Result<Vec<String>, Error> {
         if properties.evaluated_last {
             if !its.contains(&name) {
                 remarks.push(format!(
-                    "the fluid solves for the pressure of a whole step, felt where it begins: it wants {}, not {name}",
+                    "the fluid solves for the pressure of a whole step, evaluated where it begins: it wants {}, not {name}",
                     its.join(" or ")
                 ));
             }

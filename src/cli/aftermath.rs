@@ -1,4 +1,4 @@
-//! What is told and kept when numbers are lost: who is tied to whom, what to do, and the last good state.
+//! What is reported and kept when numbers are lost: links of the particle at fault, what to do, and the last good state.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -46,11 +46,11 @@ pub fn explain(
 fn of_a_fluid(setup: &Setup) -> Option<&'static str> {
     flow::flows(&setup.forces).then_some(
         "in a fluid that is a step too long for its sound or friction (`motes check` tells how far it is from that), a flow faster \
-         than sound, tension that is too strong, or somebody squeezed between walls, solids and what an emitter lets out",
+         than sound, tension that is too strong, or particles squeezed between walls, solids and what an emitter spawns",
     )
 }
 
-/// Those whom links tie to a particle.
+/// The particles that links tie to one.
 fn neighbors(setup: &Setup, particle: u32) -> String {
     let links = &setup.state.links;
     let mut others: Vec<u32> = Vec::new();

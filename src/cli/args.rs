@@ -39,11 +39,11 @@ pub enum Command {
     Check(SceneArgs),
     /// Print what one step of a scene does, kernel by kernel
     Explain(SceneArgs),
-    /// Compare the device with the f64 twins, kernel by kernel and over some steps
+    /// Compare the device with the f64 references, kernel by kernel and over some steps
     Compare(CompareArgs),
     /// List the scenes that come with motes, or print one
     Scenes(ScenesArgs),
-    /// Run the oscillator and the decay of textbooks under every integrator, and draw who explodes, dies out or stays
+    /// Run the oscillator and the decay of textbooks under every integrator, and draw which explode, decay or stay
     Stability(StabilityArgs),
     /// Measure steps of gravity, through a tree too, of searches for neighbours and of springs, beside plain Rust
     Bench(BenchArgs),
@@ -54,11 +54,11 @@ pub enum Command {
 /// Where kernels run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum BackendChoice {
-    /// The best adapter, or the f64 twins when there is none
+    /// The best adapter, or the f64 references when there is none
     Auto,
     /// An adapter, or an error
     Gpu,
-    /// The f64 twins, on the processor
+    /// The f64 references, on the processor
     Cpu,
 }
 
@@ -126,7 +126,7 @@ pub struct RunArgs {
 pub struct CompareArgs {
     /// A scene file, or the name of a scene that `motes scenes` lists
     pub scene: String,
-    /// Steps that device and twins run side by side
+    /// Steps that device and references run side by side
     #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..))]
     pub steps: u32,
     /// Set a value of the scene; may be given again

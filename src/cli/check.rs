@@ -70,7 +70,7 @@ pub async fn check(args: &SceneArgs) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Runs some steps, for about a second at most, and gives the time of one; and who is accelerated most in the first.
+/// Runs some steps, for about a second at most, and gives the time of one; and the particle of the largest acceleration in the first.
 async fn measure<B: Backend>(
     mut simulation: Simulation<B>,
     setup: &Setup,

@@ -21,7 +21,7 @@ const ENERGY: f64 = 1e-5;
 /// Rounds of kernel-by-kernel comparison: the first step from a fresh state, and some that are not fresh.
 const ROUNDS: usize = 3;
 
-/// Compares the device with the twins.
+/// Compares the device with the references.
 pub async fn compare(args: &CompareArgs) -> Result<(), Failure> {
     let found = engine::open(gpu::adapters(&gpu::instance()).await, args.adapter.as_deref()).await?;
     if !args.theta.is_empty() {
@@ -34,7 +34,7 @@ pub async fn compare(args: &CompareArgs) -> Result<(), Failure> {
     let over = steps(&found, &setup, args.steps).await?;
     let forces: Vec<&Verdict> =
         verdicts.iter().filter(|v| v.field == "acceleration" && v.kernel != "clear" && v.good()).collect();
-    // A weak force is rounded to what a strong one, felt before it, leaves room for.
+    // A weak force is rounded to what a strong one, added before it, leaves room for.
     let median = forces.iter().map(|v| v.relative[0]).reduce(f64::min).unwrap_or(0.0);
     // Where inputs that are rounded leave forces open, they leave energies open too.
     let energy = over.energy <= ENERGY || !verdicts.iter().all(Verdict::good);
@@ -60,10 +60,10 @@ pub async fn compare(args: &CompareArgs) -> Result<(), Failure> {
             "position_scale": over.scale, "energy_error": over.energy, "far_groups": far::rows(&far), "faults": faults, "good": good });
         out!("{value:#}");
     } else {
-        out!("{}: {} particles, {} against f64 twins\n", scene.name, setup.state.len(), found.describe());
+        out!("{}: {} particles, {} against f64 references\n", scene.name, setup.state.len(), found.describe());
         print_kernels(&verdicts);
         far::print(&far);
-        out!("\n{} steps of the device against {} of the twins", args.steps, args.steps);
+        out!("\n{} steps of the device against {} of the references", args.steps, args.steps);
         out!(
             "  positions differ by {:.1e} (rms) of a system of size {:.1e}, at most by {:.1e}",
             over.position[0],
@@ -109,12 +109,12 @@ async fn kernels(found: &gpu::Found, setup: &Setup) -> Result<Vec<Verdict>, Fail
         }
     }
     for kernel in plan.kernels.iter().filter(|k| k.twin.is_none()) {
-        note!("note: `{}` has no twin, so nothing is said of it", kernel.name);
+        note!("note: `{}` has no reference: its errors are not measured", kernel.name);
     }
     Ok(worst)
 }
 
-/// How far apart device and twins are after some steps.
+/// How far apart device and references are after some steps.
 struct Over {
     /// rms and maximum \[length\]
     position: [f64; 2],
@@ -134,10 +134,10 @@ impl Over {
 
 async fn steps(found: &gpu::Found, setup: &Setup, steps: u32) -> Result<Over, Failure> {
     let mut device = Simulation::new(&found.device, &found.queue, setup)?;
-    let mut twins = Simulation::on(Cpu::new(setup.check()?)?, setup)?;
+    let mut references = Simulation::on(Cpu::new(setup.check()?)?, setup)?;
     device.step(steps)?;
-    twins.step(steps)?;
-    let (a, b) = (device.snapshot().await?, twins.snapshot().await?);
+    references.step(steps)?;
+    let (a, b) = (device.snapshot().await?, references.snapshot().await?);
     let (x, y) = (a.position(), b.position());
     let errors: Vec<f64> = x.iter().zip(y).map(|(x, y)| apart(setup, *x, *y)).collect();
     let rms = |of: &[f64]| (of.iter().map(|e| e * e).sum::<f64>() / of.len().max(1) as f64).sqrt();
@@ -185,7 +185,7 @@ fn print_kernels(verdicts: &[Verdict]) {
         );
     }
     out!(
-        "\nmedian, 99 % and max are |device − twin| / |change|, per particle. The limit is {:.0e} of the change (or of its\n\
+        "\nmedian, 99 % and max are |device − reference| / |change|, per particle. The limit is {:.0e} of the change (or of its\n\
          rms, where that is more) and 2 units in the last place; of it the worst particle used the part in the last column.",
         lockstep::TOLERANCE
     );

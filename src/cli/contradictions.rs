@@ -36,13 +36,13 @@ fn births(setup: &Setup, medium: &Medium) -> Option<String> {
     ))
 }
 
-/// Emitters that let particles out where somebody is.
+/// Emitters that spawn particles where others are.
 fn mouths(setup: &Setup, medium: &Medium) -> Option<String> {
     let particles = &setup.state;
     let mut sites: Vec<(u32, usize)> =
         particles.births.iter().map(|birth| (birth.emitter, birth.id as usize)).collect();
     let place = |id: usize| particles.position()[id];
-    // Those who follow each other out of one place are one site.
+    // Particles that follow each other out of one place are one site.
     sites.sort_by(|a, b| (a.0, place(a.1).to_array()).partial_cmp(&(b.0, place(b.1).to_array())).unwrap_or(a.cmp(b)));
     sites.dedup_by(|a, b| a.0 == b.0 && place(a.1) == place(b.1));
     let near = 0.9 * medium.spacing;
@@ -68,7 +68,7 @@ fn mouths(setup: &Setup, medium: &Medium) -> Option<String> {
     ))
 }
 
-/// A weight that the fluid is told, and another that forces give.
+/// A weight that the fluid's keys give, and another that forces give.
 fn weighed(setup: &Setup, Weight { pull: weight, largest }: Weight) -> Result<Option<String>, Error> {
     let problem = setup.problem(Machine::HOST)?;
     let fluid = setup
@@ -76,19 +76,19 @@ fn weighed(setup: &Setup, Weight { pull: weight, largest }: Weight) -> Result<Op
         .iter()
         .find_map(|force| force.resolved(&problem).map(|resolved| resolved.fluid).transpose())
         .transpose()?;
-    let Some(told) = fluid.and_then(|fluid| fluid.weight) else { return Ok(None) };
-    let off = (told - weight).length();
-    let alike = off <= ALIKE * told.length().max(weight.length()) || off <= ROUNDING * largest.max(told.length());
+    let Some(given) = fluid.and_then(|fluid| fluid.weight) else { return Ok(None) };
+    let off = (given - weight).length();
+    let alike = off <= ALIKE * given.length().max(weight.length()) || off <= ROUNDING * largest.max(given.length());
     Ok((!alike).then(|| {
         format!(
-            "the fluid has weight = [{}, {}, {}], and forces pull everybody by [{}, {}, {}]: a fluid at rest would not stay so; give \
+            "the fluid has weight = [{}, {}, {}], and forces accelerate all particles by [{}, {}, {}]: a fluid at rest would not stay so; give \
              both the same",
-            told.x, told.y, told.z, weight.x, weight.y, weight.z
+            given.x, given.y, given.z, weight.x, weight.y, weight.z
         )
     }))
 }
 
-/// Who begins out of a box that is open.
+/// Particles that begin out of a box that is open.
 fn outside(setup: &Setup) -> Option<String> {
     let (particles, bounds) = (&setup.state, &setup.bounds);
     let extent: Vec<usize> = (0..3).filter(|axis| bounds.high[*axis] > bounds.low[*axis]).collect();
@@ -101,7 +101,7 @@ fn outside(setup: &Setup) -> Option<String> {
     let mut all = (0..particles.len()).filter(out);
     let first = all.next()?;
     Some(format!(
-        "{} particles of the fluid begin out of the box, particle {first} at {} first of them: open sides hold nobody",
+        "{} particles of the fluid begin out of the box, particle {first} at {} first of them: open sides keep no particle in",
         1 + all.count(),
         particles.position()[first]
     ))

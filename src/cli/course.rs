@@ -87,8 +87,8 @@ impl Course {
         };
         let reasons: Vec<_> = Reason::ALL.iter().zip(&clock.reasons).filter_map(some).collect();
         Some(format!(
-            "adaptive steps: {} from {shortest:.3e} to {longest:.3e}, {:.3e} in the mean; limited by {}; who goes on from \
-             here says dt_before = {:.4e}",
+            "adaptive steps: {} from {shortest:.3e} to {longest:.3e}, {:.3e} in the mean; limited by {}; to go on from \
+             here, set dt_before = {:.4e}",
             clock.steps,
             clock.mean(),
             reasons.join(", "),

@@ -45,7 +45,7 @@ pub async fn doctor(args: &DoctorArgs) -> Result<(), Failure> {
     if args.json {
         out!("{:#}", json!({ "version": env!("CARGO_PKG_VERSION"), "adapters": reports }));
     } else if count == 0 {
-        out!("{}\n\n`motes run` works without one, by the f64 twins on the processor.", gpu::NO_DRIVER);
+        out!("{}\n\n`motes run` works without one, by the f64 references on the processor.", gpu::NO_DRIVER);
     } else {
         out!("`motes run` takes adapter 0 unless --adapter names another.");
     }

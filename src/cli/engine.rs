@@ -1,4 +1,4 @@
-//! Where a scene runs: an adapter of this machine, or the twins when there is none.
+//! Where a scene runs: an adapter of this machine, or the references when there is none.
 
 use motes::gpu::{self, Choice, Found};
 use motes::integrators::Paced;
@@ -14,7 +14,7 @@ use super::{far, rounding};
 pub enum Engine {
     /// A device.
     Gpu(Box<Found>),
-    /// The twins, and why, unless they were asked for.
+    /// The references, and why, unless they were asked for.
     Cpu(Option<String>),
 }
 
@@ -38,7 +38,7 @@ impl Engine {
     pub fn describe(&self) -> String {
         match self {
             Self::Gpu(found) => found.describe(),
-            Self::Cpu(_) => format!("f64 twins on {} cores of the processor", rayon::current_num_threads()),
+            Self::Cpu(_) => format!("f64 references on {} cores of the processor", rayon::current_num_threads()),
         }
     }
     /// What plans are written for.
@@ -58,7 +58,7 @@ impl Engine {
     fn own(&self) -> Vec<String> {
         match self {
             Self::Cpu(Some(reason)) => {
-                vec![format!("{reason}; running the f64 twins instead, which are exact and slow")]
+                vec![format!("{reason}; running the f64 references instead, which are exact and slow")]
             }
             Self::Cpu(None) => Vec::new(),
             Self::Gpu(found) => {

@@ -13,7 +13,7 @@ pub enum Failure {
     Error(Error),
     /// Numbers were lost, and there is more to say.
     Explained(Error, String),
-    /// Device and twins disagree, or a self test failed; the table that says so is printed already.
+    /// Device and references disagree, or a self test failed; the table that says so is printed already.
     Disagreement,
     /// Stopped by a signal; everything up to there is written.
     Stopped,

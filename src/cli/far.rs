@@ -17,18 +17,18 @@ const FAR: f64 = 3e4;
 /// Targets that are compared with direct sums.
 const TARGETS: usize = 1000;
 
-/// Whom the laws of `over = "auto"` meet on a machine.
+/// What the laws of `over = "auto"` choose on a machine: all pairs, or a tree.
 pub fn remarks(setup: &Setup, machine: Machine) -> Result<Vec<String>, Failure> {
     let problem = setup.problem(machine)?;
     let from = visit::crossing(&machine);
     let remark = |law: motes::forces::Law| match (law.over, law.chosen(&problem)) {
         (Over::Tree { auto: true, .. }, Over::Pairs) => Some(if problem.count < from {
             format!(
-                "`{}` lets everybody meet everybody: a tree is faster from about {from} particles on here",
+                "`{}` is summed directly over all pairs: a tree is faster from about {from} particles on here",
                 law.name
             )
         } else {
-            format!("`{}` lets everybody meet everybody: nearest images alone cannot be met as groups", law.name)
+            format!("`{}` is summed directly over all pairs: a tree cannot group nearest images", law.name)
         }),
         (Over::Tree { auto, opening, .. }, _) => Some(format!(
             "`{}` takes far groups as one, through a tree ({opening}{}): `motes compare` says how exact that is",
@@ -41,8 +41,8 @@ pub fn remarks(setup: &Setup, machine: Machine) -> Result<Vec<String>, Failure> 
     let walks = setup.forces.iter().flat_map(|force| force.laws()).any(|law| law.tree(&problem).is_some());
     if let Some(ratio) = Some(spread(setup.state.position())).filter(|ratio| walks && *ratio > FAR) {
         all.push(format!(
-            "somebody is {ratio:.0e} times as far out as 98 of 100 are wide: the tree cannot tell the others apart, and takes as long \
-             as if everybody met everybody; leave out who is lost, or say over = \"pairs\""
+            "a particle is {ratio:.0e} times as far out as 98 of 100 are wide: the tree cannot resolve the others, and takes as long \
+             as direct summation; remove stray particles, or say over = \"pairs\""
         ));
     }
     Ok(all)
@@ -66,7 +66,7 @@ fn spread(places: &[DVec3]) -> f64 {
 pub async fn errors(found: &gpu::Found, setup: &Setup) -> Result<Vec<Truncation>, Failure> {
     let gpu = Gpu::new(&found.device, &found.queue, setup.check()?)?;
     let mut simulation = Simulation::on(gpu, setup)?;
-    // What is felt at the start decides which groups are opened, where the opening is relative.
+    // Where the opening is relative, the accelerations at the start decide which groups are opened.
     simulation.snapshot().await?;
     let problem = setup.problem(simulation.backend().machine())?;
     Ok(truncation(simulation.backend(), &setup.forces, &problem, TARGETS).await?)
@@ -85,7 +85,7 @@ pub fn rows(errors: &[Truncation]) -> Value {
 /// The same for a terminal.
 pub fn print(errors: &[Truncation]) {
     for e in errors {
-        out!("\n{}: {} targets against everybody, summed in f64: |a − a′| / |a′|", e.law, e.targets);
+        out!("\n{}: {} targets against direct summation in f64: |a − a′| / |a′|", e.law, e.targets);
         out!("  {:24}  {:>9}  {:>9}  {:>9}", "", "median", "99 %", "max");
         for (what, [median, most, max]) in
             [("the device", e.device), ("the same walk in f64", e.walk), ("device against that walk", e.rounding)]
@@ -109,7 +109,7 @@ pub async fn sweep(args: &CompareArgs, found: &gpu::Found) -> Result<(), Failure
             let setup = engine::setup(&mut scene);
             if header {
                 out!(
-                    "{}: {} particles, {}, {TARGETS} targets against everybody, summed in f64\n",
+                    "{}: {} particles, {}, {TARGETS} targets against direct summation in f64\n",
                     scene.name,
                     setup.state.len(),
                     found.describe()

@@ -182,7 +182,7 @@ impl Film {
             progress.event("video", json!({ "file": file, "frames": self.done.len(), "fps": self.rate }));
             return format!("video: {name}, made by ffmpeg");
         };
-        // Nobody takes what ffmpeg has begun for a video.
+        // So that what ffmpeg has begun is not taken for a video.
         let _ = std::fs::remove_file(self.folder.join(&part));
         let words = self.arguments(&format!("../{name}"));
         let by_hand = words.iter().fold("ffmpeg".to_owned(), |line, word| line + " " + &quoted(word));

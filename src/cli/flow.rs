@@ -1,4 +1,4 @@
-//! Steps that a fluid bears: what is told of them, and the refusal of those that would end in an explosion.
+//! Steps at which a fluid is stable: remarks on them, and the refusal of those that would end in an explosion.
 
 use motes::Error;
 use motes::fluids::Medium;
@@ -49,7 +49,7 @@ pub fn warning(flow: &Flow, scene: &Scene) -> Result<Option<String>, Error> {
         Asks::Friction => "the fluid's viscosity (alpha, viscosity)",
         Asks::Xsph => {
             let text = format!(
-                "the fluid's xsph is {:.2} times as strong as {name} bears, whatever dt is: in a step nobody can take on more than \
+                "the fluid's xsph is {:.2} times as strong as {name} bears, whatever dt is: in a step no particle can take on more than \
                  there is; 0.5 is much",
                 flow.excess
             );
@@ -76,14 +76,14 @@ pub fn hurry(medium: &Medium, dt: f64, (particle, most): (usize, f64)) -> Option
     let length = 0.5 * medium.range();
     let longest = COURANT * (length / most).sqrt();
     let pressed = if medium.sound > 0.0 { most * length / (medium.sound * medium.sound) } else { 0.0 };
-    let whose = format!("particle {particle} of the fluid begins with an acceleration of {most:.3e}");
+    let start = format!("particle {particle} of the fluid begins with an acceleration of {most:.3e}");
     if dt > longest {
-        return Some(format!("{whose}, for which dt = {dt} is too long: {} would do", digits(longest)));
+        return Some(format!("{start}, for which dt = {dt} is too long: {} would do", digits(longest)));
     }
     (pressed > PRESSED).then(|| {
         format!(
-            "{whose}, which presses the fluid together by {:.0} % within a smoothing length: is its tension too strong for its speed of \
-             sound, or somebody too close?",
+            "{start}, which presses the fluid together by {:.0} % within a smoothing length: is its tension too strong for its speed of \
+             sound, or are particles too close?",
             100.0 * pressed
         )
     })

@@ -6,16 +6,16 @@ use motes::forces::{Over, Problem};
 use motes::kernel::Machine;
 use motes::{Error, Setup, Side};
 
-use super::advice::felt;
+use super::advice::acceleration_at;
 use super::contradictions;
 
 /// The Mach number of the fastest flow, where the density varies by 1 % (Monaghan 1994).
 const MACH: f64 = 0.1;
-/// By how much the density may vary before it is told.
+/// By how much the density may vary before it is remarked on.
 const VARIES: f64 = 0.02;
 
-/// The lines about a start, and what is worth to be told of it.
-pub fn told(setup: &Setup, start: &Start) -> Result<(Vec<String>, Vec<String>), Error> {
+/// The lines about a start, and the remarks on it.
+pub fn remarks(setup: &Setup, start: &Start) -> Result<(Vec<String>, Vec<String>), Error> {
     let (medium, mut notes) = (&start.medium, Vec::new());
     let size = if medium.dimensions == 2 { "square" } else { "cubic" };
     let mut lines = vec![
@@ -28,7 +28,7 @@ pub fn told(setup: &Setup, start: &Start) -> Result<(Vec<String>, Vec<String>), 
         ),
         format!("  particles    {} of the fluid, {} of walls", start.fluid, start.walls),
     ];
-    // Along an axis that is periodic nobody falls: a push there is a wind.
+    // Along a periodic axis nothing falls: a push there is a wind.
     let weight = weight(setup)?;
     notes.extend(contradictions::all(setup, start, weight)?);
     let weight = weight.pull * (DVec3::ONE - setup.bounds.axes(Side::Periodic));
@@ -80,7 +80,7 @@ pub fn told(setup: &Setup, start: &Start) -> Result<(Vec<String>, Vec<String>), 
     }
     if !start.summed {
         lines.push(format!(
-            "  at the start everybody at rest, for density comes by continuity; sums over masses are {:.4} of it (particle {}) at \
+            "  at the start every density is that of rest, for it comes by continuity; sums over masses are {:.4} of it (particle {}) at \
              most, {:.4} (particle {}) at least",
             start.densest.1, start.densest.0, start.thinnest.1, start.thinnest.0
         ));
@@ -92,7 +92,7 @@ pub fn told(setup: &Setup, start: &Start) -> Result<(Vec<String>, Vec<String>), 
         _ => format!("{:.3e}", start.pressure()),
     };
     let asks = if solved {
-        format!("and somebody goes {:.3} spacings in the first step, at least", start.thrust)
+        format!("and the fastest moves {:.3} spacings in the first step, at least", start.thrust)
     } else {
         format!("a pressure of {pressure}")
     };
@@ -125,7 +125,7 @@ pub struct Weight {
     pub largest: f64,
 }
 
-/// What all that pulls everybody alike does.
+/// The acceleration that all particles have in common.
 fn weight(setup: &Setup) -> Result<Weight, Error> {
     let machine = Machine::HOST;
     let mut weight = Weight::default();
@@ -134,7 +134,7 @@ fn weight(setup: &Setup) -> Result<Weight, Error> {
         if let (Some(twin), false) = (&law.twin, velocity) {
             let places = setup.state.position();
             let middle = places.iter().sum::<DVec3>() / places.len() as f64;
-            let pull = |x: DVec3| Ok::<_, Error>(felt(twin, (0.0, 0), x, setup.bounds)?.truncate());
+            let pull = |x: DVec3| Ok::<_, Error>(acceleration_at(twin, (0.0, 0), x, setup.bounds)?.truncate());
             let (here, aside) = (pull(middle)?, pull(places.first().copied().unwrap_or(middle))?);
             weight.pull += here;
             weight.largest = weight.largest.max(here.length()).max(aside.length());

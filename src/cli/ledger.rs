@@ -11,7 +11,7 @@ use super::progress::plain;
 use super::table::Table;
 
 const HEADER: &str = "step,time,dt,dt_free,limit,limited_by,mass,momentum_x,momentum_y,momentum_z,kinetic,potential,internal,total,\
-                      largest_density_error,whose,mean_density_error,outside,broken";
+                      largest_density_error,densest_particle,mean_density_error,outside,broken";
 
 /// The book, of a run that has a fluid.
 pub struct Book {
@@ -58,10 +58,10 @@ impl Book {
         let row = Ledger::of(snapshot, &density, &self.medium, &self.bounds, held)?;
         let (dt, free, reason) =
             clock.map_or((self.dt, self.dt, Reason::Longest), |clock| (clock.dt, clock.free, clock.reason));
-        let whose = clock.and_then(|clock| clock.particle).map_or_else(String::new, |id| id.to_string());
+        let limiting = clock.and_then(|clock| clock.particle).map_or_else(String::new, |id| id.to_string());
         let p = row.momentum;
         let words = [
-            format!("{:?},{dt:?},{free:?},{},{whose}", row.time, reason.name()),
+            format!("{:?},{dt:?},{free:?},{},{limiting}", row.time, reason.name()),
             format!("{:?},{:?},{:?},{:?}", row.mass, p.x, p.y, p.z),
             format!("{:?},{:?},{:?},{:?}", row.kinetic, row.potential, row.internal, row.total()),
             format!("{:?},{},{:?}", row.worst_density, row.worst_particle, row.mean_density),
@@ -94,14 +94,14 @@ impl Book {
         let (first, last, worst) = (self.first?, self.last, self.worst);
         let lost = last.mass - first.mass;
         let counts = if worst.outside + worst.broken == 0 {
-            "nobody out of the box or broken".to_owned()
+            "no particle out of the box or broken".to_owned()
         } else {
             format!("UP TO {} OUT OF THE BOX AND {} BROKEN", worst.outside, worst.broken)
         };
         // Walls weigh something too, and the energy of a run counts them.
-        let whose = if self.held.contains(&true) { " without walls" } else { "" };
+        let which = if self.held.contains(&true) { " without walls" } else { "" };
         Some(format!(
-            "fluid: mass {:.6e} ({lost:+.1e}), energy{whose} {:.4e} → {:.4e}, too dense by {:.2} % at most (particle {} at {:.4}), {:.3} % in \
+            "fluid: mass {:.6e} ({lost:+.1e}), energy{which} {:.4e} → {:.4e}, too dense by {:.2} % at most (particle {} at {:.4}), {:.3} % in \
              the mean; {counts}",
             last.mass,
             first.total(),

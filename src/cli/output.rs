@@ -46,7 +46,7 @@ pub struct Output {
 
 impl Output {
     /// Writes the scene as it was resolved into the folder, and an empty table of energies; and one of order and clusters,
-    /// where somebody looks for `company` so far away.
+    /// where a statistics radius is set.
     pub fn new(
         folder: Rc<Folder>,
         scene: &Scene,

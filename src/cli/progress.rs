@@ -30,7 +30,7 @@ enum Kind {
 }
 
 impl Progress {
-    /// By the arguments, and by whether somebody looks.
+    /// By the arguments, and by whether it is a terminal.
     pub fn new(args: &RunArgs, steps: u64) -> Self {
         let kind = match (args.json, args.quiet, std::io::stderr().is_terminal()) {
             (true, ..) => Kind::Json,
@@ -99,7 +99,7 @@ impl Progress {
                 "total": row.total(), "energy_error": error }),
         );
     }
-    /// Whether somebody looks at a bar.
+    /// Whether a bar is shown on a terminal.
     pub fn watched(&self) -> bool {
         matches!(self.kind, Kind::Bar(_))
     }

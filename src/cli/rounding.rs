@@ -59,7 +59,7 @@ fn motions(setup: &Setup) -> Option<String> {
 fn softenings(setup: &Setup) -> Vec<String> {
     let far = setup.state.position().iter().map(|x| x.abs().max_element()).fold(0.0, f64::max);
     let place = last_place(far);
-    let told = |law: motes::forces::Law| {
+    let remark = |law: motes::forces::Law| {
         let softening = law.params.iter().find_map(|(name, value)| match value {
             Scalar::Float(x) if name == "softening" && *x > 0.0 => Some(*x),
             _ => None,
@@ -74,7 +74,7 @@ fn softenings(setup: &Setup) -> Vec<String> {
             )
         })
     };
-    setup.forces.iter().flat_map(|force| force.laws()).filter_map(told).collect()
+    setup.forces.iter().flat_map(|force| force.laws()).filter_map(remark).collect()
 }
 
 /// Particles that cross a periodic box more than once in a step: their places say nothing.

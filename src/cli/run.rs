@@ -68,7 +68,7 @@ pub async fn run(args: &RunArgs) -> Result<(), Failure> {
         _ => {}
     }
     if let (Err(Failure::Error(Error::Timeout { .. })), Engine::Gpu(_)) = (&result, &engine) {
-        // A device that hangs hangs whoever drops it.
+        // Dropping a device that hangs would hang.
         let code = result.err().map(Failure::report);
         std::process::exit(if code.is_some() { 7 } else { 0 });
     }
@@ -81,7 +81,7 @@ struct Run {
     folder: PathBuf,
     film: Option<Film>,
     count: usize,
-    /// How far somebody looks for company, if anybody does.
+    /// The statistics radius, if there is one.
     company: Option<(f64, Option<u32>)>,
     /// What pictures show beside particles.
     scenery: Scenery,

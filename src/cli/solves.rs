@@ -8,7 +8,7 @@ use motes::simulation::{Outcome, PressureSolves, Solves};
 use motes::{Error, Setup};
 use serde_json::json;
 
-use super::advice::felt;
+use super::advice::acceleration_at;
 use super::flow;
 use super::progress::Progress;
 
@@ -87,7 +87,7 @@ fn is_constant(law: &Law, setup: &Setup) -> Result<bool, Error> {
         return Ok(false);
     }
     let places = [DVec3::ZERO, DVec3::new(0.31, -0.23, 0.17), DVec3::new(-11.0, 17.0, 13.0)];
-    let pulls = places.map(|x| felt(reference, (0.0, 0), x, setup.bounds).map(glam::DVec4::truncate));
+    let pulls = places.map(|x| acceleration_at(reference, (0.0, 0), x, setup.bounds).map(glam::DVec4::truncate));
     let [a, b, c] = pulls;
     let (a, b, c) = (a?, b?, c?);
     Ok(a == b && b == c)

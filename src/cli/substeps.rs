@@ -84,8 +84,8 @@ async fn judge(mut scene: Scene) -> Result<Loaded, Failure> {
     let setup = engine::setup(&mut scene);
     let (start, mut lines) = (setup.start()?, Vec::new());
     if let Some(start) = &start {
-        let (told, notes) = fluid::told(&setup, start)?;
-        lines = told;
+        let (said, notes) = fluid::remarks(&setup, start)?;
+        lines = said;
         scene.remarks.extend(notes);
     }
     if let Some(flow) = Flow::of(&setup, scene.integrator.build).await? {

@@ -13,7 +13,7 @@ use super::looks::Looks;
 use super::progress::{duration, large};
 
 /// How the energy went. Where the total is next to nothing, as of a pendulum that starts at its pivot's height, changes are
-/// told by the largest kinetic energy that was seen.
+/// relative to the maximum kinetic energy.
 pub fn energy(rows: &[Measure], looks: &Looks, conserved: &Conserved) -> String {
     let (first, last) = (rows.first().copied().unwrap_or_default(), rows.last().copied().unwrap_or_default());
     let word = match conserved {

@@ -21,7 +21,7 @@ pub const KEYS: &[Key] = &[
         "over",
         Kind::Choice(&["triangles"]),
         Value::Text(Cow::Borrowed("triangles")),
-        "who meets whom: the corners of each triangle of cloth",
+        "what is evaluated: the corners of each triangle of cloth",
     ),
 ];
 

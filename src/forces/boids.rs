@@ -17,18 +17,18 @@ pub const KEYS: &[Key] = &[
     Key::new("separation", Kind::NotNegative, Value::Number(1.5), "the weight of separation"),
     Key::new("alignment", Kind::NotNegative, Value::Number(1.0), "the weight of alignment"),
     Key::new("cohesion", Kind::NotNegative, Value::Number(1.0), "the weight of cohesion"),
-    Key::new("vision", Kind::NotNegative, Value::Number(135.0), "half of the angle of view; 180 and more is all round, and so is the view of who is at rest [degrees]"),
+    Key::new("vision", Kind::NotNegative, Value::Number(135.0), "half of the angle of view; 180 and more is all round, and so is the view of a bird at rest [degrees]"),
     Key::new("max_speed", Kind::Positive, Value::Number(1.0), "the speed of the wishes, and the most there is [length / time]"),
-    Key::new("min_speed", Kind::NotNegative, Value::Number(0.0), "the least speed there is; who rests sets off along x [length / time]"),
+    Key::new("min_speed", Kind::NotNegative, Value::Number(0.0), "the minimum speed; a bird at rest sets off along x [length / time]"),
     Key::new("max_force", Kind::Positive, Value::Number(1.5), "the most that one rule asks for, and that all do [length / time²]"),
     SPECIES,
-    Key::new("over", Kind::Choice(&["near", "within", "nearest"]), Value::Text(Cow::Borrowed("near")), "who meets whom: everybody in range, by a grid or by force; or those nearest, of all species, however far (Ballerini et al. 2008)"),
+    Key::new("over", Kind::Choice(&["near", "within", "nearest"]), Value::Text(Cow::Borrowed("near")), "which neighbours: all in range, by a cell list or by brute force; or the nearest, of all species, however far (Ballerini et al. 2008)"),
     Key::new("neighbors", Kind::Count, Value::Number(7.0), "how many are nearest"),
 ];
 
 /// `boids`: separation, alignment and cohesion (Reynolds 1987), each as steering (Reynolds 1999), bounded one by one and in
 /// all. Separation and cohesion are directions, wished for at full speed; alignment is a mean velocity, wished for as it is.
-/// Who sees nobody flies straight on. What one does to another is not what is done to it: momentum is not kept.
+/// A bird without neighbours flies straight on. Forces are not mutual: momentum is not kept.
 pub struct Boids(Settings);
 
 /// What one sees of the others.

@@ -12,12 +12,12 @@ pub const KEYS: &[Key] = &[
     Key::new("range", Kind::Positive, Value::Number(1.0), "how far prey is seen [length]"),
     Key::new("max_speed", Kind::Positive, Value::Number(1.5), "the speed of the wish; for a limit see speed_limit [length / time]"),
     Key::new("max_force", Kind::Positive, Value::Number(1.5), "the most that steering does [length / time²]"),
-    Key::new("species", Kind::Species, Value::Number(1.0), "who chases"),
-    Key::new("prey", Kind::Species, Value::Number(0.0), "whom they chase"),
+    Key::new("species", Kind::Species, Value::Number(1.0), "the species that chases"),
+    Key::new("prey", Kind::Species, Value::Number(0.0), "the species that is chased"),
     SEE_NEAR,
 ];
 
-/// `chase`: predators steer to the middle of all prey in range. Prey feel nothing of it: see `flee`.
+/// `chase`: predators steer to the middle of all prey in range. It does not act on prey: see `flee`.
 pub struct Chase(Settings);
 
 impl Chase {

@@ -5,11 +5,11 @@ use crate::kernel::{ACCELERATION, Name, Scalar, Source, Table};
 use crate::settings::Value;
 use crate::visit::PairTable;
 
-/// A user's law. It has no twin, so the CPU backend cannot run it and nothing checks it.
+/// A user's law. It has no reference, so the CPU backend cannot run it and nothing checks it.
 pub struct Custom {
     /// Its name in the plan.
     pub name: String,
-    /// Who meets whom.
+    /// Which pairs are evaluated.
     pub over: Over,
     /// The text of the file; see [`Law::wgsl`] for the functions it must have.
     pub wgsl: String,

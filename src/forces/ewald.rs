@@ -1,7 +1,7 @@
 //! Gravity of all images of a periodic cube, in a uniform background that makes the mean density nothing (Ewald 1921).
 //!
 //! The field is cut in two: a law between two that ends at half a side, so that the nearest image is all that there is of
-//! it; and the smooth rest, a sum of 126 waves, of which each particle feels the structure factor of all. How well waves up
+//! it; and the smooth rest, a sum of 126 waves, by the structure factor of all particles. How well waves up
 //! to |k|² = 14 do is a matter of how the law ends: P below was fitted so that the waves left out are the least, in the
 //! mean over the cube, among all polynomials of its degree (`benches/ewald_split.py`; the idea of the best taper: Shamshirgar,
 //! Bagge & Tornberg 2021). The force of a unit mass on another is wrong by 1.5e-4 G M / L² in the mean (root mean square), and
@@ -182,7 +182,7 @@ pub fn kernels(
     let pass = with(join(&[wave, images])?, &[all, ("G", g), ("SELF", alone)], Threads::new(count), work);
     let images = Kernel {
         passes: vec![pass],
-        twin: Some(Arc::new(move |host| feel(g, alone, &waves, host))),
+        twin: Some(Arc::new(move |host| add_waves(g, alone, &waves, host))),
         scratch: Vec::new(),
         ..structure.clone()
     };
@@ -204,21 +204,21 @@ fn add_up(waves: &[DVec4], host: &Host) -> Result<(), Error> {
     Ok(())
 }
 
-/// What the waves do to everybody.
-fn feel(g: f64, alone: f64, waves: &[DVec4], host: &Host) -> Result<(), Error> {
+/// What the waves do to each particle.
+fn add_waves(g: f64, alone: f64, waves: &[DVec4], host: &Host) -> Result<(), Error> {
     let (position, structure) = (host.read(POSITION)?, host.reading::<f32>("structure")?);
     let frequency = host.world().bounds.frequency();
     let mut acceleration = host.write(ACCELERATION)?;
     acceleration.par_iter_mut().zip(position.par_iter()).for_each(|(a, p)| {
-        let mut felt = DVec4::new(0.0, 0.0, 0.0, alone * p.w);
+        let mut sum = DVec4::new(0.0, 0.0, 0.0, alone * p.w);
         for (wave, s) in waves.iter().zip(structure.chunks(2)) {
             let k = wave.truncate();
             let (sine, cosine) = (2.0 * PI * k.dot(p.truncate() * frequency)).sin_cos();
             let (same, across) = (cosine * s[0] + sine * s[1], cosine * s[1] - sine * s[0]);
-            felt += wave.w * (2.0 * PI * frequency.x * across * k).extend(-same);
+            sum += wave.w * (2.0 * PI * frequency.x * across * k).extend(-same);
         }
         // Each of a pair holds half of its potential energy.
-        *a += g * frequency.x * felt * DVec4::new(1.0, 1.0, 1.0, 0.5);
+        *a += g * frequency.x * sum * DVec4::new(1.0, 1.0, 1.0, 0.5);
     });
     Ok(())
 }

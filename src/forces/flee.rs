@@ -11,12 +11,12 @@ use crate::visit::Particle;
 pub const KEYS: &[Key] = &[
     Key::new("range", Kind::Positive, Value::Number(1.0), "how far a predator is seen [length]"),
     Key::new("strength", Kind::NotNegative, Value::Number(5.0), "what a predator does at no distance [length / time²]"),
-    Key::new("species", Kind::Species, Value::Number(0.0), "who flees"),
-    Key::new("predators", Kind::Species, Value::Number(1.0), "whom they flee"),
+    Key::new("species", Kind::Species, Value::Number(0.0), "the species that flees"),
+    Key::new("predators", Kind::Species, Value::Number(1.0), "the species that it flees"),
     SEE_NEAR,
 ];
 
-/// `flee`: away from every predator in range, the more the nearer it is. Predators feel nothing of it.
+/// `flee`: away from every predator in range, the more the nearer it is. It does not act on predators.
 pub struct Flee(Settings);
 
 impl Flee {

@@ -26,7 +26,7 @@ pub const KEYS: &[Key] = &[
     Key::new("viscosity", Kind::NotNegative, Value::Number(0.0), "the kinematic viscosity ν (Morris, Fox & Zhu 1997) [length² / time]"),
     Key::new("xsph", Kind::NotNegative, Value::Number(0.0), "ε of XSPH: how much of the mean velocity around is taken on in each step (Schechter & Bridson 2012)"),
     Key::new("wall_friction", Kind::NotNegative, Value::Number(1.0), "how much of both viscosities walls have; 0 lets slip"),
-    Key::new("walls", Kind::Choice(WALLS), Value::Text(Cow::Borrowed("mirror")), "the pressure of walls: that of whoever asks (Akinci et al. 2012), or that of the fluid around them (Adami, Hu & Adams 2012, as if they were not accelerated)"),
+    Key::new("walls", Kind::Choice(WALLS), Value::Text(Cow::Borrowed("mirror")), "the pressure of walls: that of the particle at the wall (Akinci et al. 2012), or that of the fluid around them (Adami, Hu & Adams 2012, as if they were not accelerated)"),
     Key::new("wall_mass", Kind::Choice(WALL_MASS), Value::Text(Cow::Borrowed("sampled")), "what walls weigh: by how close they are, for one layer (Akinci et al. 2012), or each a share of the lattice, for several"),
     Key::new("density_by", Kind::Choice(DENSITY_BY), Value::Text(Cow::Borrowed("summation")), "where density comes from: masses around, or the continuity equation (Monaghan 1994), which knows of no surface"),
     Key::new("diffusion", Kind::NotNegative, Value::Number(0.0), "δ of the diffusion of density by continuity, 0.1 say (Molteni & Colagrossi 2009)"),
@@ -44,7 +44,7 @@ const WALL_MASS: &[&str] = &["sampled", "lattice"];
 const DENSITY_BY: &[&str] = &["summation", "continuity"];
 
 /// `fluid`: smoothed particle hydrodynamics with density by summation or continuity and Tait's equation of state (Monaghan 1994; Becker &
-/// Teschner 2007). Everybody is of the fluid but who is held: those are walls (Akinci et al. 2012).
+/// Teschner 2007). Particles that are not held are of the fluid; held ones are its boundary particles (Akinci et al. 2012).
 pub struct Fluid(Settings);
 
 impl Fluid {
@@ -127,7 +127,7 @@ impl Fluid {
         let diffusion = self.0.number("diffusion");
         if self.solves() && (self.0.text("density_by") == "continuity" || self.0.text("walls") == "extrapolate") {
             return Err(Error::Scene(
-                "a fluid with solver = \"dfsph\" has its density by summation, and its walls have the pressure of who presses on \
+                "a fluid with solver = \"dfsph\" has its density by summation, and its walls have the pressure of the particles that press on \
                  them: leave out density_by = \"continuity\" and walls = \"extrapolate\", or say solver = \"wcsph\""
                     .to_owned(),
             ));

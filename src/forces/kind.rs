@@ -6,16 +6,16 @@ use crate::kernel::Scalar;
 use crate::settings::{self, Key, Settings, Value};
 use crate::visit::Particle;
 
-/// One species, or everybody.
+/// One species, or all.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Kind(pub Option<u32>);
 
-/// For whom a force is, when it may be for everybody.
+/// The species on which a force acts, where it may act on all.
 pub const SPECIES: Key = Key::new(
     "species",
     settings::Kind::Species,
     Value::Text(Cow::Borrowed("all")),
-    "for whom it is: a species, or \"all\"",
+    "what it acts on: a species, or \"all\"",
 );
 
 impl Kind {

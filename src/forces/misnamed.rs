@@ -1,4 +1,4 @@
-//! What a component is whose settings make no sense: an error, wherever a plan is written.
+//! A component whose settings make no sense: an error, wherever a plan is written.
 
 use super::{Component, Problem, Stage};
 use crate::error::Error;

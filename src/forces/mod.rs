@@ -33,7 +33,7 @@ macro_rules! register {
 }
 
 register! {
-    Interaction gravity: Gravity, "everybody attracts everybody, softened (Newton 1687)";
+    Interaction gravity: Gravity, "all particles attract each other, softened (Newton 1687)";
     Interaction uniform: Uniform, "the same acceleration everywhere: weight";
     Interaction drag: Drag, "linear and quadratic resistance of a medium that may move (Stokes 1851, Newton 1687)";
     Interaction wind: Wind, "a wind that blows in gusts and carries particles along";
@@ -42,19 +42,19 @@ register! {
     Interaction boids: Boids, "a flock: separation, alignment and cohesion within a field of view (Reynolds 1987, 1999)";
     Constraint speed_limit: SpeedLimit, "the least and the greatest speed of a species";
     Interaction obstacle: Obstacle, "a sphere, a box or a plane that is seen ahead and avoided (after Reynolds 1999)";
-    Constraint solid: Solid, "a sphere, a box, a plane or a capsule that lets nobody in, or out: bounces and friction";
+    Constraint solid: Solid, "a sphere, a box, a plane or a capsule that lets no particle in, or out: bounces and friction";
     Interaction flee: Flee, "prey flee from predators";
     Interaction chase: Chase, "predators chase prey";
     Interaction goal: Goal, "a place to steer to and arrive at, or a roost to keep to (Reynolds 1999)";
     Interaction wander: Wander, "a random walk of velocities, the same numbers on every device";
     Interaction soft_turn: SoftTurn, "a box with soft walls that turn back";
     Constraint rod: Rod, "rigid rods in chains keep their lengths, whatever the other forces do (RATTLE: Andersen 1983)";
-    Interaction vicsek: Vicsek, "everybody takes the mean heading around it, with noise, in the plane (Vicsek et al. 1995)";
+    Interaction vicsek: Vicsek, "each particle takes the mean heading around it, with noise, in the plane (Vicsek et al. 1995)";
     Interaction spring: Spring, "springs and ropes, damped along themselves (Hooke 1678)";
     Constraint strain_limit: StrainLimit, "springs that are not stretched farther than so much (Provot 1995)";
     Updater tear: Tear, "springs that are stretched too far break, for ever";
     Interaction joint: Joint, "joints that resist bending: elastic rods, hair (Euler 1744)";
-    Interaction fluid: Fluid, "a fluid by smoothed particle hydrodynamics, weakly compressible (Monaghan 1994); who is held is its wall";
+    Interaction fluid: Fluid, "a fluid by smoothed particle hydrodynamics, weakly compressible (Monaghan 1994); held particles are its walls";
     Interaction air: Air, "drag and lift on every triangle of a cloth, in gusts (Ling, Damodaran & Gay 1996)";
 }
 
@@ -76,7 +76,7 @@ fn params(settings: &Settings, names: &[&str]) -> Vec<(String, Scalar)> {
     names.iter().map(scalar).collect()
 }
 
-/// Who meets whom, where a force looks within a range; `of` are those whom it looks for.
+/// Which pairs are evaluated, where a force has a cut-off radius; `of` is the species of the neighbours.
 fn over(settings: &Settings, of: Option<u32>) -> Over {
     let range = settings.number("range");
     if settings.text("over") == "within" { Over::Within { range } } else { Over::Near { range, of } }
@@ -86,7 +86,7 @@ const SEE_NEAR: Key = Key::new(
     "over",
     crate::settings::Kind::Choice(&["near", "within"]),
     Value::Text(std::borrow::Cow::Borrowed("near")),
-    "who meets whom: everybody in range, by a grid or by force",
+    "which neighbours: all in range, by a cell list or by brute force",
 );
 
 const SEED: Key = Key::new(
@@ -113,5 +113,5 @@ const EACH: Key = Key::new(
     "over",
     crate::settings::Kind::Choice(&["each"]),
     Value::Text(std::borrow::Cow::Borrowed("each")),
-    "who meets whom: each particle alone",
+    "what is evaluated: each particle alone",
 );

@@ -18,17 +18,17 @@ pub const KEYS: &[Key] = &[
     Key::new("normal", Kind::Direction, Value::Vector(DVec3::Z), "plane: the direction to the free side"),
     Key::new("look_ahead", Kind::NotNegative, Value::Number(1.0), "how far ahead one looks [time]"),
     Key::new("clearance", Kind::NotNegative, Value::Number(0.05), "how far off one keeps: the radius of a bird [length]"),
-    Key::new("max_force", Kind::Positive, Value::Number(5.0), "what it does to who touches it [length / time²]"),
+    Key::new("max_force", Kind::Positive, Value::Number(5.0), "the acceleration of particles that touch it [length / time²]"),
     SPECIES,
     EACH,
 ];
 
 const SHAPES: &[&str] = &["sphere", "box", "plane"];
-/// How often the way ahead is felt; a way that only grazes is then a little shorter than it is.
+/// How often the way ahead is sampled; a way that only grazes is then a little shorter than it is.
 const MARCHES: usize = 8;
 
 /// `obstacle`: steers round a sphere, a box or a plane that lies ahead, along the normal of where one would touch it (after
-/// Reynolds 1999), the more the nearer that is and the more straight on; who touches it or is inside it pushes straight out
+/// Reynolds 1999), the more the nearer that is and the more straight on; a particle that touches it or is inside pushes straight out
 /// with all its force.
 pub struct Obstacle(Settings);
 

@@ -15,7 +15,7 @@ use crate::settings::{Key, Settings};
 pub const KEYS: &[Key] = &[];
 
 /// `rod`: the particles' rods keep their lengths (RATTLE; Andersen 1983), in chains of any shape that hang from held particles
-/// or fly free; who is held is infinitely heavy to them.
+/// or fly free; held particles are infinitely heavy to them.
 ///
 /// It is written as two projections, so that every integrator has it. After a drift by c dt velocities change along the rods as
 /// they were before it, v ← v + δ, and positions with them, x ← x + c dt δ, until no length has changed; and what is left of
@@ -112,7 +112,7 @@ fn kernel(chains: Chains, factor: f64, settles: bool) -> Result<Kernel, Error> {
     Ok(Kernel { sizes, tables, scratch: vec!["chain_sweep".into()], ..kernel })
 }
 
-/// A chain as the twin has it: rod n leads from particle n to particle n + 1.
+/// A chain as the reference has it: rod n leads from particle n to particle n + 1.
 struct Chain {
     x: Vec<DVec3>,
     v: Vec<DVec3>,

@@ -15,7 +15,7 @@ pub const KEYS: &[Key] = &[
     EACH,
 ];
 
-/// `soft_turn`: who comes near a side of the box is turned back by a constant acceleration; energy is kept. A wall that is
+/// `soft_turn`: a particle near a side of the box is turned back by a constant acceleration; energy is kept. A wall that is
 /// to hold a particle of speed v wants an acceleration of v² / 2 margin.
 pub struct SoftTurn(Settings);
 
@@ -38,20 +38,20 @@ impl Component for SoftTurn {
             if !kind.has(me) {
                 return DVec4::ZERO;
             }
-            let mut felt = DVec4::ZERO;
+            let mut sum = DVec4::ZERO;
             for axis in 0..world.bounds.dimensions.min(3) as usize {
                 let below = low[axis] + margin - me.position[axis];
                 let above = me.position[axis] - (high[axis] - margin);
                 if below > 0.0 {
-                    felt[axis] += acceleration;
-                    felt.w += acceleration * below;
+                    sum[axis] += acceleration;
+                    sum.w += acceleration * below;
                 }
                 if above > 0.0 {
-                    felt[axis] -= acceleration;
-                    felt.w += acceleration * above;
+                    sum[axis] -= acceleration;
+                    sum.w += acceleration * above;
                 }
             }
-            felt
+            sum
         })]
     }
 }

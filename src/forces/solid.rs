@@ -1,11 +1,11 @@
-//! A solid that lets nobody in.
+//! A solid that lets no particle in.
 
 use std::borrow::Cow;
 use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{Component, EACH, Kind as Who, Problem, Projection, Properties, Resolved, SPECIES, Stage, species};
+use super::{Component, EACH, Kind as Only, Problem, Projection, Properties, Resolved, SPECIES, Stage, species};
 use crate::error::Error;
 use crate::kernel::{Host, Kernel, POSITION, Plan, Scalar, Shader, Source, VELOCITY, World, time};
 use crate::motion::{Motion, Pose};
@@ -29,9 +29,9 @@ pub const KEYS: &[Key] = &[
     EACH,
 ];
 
-/// `solid`: a sphere, a box, a plane or a capsule, still or moving, that lets nobody in, or out. After every drift who is too
+/// `solid`: a sphere, a box, a plane or a capsule, still or moving, that lets no particle in, or out. After every drift a particle too
 /// near to its surface is put there; normal velocity bounces (Newton 1687), friction takes tangential velocity (Coulomb
-/// 1785), both in the frame of the surface. Held particles are left alone. It accelerates nobody by itself.
+/// 1785), both in the frame of the surface. Held particles are left alone. It accelerates no particle by itself.
 pub struct Solid(Settings);
 
 /// What a kernel is made of.
@@ -43,7 +43,7 @@ struct Wall {
     position: DVec3,
     restitution: f64,
     friction: f64,
-    who: Who,
+    species: Only,
     motion: Option<(u32, Motion)>,
 }
 
@@ -59,7 +59,7 @@ impl Solid {
         let number = |name| self.0.number(name);
         let (radius, size, thickness) = (number("radius"), self.0.vector("size"), number("thickness"));
         let inside = self.0.flag("inside");
-        // A container is made smaller: then whoever is beyond a corner is put into it.
+        // A container is made smaller: then a particle beyond a corner is put into it.
         let less = if inside { thickness } else { 0.0 };
         let normal = self.0.vector("normal").normalize_or_zero();
         let shape = match self.0.text("shape") {
@@ -97,7 +97,7 @@ impl Solid {
             position: self.0.vector("position"),
             restitution: number("restitution"),
             friction: number("friction"),
-            who: species(&self.0, "species").0,
+            species: species(&self.0, "species").0,
             motion,
         })
     }
@@ -121,7 +121,7 @@ impl Component for Solid {
         let (frame, bounds) = (wall.frame(0.0), problem.bounds);
         let projection: Projection = Box::new(move |kind, x| {
             let world = World { time: 0.0, dt: 0.0, step: 0, count: 1, bounds };
-            if wall.who.is(kind) { x + wall.meet(&frame, x, DVec3::ZERO, 0.0, &world).0 } else { x }
+            if wall.species.is(kind) { x + wall.meet(&frame, x, DVec3::ZERO, 0.0, &world).0 } else { x }
         });
         Ok(Resolved { initial_projection: Some(projection), ..Resolved::default() })
     }
@@ -132,7 +132,7 @@ impl Component for Solid {
     }
 }
 
-fn files(wall: &Wall, who: [Source; 2], clock: Source) -> Vec<Source> {
+fn files(wall: &Wall, particles: [Source; 2], clock: Source) -> Vec<Source> {
     let mut files = vec![
         crate::shader!("world.wgsl"),
         crate::shader!("nearest_image.wgsl"),
@@ -141,7 +141,7 @@ fn files(wall: &Wall, who: [Source; 2], clock: Source) -> Vec<Source> {
         crate::shader!("solids/distance.wgsl"),
         crate::shader!("forces/solid.wgsl"),
     ];
-    files.extend(who);
+    files.extend(particles);
     match wall.motion {
         Some(_) => files.extend([clock, crate::shader!("motion/pose.wgsl"), crate::shader!("solids/moving.wgsl")]),
         None => files.push(crate::shader!("solids/still.wgsl")),
@@ -163,7 +163,7 @@ fn kernel(wall: Wall, problem: &Problem, factor: f64) -> Result<Kernel, Error> {
         ("side", Scalar::Float(wall.side)),
         ("restitution", Scalar::Float(wall.restitution)),
         ("friction", Scalar::Float(wall.friction)),
-        ("species", wall.who.scalar()),
+        ("species", wall.species.scalar()),
         ("motion", Scalar::Uint(wall.motion.as_ref().map_or(0, |(number, _)| *number))),
     ];
     let params = shader.reflection().binding("params");
@@ -178,14 +178,14 @@ fn kernel(wall: Wall, problem: &Problem, factor: f64) -> Result<Kernel, Error> {
         sizes.extend([("motions".into(), table.sizes[0]), ("keyframes".into(), table.sizes[1])]);
         tables.extend([("motions".into(), table.motions), ("keyframes".into(), table.keys)]);
     }
-    let who = problem.clone();
+    let all = problem.clone();
     let twin = move |host: &Host| {
         let world = host.world();
         let view = crate::visit::View::of(host)?;
         let bodies = view.particles();
         let (mut position, mut velocity) = (host.write(POSITION)?, host.write(VELOCITY)?);
-        let frame = wall.frame(if wall.motion.is_some() { time(host, &who, who.reached)? } else { 0.0 });
-        for body in bodies.iter().filter(|body| wall.who.has(body) && body.lives() && !who.is_held(body.index)) {
+        let frame = wall.frame(if wall.motion.is_some() { time(host, &all, all.reached)? } else { 0.0 });
+        for body in bodies.iter().filter(|body| wall.species.has(body) && body.lives() && !all.is_held(body.index)) {
             let (way, change) = wall.meet(&frame, body.position, body.velocity, factor * world.dt, &world);
             position[body.index] += way.extend(0.0);
             velocity[body.index] += change.extend(0.0);
@@ -212,7 +212,7 @@ impl Wall {
             Frame { centre: motion.place(self.position, time), pivot: motion.about + pose.shift, pose }
         })
     }
-    /// The way out, how far behind the margin somebody is, and where from the middle.
+    /// The way out, how far behind the margin it is, and where from the middle.
     fn touch(&self, frame: &Frame, x: DVec3, world: &World) -> (DVec3, f64, DVec3) {
         let r = x - frame.centre;
         let r = if matches!(self.shape, Shape::Plane(_)) { r } else { world.bounds.shortest(r) };

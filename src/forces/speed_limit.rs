@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec4;
 
-use super::{Component, Kind as Who, Problem, Properties, SPECIES, Stage, species};
+use super::{Component, Kind as Only, Problem, Properties, SPECIES, Stage, species};
 use crate::error::Error;
 use crate::kernel::{Host, Kernel, Pass, Plan, Scalar, Shader, VELOCITY};
 use crate::visit::Particle;
@@ -12,12 +12,12 @@ use crate::settings::{Key, Kind, Settings, Value};
 
 /// What a scene may say.
 pub const KEYS: &[Key] = &[
-    Key::new("min", Kind::NotNegative, Value::Number(0.0), "the least speed; who rests sets off along x [length / time]"),
+    Key::new("min", Kind::NotNegative, Value::Number(0.0), "the minimum speed; a particle at rest sets off along x [length / time]"),
     Key::required("max", Kind::Positive, "the most speed [length / time]"),
     SPECIES,
 ];
 
-/// `speed_limit`: after every kick, v ← v clamp(|v|, least, most) / |v|. It accelerates nobody by itself.
+/// `speed_limit`: after every kick, v ← v clamp(|v|, least, most) / |v|. It accelerates no particle by itself.
 pub struct SpeedLimit(Settings);
 
 impl SpeedLimit {
@@ -45,7 +45,7 @@ impl Component for SpeedLimit {
 ///
 /// # Errors
 /// [`Error::Scene`] when the least is above the most.
-pub fn kernel(problem: &Problem, [least, most]: [f64; 2], who: Who) -> Result<Kernel, Error> {
+pub fn kernel(problem: &Problem, [least, most]: [f64; 2], species: Only) -> Result<Kernel, Error> {
     if least > most {
         let text = format!("the least speed, {least}, is above the greatest, {most}: lower one or raise the other");
         return Err(Error::Scene(text));
@@ -58,7 +58,7 @@ pub fn kernel(problem: &Problem, [least, most]: [f64; 2], who: Who) -> Result<Ke
         crate::shader!("law/species.wgsl"),
         crate::shader!("forces/speed_limit.wgsl"),
     ])?;
-    let values = [("least", Scalar::Float(least)), ("most", Scalar::Float(most)), ("species", who.scalar())];
+    let values = [("least", Scalar::Float(least)), ("most", Scalar::Float(most)), ("species", species.scalar())];
     let params = shader.reflection().binding("params");
     let params = params.map_or(Ok(Vec::new()), |binding| binding.packed.pack("speed_limit", &values))?;
     let pass = Pass { uniforms: vec![("params", params)], ..Pass::new(shader, problem.count) };
@@ -67,7 +67,7 @@ pub fn kernel(problem: &Problem, [least, most]: [f64; 2], who: Who) -> Result<Ke
         let view = crate::visit::View::of(host)?;
         let bodies = view.particles();
         let mut velocity = host.write(VELOCITY)?;
-        let has = |body: &Particle| who.has(body) && body.lives() && !problem.is_held(body.index);
+        let has = |body: &Particle| species.has(body) && body.lives() && !problem.is_held(body.index);
         for (v, _) in velocity.iter_mut().zip(&bodies).filter(|(_, body)| has(body)) {
             let speed = v.truncate().length();
             if speed > most {

@@ -13,11 +13,11 @@ pub const KEYS: &[Key] = &[Key::new(
     "over",
     Kind::Choice(&["links"]),
     Value::Text(Cow::Borrowed("links")),
-    "who meets whom: those that a spring or a rope ties; its length, stiffness and damping come with it",
+    "which pairs are evaluated: those that a spring or a rope ties; its length, stiffness and damping come with it",
 )];
 
-/// `spring`: Hooke's law along every link, F = k (l − L) + c dl/dt, with the damping along the spring alone: whoever moves
-/// or turns as a whole feels nothing of it. A rope pulls, and is slack while it is shorter than L.
+/// `spring`: Hooke's law along every link, F = k (l − L) + c dl/dt, with the damping along the spring alone: pairs that move
+/// or turn as a whole are not damped. A rope pulls, and is slack while it is shorter than L.
 pub struct Spring;
 
 impl Spring {

@@ -35,7 +35,7 @@ impl Tear {
             for (me, row) in bodies.iter().zip(start.windows(2)) {
                 for words in link[row[0] as usize * WORDS..row[1] as usize * WORDS].chunks_exact_mut(WORDS) {
                     let half = Half::new(words);
-                    // In the device's own arithmetic: whoever is on the edge breaks on both.
+                    // In the device's own arithmetic: a link at the very limit breaks on both.
                     let r = bounds.shortest_single(bodies[half.partner].position - me.position);
                     #[expect(clippy::cast_possible_truncation, reason = "as the device holds it")]
                     let longest = (1.0 + strain) * half.rest as f32;

@@ -14,7 +14,7 @@ use crate::visit::random::{fraction, pcg4d, words};
 /// What a scene may say.
 pub const KEYS: &[Key] = &[
     Key::new("range", Kind::Positive, Value::Number(1.0), "how far one sees, and one sees oneself [length]"),
-    Key::new("speed", Kind::Positive, Value::Number(0.03), "the speed of everybody; v₀ of the paper is this times dt [length / time]"),
+    Key::new("speed", Kind::Positive, Value::Number(0.03), "the speed of all particles; v₀ of the paper is this times dt [length / time]"),
     Key::new("noise", Kind::NotNegative, Value::Number(2.0), "η: angular, the width of the random turn [0 to 2π]; vectorial, the length of the random arrow [0 to 1]"),
     Key::new("noise_kind", Kind::Choice(KINDS), Value::Text(Cow::Borrowed("angular")), "whether the noise turns the mean heading, or adds to the headings"),
     SEED,
@@ -23,7 +23,7 @@ pub const KEYS: &[Key] = &[
 
 const KINDS: &[&str] = &["angular", "vectorial"];
 
-/// `vicsek`: who sees whom takes their mean heading, with noise, at constant speed, in the plane (Vicsek, Czirók, Ben-Jacob,
+/// `vicsek`: each particle takes the mean heading of its neighbours, with noise, at constant speed, in the plane (Vicsek, Czirók, Ben-Jacob,
 /// Cohen & Shochet, PRL 75, 1226, 1995; vectorial noise: Grégoire & Chaté, PRL 92, 025702, 2004). It is a rule for whole
 /// steps: under `forward_euler` places change by the old heading, as in the paper; under `symplectic_euler` by the new one,
 /// which is another model, with other numbers. Under other integrators it is neither.
@@ -52,7 +52,7 @@ impl Component for Vicsek {
     fn properties(&self) -> Properties {
         Properties {
             statistics_radius: Some((self.0.number("range"), None)),
-            fixed_step: Some("vicsek sets headings once in a step, and its noise is told by steps"),
+            fixed_step: Some("vicsek sets headings once in a step, and its noise is per step"),
             integrators: &["forward_euler", "symplectic_euler"],
             ..Properties::default()
         }

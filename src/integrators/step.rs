@@ -59,7 +59,7 @@ impl<'a> Step<'a> {
             self.add(clear::kernel(self.problem.count));
         }
         self.clear_sums(false);
-        self.felt(laws);
+        self.add_laws(laws);
         if self.staged {
             self.carried_rates();
         }
@@ -76,7 +76,7 @@ impl<'a> Step<'a> {
     /// Adds what some of the forces say, chosen by their places.
     fn gather(&mut self, chosen: impl Fn(usize) -> bool) {
         let laws = self.laws(chosen);
-        self.felt(laws);
+        self.add_laws(laws);
     }
     /// The kernels of the laws of some forces, behind the grids that they search.
     fn laws(&mut self, chosen: impl Fn(usize) -> bool) -> Plan {
@@ -103,8 +103,8 @@ impl<'a> Step<'a> {
         let its = name(self.forces[place].as_ref());
         self.forces[..place].iter().filter(|other| name(other.as_ref()) == its).count()
     }
-    /// Adds the kernels of laws; who is held feels nothing.
-    fn felt(&mut self, laws: Plan) {
+    /// Adds the kernels of laws, after which fixed particles have no acceleration.
+    fn add_laws(&mut self, laws: Plan) {
         self.append(laws);
         if !self.problem.held.is_empty() {
             self.add(held::hold(&self.problem));
@@ -113,11 +113,11 @@ impl<'a> Step<'a> {
             self.add_all(life::still(&self.problem));
         }
     }
-    /// Who is held gets the velocity that brings it where it shall be at the end of the step.
+    /// Held particles get the velocity that brings them to their place at the end of the step.
     pub fn lead(&mut self) {
         self.add_all(held::lead(&self.problem));
     }
-    /// Who is due is born, and who is in a drain dies.
+    /// Particles that are due are spawned, and particles in a drain are removed.
     pub fn populate(&mut self) {
         self.moved |= self.problem.mortal;
         self.add_all(life::kernels(&self.problem));
@@ -156,7 +156,7 @@ impl<'a> Step<'a> {
         }
         self.enclose();
     }
-    /// Whoever has left the box by a closed side comes in again.
+    /// Particles that left the box by a closed side come in again.
     pub fn enclose(&mut self) {
         self.moved = true;
         self.add_all(boundary::kernels(&self.problem));

@@ -21,14 +21,14 @@ pub struct Machine {
 }
 
 impl Machine {
-    /// The host, which runs the twins.
+    /// The host, which runs the references.
     pub const HOST: Self =
         Self { software: true, subgroup: 0, invocations: 1, bindable: 0, workgroups: 65_535, turns: Self::TURNS };
     /// Turns below which no known driver ends a loop, with room for a turn that is not counted.
     pub const TURNS: u32 = 60_000;
 }
 
-/// Runs plans. The two backends are the GPU and the twins.
+/// Runs plans. The two backends are the GPU and the references.
 pub trait Backend {
     /// A plan made ready.
     type Program;

@@ -8,10 +8,10 @@ pub enum Side {
     /// Nothing: there is no box along this axis.
     #[default]
     Open = 0,
-    /// Who leaves at one side comes in at the other, and everybody sees the nearest image of everybody (the minimum
+    /// A particle that leaves at one side comes in at the other, and pairs interact over the nearest image (the minimum
     /// image; Metropolis et al. 1953).
     Periodic = 1,
-    /// A mirror: who would leave is thrown back without loss.
+    /// A mirror: a particle that would leave is reflected without loss.
     Reflecting = 2,
 }
 
@@ -102,14 +102,14 @@ impl Bounds {
     /// between two that are as near, both are to choose the same.
     #[must_use]
     pub fn shortest(&self, r: DVec3) -> DVec3 {
-        // The twins ask for every pair.
+        // The references ask for every pair.
         if !self.has(Side::Periodic) {
             return r;
         }
         r - self.period() * self.turns(r.as_vec3()).as_dvec3()
     }
     /// Whether an image is within a range, by the device's own arithmetic, operation by operation in single precision:
-    /// who stands at the very edge is to be in for both or out for both.
+    /// a pair at the very edge is to be in for both or out for both.
     #[must_use]
     pub fn within(&self, r: DVec3, range: f64) -> bool {
         #[expect(clippy::cast_possible_truncation, reason = "as the device holds it")]

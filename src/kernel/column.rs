@@ -18,7 +18,7 @@ pub struct Column {
     pub unit: Cow<'static, str>,
     /// One line that says what it is.
     pub about: Cow<'static, str>,
-    /// Who writes it.
+    /// What writes it.
     pub role: Role,
     /// The column that is its rate of change, if integrators advance it.
     pub rate: Option<Name>,
@@ -54,7 +54,7 @@ pub enum Shape {
     System(u32),
 }
 
-/// Who writes a column, and what a state keeps of it.
+/// What writes a column, and what a state keeps of it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Role {
     /// It is advanced by the steps: saved, restored and given back.

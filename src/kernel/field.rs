@@ -13,13 +13,13 @@ pub const VELOCITY: Field<Vec4> = Field::new("velocity");
 pub const ACCELERATION: Field<Vec4> = Field::new("acceleration");
 /// Of which kind a particle is: predator or prey, one phase or another. A number that scenes choose.
 pub const SPECIES: Field<u32> = Field::new("species");
-/// Whether a particle takes part, as [`Life::word`](crate::life::Life::word) has it: 0 waits to be born, 1 lives, 2 is dead. It
-/// is there where somebody may be born or die.
+/// Whether a particle takes part, as [`Life::word`](crate::life::Life::word) has it: 0 pending, 1 active, 2 removed. It
+/// is there where particles may be spawned or removed.
 pub const LIFE: Field<u32> = Field::new("life");
 /// Where held particles with a target shall be, by id: `xyz` the place \[length\], `w` the time at which they shall be there
-/// \[time\]. They go there at one pace, and stay; who is late is there after the next step. At the start it is where they
+/// \[time\]. They go there at constant velocity, and stay; a target whose time is over is reached in the next step. At the start it is where they
 /// are. Write it with [`Simulation::write`](crate::simulation::Simulation::write) whenever a new place is known. It is there
-/// where somebody is held by [`Hold::Target`](crate::motion::Hold::Target). `target` is a word of WGSL's own.
+/// where a particle is held by [`Hold::Target`](crate::motion::Hold::Target). `target` is a word of WGSL's own.
 pub const TARGET: Field<Vec4> = Field::new("kinematic_target");
 /// Where held particles were at the start, in the order of [`Problem::held`](super::Problem::held).
 pub const HOME: Field<Vec4> = Field::new("home");
@@ -164,7 +164,7 @@ fn words<T: bytemuck::AnyBitPattern>(bytes: &[u8]) -> Vec<T> {
     bytes.chunks_exact(size_of::<T>()).map(bytemuck::pod_read_unaligned).collect()
 }
 
-/// What a field may hold, and what the twin of that is.
+/// What a field may hold, and what the reference of that is.
 pub trait Element: bytemuck::Pod + Send + Sync {
     /// The same in f64.
     type Twin: Copy + Send + Sync;
@@ -172,7 +172,7 @@ pub trait Element: bytemuck::Pod + Send + Sync {
     fn widen(self) -> Self::Twin;
     /// Rounded to what the device holds.
     fn narrow(twin: Self::Twin) -> Self;
-    /// Wraps a vector of twins.
+    /// Wraps a vector of references.
     fn array(values: Vec<Self::Twin>) -> Array;
     /// The vector inside, if the array is of this kind.
     fn view(array: &Array) -> Option<&Vec<Self::Twin>>;

@@ -1,4 +1,4 @@
-//! Arrays on the host, by name, as a twin sees them. A twin that reads and writes one array at once is refused, as a
+//! Arrays on the host, by name, as a reference sees them. A reference that reads and writes one array at once is refused, as a
 //! device refuses it.
 
 use std::collections::BTreeMap;
@@ -161,7 +161,7 @@ impl Host {
         }
         Ok(Writing(guard, PhantomData))
     }
-    /// Who takes part, by id: everybody, where nobody says.
+    /// Which particles take part, by id: all of them where there is no such field.
     ///
     /// # Errors
     /// When that is being written.
@@ -184,8 +184,8 @@ impl Host {
 }
 
 fn missing(name: &str) -> Error {
-    Error::Device(format!("a twin asks for the field `{name}`, which nobody made"))
+    Error::Device(format!("a reference reads the field `{name}`, which does not exist"))
 }
 fn aliased(name: &str) -> Error {
-    Error::Device(format!("a twin opens the field `{name}` twice, once to write"))
+    Error::Device(format!("a reference opens the field `{name}` twice, once to write"))
 }

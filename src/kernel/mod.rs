@@ -1,4 +1,4 @@
-//! What runs, as data only: fields, shaders as naga sees them, kernels with their twins, plans. No device here.
+//! What runs, as data only: fields, shaders as naga sees them, kernels with their references, plans. No device here.
 
 mod backend;
 mod bounds;

@@ -66,7 +66,7 @@ pub enum Next<'a> {
     Ask(&'a Flag),
 }
 
-/// A run of a plan, operation by operation, for whoever can look at flags on the way.
+/// A run of a plan, operation by operation, for a backend that can read flags on the way.
 #[derive(Debug, Clone)]
 pub struct Walk<'a> {
     plan: &'a Plan,

@@ -22,16 +22,17 @@ pub const TICKS: u32 = 1 << 24;
 const LEAST_PART: f64 = 1e-6;
 
 /// The clock, word by word: 0 and 1: the time in longest steps and ticks; 2: the ticks of the step at hand, 0 where a run
-/// rests; 3: those of the last that nothing but forces and growth has shortened; 4: why, a [`Reason`]; 5: the lowest id of
-/// those who asked for it. 6 to 9: the first step that should have been shorter than the shortest, why, of whom, and how
-/// many of it would have made a longest step, as the bits of an `f32`; [`u32::MAX`] while there is none. 10 and 11: the
-/// ticks of the shortest and of the longest step so far; from 12 on how many steps had each reason.
+/// rests; 3: those of the last that nothing but forces and growth has shortened; 4: the reason, a [`Reason`]; 5: the limiting
+/// particle, the lowest id of those whose criterion gave it. 6 to 9: the first step that should have been shorter than the
+/// shortest, its reason, its particle, and how many of it would have made a longest step, as the bits of an `f32`;
+/// [`u32::MAX`] while there is none. 10 and 11: the ticks of the shortest and of the longest step so far; from 12 on how many
+/// steps had each reason.
 pub const PACE: Field<u32> = Field::new("pace");
 /// The words of the clock.
 pub const PACE_WORDS: usize = 12 + Reason::ALL.len();
 /// Where the clock stops, in longest steps and ticks.
 pub const STOP: Field<u32> = Field::new("pace_stop");
-/// How many steps everybody would have in a longest one, were it alone: for acceleration, signal and speed.
+/// The dt criteria: how many steps each particle would have in a longest one, were it alone: for acceleration, signal and speed.
 pub const URGES: Field<glam::Vec4> = Field::new("urges");
 /// The largest of [`URGES`].
 pub const URGENT: Field<glam::Vec4> = Field::new("urgent");
@@ -135,7 +136,7 @@ impl Pace {
     }
 }
 
-/// The time after a part of the step, as a twin has it.
+/// The time after a part of the step, as a reference has it.
 ///
 /// # Errors
 /// When a clock is asked that is not there.

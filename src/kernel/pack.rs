@@ -54,17 +54,17 @@ impl Packed {
     ///
     /// # Errors
     /// [`Error::Scene`] that names what is missing, unknown or of the wrong kind.
-    pub fn pack(&self, whose: &str, values: &[(&str, Scalar)]) -> Result<Vec<u8>, Error> {
+    pub fn pack(&self, owner: &str, values: &[(&str, Scalar)]) -> Result<Vec<u8>, Error> {
         let mut out = vec![0; self.size];
         for (name, _) in values {
             if !self.members.iter().any(|m| m.name == *name) {
                 let known: Vec<_> = self.members.iter().map(|m| format!("`{}`", m.name)).collect();
-                return Err(Error::Scene(format!("{whose} has no parameter `{name}`; it has {}", list(&known))));
+                return Err(Error::Scene(format!("{owner} has no parameter `{name}`; it has {}", list(&known))));
             }
         }
         for member in &self.members {
             let Some((_, value)) = values.iter().find(|(name, _)| *name == member.name) else {
-                return Err(Error::Scene(format!("{whose} wants a value for its parameter `{}`", member.name)));
+                return Err(Error::Scene(format!("{owner} wants a value for its parameter `{}`", member.name)));
             };
             let words: Vec<[u8; 4]> = match (*value, member.float, member.components) {
                 (Scalar::Float(x), true, 1) => vec![bytes(x)],
@@ -87,7 +87,7 @@ impl Packed {
                 (Scalar::Vector4(v), true, 4) => v.map(bytes).to_vec(),
                 _ => {
                     return Err(Error::Scene(format!(
-                        "{whose}: the parameter `{}` is {} in the shader, and the value does not fit it",
+                        "{owner}: the parameter `{}` is {} in the shader, and the value does not fit it",
                         member.name,
                         member.describe()
                     )));

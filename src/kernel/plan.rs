@@ -17,7 +17,7 @@ pub type Name = Cow<'static, str>;
 /// A field that holds something from the start, and the words of its elements.
 pub type Table = (Name, Arc<Vec<u32>>);
 
-/// One operation with a name: its dispatches, in order, and its twin.
+/// One operation with a name: its dispatches, in order, and its reference.
 #[derive(Clone)]
 pub struct Kernel {
     /// What `motes explain` calls it, constants included.
@@ -28,9 +28,9 @@ pub struct Kernel {
     pub twin: Option<Twin>,
     /// Elements of fields that do not have one element per particle.
     pub sizes: Vec<(Name, u64)>,
-    /// Fields that hold nothing of worth after the last dispatch; the twin does without them.
+    /// Fields that hold nothing of worth after the last dispatch; the reference does without them.
     pub scratch: Vec<Name>,
-    /// What fields hold from the start that nobody else fills: the words of their elements.
+    /// What fields hold from the start that no kernel fills: the words of their elements.
     pub tables: Vec<Table>,
 }
 
@@ -197,7 +197,7 @@ impl Plan {
     pub fn steps(&self) -> impl Iterator<Item = &Kernel> {
         self.ops.iter().flat_map(Op::kernels).filter_map(|index| self.kernels.get(index))
     }
-    /// A run of it, for whoever can look at the flags of loops on the way.
+    /// A run of it, for a backend that can read the flags of loops on the way.
     #[must_use]
     pub fn walk(&self) -> Walk<'_> {
         Walk::new(self)

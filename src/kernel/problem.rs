@@ -29,17 +29,17 @@ pub struct Problem {
     pub breaks: bool,
     /// Those that forces do not move, as [`motion::sorted`] has them.
     pub held: Arc<Vec<Held>>,
-    /// One word for each particle, 1 where it is held; nothing where nobody is.
+    /// One word for each particle, 1 where it is held; empty where none is.
     pub mask: Arc<Vec<u32>>,
     /// What leads some of them, and solids.
     pub motions: Arc<Vec<Motion>>,
-    /// Who is to be born.
+    /// The particles that are to be spawned.
     pub births: Arc<Vec<Birth>>,
     /// Where particles die.
     pub drains: Arc<Vec<Drain>>,
-    /// Whether not everybody lives, all the time.
+    /// Whether some particles are not active all the time.
     pub mortal: bool,
-    /// The step size \[time\]: motions are told in steps.
+    /// The step size \[time\]: motions are given in steps.
     pub dt: f64,
     /// How much of the step positions have been advanced by, where a plan is being written: when a drift ends.
     pub reached: f64,
@@ -52,7 +52,7 @@ pub struct Problem {
 }
 
 impl Problem {
-    /// So many particles in open space, somewhere in a cube of unit sides, tied to nobody: a law over links is asked about
+    /// So many particles in open space, somewhere in a cube of unit sides, without links: a law over links is looked at
     /// here, and runs where [`Problem::tied`] has made its tables.
     #[must_use]
     pub fn new(count: u32, machine: Machine) -> Self {
@@ -110,7 +110,7 @@ impl Problem {
     pub fn moved(self, motions: &[Motion], dt: f64) -> Self {
         Self { motions: Arc::new(motions.to_vec()), dt, ..self }
     }
-    /// The same with these births and drains; `mortal` where somebody may not live without them too.
+    /// The same with these births and drains; `mortal` where some particles may not be active without them too.
     #[must_use]
     pub fn mortal(self, births: &[Birth], drains: &[Drain], mortal: bool) -> Self {
         let mortal = mortal || !births.is_empty() || !drains.is_empty();
@@ -119,7 +119,7 @@ impl Problem {
     /// The file with `fn lives(id: u32) -> bool`.
     #[must_use]
     pub fn living(&self) -> Source {
-        if self.mortal { crate::shader!("life/living.wgsl") } else { crate::shader!("life/everybody.wgsl") }
+        if self.mortal { crate::shader!("life/living.wgsl") } else { crate::shader!("life/all.wgsl") }
     }
     /// The file with `fn is_held(id: u32) -> bool`, and the table that it reads.
     #[must_use]

@@ -1,4 +1,4 @@
-//! A spring from one of its ends, as a twin reads it.
+//! A spring from one of its ends, as a reference reads it.
 
 /// Words of a spring in the table of links.
 pub const WORDS: usize = 4;

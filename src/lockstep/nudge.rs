@@ -1,4 +1,4 @@
-//! What a twin says of inputs that single precision cannot tell from those it was given.
+//! What a reference says of inputs that single precision cannot tell from those it was given.
 
 use glam::{DVec3, DVec4};
 
@@ -22,7 +22,7 @@ impl Nudged {
 /// half of one, and so are the numbers of the scene that they are of.
 const ASIDE: f64 = 2.0;
 
-/// Asks a twin.
+/// Asks a reference.
 pub fn nudged(twin: &Twin, inputs: &[(&str, Option<&Array>)], world: World) -> Result<Nudged, Error> {
     let sides =
         (0..8u32).map(|octant| DVec3::from_array([0, 1, 2].map(|axis| f64::from(octant >> axis & 1) * 2.0 - 1.0)));
@@ -59,7 +59,7 @@ fn ask(
     Ok(host)
 }
 
-/// What a twin makes of inputs that are off by half a unit in the last place of single precision.
+/// What a reference makes of inputs that are off by half a unit in the last place of single precision.
 fn sway(twin: &Twin, inputs: &[(&str, Option<&Array>)], world: World) -> Result<Host, Error> {
     // A multiplier of Knuth's: signs without a pattern.
     let mut state = 1u64;

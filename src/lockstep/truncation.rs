@@ -17,7 +17,7 @@ pub struct Truncation {
     pub law: String,
     /// Targets of the sample.
     pub targets: usize,
-    /// The device against the direct sum over everybody, in f64.
+    /// The device against direct summation, in f64.
     pub device: [f64; 3],
     /// A walk of the same tree in f64 against the direct sum: what is left out.
     pub walk: [f64; 3],
@@ -36,14 +36,14 @@ pub async fn truncation(
     problem: &Problem,
     targets: usize,
 ) -> Result<Vec<Truncation>, Error> {
-    let felt = gpu.read(ACCELERATION.name, &Array::Vec4(Vec::new()), problem.count as usize).await?;
+    let last = gpu.read(ACCELERATION.name, &Array::Vec4(Vec::new()), problem.count as usize).await?;
     let mut all = Vec::new();
     for force in forces {
         let law = force.laws().into_iter().find(|law| law.tree(problem).is_some());
         let Some((law, tree)) = law.and_then(|law| Some((law.clone(), law.tree(problem)?))) else { continue };
         let (Some(walk), Some(sample)) = (law.distant.walk.clone(), law.distant.sample.clone()) else { continue };
-        // What was felt last decides which nodes are opened, where the opening is relative.
-        gpu.write(ACCELERATION.name, &felt)?;
+        // Where the opening is relative, the last accelerations decide which nodes are opened.
+        gpu.write(ACCELERATION.name, &last)?;
         let mut step = Step::new(std::slice::from_ref(force), problem.clone());
         step.evaluate();
         let plan = step.finished()?;
@@ -70,7 +70,7 @@ pub async fn truncation(
             rounding: percentiles(&device, &walked),
         });
     }
-    gpu.write(ACCELERATION.name, &felt)?;
+    gpu.write(ACCELERATION.name, &last)?;
     Ok(all)
 }
 
@@ -78,7 +78,7 @@ pub async fn truncation(
 async fn beside(gpu: &mut Gpu, plan: &Plan, law: &str, all: &[DVec4], problem: &Problem) -> Result<Vec<DVec4>, Error> {
     let mut behind = plan.steps().skip_while(|kernel| kernel.name != law);
     let (Some(law), Some(_)) = (behind.next(), behind.next()) else { return Ok(vec![DVec4::ZERO; all.len()]) };
-    // The tree stands; what is felt is cleared and summed up again, by the law alone.
+    // The tree stands; accelerations are cleared and summed up again, by the law alone.
     let zeros = Array::Vec4(vec![DVec4::ZERO; all.len()]);
     gpu.write(ACCELERATION.name, &zeros)?;
     let program = gpu.compile(&Plan::of([law.clone()]))?;
@@ -108,11 +108,11 @@ async fn host(gpu: &mut Gpu, plan: &Plan, problem: &Problem) -> Result<Host, Err
     Ok(host)
 }
 
-/// Of who feels anything.
+/// Over the particles of which the reference has an acceleration.
 fn percentiles(got: &[DVec4], want: &[DVec4]) -> [f64; 3] {
-    let feels = got.iter().zip(want).filter(|(_, want)| want.truncate().length() > 0.0);
+    let accelerated = got.iter().zip(want).filter(|(_, want)| want.truncate().length() > 0.0);
     let mut errors: Vec<f64> =
-        feels.map(|(got, want)| (*got - *want).truncate().length() / want.truncate().length()).collect();
+        accelerated.map(|(got, want)| (*got - *want).truncate().length() / want.truncate().length()).collect();
     errors.sort_by(f64::total_cmp);
     let at = |q: usize| errors.get((errors.len() * q / 100).min(errors.len().saturating_sub(1))).copied();
     [50, 99, 100].map(|q| at(q).unwrap_or(0.0))

@@ -1,4 +1,4 @@
-//! Where a motion is, in f64: the twin of `shaders/motion/pose.wgsl`.
+//! Where a motion is, in f64: the reference of `shaders/motion/pose.wgsl`.
 
 use glam::{DQuat, DVec3};
 

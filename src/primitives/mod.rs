@@ -1,5 +1,5 @@
 //! What algorithms on arrays are made of: fill, scan, reduce, histogram, two sorts. Each takes the names of the fields
-//! that it works on, and lengths that the host knows; each is exact, and has an integer twin (sums of vectors excepted,
+//! that it works on, and lengths that the host knows; each is exact, and has an integer reference (sums of vectors excepted,
 //! which round, by a fixed tree).
 //!
 //! Arrays have at most [`MOST`] elements. Where there are none, the same dispatches run and find nothing to do, so that

@@ -94,7 +94,7 @@ fn chunk(elements: u32) -> u32 {
     elements.div_ceil(CHUNKS).max(CHUNK)
 }
 
-/// The twin.
+/// The reference.
 pub(super) fn exclusive(items: &mut [u32], elements: usize) {
     let mut before = 0u32;
     for item in items.iter_mut().take(elements) {

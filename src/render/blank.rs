@@ -1,6 +1,6 @@
 //! An empty canvas.
 
-use super::frame::{BINS, CANVAS, FRONT, Frame, HISTOGRAM, MISSED, NOBODY, OWNER, STREAK};
+use super::frame::{BINS, CANVAS, FRONT, Frame, HISTOGRAM, MISSED, NONE, OWNER, STREAK};
 use crate::error::Error;
 use crate::kernel::{Host, Kernel, Threads};
 
@@ -13,8 +13,8 @@ pub fn kernel(frame: &Frame) -> Result<Kernel, Error> {
         for field in [CANVAS, STREAK, HISTOGRAM, MISSED] {
             host.write(field)?.fill(0);
         }
-        host.write(FRONT)?.fill(NOBODY);
-        host.write(OWNER)?.fill(NOBODY);
+        host.write(FRONT)?.fill(NONE);
+        host.write(OWNER)?.fill(NONE);
         Ok(())
     };
     Ok(frame.kernel("blank", vec![pass], twin))

@@ -1,4 +1,4 @@
-//! Balls: the nearest in each pixel, and whose it is.
+//! Balls: the nearest in each pixel, and its particle.
 
 use super::frame::{FRONT, Frame, OWNER, PROJECTED, key, middle};
 use crate::error::Error;

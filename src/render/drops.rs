@@ -1,11 +1,10 @@
-//! A fluid as drops: the nearest front in each pixel, how much there is behind it, and whose it is.
+//! A fluid as drops: the nearest front in each pixel, how much there is behind it, and its particle.
 
 use glam::{DVec2, DVec4};
 
 use super::cover;
 use super::frame::{
-    COLOR, CREST, DYE, FRONT, Frame, LEVEL, NEVER, NOBODY, PROJECTED, RIM, SOURCE, THICKNESS, VOLUME, key, middle,
-    whole,
+    COLOR, CREST, DYE, FRONT, Frame, LEVEL, NEVER, NONE, PROJECTED, RIM, SOURCE, THICKNESS, VOLUME, key, middle, whole,
 };
 use crate::error::Error;
 use crate::kernel::{Host, Kernel, Threads};
@@ -17,7 +16,7 @@ const SAME: u32 = 64;
 /// The kernel: four fields are emptied, and two dispatches over all drops.
 pub fn kernel(frame: &Frame) -> Result<Kernel, Error> {
     let mut passes = Vec::new();
-    for (field, value) in [(CREST, NOBODY), (VOLUME, 0), (RIM, 0), (SOURCE, NOBODY)] {
+    for (field, value) in [(CREST, NONE), (VOLUME, 0), (RIM, 0), (SOURCE, NONE)] {
         passes.extend(fill::passes(&field.name.into(), frame.area(), value)?);
     }
     let (threads, rows) = cover::layers(frame);
@@ -32,8 +31,8 @@ pub fn kernel(frame: &Frame) -> Result<Kernel, Error> {
         let (projected, front) = (host.read(PROJECTED)?, host.read(FRONT)?);
         let (mut crest, mut volume) = (host.write(CREST)?, host.write(VOLUME)?);
         let (mut rim, mut source) = (host.write(RIM)?, host.write(SOURCE)?);
-        crest.fill(NOBODY);
-        source.fill(NOBODY);
+        crest.fill(NONE);
+        source.fill(NONE);
         volume.fill(0);
         rim.fill(0);
         for p in projected.iter().filter(|p| p.w > 0.0) {
@@ -51,7 +50,7 @@ pub fn kernel(frame: &Frame) -> Result<Kernel, Error> {
         for (id, p) in (0..).zip(projected.iter()).filter(|(_, p)| p.w > 0.0) {
             touched(&frame, *p, |at, pixel| {
                 // In the order of ids, the first of equals keeps the pixel.
-                if source[at] == NOBODY && front_at(&frame, *p, pixel).1 <= crest[at].wrapping_add(SAME) {
+                if source[at] == NONE && front_at(&frame, *p, pixel).1 <= crest[at].wrapping_add(SAME) {
                     source[at] = id;
                 }
             });
@@ -89,7 +88,7 @@ pub fn level(frame: &Frame) -> Result<Kernel, Error> {
         let (source, color) = (host.read(SOURCE)?, host.read(COLOR)?);
         let (mut level, mut thickness, mut dye) = (host.write(LEVEL)?, host.write(THICKNESS)?, host.write(DYE)?);
         for i in 0..crest.len() {
-            let wet = crest[i] != NOBODY;
+            let wet = crest[i] != NONE;
             level[i] = if wet { unkey(crest[i]) } else { NEVER };
             thickness[i] = if wet { frame.water.layer * f64::from(volume[i]) } else { 0.0 };
             dye[i] = if wet { color[source[i] as usize] } else { 0 };

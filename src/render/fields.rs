@@ -30,7 +30,7 @@ pub const LIT_VERTEX: Field<Vec4> = Field::new("lit_vertex");
 pub const LIT: Field<u32> = Field::new("lit");
 pub const SOLID: Field<u32> = Field::new("solid");
 pub const SCENERY: Field<u32> = Field::new("scenery");
-/// Of a fluid: the nearest front, how much there is along the line of sight, how much of a pixel it covers, and whose it is.
+/// Of a fluid: the nearest front, how much there is along the line of sight, how much of a pixel it covers, and its particle.
 pub const CREST: Field<u32> = Field::new("crest");
 pub const VOLUME: Field<u32> = Field::new("volume");
 pub const RIM: Field<u32> = Field::new("rim");

@@ -11,7 +11,7 @@ use crate::kernel::{Host, Kernel, Pass, Scalar, Shader, Source, Threads};
 
 pub use super::fields::*;
 
-pub const NOBODY: u32 = u32::MAX;
+pub const NONE: u32 = u32::MAX;
 /// Further than anything.
 pub const NEVER: f64 = 1e30;
 pub const BINS: usize = 256;
@@ -228,7 +228,7 @@ impl Frame {
         let work = u64::from(threads.count) * u64::from(threads.layers) * each;
         Ok(Pass { uniforms, threads, work, ..Pass::new(shader, threads.count) })
     }
-    /// Passes and their twin.
+    /// Passes and their reference.
     pub(super) fn kernel(
         &self,
         name: &str,

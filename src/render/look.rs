@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3, DVec4};
 
 use super::Exposure;
-use super::frame::{CANVAS, COLOR, Frame, NOBODY, OWNER, PROJECTED, STREAK, middle, unpack};
+use super::frame::{CANVAS, COLOR, Frame, NONE, OWNER, PROJECTED, STREAK, middle, unpack};
 use crate::error::Error;
 use crate::kernel::{Host, Pass, Scalar};
 
@@ -58,7 +58,7 @@ impl Look<'_> {
         let at = self.frame.pixel(x, y);
         let mut c = under;
         let owner = self.owner[at];
-        if owner != NOBODY {
+        if owner != NONE {
             let (p, color) = (self.projected[owner as usize], unpack(self.color[owner as usize]));
             c = ball(c, color, (middle(x, y) - p.truncate().truncate()) / p.w, p.w);
         }

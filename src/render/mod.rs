@@ -1,4 +1,4 @@
-//! Pictures, drawn by kernels like any other: on a device, or by their twins with no driver at all.
+//! Pictures, drawn by kernels like any other: on a device, or by their references with no driver at all.
 //!
 //! Few or large particles are shaded balls with trails; many small ones are lights that add up on a canvas of whole
 //! numbers, so that a picture has the same bytes on every run. Cloth is a surface, springs are lines, and solids stand

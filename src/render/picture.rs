@@ -32,7 +32,7 @@ pub struct Picture {
     /// Brightness of lights, as a multiple of the automatic one.
     pub exposure: f64,
     facets: Facets,
-    /// Whether some may not live, who are not drawn.
+    /// Whether some may not be active, which are not drawn.
     mortal: bool,
 }
 

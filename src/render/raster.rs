@@ -1,8 +1,8 @@
-//! Facets at the samples of a picture: the nearest, and whose it is.
+//! Facets at the samples of a picture: the nearest, and its facet.
 
 use glam::{DVec2, DVec3, DVec4, Vec4};
 
-use super::frame::{FACET, Frame, NOBODY, TORN, key, whole};
+use super::frame::{FACET, Frame, NONE, TORN, key, whole};
 use super::scenery::Facets;
 use crate::error::Error;
 use crate::kernel::{Field, Host, Kernel, Pass, Source, Threads};
@@ -19,7 +19,7 @@ const SAME: u32 = 64;
 pub struct Fields {
     pub vertex: Field<Vec4>,
     pub nearest: Field<u32>,
-    /// Whose the samples are, where anybody asks.
+    /// The facet of each sample, where it is needed.
     pub holder: Option<Field<u32>>,
 }
 
@@ -34,7 +34,7 @@ pub struct Facet {
 impl Facet {
     pub fn of(facet: &[u32], vertex: &[DVec4], i: usize) -> Self {
         let words = &facet[3 * i..3 * i + 3];
-        let line = words[2] == NOBODY;
+        let line = words[2] == NONE;
         let ids = [words[0], words[1], if line { words[1] } else { words[2] }].map(|id| id as usize);
         Self { ids, line, corners: ids.map(|id| vertex[2 * id]) }
     }
@@ -63,22 +63,22 @@ impl Facet {
     }
 }
 
-/// The kernel: blank samples, the nearest of triangles and lines, and whose they are.
+/// The kernel: blank samples, the nearest of triangles and lines, and their facets.
 pub fn kernel(name: &str, frame: &Frame, facets: &Facets, fields: Fields) -> Result<Kernel, Error> {
     let samples = frame.samples();
-    let mut passes = fill::passes(&fields.nearest.name.into(), samples, NOBODY)?;
+    let mut passes = fill::passes(&fields.nearest.name.into(), samples, NONE)?;
     passes.extend(sweep(frame, crate::shader!("render/facet_cover.wgsl"), fields)?);
     if let Some(holder) = fields.holder {
-        passes.extend(fill::passes(&holder.name.into(), samples, NOBODY)?);
+        passes.extend(fill::passes(&holder.name.into(), samples, NONE)?);
         passes.extend(sweep(frame, crate::shader!("render/facet_claim.wgsl"), fields)?);
     }
     let on = *frame;
     let twin = move |host: &Host| {
         let mut nearest = host.write(fields.nearest)?;
-        nearest.fill(NOBODY);
+        nearest.fill(NONE);
         let mut holder = fields.holder.map(|holder| host.write(holder)).transpose()?;
         if let Some(holder) = &mut holder {
-            holder.fill(NOBODY);
+            holder.fill(NONE);
         }
         if on.facets == 0 {
             return Ok(());

@@ -6,7 +6,7 @@ use glam::{DQuat, DVec3};
 
 use super::camera::FEW;
 use super::fluid::drop_of;
-use super::frame::{AROUND, AROUND_START, EDGE, FACET, Frame, NOBODY, SLOT, SOLID, VEIL};
+use super::frame::{AROUND, AROUND_START, EDGE, FACET, Frame, NONE, SLOT, SOLID, VEIL};
 use super::solid::{Shape, Solid};
 use super::tank;
 use crate::error::Error;
@@ -29,7 +29,7 @@ pub struct Scenery {
     pub bounded: Option<Solid>,
     /// The radius of the drops of a fluid, by how far apart particles are at the start \[length\]; zero: as they are now.
     pub drop: f64,
-    /// Who is held, by id: in a fluid those are walls.
+    /// The held particles, by id: in a fluid those are walls.
     pub held: Arc<Vec<u32>>,
     /// The same in a scene, and the motions that they go along with: see [`Scenery::at`].
     pub standing: (Vec<Standing>, Vec<Motion>),
@@ -139,17 +139,17 @@ impl Facets {
                 }
                 // On a cloth they are seen as the cloth.
                 if !(cloth[a as usize] && cloth[b as usize]) {
-                    facets.push([a.min(b), a.max(b), NOBODY]);
+                    facets.push([a.min(b), a.max(b), NONE]);
                 }
             }
         }
         let network = Network::new(count, links);
         let slot = |[a, b]: [u32; 2]| {
             let row = network.link_start[a as usize]..network.link_start[a as usize + 1];
-            row.into_iter().find(|k| network.link.get(4 * *k as usize) == Some(&b)).unwrap_or(NOBODY)
+            row.into_iter().find(|k| network.link.get(4 * *k as usize) == Some(&b)).unwrap_or(NONE)
         };
         let sides = |[a, b, c]: [u32; 3]| {
-            if c == NOBODY { [slot([a, b]), NOBODY, NOBODY] } else { [slot([a, b]), slot([b, c]), slot([c, a])] }
+            if c == NONE { [slot([a, b]), NONE, NONE] } else { [slot([a, b]), slot([b, c]), slot([c, a])] }
         };
         let slots = facets.iter().flat_map(|facet| sides(*facet)).collect();
         let few = count as usize <= FEW;
@@ -224,8 +224,8 @@ impl Facets {
 fn around(facets: &[[u32; 3]], cloth: &[bool], count: u32) -> Result<(Vec<u32>, Vec<u32>), Error> {
     let corners = || {
         let numbered = (0..).zip(facets);
-        let each = numbered.flat_map(|(n, facet)| facet.iter().map(move |id| (*id, n, facet[2] == NOBODY)));
-        each.filter(|(id, _, line)| *id != NOBODY && !(*line && cloth[*id as usize]))
+        let each = numbered.flat_map(|(n, facet)| facet.iter().map(move |id| (*id, n, facet[2] == NONE)));
+        each.filter(|(id, _, line)| *id != NONE && !(*line && cloth[*id as usize]))
     };
     let mut start = vec![0; count as usize + 1];
     corners().for_each(|(id, _, _)| start[id as usize + 1] += 1);
@@ -250,7 +250,7 @@ fn beyond(id: u32, count: u32) -> Error {
 }
 
 fn number(n: usize) -> Result<u32, Error> {
-    let fits = u32::try_from(n).ok().filter(|n| *n < NOBODY / 3);
+    let fits = u32::try_from(n).ok().filter(|n| *n < NONE / 3);
     fits.ok_or_else(|| Error::Scene(format!("{n} triangles and lines are more than a picture draws")))
 }
 

@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3, DVec4};
 use rayon::prelude::*;
 
 use super::frame::{
-    COLOR, FACET, FRONT, Frame, HOLDER, LIT, NEAR, NEVER, NOBODY, SCENERY, SOLID, VERTEX, key, middle, unpack,
+    COLOR, FACET, FRONT, Frame, HOLDER, LIT, NEAR, NEVER, NONE, SCENERY, SOLID, VERTEX, key, middle, unpack,
 };
 use super::light::{Lamp, matte, strand};
 use super::paint::rounded;
@@ -88,7 +88,7 @@ impl Stage<'_> {
         };
         let view = -d.normalize();
         let met = meet(self.lamp.bodies, o, d, least);
-        if id != NOBODY {
+        if id != NONE {
             let f = Facet::of(self.facet, self.vertex, id as usize);
             let w = f.parts(self.frame.thread, place);
             let depth = f.depth(&self.frame, w);

@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DQuat, DVec3, DVec4};
 
-use super::frame::{Frame, NEVER, NOBODY};
+use super::frame::{Frame, NEVER, NONE};
 use crate::motion::Motion;
 use crate::solids::{self, Standing};
 
@@ -185,7 +185,7 @@ fn to_ball(o: DVec3, d: DVec3, radius: f64) -> Option<f64> {
 
 /// The nearest of all that is further along than `least`.
 pub fn meet(bodies: &[Body], o: DVec3, d: DVec3, least: f64) -> Meeting {
-    let mut best = Meeting { way: NEVER, normal: DVec3::ZERO, number: NOBODY };
+    let mut best = Meeting { way: NEVER, normal: DVec3::ZERO, number: NONE };
     for (number, body) in (0..).zip(bodies) {
         let met = body.meet(body.unturned(o - body.place), body.unturned(d));
         if let Some((way, normal)) = met.filter(|(way, _)| *way > least && *way < best.way) {

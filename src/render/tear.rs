@@ -1,6 +1,6 @@
 //! Which facets are torn.
 
-use super::frame::{Frame, NOBODY, SLOT, TORN};
+use super::frame::{Frame, NONE, SLOT, TORN};
 use super::scenery::{Facets, LINK};
 use crate::error::Error;
 use crate::kernel::{Host, Kernel, Threads};
@@ -13,7 +13,7 @@ pub fn kernel(frame: &Frame, facets: &Facets) -> Result<Kernel, Error> {
         let (slot, link) = (host.read(SLOT)?, host.reading::<u32>(LINK)?);
         let broken = |slot: &u32| {
             let at = *slot as usize * WORDS;
-            *slot != NOBODY && link.get(at..at + WORDS).is_some_and(|words| Half::new(words).is_broken())
+            *slot != NONE && link.get(at..at + WORDS).is_some_and(|words| Half::new(words).is_broken())
         };
         for (torn, slots) in host.write(TORN)?.iter_mut().zip(slot.chunks_exact(3)) {
             *torn = u32::from(slots.iter().any(broken));

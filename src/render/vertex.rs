@@ -3,7 +3,7 @@
 use glam::{DVec3, DVec4, Vec4};
 use rayon::prelude::*;
 
-use super::frame::{AROUND, AROUND_START, FACET, Frame, NOBODY, TORN};
+use super::frame::{AROUND, AROUND_START, FACET, Frame, NONE, TORN};
 use super::scenery::Facets;
 use crate::error::Error;
 use crate::kernel::{Field, Host, Kernel, POSITION, Threads};
@@ -43,5 +43,5 @@ pub fn kernel(name: &str, frame: &Frame, facets: &Facets, to: Field<Vec4>) -> Re
 fn part(position: &[DVec4], ids: &[u32]) -> DVec3 {
     let at = |k: usize| position[ids[k] as usize].truncate();
     let way = at(1) - at(0);
-    if ids[2] == NOBODY { way } else { way.cross(at(2) - at(0)) }
+    if ids[2] == NONE { way } else { way.cross(at(2) - at(0)) }
 }

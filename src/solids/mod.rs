@@ -1,4 +1,4 @@
-//! Simple solids by their signed distances: what particles avoid, lie on, or are kept in. The twin of
+//! Simple solids by their signed distances: what particles avoid, lie on, or are kept in. The reference of
 //! `shaders/solids/distance.wgsl`.
 
 use glam::DVec3;

@@ -43,7 +43,7 @@ impl Flow {
     /// their own, and are asked for XSPH alone.
     ///
     /// # Errors
-    /// When there is no such fluid, or what a simulation of one particle by the twins says.
+    /// When there is no such fluid, or what a simulation of one particle by the references says.
     pub async fn of(setup: &Setup, build: Build) -> Result<Option<Self>, Error> {
         let problem = setup.problem(Machine::HOST)?;
         let Some(rates) = setup

@@ -34,7 +34,7 @@ pub struct Oscillator<B: Backend> {
 }
 
 impl Oscillator<Cpu> {
-    /// On the twins, in f64. `omega` is ω and `damping` is c, both \[1 / time\].
+    /// On the references, in f64. `omega` is ω and `damping` is c, both \[1 / time\].
     ///
     /// # Errors
     /// When the numbers make no sense to a simulation.
@@ -123,7 +123,7 @@ impl<B: Backend> Oscillator<B> {
     }
 }
 
-/// The largest dt under which an integrator keeps x″ = −ω² x − c x′ bounded for so long: by the twins, in f64, and from
+/// The largest dt under which an integrator keeps x″ = −ω² x − c x′ bounded for so long: by the references, in f64, and from
 /// its own steps. A network of springs is safe at what it gives for bounds of ω and c.
 ///
 /// # Errors

@@ -34,7 +34,7 @@ impl Verdict {
     /// Of a setup that is to run for so many steps; `None` where neither spring nor joint acts.
     ///
     /// # Errors
-    /// What a simulation of one particle by the twins says.
+    /// What a simulation of one particle by the references says.
     pub async fn of(setup: &Setup, build: Build, steps: u64) -> Result<Option<Self>, Error> {
         let springs = &setup.state.links.springs;
         let names: Vec<String> = setup.forces.iter().flat_map(|force| force.laws()).map(|law| law.name).collect();

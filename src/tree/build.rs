@@ -24,7 +24,7 @@ pub(super) const PULLS: u32 = 6;
 /// The part of them that counts as a force where they cancel.
 pub(super) const PART: f64 = 1.0 / 32.0;
 
-/// What a twin of a tree is.
+/// What a reference of a tree is.
 type Rule = fn(&Tree, &Host) -> Result<(), Error>;
 
 impl Tree {

@@ -1,4 +1,4 @@
-//! The twins of what builds a tree: sums over the bodies of each node, whatever its children are.
+//! The references of what builds a tree: sums over the bodies of each node, whatever its children are.
 
 use glam::{DMat3, DVec3, DVec4, Vec4};
 

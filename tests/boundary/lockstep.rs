@@ -1,4 +1,4 @@
-//! The kernels of the sides, and all others in a box, against their twins.
+//! The kernels of the sides, and all others in a box, against their references.
 
 use glam::Vec4;
 use motes::kernel::{Backend, Machine, Plan, Problem};
@@ -93,7 +93,7 @@ fn integrators_in_a_box() {
     }
 }
 
-/// Exactly at a side, next to it, or whole lengths away: where the numbers of a box are dyadic, device and twin agree to
+/// Exactly at a side, next to it, or whole lengths away: where the numbers of a box are dyadic, device and reference agree to
 /// the bit.
 #[test]
 fn at_the_very_sides() {

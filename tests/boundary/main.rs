@@ -1,4 +1,4 @@
-//! The box: particles that leave it come back as they should, on the device and by the twins, and forces see the nearest
+//! The box: particles that leave it come back as they should, on the device and by the references, and forces see the nearest
 //! images.
 
 #[path = "../support/mod.rs"]

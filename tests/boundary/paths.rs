@@ -62,7 +62,7 @@ fn sides() -> impl Strategy<Value = Side> {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 60, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// By the twins, in f64; dt so large that a step may cross the box many times.
+    /// By the references, in f64; dt so large that a step may cross the box many times.
     #[test]
     fn paths_are_folded_lines(
         sides in [sides(), sides(), sides()], seed in 0..1000_u64, dt in 0.01..9.0_f64, name in prop::sample::select(&NAMES[..]),

@@ -1,4 +1,4 @@
-//! Species: from the setup to laws on the device and by the twins, and into snapshots.
+//! Species: from the setup to laws on the device and by the references, and into snapshots.
 
 use std::sync::Arc;
 

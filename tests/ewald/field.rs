@@ -88,7 +88,7 @@ fn a_mass_alone_has_the_energy_of_its_images() {
     }
 }
 
-/// A cloud by the twins, in a cube of another side, in another place, unwrapped.
+/// A cloud by the references, in a cube of another side, in another place, unwrapped.
 #[test]
 fn a_cloud_is_the_exact_sum() {
     let (side, g) = (3.5, 0.8);

@@ -1,4 +1,4 @@
-//! What a periodic world does, by the twins and on a device.
+//! What a periodic world does, by the references and on a device.
 
 use std::f64::consts::PI;
 
@@ -134,7 +134,7 @@ fn a_device_sums_as_exactly() {
     on_device(&shared, None, 1500, "pairs");
 }
 
-/// Far groups as one, on the device and by the twin.
+/// Far groups as one, on the device and by the reference.
 #[test]
 fn a_tree_sums_as_exactly() {
     let shared = support::device();

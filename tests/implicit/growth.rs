@@ -1,5 +1,5 @@
 //! What a step multiplies an oscillator's energy and a decaying velocity by (Hairer & Wanner 1996, §IV.3), on the device and
-//! by the twins: through the block of each particle alone, and through conjugate gradients.
+//! by the references: through the block of each particle alone, and through conjugate gradients.
 
 use glam::DVec3;
 use motes::forces::Component;
@@ -49,7 +49,7 @@ fn energy((x, v): (DVec3, DVec3)) -> f64 {
     v.length_squared() + STRENGTH * x.length_squared()
 }
 
-/// A few roundings to f32 of numbers of order one; phases are read in f32 from the twins too.
+/// A few roundings to f32 of numbers of order one; phases are read in f32 from the references too.
 const ROUNDING: f64 = 2e-6;
 
 #[test]

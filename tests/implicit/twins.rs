@@ -1,4 +1,4 @@
-//! Every kernel of an implicit step with springs against its f64 twin.
+//! Every kernel of an implicit step with springs against its f64 reference.
 
 use motes::forces::Component;
 use motes::kernel::Machine;

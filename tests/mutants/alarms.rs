@@ -10,15 +10,15 @@ fn known(name: &str, stages: &[Stage]) -> Kernel {
     stage.plan.kernels[0].clone()
 }
 
-/// What the watch must tell apart: which field, which particle, what was seen before.
+/// What the watch must distinguish: which field, which particle, what was seen before.
 pub fn watches(device: &Device, stages: &mut Vec<Stage>) {
     let watch = known("watch", stages);
     let odd = f32::from_bits(0x7fc0_0001);
-    let nobody = [u32::MAX; 2];
+    let none = [u32::MAX; 2];
     let cases = [
-        (POSITION, 3, 0, odd, nobody),
-        (VELOCITY, 3, 1, f32::NEG_INFINITY, nobody),
-        (ACCELERATION, FEW - 1, 3, f32::NAN, nobody),
+        (POSITION, 3, 0, odd, none),
+        (VELOCITY, 3, 1, f32::NEG_INFINITY, none),
+        (ACCELERATION, FEW - 1, 3, f32::NAN, none),
         // After fewer steps another was found: it stays. After as many: the lower id. After more: this one.
         (POSITION, 3, 2, f32::INFINITY, [1, 50]),
         (POSITION, 3, 2, f32::INFINITY, [3, 490]),
@@ -34,14 +34,14 @@ pub fn watches(device: &Device, stages: &mut Vec<Stage>) {
     }
 }
 
-/// The words that tell of speeds: who ran away and when, then the largest speed of now and of before, and how often doubled.
+/// The words about speeds: the first runaway's step and id, the maximum speed now and before, and the count of doublings.
 fn words([step, id]: [u32; 2], [now, before]: [f32; 2], doubled: u32) -> [u32; QUIET.len()] {
     let mut alarm = QUIET;
     alarm[3..8].copy_from_slice(&[step, id, now.to_bits(), before.to_bits(), doubled]);
     alarm
 }
 
-/// What tells a runaway from speeds that are merely high, or merely growing.
+/// What distinguishes a runaway from speeds that are merely high, or merely growing.
 pub fn runaways(device: &Device, stages: &mut Vec<Stage>) {
     let (watch, tick) = (known("watch", stages), known("tick", stages));
     let speed = |v: &glam::Vec4| v.truncate().abs().max_element();
@@ -52,13 +52,13 @@ pub fn runaways(device: &Device, stages: &mut Vec<Stage>) {
         v[377][axis] = -25.7 - 0.1 * f32::from(u8::try_from(axis).expect("few"));
         let most = v.iter().map(speed).fold(0.0, f32::max);
         assert!(most < 27.0 && v.iter().filter(|v| speed(v) > 0.8 * most).count() == 1, "377 is by far the fastest");
-        let nobody = [u32::MAX; 2];
+        let none = [u32::MAX; 2];
         let cases = [
-            words(nobody, [0.0, most / 2.5], 7),
-            words(nobody, [0.0, most / 2.0], 7),
-            words(nobody, [0.0, most / 2.5], 6),
-            words(nobody, [0.0, 2.0 * most], 9),
-            words(nobody, [1.5 * most, 0.1 * most], 8),
+            words(none, [0.0, most / 2.5], 7),
+            words(none, [0.0, most / 2.0], 7),
+            words(none, [0.0, most / 2.5], 6),
+            words(none, [0.0, 2.0 * most], 9),
+            words(none, [1.5 * most, 0.1 * most], 8),
             words([1, 50], [0.0, most / 2.5], 7),
             words([3, 490], [0.0, most / 2.5], 7),
             words([9, 490], [0.0, most / 2.5], 7),

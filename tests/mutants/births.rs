@@ -1,4 +1,4 @@
-//! Stages of births and deaths, and of what passes by those who do not live.
+//! Stages of births and deaths, and of kernels that skip particles that are not active.
 
 #![allow(clippy::cast_possible_truncation, reason = "numbers are rounded to what f32 holds")]
 
@@ -95,7 +95,7 @@ fn staged(name: &str, mut simulation: Simulation<Gpu>, bounds: Bounds, plan: Pla
     let clock = World { time: TIME, dt: STEP, bounds, ..clock };
     simulation.backend().set_world(clock).expect("a clock");
     if plan.kernels.len() > 1 {
-        // Slots that are free later hold somebody first.
+        // Slots that become free later hold another particle first.
         simulation.write(LIFE, &[1; FEW]).expect("lives");
         let gpu = simulation.backend();
         let program = gpu.compile(&plan).expect("a good plan");
@@ -133,15 +133,15 @@ fn tabled(kernel: Kernel) -> Kernel {
         return kernel;
     }
     let mut all = births();
-    // Somebody who waits and is due; or who lives, and is not free for long.
+    // A pending particle that is due; or an active one whose slot does not become free soon.
     let kind = if kernel.name == "bear" { 1 } else { 3 };
     let id = (kind..FEW as u32).step_by(7).find(|id| all.iter().all(|birth| birth.id != *id));
-    all.push(Birth { id: id.expect("somebody else"), time: 0.3, guided: 9.0, ..all[0] });
+    all.push(Birth { id: id.expect("another particle"), time: 0.3, guided: 9.0, ..all[0] });
     let table = std::sync::Arc::new(motes::life::table(&all));
     Kernel { sizes: vec![("births".into(), all.len() as u64)], tables: vec![("births".into(), table)], ..kernel }
 }
 
-/// What moves everybody but those who do not live.
+/// What moves every particle but those that are not active.
 fn passing_by(device: &Device, held: &[Held], stages: &mut Vec<Stage>) {
     let mirrors = Bounds::new(DVec3::splat(-0.8), DVec3::splat(0.7), Side::Reflecting);
     for held in [held, &[]] {

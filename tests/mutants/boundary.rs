@@ -14,8 +14,8 @@ use crate::support::states::force;
 
 use Side::{Open, Periodic, Reflecting};
 
-/// Numbers whose multiples f32 holds, so that device and twins agree at the very sides; along x what is next to the lower
-/// one rounds to the upper one, a period on; along y so far from the origin
+/// Numbers whose multiples f32 holds, so that device and references agree exactly at the sides; along x what is next to the
+/// lower one rounds to the upper one, a period on; along y so far from the origin
 /// that what stands behind the last particle is outside.
 fn box_of(sides: [Side; 3]) -> Bounds {
     Bounds { low: DVec3::new(0.125, 3.0, -2.5), high: DVec3::new(1.625, 3.75, 0.5), sides, dimensions: 3 }

@@ -52,7 +52,7 @@ fn block(flat: bool) -> (State, Bounds) {
         sides: [Side::Periodic, Side::Open, Side::Open],
         dimensions: if flat { 2 } else { 3 },
     };
-    // One that nobody is near, and a pair of which each is at the rim of the other's range.
+    // A particle without neighbours, and a pair of which each is at the rim of the other's range.
     let off = if flat { DVec3::Y } else { DVec3::Z };
     for height in [2.0, 3.0, 3.0 + 1.995 * SPACING] {
         particles.push((height * off + 0.4 * DVec3::X).as_vec3().as_dvec3(), DVec3::ZERO, mass, 0.0);
@@ -134,7 +134,7 @@ pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
                 stages.push(Stage::amid(&format!("{}, flat {flat}", kernel.name), &simulation, alone(kernel.clone())));
             }
             if kernel.name == "fluid response" && !walks {
-                // Pairs are what whoever meets them makes of them.
+                // The kernel that visits the pairs defines what the pairs are.
                 let both = Plan::of([kernel.clone(), named("fluid predict")]);
                 stages.push(Stage::amid(&format!("pairs, flat {flat}"), &simulation, both).slack(4.0));
             }
@@ -158,7 +158,7 @@ pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
             }
         }
     }
-    crate::crowds::all(shared, device, stages);
+    crate::sizes::all(shared, device, stages);
 }
 
 /// A kernel where what solves know of so many of the fluid is any number, in steps of such a length; what was there is put back.
@@ -236,14 +236,15 @@ fn ends(simulation: &Rc<RefCell<Simulation<Gpu>>>, decide: &Kernel, stages: &mut
     }
     words(simulation, &field, &[f32::INFINITY]);
     words(simulation, "dfsph_state", &[3.0, 0.0, 0.3, 3.0, 0.0, 0.7]);
-    // Both are told, since infinity cannot be compared.
-    let told = if decide.name.contains("divergence") {
+    // Both are expected values, since infinity cannot be compared.
+    let expected = if decide.name.contains("divergence") {
         vec![4.0, 2.0, f32::INFINITY, 3.0, 0.0, 0.7]
     } else {
         vec![3.0, 0.0, 0.3, 4.0, 2.0, f32::INFINITY]
     };
     stages.push(
-        Stage::amid(&format!("{}, broken", decide.name), simulation, alone(decide.clone())).told("dfsph_state", told),
+        Stage::amid(&format!("{}, broken", decide.name), simulation, alone(decide.clone()))
+            .expected("dfsph_state", expected),
     );
     words(simulation, &field, &[1e-3]);
 }

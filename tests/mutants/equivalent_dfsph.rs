@@ -3,9 +3,9 @@
 use crate::support::equivalents::{Equivalent, same};
 
 const ALWAYS_SET: &str = "the host sets every override";
-const ALL_KNOW: &str = "all know the same, and whoever says it says the same";
-const HELD: &str = "behind the fluid stands who is held, and does not look around";
-const EDGE: &str = "nobody stands at the very edge";
+const ALL_KNOW: &str = "all lanes hold the same value, so any of them may write it";
+const HELD: &str = "behind the fluid stand fixed particles, which visit no neighbours";
+const EDGE: &str = "no particle lies exactly at the edge";
 
 pub const EQUIVALENT: &[Equivalent] = &[
     same("fluids/dfsph/", "override SOLVE: u32 = 0u;", "0u", "1u", ALWAYS_SET),
@@ -24,5 +24,5 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("dfsph/tally.wgsl", "if lane == 0u && first < end {", "==", "!=", ALL_KNOW),
     same("dfsph/tally.wgsl", "if lane == 0u && first < end {", "0u", "1u", ALL_KNOW),
     same("dfsph/response.wgsl", "let resists = inverse > LEAST", ">", ">=", EDGE),
-    same("dfsph/finish.wgsl", "if k >= world.count {", ">=", ">", "behind the last slot stands the id of nobody"),
+    same("dfsph/finish.wgsl", "if k >= world.count {", ">=", ">", "behind the last slot stands no valid id"),
 ];

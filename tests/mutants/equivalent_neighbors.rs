@@ -3,13 +3,13 @@
 use crate::support::equivalents::{Equivalent, same};
 
 const ALWAYS_SET: &str = "the host sets every override";
-const FURTHER: &str = "it looks further, where nobody is in range";
-const EMPTY: &str = "one more stretch or turn, with nobody in it";
+const FURTHER: &str = "it looks further, where no particle is in range";
+const EMPTY: &str = "one more stretch or turn, with no particle in it";
 const IN_RESERVE: &str = "a search of the most takes 60 000 turns, and lavapipe ends loops after 65 535";
-const WORTHLESS: &str = "the alarm is raised, and what a crowd sums up is of no worth";
+const WORTHLESS: &str = "the alarm is raised, and the sum over too many neighbours is discarded";
 const AT_ONE_PLACE: &str = "so far away only those at one place are in range, and they are in one cell";
-const AT_THE_SIDE: &str = "who is at the lower side stays there, by one way or the other";
-const HIDDEN: &str = "the first of four is never moved on, and takes nobody's place";
+const AT_THE_SIDE: &str = "a particle at the lower side stays there either way";
+const HIDDEN: &str = "the first of four is never moved on, and replaces no other";
 const UNUSED: &str = "more of the list is kept than is used, or waited for: slower, and the same";
 const ROUNDED: &str = "what rounding moves over a cell's side is a millionth of a cell away from it";
 const REACH: &str = "select(select(vec3u(1u), vec3u(2u)";
@@ -68,9 +68,9 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("near_subgroup", "var left = ", "&&", "||", WORTHLESS),
     same("near_subgroup", "var slot = 0u", "0u", "1u", "it is behind the end, which is 0"),
     same("near_subgroup", "if slot >= end {", ">=", ">", EMPTY),
-    same("near_subgroup", "end - 1u));", "-", "+", "who is loaded behind the end is met by nobody"),
+    same("near_subgroup", "end - 1u));", "-", "+", "what is loaded behind the end is paired with no particle"),
     same("near_walk", "slot < end; slot", "<", "<=", EMPTY),
-    same("nearest", "let tied = ", "<", "<=", "nobody comes twice"),
+    same("nearest", "let tied = ", "<", "<=", "no particle comes twice"),
     same("nearest", "let new_d = ", "0.0", "1.0", HIDDEN),
     same("nearest", "let new_i = ", "0u", "1u", HIDDEN),
     same("nearest", "if COUNT > ", ">", ">=", UNUSED),
@@ -88,7 +88,7 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("nearest", "seen <= MOST", "<=", "<", IN_RESERVE),
     same("nearest", "slot < end; slot", "<", "<=", EMPTY),
     same("nearest", BREAK, ">", ">=", IN_RESERVE),
-    same("nearest", BREAK, "<", "<=", "nobody is just as far away as the cube reaches"),
+    same("nearest", BREAK, "<", "<=", "no particle is exactly as far away as the cube reaches"),
     same("nearest", "reach *= 2u;", "2u", "3u", FURTHER),
     same("nearest", "if seen > MOST { atomic", ">", ">=", IN_RESERVE),
 ];

@@ -3,11 +3,11 @@
 use crate::support::equivalents::{Equivalent, same};
 
 const BY_REFLECTION: &str = "the host reads it by reflection, and any will do";
-const ROOMIER: &str = "memory that nobody uses";
+const ROOMIER: &str = "memory that is not used";
 const FIRST_DOES_ALL: &str = "the first in line takes everything, and the others nothing";
 const NOTHING_LEFT: &str = "one more turn, with nothing to do";
 const ZEROED: &str = "a stranger's workgroup memory starts at zero";
-const NOT_READ: &str = "it writes what nobody reads";
+const NOT_READ: &str = "it writes what is never read";
 const REST: &str = "the loop behind it does what this one leaves";
 /// Lanes of lavapipe run in order up to each barrier.
 const CLEARED_BEFORE: &str = "the last column is cleared once more, before its owner counts";
@@ -40,17 +40,17 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("_tile", "array<u32, 512>", "512", "513", ROOMIER),
     same("radix_tile", "row < 8u", "<", "<=", CLEARED_BEFORE),
     same("radix_tile", "row < 8u", "8u", "9u", CLEARED_BEFORE),
-    same("_tile", "reach < WORKGROUP", "<", "<=", "nobody has 256 before it"),
+    same("_tile", "reach < WORKGROUP", "<", "<=", "no element has 256 before it"),
     same("primitives/reduce", "let end = min(first + extent.block,", "+", "-", FIRST_DOES_ALL),
     same("primitives/", "width > 1u", ">", ">=", NOTHING_LEFT),
     same("primitives/", "if lane < width {", "<", "<=", NOT_READ),
     same("primitives/", "if lane < half {", "<", "<=", NOT_READ),
     same("scan_line", "start < extent.elements", "<", "<=", NOTHING_LEFT),
-    same("scan_sums", "if i < extent.elements", "<", "<=", "nobody comes behind the last tile"),
+    same("scan_sums", "if i < extent.elements", "<", "<=", "no element comes behind the last tile"),
     same("scan_tile", "array<u32, 2304>", "2304", "2305", ROOMIER),
     same("scan_tile", "at < TILE; at += WORKGROUP", "<", "<=", "the last gap is not read"),
-    same("scan_tile", "var item = 0u;", "0u", "1u", "nobody comes behind the last tile"),
-    same("scan_tile", "if start + at < extent.elements { item = ", "<", "<=", "nobody comes behind the last tile"),
+    same("scan_tile", "var item = 0u;", "0u", "1u", "no element comes behind the last tile"),
+    same("scan_tile", "if start + at < extent.elements { item = ", "<", "<=", "no element comes behind the last tile"),
     same("sort_scatter", "if i < extent.elements", "<", "<=", "behind the last rank stands one that leads nowhere"),
     same("sort_settle", "override LARGEST: u32 = 16384u;", "16384u", "16385u", "the host sets every override"),
     same("sort_settle", "at + 8u <= end", "8u", "9u", REST),

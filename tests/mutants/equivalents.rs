@@ -9,14 +9,14 @@ const ENOUGH: &str = "more halvings than there are keys";
 const LAST_DIGITS: &str = "a part in a million, where `tests/pins` holds places to two units in the last place";
 const SINE: &str = "let sine_end";
 const STORES_NOTHING: &str = "lanes behind the last particle store nothing of theirs";
-const EDGE: &str = "nobody stands at the very edge";
-const AT_THE_SIDE: &str = "who is at the side stays at the side, by one way or the other";
+const EDGE: &str = "no particle lies exactly at the edge";
+const AT_THE_SIDE: &str = "a particle at the side stays at the side either way";
 const SOON: &str = "it says when to stop, and the last of Newton's steps doubles digits that are enough";
 const LOST: &str = "what is lost is lost either way";
 const NOTHING_BEFORE: &str = "before the first rod, and behind the last, it is a factor of nothing";
 const NO_LINKS: &str = "behind the last particle's there are no links";
 const NOT_ASKED: &str = "it is not asked for any more";
-const ALL_KNOW: &str = "all know the same, and whoever says it says the same";
+const ALL_KNOW: &str = "all lanes hold the same value, so any of them may write it";
 const APART: &str = "let apart = start + BLOCK <= mine || start >= mine + WORKGROUP * TARGETS;";
 
 /// Of implicit solves.
@@ -57,7 +57,7 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("kick_drift.wgsl", "override DRIFT: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
     same("lead.wgsl", "override FIRST: u32 = 0u;", "0u", "1u", ALWAYS_SET),
     same("", "override END: u32 = 1u;", "1u", "2u", ALWAYS_SET),
-    same("hold.wgsl", "if i < END {", "<", "<=", "behind the last one stands the id of nobody"),
+    same("hold.wgsl", "if i < END {", "<", "<=", "behind the last one stands no valid id"),
     same("pose.wgsl", SINE, "0.0000000239", "3.585e-8", LAST_DIGITS),
     same("pose.wgsl", "for (var k", "0u", "1u", ENOUGH),
     same("pose.wgsl", "for (var k", "<", "<=", ENOUGH),
@@ -82,7 +82,7 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("gravity_images.wgsl", "override G: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
     same("gravity_images.wgsl", "override SELF: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
     same("gravity_structure.wgsl", "override BLOCK: u32 = 64u;", "64u", "65u", ALWAYS_SET),
-    same("gravity_structure.wgsl", "let some = ", "<", "<=", "a block of nobody is nothing"),
+    same("gravity_structure.wgsl", "let some = ", "<", "<=", "a block of no particles sums to nothing"),
     same("gravity_structure_sum.wgsl", "override BLOCKS: u32 = 1u;", "1u", "2u", ALWAYS_SET),
     same("gravity_ewald_distant.wgsl", "if v > 0.0 {", ">", ">=", EDGE),
     same("gravity_ewald.wgsl", "let mass = select(", ">", ">=", "at the edge both are nothing"),
@@ -92,11 +92,17 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("tear.wgsl", "let beyond = ", ">", ">=", EDGE),
     same("spring.wgsl", "let inverse = select(0.0, inverseSqrt", "0.0", "1.0", "it is a part of no way"),
     same("strain_limit.wgsl", "override STRAIN: f32 = 0.1;", "0.1", "0.15000000000000002", ALWAYS_SET),
-    same("strain_limit.wgsl", "select(1.0 / who.mass", "1.0", "1.5", "it is a part of all weights, which are compared"),
-    same("strain_limit.wgsl", "let strained = ", ">", ">=", "at the limit nobody moves"),
+    same(
+        "strain_limit.wgsl",
+        "select(1.0 / particle.mass",
+        "1.0",
+        "1.5",
+        "a factor of all weights, which are compared",
+    ),
+    same("strain_limit.wgsl", "let strained = ", ">", ">=", "at the limit no particle moves"),
     same("spring.wgsl", "let taut = ", ">", ">=", "at the edge both are nothing"),
     same("spring.wgsl", "if link.rest < 0.0 && distance", "<=", "<", EDGE),
-    same("joint.wgsl", "let ratio = ", "1e-6", "1.5e-6", "who turns right back has no side to turn to"),
+    same("joint.wgsl", "let ratio = ", "1e-6", "1.5e-6", "a joint that is folded right back has no side to turn to"),
     same("joint.wgsl", "let ratio = ", "<", "<=", EDGE),
     same("joint.wgsl", "let ratio = ", "1e-3", "0.0015", "of so small angles both are the same number"),
     same("air.wgsl", "var along = 0.0;", "0.0", "1.0", "a wind of no speed has gusts of no speed"),
@@ -148,7 +154,7 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("rod.wgsl", "vec3f(bitcast<f32>(nan)), h, true);", "true", "false", LOST),
     same("goal.wgsl", "if distance < params.free_radius", "<", "<=", EDGE),
     same("goal.wgsl", "if distance < params.slow_radius", "<", "<=", "at the edge both are the same number"),
-    same("distance.wgsl", "if depth.", ">=", ">", "nobody is as near to two faces"),
+    same("distance.wgsl", "if depth.", ">=", ">", "no particle is equally near to two faces"),
     same("obstacle.wgsl", "if s >= ahead {", ">=", ">", "so far ahead the push is nothing"),
     same("speed_limit.wgsl", "if speed > params.most {", ">", ">=", "at the limit both are the same number"),
     same("speed_limit.wgsl", "if speed < params.least {", "<", "<=", "at the limit both are the same number"),
@@ -166,7 +172,7 @@ pub const EQUIVALENT: &[Equivalent] = &[
         "position[min(start + lane, world.count - 1u)]",
         "-",
         "+",
-        "what is loaded behind the last source is met by nobody",
+        "what is loaded behind the last source is paired with no particle",
     ),
     same(
         "visit/pairs_",

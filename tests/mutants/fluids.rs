@@ -23,17 +23,17 @@ use Value::{Flag, Number};
 
 pub const EQUIVALENT: &[Equivalent] = &[
     same("fluids/cubic", "return select(2.0", "<=", "<", "both halves have one value where they meet"),
-    same("fluids/tension", "const NOTHING", "1e-30", "1.5000000000000001e-30", "nobody is as near as that"),
+    same("fluids/tension", "const NOTHING", "1e-30", "1.5000000000000001e-30", "no particle is as near as that"),
     same("fluids/tension", "let pull = ", "<=", "<", "both halves have one value where they meet"),
     same("fluids/cubic", "return select(-6.0", "<=", "<", "both halves have one value where they meet"),
-    same("fluids/", "return me.density > 0.0; }", ">", ">=", "who is held stands behind all who are asked"),
-    same("fluids/dense.wgsl", "return Particle(", "0.0", "1.0", "nobody asks for its pressure"),
+    same("fluids/", "return me.density > 0.0; }", ">", ">=", "fixed particles stand behind all that are evaluated"),
+    same("fluids/dense.wgsl", "return Particle(", "0.0", "1.0", "its pressure is not read"),
     same(
         "fluids/wall_pressure",
         "let p = ",
         "1e-30",
         "1.5000000000000001e-30",
-        "nobody is so near to the rim that the kernel is as small",
+        "no particle is so near to the rim that the kernel is as small",
     ),
     same("fluids/wall_state", "if k < world.count", "<", "<=", "behind the last slot stands no wall"),
 ];
@@ -84,7 +84,7 @@ fn state(depth: f64) -> Vec<(&'static str, Value)> {
         ("walls", word("extrapolate")),
         ("wall_mass", word("lattice")),
         ("negative_pressure", Flag(false)),
-        // Below 1, so that nobody is taken for a wall.
+        // Below 1, so that no particle is taken for a wall.
         ("density", Number(0.7)),
     ]
 }
@@ -103,7 +103,7 @@ pub fn simulation(device: &Device, machine: Machine, setup: &Setup) -> Simulatio
     simulation
 }
 
-/// Other numbers than before in what a kernel makes anew, and in what walls are told.
+/// Other numbers than before in what a kernel makes anew, and in what wall particles receive.
 fn forget(simulation: &mut Simulation<Gpu>, kernel: &Kernel) {
     let mut random = Random::new(41);
     let anew = |name: &str| match kernel.name.as_str() {
@@ -153,12 +153,12 @@ pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
                 stages.push(Stage::of(&name, simulation, alone(kernel)).slack(slack));
             }
         }
-        told(device, *machine, stages);
+        seen(device, *machine, stages);
     }
 }
 
-/// A search that looks at all that a particle of a fluid says.
-fn told(device: &Device, machine: Machine, stages: &mut Vec<Stage>) {
+/// A search that reads every member of a fluid's particle.
+fn seen(device: &Device, machine: Machine, stages: &mut Vec<Stage>) {
     let all = bounds(FEW, false, Side::Periodic);
     let setup = Setup {
         state: cloud(FEW, false, true),
@@ -171,18 +171,18 @@ fn told(device: &Device, machine: Machine, stages: &mut Vec<Stage>) {
     let simulation = Rc::new(RefCell::new(simulation(device, machine, &setup)));
     let problem = setup.problem(machine).expect("a problem");
     let plan = alone(curious(&problem));
-    stages.push(Stage::amid("told", &simulation, plan));
+    stages.push(Stage::amid("seen", &simulation, plan));
 }
 
-const CURIOUS: &str = "struct Sum { acceleration: vec3f, told: f32 }
+const CURIOUS: &str = "struct Sum { acceleration: vec3f, state: f32 }
 @group(1) @binding(2) var<storage, read_write> acceleration: array<vec4f>;
 fn acts_on(me: Particle) -> bool { return me.index % 5u != 1u; }
 fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
     let near = 1.0 / (1.0 + 40.0 * dot(r, r));
     (*sum).acceleration += (you.mass * near) * (you.velocity - me.velocity + f32(you.index % 7u) * r);
-    (*sum).told += near * (you.density + you.pressure);
+    (*sum).state += near * (you.density + you.pressure);
 }
-fn deliver(k: u32, me: Particle, sum: Sum) { acceleration[me.index] += vec4f(sum.acceleration, sum.told); }";
+fn deliver(k: u32, me: Particle, sum: Sum) { acceleration[me.index] += vec4f(sum.acceleration, sum.state); }";
 
 fn curious(problem: &Problem) -> Kernel {
     let grid = Grid::apart(2.0 * SPACING, problem).expect("a grid");
@@ -192,7 +192,7 @@ fn curious(problem: &Problem) -> Kernel {
             (host.reading::<u32>(&slots.field("sorted_id").1)?, host.reading::<Vec4>(&slots.field("flow").1)?);
         let mut states = vec![DVec4::ZERO; ids.len()];
         ids.iter().zip(flow.iter()).for_each(|(id, flow)| states[*id as usize] = *flow);
-        let felt = gathered(
+        let sums = gathered(
             host,
             2.0 * SPACING,
             |me| me.index % 5 != 1,
@@ -204,7 +204,7 @@ fn curious(problem: &Problem) -> Kernel {
             },
         )?;
         let mut acceleration = host.write(ACCELERATION)?;
-        acceleration.iter_mut().zip(felt).for_each(|(a, felt)| *a += felt.unwrap_or_default());
+        acceleration.iter_mut().zip(sums).for_each(|(a, sum)| *a += sum.unwrap_or_default());
         Ok(())
     };
     let files = vec![Source::ours("curious", CURIOUS)];
@@ -214,7 +214,7 @@ fn curious(problem: &Problem) -> Kernel {
     };
     let flow = grid.field("flow");
     let (params, constants) = (Vec::new(), Vec::new());
-    let sweep = Sweep { name: "told".to_owned(), grid, candidate, files, params, constants, twin: Arc::new(twin) };
+    let sweep = Sweep { name: "seen".to_owned(), grid, candidate, files, params, constants, twin: Arc::new(twin) };
     let mut kernel = sweep.kernel_of_all(problem).expect("a search");
     kernel.passes.iter_mut().for_each(|pass| pass.fields.push(flow.clone()));
     kernel

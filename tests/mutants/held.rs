@@ -65,7 +65,7 @@ pub fn problem(held: &[Held], bounds: Bounds) -> Problem {
     Problem::new(count, MACHINE).at(&[], bounds).tied(&motes::links::Links::default(), held).moved(&motions(), DT)
 }
 
-/// Everybody held but some, by what `by` says.
+/// All particles but some held, as `by` says.
 fn held(by: impl Fn(u32) -> Hold) -> Vec<Held> {
     let some = (0..u32::try_from(FEW).expect("few")).rev().filter(|id| id % 7 != 3);
     some.map(|id| Held { id, by: by(id) }).collect()
@@ -94,8 +94,8 @@ pub fn all(device: &Device, stages: &mut Vec<Stage>) {
         1 => Hold::Target,
         _ => Hold::Motion(id / 3 % number),
     });
-    let everybody = 0..u32::try_from(FEW).expect("few");
-    let all_led: Vec<_> = everybody.map(|id| Held { id, by: Hold::Motion(id % number) }).collect();
+    let all = 0..u32::try_from(FEW).expect("few");
+    let all_led: Vec<_> = all.map(|id| Held { id, by: Hold::Motion(id % number) }).collect();
     let periodic = Bounds::new(DVec3::new(-0.9, -1.1, -1.0), DVec3::new(0.7, 0.8, 0.9), Side::Periodic);
     let moves = integrator("symplectic_euler");
     for (held, bounds) in [(&all_led, Bounds::default()), (&mixed, periodic)] {

@@ -47,7 +47,7 @@ fn tangle(stiffness: f64) -> State {
 }
 
 /// More workgroups than a workgroup has lanes.
-const CROWD: u32 = 300;
+const MANY: u32 = 300;
 
 /// A state of a solve: first, gamma, alpha, residual; iterations, total, code, settled, broken.
 const DONE: [f32; 9] = [1.5, 2.5, 3.5, 4.5, 1.0, 5.0, 1.0, 0.0, 0.0];
@@ -74,7 +74,7 @@ fn forces() -> Vec<Box<dyn Component>> {
                 ("wavelength", Value::Number(1.7)),
             ],
         ),
-        // Air that stands still, and somebody who does.
+        // Air at rest, and a particle at rest.
         force("wind", &[("velocity", vector(0.0, 0.0, 0.0)), ("rate", Value::Number(0.3))]),
         force("drag", &[("linear", Value::Number(0.1)), ("quadratic", Value::Number(0.2))]),
         force("vortex", &[("rate", Value::Number(0.6))]),
@@ -115,7 +115,7 @@ pub fn all(device: &Device, stages: &mut Vec<Stage>) {
         let plan = setup.plans(machine).expect("plans").step;
         // A field is made once: with room for all.
         let advance = plan.kernels.iter().find(|kernel| kernel.name == "advance").expect("an iteration");
-        gpu.compile(&alone(crowded(advance))).expect("a kernel");
+        gpu.compile(&alone(enlarged(advance))).expect("a kernel");
         let mut simulation = Simulation::on(gpu, &setup).expect("a simulation");
         simulation.step(2).expect("steps");
         amid(case, simulation, &plan, stages);
@@ -254,22 +254,22 @@ fn made_up(simulation: &Shared, advance: &Kernel, stages: &mut Vec<Stage>) {
         stages.push(amended(&format!("a made up solve, {case}"), simulation, advance.clone(), &fields));
     }
     let garbage: Vec<f32> = (0..12 * COUNT).map(|_| random.narrow()).collect();
-    let sums = (0..CROWD).flat_map(|k| sums.map(|sum| sum * (1.0 + (k % 7) as f32))).collect();
+    let sums = (0..MANY).flat_map(|k| sums.map(|sum| sum * (1.0 + (k % 7) as f32))).collect();
     let fields = [(state.as_str(), fresh.to_vec()), ("dots", sums), ("directions", garbage)];
-    stages.push(amended("a made up solve, crowded", simulation, crowded(advance), &fields));
+    stages.push(amended("a made up solve of many workgroups", simulation, enlarged(advance), &fields));
 }
 
 /// The same with sums of so many workgroups.
-fn crowded(advance: &Kernel) -> Kernel {
-    let mut crowd = advance.clone();
-    let pass = &mut crowd.passes[0];
+fn enlarged(advance: &Kernel) -> Kernel {
+    let mut large = advance.clone();
+    let pass = &mut large.passes[0];
     let extent = &pass.shader.reflection().binding("extent").expect("a block").packed;
-    let values = [("chunk", 256), ("groups", CROWD)].map(|(name, n)| (name, Scalar::Uint(n)));
+    let values = [("chunk", 256), ("groups", MANY)].map(|(name, n)| (name, Scalar::Uint(n)));
     let packed = extent.pack("extent", &values).expect("two numbers");
     pass.uniforms.retain(|(name, _)| *name != "extent");
     pass.uniforms.push(("extent", packed));
-    for (_, size) in crowd.sizes.iter_mut().filter(|(name, _)| name == "dots") {
-        *size = u64::from(CROWD);
+    for (_, size) in large.sizes.iter_mut().filter(|(name, _)| name == "dots") {
+        *size = u64::from(MANY);
     }
-    crowd
+    large
 }

@@ -42,7 +42,7 @@ pub fn all(device: &Device, stages: &mut Vec<Stage>) {
     }
 }
 
-/// The first law of a step, which sets what was felt; and links of four kinds at most, which have a visit of their own.
+/// The first law of a step, which sets the acceleration; and links of four kinds at most, which have a visit of their own.
 pub fn firsts(device: &Device, stages: &mut Vec<Stage>) {
     let machine = Machine::HOST;
     let mut alike = support::links(FEW);
@@ -53,7 +53,7 @@ pub fn firsts(device: &Device, stages: &mut Vec<Stage>) {
         (spring.rope, spring.rest) = (place % 7 % 4 == 1, f64::from(rest as f32));
         [spring.stiffness, spring.damping] = [stiffness, damping].map(|x: f64| f64::from((x / FEW as f64) as f32));
     }
-    // Who has no mass is tied to nobody.
+    // A particle without mass has no links.
     let mut each = support::links(FEW);
     for links in [&mut alike, &mut each] {
         links.springs.retain(|link| !link.ends.contains(&13));
@@ -95,7 +95,7 @@ pub fn corners(device: &Device, stages: &mut Vec<Stage>) {
     }
 }
 
-/// A cloud where it began, with some at rest, one of them in the middle, two at one place, and some who are alone, or meet head on, far away.
+/// A cloud where it began: some at rest, one of them in the middle, two at one place, and some far away, alone or head on.
 pub fn resting(device: &Device, machine: Machine, bounds: Bounds) -> Simulation<Gpu> {
     let mut simulation = moving(device, FEW, Some(machine));
     let cloud = support::cloud(FEW, 11);

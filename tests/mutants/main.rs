@@ -1,10 +1,9 @@
-//! Mutation: every operator and literal of every shader is changed once, and the lockstep with the twins must notice.
+//! Mutation: every operator and literal of every shader is changed once, and the lockstep with the references must notice.
 
 mod alarms;
 mod births;
 mod boundary;
 mod columns;
-mod crowds;
 mod curious;
 mod dfsph;
 mod equivalent_dfsph;
@@ -24,6 +23,7 @@ mod pairs;
 mod primitives;
 mod repeat;
 mod rods;
+mod sizes;
 mod stages;
 mod strained;
 #[path = "../support/mod.rs"]
@@ -42,16 +42,16 @@ use support::equivalents::{Equivalent, Ledger};
 use support::mutants::{Mutant, mutants};
 
 /// These have mutants of their own, in `tests/picture_mutants`, `tests/questions.rs` and `tests/own_laws`.
-const WITHOUT_TWINS: [&str; 3] = ["render", "selftest", "own"];
+const WITHOUT_REFERENCES: [&str; 3] = ["render", "selftest", "own"];
 
-/// Stages that are asked about a mutant that is known to do the same: those who noticed others the last. All of them are
-/// where one looks at chosen files.
+/// Stages that run a mutant that is listed as equivalent: those that noticed other mutants last. All of them run
+/// when only chosen files are tested.
 const ASKED: usize = 8;
 
 /// Shaders are compiled by one core: two devices keep two of them busy.
 const TURNS: usize = 2;
 
-/// The shaders that have twins, by their names in messages.
+/// The shaders that have references, by their names in messages.
 fn files() -> Vec<(String, String)> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut folders: Vec<PathBuf> = vec![root.join("shaders")];
@@ -60,7 +60,7 @@ fn files() -> Vec<(String, String)> {
         for entry in std::fs::read_dir(&folder).expect("a folder") {
             let path = entry.expect("an entry").path();
             if path.is_dir() {
-                if !WITHOUT_TWINS.iter().any(|folder| path.ends_with(folder)) {
+                if !WITHOUT_REFERENCES.iter().any(|folder| path.ends_with(folder)) {
                     folders.push(path);
                 }
             } else if path.extension().is_some_and(|e| e == "wgsl") {
@@ -73,10 +73,10 @@ fn files() -> Vec<(String, String)> {
     files
 }
 
-/// Whether any stage sees the difference; who does is asked first from now on.
+/// Whether any stage sees the difference; a stage that does runs first from now on.
 fn noticed(stages: &mut [&Stage], file: &str, mutant: &Mutant) -> bool {
     let sees = |stage: &&Stage| match stage.mutated(file, &mutant.text) {
-        // What does not compile is noticed by everybody.
+        // A mutant that does not compile is noticed.
         None => true,
         Some(plan) => !stage.good(&plan),
     };
@@ -87,11 +87,11 @@ fn noticed(stages: &mut [&Stage], file: &str, mutant: &Mutant) -> bool {
     first.is_some()
 }
 
-/// The shaders as they are agree with their twins.
+/// The shaders as they are agree with their references.
 fn agree<'a>(stages: impl Iterator<Item = &'a Stage>) {
     let fault = |stage: &Stage| stage.fault(&stage.plan).map(|fault| format!("{}: {fault}", stage.name));
     let faults: Vec<String> = stages.filter_map(fault).collect();
-    assert!(faults.is_empty(), "the shaders as they are do not agree with their twins:\n{}", faults.join("\n"));
+    assert!(faults.is_empty(), "the shaders as they are do not agree with their references:\n{}", faults.join("\n"));
 }
 
 /// Takes file after file, until there are no more; `whole` asks every stage about every mutant.
@@ -111,10 +111,10 @@ fn work(
         assert!(!its.is_empty(), "{file}: no stage runs it");
         let mutants = mutants(&text);
         for mutant in &mutants {
-            let listed = ledger.lock().expect("nobody fails").expects(&file, mutant);
+            let listed = ledger.lock().expect("no thread panics").expects(&file, mutant);
             let asked = if listed && !whole { its.len().min(ASKED) } else { its.len() };
             let noticed = noticed(&mut its[..asked], &file, mutant);
-            ledger.lock().expect("nobody fails").enter(&file, mutant, noticed);
+            ledger.lock().expect("no thread panics").enter(&file, mutant, noticed);
         }
         println!("{file}: {} mutants, {} stages, {:.1} s", mutants.len(), its.len(), begun.elapsed().as_secs_f64());
     }
@@ -148,11 +148,11 @@ fn every_mutant_is_noticed() {
     let wanted = |file: &str| only.split(',').any(|part| file.contains(part));
     let mut files = files();
     files.retain(|(file, _)| wanted(file) && (has_subgroups || !file.contains("subgroup")));
-    // The longest first, so that nobody is left with one when the other is done.
+    // The longest first, so that no thread is left with one when the others are done.
     files.sort_by_key(|(_, text)| text.len());
     let all: Vec<String> = files.iter().map(|(file, _)| file.clone()).collect();
     let files = Mutex::new(files);
-    let next = || files.lock().expect("nobody fails").pop();
+    let next = || files.lock().expect("no thread panics").pop();
     std::thread::scope(|scope| {
         for turn in 0..TURNS {
             let (next, shared, all, ledger, whole) = (&next, &shared, &all, &ledger, !only.is_empty());
@@ -161,6 +161,6 @@ fn every_mutant_is_noticed() {
     });
     // As many as were there when this was written, less a third: an empty list of mutants would be noticed in full.
     let due = |equivalent: &Equivalent| has_subgroups || !equivalent.file.contains("subgroup");
-    let ledger = ledger.into_inner().expect("nobody fails");
+    let ledger = ledger.into_inner().expect("no thread panics");
     ledger.close(|equivalent| only.is_empty() && due(equivalent), if only.is_empty() { 1650 } else { 0 });
 }

@@ -1,4 +1,4 @@
-//! Twins that remember: mutants are many, and what the twin makes of the same numbers is the same.
+//! References that remember: mutants are many, and what the reference makes of the same numbers is the same.
 
 use std::collections::HashMap;
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -6,10 +6,10 @@ use std::sync::{Arc, Mutex};
 
 use motes::kernel::{Array, Host, Kernel, POSITION, Plan, VELOCITY, World};
 
-/// What a twin has made of a host: its arrays, and the clock.
+/// What a reference has made of a host: its arrays, and the clock.
 type Made = (Vec<(String, Array)>, World);
 
-/// The same plan, of which each twin works once on the same numbers.
+/// The same plan, of which each reference works once on the same numbers.
 pub fn remembering(mut plan: Plan) -> Plan {
     plan.kernels.iter_mut().for_each(remember);
     plan
@@ -25,7 +25,7 @@ fn remember(kernel: &mut Kernel) {
         let mut hash = DefaultHasher::new();
         names.iter().filter_map(|name| host.get(name)).for_each(|array| array.to_bytes().hash(&mut hash));
         format!("{:?}", host.world()).hash(&mut hash);
-        let mut known = known.lock().expect("no twin panics");
+        let mut known = known.lock().expect("no reference panics");
         if let Some((arrays, world)) = known.get(&hash.finish()) {
             for (name, array) in arrays {
                 match array {

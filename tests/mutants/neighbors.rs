@@ -122,7 +122,7 @@ pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
     nearest(device, stages);
 }
 
-/// Places 0 to 5 along each axis, in an order in which nobody stands beside the one before it.
+/// Places 0 to 5 along each axis, in an order in which no particle lies beside the one before it.
 fn lattice() -> Vec<DVec3> {
     (0..216)
         .map(|i| i * 85 % 216)
@@ -185,9 +185,9 @@ fn open(device: &Device, machines: &[Machine], stages: &mut Vec<Stage>) {
         // One row, or eight lanes with one each.
         let all = 40.0 + 16.0 * if machine.software { 8.0 } else { 1.0 };
         let still = || law(STILL, near(UNIT));
-        stages.push(here.stage("near, all but crowded", still(), *machine, |plan, _| most(plan, all)));
-        let stage = here.stage("near, crowded", still(), *machine, |plan, _| most(plan, all - 1.0));
-        stages.push(stage.told(ALARM.name, [u32::MAX, u32::MAX, 8].map(f32::from_bits).to_vec()));
+        stages.push(here.stage("near, just below the limit", still(), *machine, |plan, _| most(plan, all)));
+        let stage = here.stage("near, beyond the limit", still(), *machine, |plan, _| most(plan, all - 1.0));
+        stages.push(stage.expected(ALARM.name, [u32::MAX, u32::MAX, 8].map(f32::from_bits).to_vec()));
     }
 }
 
@@ -209,7 +209,7 @@ fn halves(plan: &mut Plan, problem: &Problem) {
     }
 }
 
-/// What the race of arrivals hides, and what stands where nobody arrived.
+/// What the race of arrivals hides, and what stands in slots that no particle took.
 fn grids(device: &Device, stages: &mut Vec<Stage>) {
     let bounds = Bounds::new(DVec3::ZERO, DVec3::splat(6.0), Side::Reflecting);
     let here = Place::new(device, bounds, lattice());
@@ -240,8 +240,8 @@ fn grids(device: &Device, stages: &mut Vec<Stage>) {
             simulation.backend().write_bytes("arrivals", 0, &[0; 4 * 216]).expect("a field");
         }
         simulation.backend().write_bytes(&name, 0, &[0xff; 4 * 216]).expect("a field");
-        let told = sorted.into_iter().map(f32::from_bits).collect();
-        stages.push(Stage::of("grid", simulation, plan).told(name.into_owned().leak(), told));
+        let expected = sorted.into_iter().map(f32::from_bits).collect();
+        stages.push(Stage::of("grid", simulation, plan).expected(name.into_owned().leak(), expected));
     }
 }
 
@@ -262,6 +262,6 @@ fn nearest(device: &Device, stages: &mut Vec<Stage>) {
     // Fewer than asked for, and more than can be visited.
     let here = Place::new(device, Bounds::default(), lattice()[..12].to_vec());
     stages.push(here.stage("nearest, few", nearest(13), LANES, nothing));
-    let stage = here.stage("nearest, crowded", nearest(13), LANES, |plan, _| most(plan, 9.0));
-    stages.push(stage.told(ALARM.name, [u32::MAX, u32::MAX, 0].map(f32::from_bits).to_vec()));
+    let stage = here.stage("nearest, beyond the limit", nearest(13), LANES, |plan, _| most(plan, 9.0));
+    stages.push(stage.expected(ALARM.name, [u32::MAX, u32::MAX, 0].map(f32::from_bits).to_vec()));
 }

@@ -11,7 +11,7 @@ use motes::settings::Value;
 use motes::{Bounds, Gpu, Setup, Side, Simulation, Solver};
 
 use crate::laws::resting;
-use crate::paces::{DT, MACHINE, NOBODY, staged, words};
+use crate::paces::{DT, MACHINE, NONE, staged, words};
 use crate::stages::{Device, FEW, Stage};
 use crate::support::fluids::{SPACING, bounds, cloud, fluid};
 use crate::support::machines::{alone, subgroups_of_eight};
@@ -53,7 +53,7 @@ fn motions(device: &Device, stages: &mut Vec<Stage>) {
     let led: Vec<Held> = (0..count).map(|id| Held { id, by: by(id) }).collect();
     let pace = Some(Pace { least: DT / 64.0, courant: 0.3, before: None });
     // At 1.13, in a step of 0.22.
-    let clock = words([3, 900_001, 10_000_003, 9], NOBODY, [1, 2]);
+    let clock = words([3, 900_001, 10_000_003, 9], NONE, [1, 2]);
     let places = |it: &mut Simulation<Gpu>| {
         let mut random = Random::new(31);
         for field in [HOME, TARGET] {
@@ -89,7 +89,7 @@ fn motions(device: &Device, stages: &mut Vec<Stage>) {
             stages.extend(last);
         }
     }
-    // Nobody is led anywhere in no time.
+    // Over no time a motion moves no particle.
     let mut still = resting(device, MACHINE, periodic);
     let world = pollster::block_on(still.backend().world()).expect("a clock");
     still.backend().set_world(World { dt: 0.0, ..world }).expect("a clock");
@@ -98,8 +98,8 @@ fn motions(device: &Device, stages: &mut Vec<Stage>) {
     step.lead();
     let kernel = step.finished().expect("a plan").kernels.remove(0);
     let velocity = pollster::block_on(still.read(motes::VELOCITY)).expect("velocities");
-    let told = velocity.iter().flat_map(Vec4::to_array).collect();
-    stages.push(Stage::new("lead in no time", still, kernel).told(motes::VELOCITY.name, told));
+    let expected = velocity.iter().flat_map(Vec4::to_array).collect();
+    stages.push(Stage::new("lead in no time", still, kernel).expected(motes::VELOCITY.name, expected));
 }
 
 /// What fluids want, with sound and without.
@@ -112,7 +112,7 @@ fn wants(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
             let pace = Pace { least: 1e-4, courant: 0.3, before: None };
             let forces = if silent { vec![Box::new(Silent) as Box<dyn Component>] } else { vec![fluid(&[])] };
             let setup = Setup {
-                // Where nobody is held, who writes behind the last is seen.
+                // Without fixed particles, a write behind the last one is seen.
                 state: cloud(FEW, false, !silent),
                 forces,
                 integrator: Box::new(Paced { integrator: integrator("leapfrog"), pace }),

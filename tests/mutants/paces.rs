@@ -1,4 +1,4 @@
-//! Stages of steps that are not all alike: clocks in every state, who is to blame, and what moves by such a clock.
+//! Stages of adaptive steps: clocks in every state, the limiting particle, and what moves by such a clock.
 #![allow(clippy::cast_possible_truncation, reason = "numbers are rounded to what f32 holds")]
 
 use glam::Vec4;
@@ -23,7 +23,7 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("integrators/pace.wgsl", "override LEAST: u32 = 1u;", "1u", "2u", ALWAYS_SET),
     same("integrators/pace.wgsl", "override VISCOUS: f32 = 0.0;", "0.0", "1.0", ALWAYS_SET),
     same("at_paced.wgsl", "override FACTOR: f32 = 0.0;", "0.0", "1.0", ALWAYS_SET),
-    same("blame.wgsl", "if i < world.count {", "<", "<=", "behind the last there is nobody who asks"),
+    same("blame.wgsl", "if i < world.count {", "<", "<=", "behind the last particle there is no criterion"),
     same("integrators/pace.wgsl", "for (var k = 0u; k < 4u;", "<", "<=", "the last one is looked at twice"),
     same("integrators/pace.wgsl", "for (var k = 0u; k < 4u;", "4u", "5u", "the last one is looked at twice"),
     same("integrators/pace.wgsl", "} else if whole < 3u {", "<", "<=", FAR),
@@ -34,7 +34,7 @@ pub const MACHINE: Machine = Machine::HOST;
 /// As in [`moving`].
 pub const DT: f64 = 0.37;
 const TICKS: u32 = 1 << 24;
-pub const NOBODY: u32 = u32::MAX;
+pub const NONE: u32 = u32::MAX;
 
 /// Wants so many steps for viscosity.
 struct Thick(f64);
@@ -92,10 +92,10 @@ pub fn staged(
 
 /// What is wanted, the clock, the stop, and what viscosity wants; the shortest step is a 64th.
 fn paces(device: &Device, stages: &mut Vec<Stage>) {
-    let far = [NOBODY, 0];
+    let far = [NONE, 0];
     let free = TICKS;
-    let usual = words([5, 3_000_001, 11, free], NOBODY, [9_000_000, 100]);
-    let wide = words([5, 3_000_001, 11, free], NOBODY, [100, 16_000_000]);
+    let usual = words([5, 3_000_001, 11, free], NONE, [9_000_000, 100]);
+    let wide = words([5, 3_000_001, 11, free], NONE, [100, 16_000_000]);
     let low = [0.3, 0.2, 0.1];
     let mut cases = vec![
         ([3.3, 2.1, 1.7], 0.5, usual.clone(), far),
@@ -106,9 +106,9 @@ fn paces(device: &Device, stages: &mut Vec<Stage>) {
         ([1.2, 2.5, 2.5], 2.5, wide.clone(), far),
         ([1.2, 1.1, 2.5], 2.5, wide, far),
         ([1.0, 0.2, 0.3], 0.1, usual.clone(), far),
-        (low, 0.1, words([5, 3, 11, 1_000_003], NOBODY, [1, 2]), far),
+        (low, 0.1, words([5, 3, 11, 1_000_003], NONE, [1, 2]), far),
         // Just as long as growth allows: 13981014 and a fifth of it.
-        (low, 0.1, words([5, 3, 11, 13_981_014], NOBODY, [1, 2]), far),
+        (low, 0.1, words([5, 3, 11, 13_981_014], NONE, [1, 2]), far),
         // Just the shortest; shorter; shorter once more.
         ([64.0, 0.2, 0.3], 0.1, usual.clone(), far),
         ([1e5, 0.2, 0.3], 0.1, usual.clone(), far),
@@ -118,7 +118,7 @@ fn paces(device: &Device, stages: &mut Vec<Stage>) {
     ];
     // A quarter of the longest is 4194304 ticks. Stops: gone by, here, in the step, at its end, in the next, at the end of that.
     let quarter = [4.0, 0.2, 0.3];
-    let at = |rest| words([5, rest, 11, free], NOBODY, [9_000_000, 100]);
+    let at = |rest| words([5, rest, 11, free], NONE, [9_000_000, 100]);
     for (rest, stop) in [
         (7, [4, 9]),
         (7, [5, 6]),
@@ -160,7 +160,7 @@ fn paces(device: &Device, stages: &mut Vec<Stage>) {
     }
 }
 
-/// Who asked: of each reason, of none, with an alarm of now and of before.
+/// The limiting particle: of each reason, of none, with an alarm of now and of before.
 fn blames(device: &Device, stages: &mut Vec<Stage>) {
     let mut random = Random::new(5);
     let mut urges: Vec<Vec4> = (0..FEW).map(|_| random.vector().as_vec3().abs().extend(0.0)).collect();
@@ -172,14 +172,12 @@ fn blames(device: &Device, stages: &mut Vec<Stage>) {
     }
     let clock = pollster::block_on(moving(device, FEW, None).backend().world()).expect("a clock");
     for reason in 0..7 {
-        for (case, [alarm, whose]) in
-            [[NOBODY, 0], [clock.step, 1], [clock.step, 2], [clock.step, 4], [clock.step + 1, 1]]
-                .into_iter()
-                .enumerate()
+        for (case, [alarm, field]) in
+            [[NONE, 0], [clock.step, 1], [clock.step, 2], [clock.step, 4], [clock.step + 1, 1]].into_iter().enumerate()
         {
             let mut state = words([5, 3, 11, 12], alarm, [1, 2]);
-            (state[4], state[5], state[7]) = (reason, NOBODY, whose);
-            state[8] = if case % 2 == 0 { NOBODY } else { 25 };
+            (state[4], state[5], state[7]) = (reason, NONE, field);
+            state[8] = if case % 2 == 0 { NONE } else { 25 };
             let kernel = kernel(&setup(Box::new(Thick(0.1)), DT / 64.0), "blame");
             staged(
                 stages,
@@ -206,14 +204,14 @@ fn clocks(device: &Device, stages: &mut Vec<Stage>) {
         setup
     };
     for clock in [[3, 5_000_003, 7_000_001, 9], [0, 16_000_000, 16_777_216, 9]] {
-        let state = words(clock, NOBODY, [1, 2]);
+        let state = words(clock, NONE, [1, 2]);
         staged(stages, "at, paced", moving(device, FEW, None), kernel(&setup(), "at"), &state, |_| ());
         for (case, [now, before]) in [[3.1f32, 1.3], [2.6, 1.3], [1.2, 1.3]].into_iter().enumerate() {
             for step in [14, 15, 16] {
                 let mut simulation = moving(device, FEW, None);
                 let world = pollster::block_on(simulation.backend().world()).expect("a clock");
                 simulation.backend().set_world(World { step, ..world }).expect("a clock");
-                let alarm = [NOBODY, NOBODY, NOBODY, 5, 6, now.to_bits(), before.to_bits(), 4];
+                let alarm = [NONE, NONE, NONE, 5, 6, now.to_bits(), before.to_bits(), 4];
                 staged(
                     stages,
                     &format!("tick, paced, {case} {step}"),
@@ -228,7 +226,7 @@ fn clocks(device: &Device, stages: &mut Vec<Stage>) {
         }
     }
     for ticks in [0, 1] {
-        let state = words([3, 5_000_003, ticks, 9], NOBODY, [1, 2]);
+        let state = words([3, 5_000_003, ticks, 9], NONE, [1, 2]);
         staged(stages, "tick, paced, of nothing", moving(device, FEW, None), kernel(&setup(), "tick"), &state, |_| ());
     }
 }

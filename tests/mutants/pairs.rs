@@ -40,7 +40,7 @@ pub const EQUIVALENT: &[Equivalent] = &[
         "moments > vec3f()",
         ">",
         ">=",
-        "both are infinite, and nobody here is without a moment",
+        "both are infinite, and no particle here is without a moment",
     ),
 ];
 

@@ -78,7 +78,7 @@ fn reductions(device: &Device, stages: &mut Vec<Stage>) {
         };
         let bits = floats.iter().map(|x| x.to_bits()).collect();
         let stage = stage(device, kernel(Items::Vec4, 5000), &[(&CELLS, bits)]);
-        stages.push(stage.told("ids", vec![f32::NAN, f32::NAN, infinite, w]));
+        stages.push(stage.expected("ids", vec![f32::NAN, f32::NAN, infinite, w]));
     }
 }
 
@@ -94,7 +94,7 @@ fn sorts(device: &Device, stages: &mut Vec<Stage>) {
     let whole = counting_sort::counting_sort(&fields, elements, bins, &GPU).expect("a sort");
     stages.push(stage(device, whole.clone(), &[(&CELLS, keys.clone()), (&fields.largest, vec![1 << 30])]));
 
-    // Everybody alone in a bin.
+    // Each particle alone in a bin.
     let alone = counting_sort::counting_sort(&fields, 3, bins, &GPU).expect("a sort");
     stages.push(stage(device, alone, &[(&CELLS, vec![5, 3, 2])]));
 

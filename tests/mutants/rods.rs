@@ -89,9 +89,11 @@ pub fn rods(device: &Device, stages: &mut Vec<Stage>) {
         let kernel = kernel(&links, &held, |plan, problem| {
             rod.stage(motes::component::Stage::AfterDrift { factor: 1.0 }, plan, problem).expect("a kernel");
         });
-        let mut told: Vec<f32> = position.iter().flat_map(Vec4::to_array).collect();
+        let mut expected: Vec<f32> = position.iter().flat_map(Vec4::to_array).collect();
         let lost = 4 * (7 - first);
-        told[lost..lost + 3].fill(f32::NAN);
-        stages.push(Stage::new(&format!("a lost rod, {first} held"), simulation, kernel).told(POSITION.name, told));
+        expected[lost..lost + 3].fill(f32::NAN);
+        stages.push(
+            Stage::new(&format!("a lost rod, {first} held"), simulation, kernel).expected(POSITION.name, expected),
+        );
     }
 }

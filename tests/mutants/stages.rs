@@ -34,8 +34,8 @@ pub struct Stage {
     simulation: Rc<RefCell<Simulation<Gpu>>>,
     fields: BTreeMap<String, Vec<u8>>,
     clock: World,
-    /// What a field must hold in the end, where no twin can be compared: NaN differs from NaN.
-    told: Option<(&'static str, Vec<f32>)>,
+    /// What a field must hold in the end, where no reference can be compared: NaN differs from NaN.
+    expected: Option<(&'static str, Vec<f32>)>,
     /// How many times what is allowed elsewhere may be wrong.
     slack: f64,
 }
@@ -65,24 +65,24 @@ impl Stage {
             (name, bytes)
         };
         let fields = names.filter(|n| n != "world").map(read).collect();
-        Self { name: name.to_owned(), plan, simulation: shared, fields, clock, told: None, slack: 1.0 }
+        Self { name: name.to_owned(), plan, simulation: shared, fields, clock, expected: None, slack: 1.0 }
     }
     /// The same stage, judged by what a field holds in the end.
-    pub fn told(self, field: &'static str, values: Vec<f32>) -> Self {
-        Self { told: Some((field, values)), ..self }
+    pub fn expected(self, field: &'static str, values: Vec<f32>) -> Self {
+        Self { expected: Some((field, values)), ..self }
     }
     /// The same stage, where more may be wrong.
     pub fn slack(self, slack: f64) -> Self {
         Self { slack, ..self }
     }
-    fn tells(gpu: &mut Gpu, plan: &Plan, field: &str, want: &[f32]) -> Result<bool, motes::Error> {
+    fn holds(gpu: &mut Gpu, plan: &Plan, field: &str, want: &[f32]) -> Result<bool, motes::Error> {
         let program = gpu.compile(plan)?;
         gpu.run(&program, 1)?;
         let bytes = pollster::block_on(gpu.bytes(field, 0, 4 * want.len() as u64))?;
         let got = bytemuck::pod_collect_to_vec::<u8, f32>(&bytes);
         Ok(got.iter().zip(want).all(|(got, want)| got.to_bits() == want.to_bits() || got.is_nan() && want.is_nan()))
     }
-    /// Runs a plan from that state. Whether it agrees with its twins.
+    /// Runs a plan from that state. Whether it agrees with its references.
     pub fn good(&self, plan: &Plan) -> bool {
         self.fault(plan).is_none()
     }
@@ -95,9 +95,9 @@ impl Stage {
             gpu.write_bytes(name, 0, bytes).expect("a field");
         }
         gpu.set_world(self.clock).expect("a clock");
-        if let Some((field, want)) = &self.told {
-            let same = Self::tells(gpu, plan, field, want).unwrap_or(false);
-            return (!same).then(|| format!("{field} is not what was told"));
+        if let Some((field, want)) = &self.expected {
+            let same = Self::holds(gpu, plan, field, want).unwrap_or(false);
+            return (!same).then(|| format!("{field} is not what was expected"));
         }
         let verdicts = pollster::block_on(compare(gpu, plan, count));
         gpu.forget_pipelines();
@@ -251,7 +251,7 @@ fn integrators(device: &Device, stages: &mut Vec<Stage>) {
     }
 }
 
-/// A law that looks at everything that a visit passes to it: whom it meets, by index too, and where.
+/// A law that reads everything that a visit passes to it: the other particle, its index too, and where it is.
 struct Curious;
 
 impl Component for Curious {

@@ -32,10 +32,10 @@ pub const EQUIVALENT: &[Equivalent] = &[
 ];
 
 /// Every kernel of a tree but the sorts and reductions, each amid what those before it left, its own results away.
-fn build(device: &Device, opening: Opening, core: f64, bodies: &[Vec4], felt: &[Vec4], stages: &mut Vec<Stage>) {
+fn build(device: &Device, opening: Opening, core: f64, bodies: &[Vec4], last: &[Vec4], stages: &mut Vec<Stage>) {
     let mut simulation = moving(device, bodies.len(), Some(MACHINE));
     simulation.write(POSITION, bodies).expect("bodies");
-    simulation.write(ACCELERATION, felt).expect("what they felt");
+    simulation.write(ACCELERATION, last).expect("their last accelerations");
     let count = u32::try_from(bodies.len()).expect("few");
     let problem = Problem::new(count, MACHINE);
     let shared = Rc::new(RefCell::new(simulation));
@@ -60,7 +60,7 @@ fn build(device: &Device, opening: Opening, core: f64, bodies: &[Vec4], felt: &[
 fn bodies(count: usize) -> Vec<Vec4> {
     let mut random = Random::new(37);
     let mass = |i: usize| if i % 3 == 1 || i % 64 < 24 { 0.0 } else { 0.3 + 0.01 * (i % 7) as f64 };
-    // Along the curve neighbours are near: where they are told by their place, they weigh nothing together.
+    // Along the curve neighbours are near: where the place chooses the massless ones, whole nodes are without mass.
     let mut all: Vec<Vec4> =
         (0..count).map(|i| (random.vector() * glam::DVec3::new(1.0, 1.7, 2.3)).extend(mass(i)).as_vec4()).collect();
     all.iter_mut().filter(|b| b.x > 0.4).for_each(|b| b.w = 0.0);
@@ -74,17 +74,17 @@ pub fn all(shared: &Shared, stages: &mut Vec<Stage>) {
     let relative = Opening::Relative { alpha: 0.005, g: 1.3, theta: 0.6 };
     let mut random = Random::new(41);
     // So many groups of 32 that they take two workgroups; the last group is full.
-    let felt: Vec<Vec4> = (0..2080).map(|_| random.vector().extend(random.next()).as_vec4()).collect();
-    let mut quiet = felt.clone();
+    let last: Vec<Vec4> = (0..2080).map(|_| random.vector().extend(random.next()).as_vec4()).collect();
+    let mut quiet = last.clone();
     quiet[1000] = Vec4::ZERO;
     build(device, relative, 0.0, &bodies(2080), &quiet, stages);
-    build(device, geometric, 0.3, &bodies(500), &felt[..500], stages);
-    // A few that felt next to nothing, in some directions nothing, and one group that felt nothing.
-    let mut felt: Vec<Vec4> = felt.iter().take(77).map(|a| 1e-25 * *a).collect();
-    (0..77).step_by(2).for_each(|i| felt[i].x = 0.0);
-    (0..77).step_by(3).for_each(|i| felt[i].y = 0.0);
-    felt[5] = Vec4::ZERO;
-    build(device, relative, 0.3, &bodies(77), &felt, stages);
+    build(device, geometric, 0.3, &bodies(500), &last[..500], stages);
+    // A few with next to no last acceleration, in some directions none, and one group with none at all.
+    let mut last: Vec<Vec4> = last.iter().take(77).map(|a| 1e-25 * *a).collect();
+    (0..77).step_by(2).for_each(|i| last[i].x = 0.0);
+    (0..77).step_by(3).for_each(|i| last[i].y = 0.0);
+    last[5] = Vec4::ZERO;
+    build(device, relative, 0.3, &bodies(77), &last, stages);
     // Cubes that are just wide enough, and too narrow.
     for side in [3e-32, 1e-33_f32] {
         let mut simulation = moving(device, 2, Some(MACHINE));

@@ -21,19 +21,19 @@ use crate::support::{Random, Shared};
 
 const EDGE: &str = "no node is just so far";
 const ROOM: &str = "it is more room than there need be";
-const ALL_KNOW: &str = "all know the same, and whoever says it says the same";
+const ALL_KNOW: &str = "all lanes hold the same value, so any of them may write it";
 const DEEP: &str = "only trees of more than 131 072 bodies wait in a second word; tests/tree/complete.rs counts one";
 const SET_FIRST: &str = "it is set before it is looked at";
 
 pub const EQUIVALENT: &[Equivalent] = &[
-    same("tree_geometric", "fn demand_of", "0.0", "1.0", "nobody asks what a group demands"),
+    same("tree_geometric", "fn demand_of", "0.0", "1.0", "what a group demands is not read"),
     same("tree_relative", "return d <=", ">", ">=", EDGE),
     same("tree_tile", "const WAITING", "2u", "3u", ROOM),
     same("tree_tile", "const WAITING", "25u", "26u", ROOM),
     same("tree_tile", "var<workgroup> votes", "3", "4", ROOM),
     same("tree_tile", "var<workgroup> fars", "2u", "3u", ROOM),
     same("tree_tile", "var<workgroup> leaves", "2u", "3u", ROOM),
-    same("tree_tile", "let last =", "-", "+", "who is not there is not met, and meets nobody"),
+    same("tree_tile", "let last =", "-", "+", "a lane without a particle is paired with none"),
     same("tree_tile", "if lane == 0u {", "==", "!=", ALL_KNOW),
     same("tree_tile", "if lane == 0u {", "0u", "1u", ALL_KNOW),
     same("tree_look", "const FAR", "128u", "129u", ROOM),
@@ -51,7 +51,7 @@ pub const EQUIVALENT: &[Equivalent] = &[
         "||",
         "what is written behind the end of a list is written over",
     ),
-    same("tree_tile", "var far = 0u;", "0u", "1u", "fields and lists begin with zeros: node 0 of a heap is nobody"),
+    same("tree_tile", "var far = 0u;", "0u", "1u", "fields and lists begin with zeros; node 0 is no particle"),
     same(
         "tree_tile",
         "var near = 0u;",
@@ -60,7 +60,7 @@ pub const EQUIVALENT: &[Equivalent] = &[
         "lists begin with zeros, and 0 is no leaf: its particles are behind the last",
     ),
     same("tree_tile", "while top > 0u", ">", ">=", "it turns idly until the driver ends the loop"),
-    same("tree_alone", "if k < tree.end {", "<", "<=", "behind the last stands nobody whose id is in the fields"),
+    same("tree_alone", "if k < tree.end {", "<", "<=", "behind the last stands no id of the fields"),
     same("tree_alone", "var slot = 0u;", "0u", "1u", SET_FIRST),
     same("tree_alone", "more = node > 1u;", "1u", "2u", "it is odd"),
 ];
@@ -84,7 +84,7 @@ fn gravity(words: [&'static str; 2], theta: f64, alpha: f64) -> Box<dyn Componen
     force("gravity", &settings)
 }
 
-/// A law that adds up whole numbers, so that to meet somebody else, or in another way, is seen whatever it weighs.
+/// A law that adds up whole numbers, so that another pair, or a pair evaluated another way, is seen whatever it weighs.
 struct Counted(Opening);
 
 impl Component for Counted {
@@ -105,7 +105,7 @@ impl Component for Counted {
 }
 
 /// Bodies a few roundings apart, many at the same places, as many as fill their tree.
-fn crowd() -> Vec<Vec4> {
+fn coincident() -> Vec<Vec4> {
     let mut random = Random::new(53);
     let mut place = || (1e6 + 0.0625 * (1.5 * random.next()).round()) as f32;
     (0..1024).map(|i| Vec4::new(place(), place(), place(), (1 + i % 3) as f32)).collect()
@@ -117,7 +117,7 @@ struct Scene {
     walk: Kernel,
 }
 
-fn scene(device: &Device, machine: Machine, bodies: &[Vec4], felt: f64, law: Box<dyn Component>) -> Scene {
+fn scene(device: &Device, machine: Machine, bodies: &[Vec4], scale: f64, law: Box<dyn Component>) -> Scene {
     let mut simulation = moving(device, bodies.len(), Some(machine));
     let forces = [law];
     let mut step = Step::new(&forces, Problem::new(bodies.len() as u32, machine));
@@ -126,10 +126,10 @@ fn scene(device: &Device, machine: Machine, bodies: &[Vec4], felt: f64, law: Box
     let program = simulation.backend().compile(&plan).expect("a program");
     simulation.write(POSITION, bodies).expect("bodies");
     let mut random = Random::new(47);
-    let mut last: Vec<Vec4> = bodies.iter().map(|_| (random.vector() * felt).extend(0.3).as_vec4()).collect();
-    // One group of them has felt nothing yet.
+    let mut last: Vec<Vec4> = bodies.iter().map(|_| (random.vector() * scale).extend(0.3).as_vec4()).collect();
+    // One group of them has no last acceleration yet.
     last[bodies.len() / 3] = Vec4::ZERO;
-    simulation.write(ACCELERATION, &last).expect("what they felt");
+    simulation.write(ACCELERATION, &last).expect("their last accelerations");
     simulation.backend().run(&program, 1).expect("a run");
     simulation.write(ACCELERATION, &last).expect("what is there already");
     let walk = plan.kernels.into_iter().find(|kernel| kernel.passes[0].shader.reflection().entry == "walk");
@@ -164,9 +164,9 @@ impl Scene {
         bytemuck::pod_collect_to_vec(&bytes)
     }
     /// A stage that is judged by the bits of a field.
-    fn told(&self, name: &str, field: &'static str, words: u64, plan: Plan) -> Stage {
-        let told = self.holds(field, words, &plan);
-        self.stage(name, plan).told(field, told)
+    fn expected(&self, name: &str, field: &'static str, words: u64, plan: Plan) -> Stage {
+        let expected = self.holds(field, words, &plan);
+        self.stage(name, plan).expected(field, expected)
     }
     /// The walk in dispatches of so many targets.
     fn in_parts(&self, targets: u32) -> Plan {
@@ -199,14 +199,14 @@ fn stops(device: &Device, name: &str, machine: Machine, stages: &mut Vec<Stage>)
         let words = 4 * bodies.len() as u64;
         let scene = scene(device, Machine { turns: 230, workgroups: ROW, ..machine }, &bodies, 3.7, law);
         stages.push(scene.stage(&format!("walk {name}, {case}, stopping"), scene.plan()));
-        stages.push(scene.told(&format!("walk {name}, {case}, bits"), ACCELERATION.name, words, scene.plan()));
+        stages.push(scene.expected(&format!("walk {name}, {case}, bits"), ACCELERATION.name, words, scene.plan()));
         for rounds in [1, 3] {
             let plan = || scene.stopped(rounds);
             let silent = scene.holds(ALARM.name, QUIET.len() as u64, &plan())[2].to_bits() == u32::MAX;
             assert!(!silent, "{name}, {case}: it is done after {rounds} rounds");
             let of = |what| format!("walk {name}, {case}, {what} after {rounds} rounds");
-            stages.push(scene.told(&of("alarm"), ALARM.name, QUIET.len() as u64, plan()));
-            stages.push(scene.told(&of("workgroups"), "tree go", 3, plan()));
+            stages.push(scene.expected(&of("alarm"), ALARM.name, QUIET.len() as u64, plan()));
+            stages.push(scene.expected(&of("workgroups"), "tree go", 3, plan()));
         }
     }
 }
@@ -219,9 +219,9 @@ pub fn all(shared: &Shared, stages: &mut Vec<Stage>) {
         // The law that compiles fastest is asked first.
         let openings = [Opening::Geometric { theta: 1.0 }, Opening::Relative { alpha: 0.5, g: 1e-9, theta: 1.0 }];
         for opening in openings {
-            let scene = scene(device, machine, &crowd(), 3.7, Box::new(Counted(opening)));
-            let words = 4 * crowd().len() as u64;
-            stages.push(scene.told(
+            let scene = scene(device, machine, &coincident(), 3.7, Box::new(Counted(opening)));
+            let words = 4 * coincident().len() as u64;
+            stages.push(scene.expected(
                 &format!("walk {name}, counted by {opening}"),
                 ACCELERATION.name,
                 words,

@@ -266,7 +266,7 @@ const EQUIVALENT: &[Equivalent] = &[
     same("turns.wgsl", "while turns", "<", "<=", "three turns are more than one, too"),
 ];
 
-/// What looks at turns has no twin: every operator and number of it is changed once, and must be missed.
+/// What looks at turns has no reference: every operator and number of it is changed once, and must be missed.
 #[test]
 fn every_mutant_of_what_looks_at_turns_is_noticed() {
     let shared = support::device();

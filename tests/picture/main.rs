@@ -1,4 +1,4 @@
-//! Pictures: kernels against twins, the same bytes on every run, awkward sizes and places.
+//! Pictures: kernels against references, the same bytes on every run, awkward sizes and places.
 
 mod fluids;
 mod limits;

@@ -1,4 +1,4 @@
-//! How far a device may be from a twin.
+//! How far a device may be from a reference.
 
 use glam::DVec4;
 use motes::kernel::Array;
@@ -9,7 +9,7 @@ const PART: f64 = 2e-5;
 /// Elements for which a rounded number may have decided otherwise, beside one in some hundreds.
 const FEW: usize = 2;
 
-/// Whether a device's field is as the twin's.
+/// Whether a device's field is as the reference's.
 pub fn alike(kernel: &str, name: &str, want: &Array, got: &Array) -> bool {
     match (want, got) {
         (Array::Vec4(want), Array::Vec4(got)) => want.len() == got.len() && want.iter().zip(got).all(near),

@@ -1,4 +1,4 @@
-//! Mutation of pictures: every operator and literal of their shaders is changed once, and the f64 twin of the kernel,
+//! Mutation of pictures: every operator and literal of their shaders is changed once, and the f64 reference of the kernel,
 //! given the same, must notice.
 
 mod alike;
@@ -57,7 +57,7 @@ fn noticed(stages: &mut [&Stage], file: &str, mutant: &Mutant) -> bool {
     first.is_some()
 }
 
-/// The shaders as they are agree with their twins.
+/// The shaders as they are agree with their references.
 fn agree<'a>(stages: impl Iterator<Item = &'a Stage>) {
     for stage in stages {
         assert!(stage.good(&stage.kernel), "{}: the shader as it is does not agree with its twin", stage.name);

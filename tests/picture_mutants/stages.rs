@@ -1,4 +1,4 @@
-//! Stages: every kernel of a scene's picture, with what it is given and what its twin makes of that.
+//! Stages: every kernel of a scene's picture, with what it is given and what its reference makes of that.
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -30,7 +30,7 @@ pub struct Stage {
 }
 
 impl Stage {
-    /// Runs a kernel on what this one is given. Whether it does what the twin does.
+    /// Runs a kernel on what this one is given. Whether it does what the reference does.
     pub fn good(&self, kernel: &Kernel) -> bool {
         let gpu = &mut *self.canvas.borrow_mut();
         let Ok(program) = gpu.compile(&alone(kernel.clone())) else { return false };
@@ -100,7 +100,7 @@ pub fn canvas((device, queue): &(wgpu::Device, wgpu::Queue), count: usize) -> Ca
     Rc::new(RefCell::new(gpu))
 }
 
-/// The stages of a scene: what each is given is what the twins before it have left.
+/// The stages of a scene: what each is given is what the references before it have left.
 pub fn stages(scene: &Scene, canvas: &Canvas) -> Vec<Stage> {
     let plans = [scene.picture.plan(), scene.picture.development(scene.exposure)].map(|p| p.expect("a plan"));
     let count = scene.picture.frame.count;
@@ -113,7 +113,7 @@ pub fn stages(scene: &Scene, canvas: &Canvas) -> Vec<Stage> {
     let names: Vec<String> = plans.iter().flat_map(|p| p.fields(count)).map(|(name, _)| name).collect();
     for name in &names {
         let garbage = match cpu.host().get(name) {
-            // Scratch, which twins do without.
+            // Scratch, which references do without.
             None => continue,
             Some(Array::Vec3(v)) => Array::Vec3(v.iter().map(|_| random.vector()).collect()),
             Some(Array::Vec4(v)) => Array::Vec4(v.iter().map(|_| random.vector().extend(random.next())).collect()),

@@ -106,7 +106,7 @@ fn a_fixed_one_keeps_every_bit() {
         let felt = read(&mut simulation, ACCELERATION);
         assert!(felt[0].truncate() == glam::Vec3::ZERO && felt[0].w != 0.0, "{}: no force, a potential", entry.name);
     }
-    // The twins hold positions in f64.
+    // The references hold positions in f64.
     let mut twins = Simulation::on(Cpu::new(12).expect("some"), &setup(pinned(12), "rk4")).expect("a simulation");
     let place = |twins: &mut Simulation<Cpu>| match twins.backend().host().get(POSITION.name) {
         Some(Array::Vec4(x)) => x[0],
@@ -246,7 +246,7 @@ fn no_mirror_throws_back_who_is_led() {
     }
 }
 
-/// Leading and holding against their twins, at sizes around the workgroup's.
+/// Leading and holding against their references, at sizes around the workgroup's.
 #[test]
 fn the_kernels_agree_with_their_twins() {
     let shared = support::device();

@@ -1,4 +1,4 @@
-//! The primitives against their twins: both variants, at sizes around every seam, for inputs that are awkward.
+//! The primitives against their references: both variants, at sizes around every seam, for inputs that are awkward.
 
 #[path = "../support/mod.rs"]
 mod support;
@@ -27,7 +27,7 @@ fn device(shared: &Shared, machine: Machine) -> Gpu {
     gpu
 }
 
-/// Runs a kernel on inputs beside its twin. Whether it changed anything.
+/// Runs a kernel on inputs beside its reference. Whether it changed anything.
 fn agree(gpu: &mut Gpu, kernel: &Kernel, inputs: &[(&str, &[u32])], of: &str) -> bool {
     let plan = alone(kernel.clone());
     gpu.compile(&plan).unwrap_or_else(|e| panic!("{of}: {e}"));

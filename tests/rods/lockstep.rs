@@ -1,4 +1,4 @@
-//! The device against the twins, which solve other equations by another method.
+//! The device against the references, which solve other equations by another method.
 
 use glam::{DVec3, Vec4};
 use motes::kernel::{Backend, World};

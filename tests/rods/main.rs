@@ -126,7 +126,7 @@ fn stretch(particles: &State, x: &[DVec4]) -> f64 {
 /// Position and velocity.
 type Phase = (Vec<DVec4>, Vec<DVec4>);
 
-/// What the twins have after a time in so many steps, all components of the state of the particles in a row.
+/// What the references have after a time in so many steps, all components of the state of the particles in a row.
 fn state(particles: &State, name: &str, time: f64, steps: u32) -> Phase {
     let mut simulation = twins(particles, forces(), name, time / f64::from(steps));
     simulation.step(steps).expect("steps");

@@ -24,7 +24,7 @@ fn its_period_is_the_elliptic_integral() {
         assert!((angle / rate / period).abs() < 1e-10, "{degrees}: {:e} of a period late", angle / rate / period);
         assert!((rate.abs() - (2.0 * G * (1.0 - degrees.to_radians().cos())).sqrt()).abs() < 1e-9, "{rate}");
 
-        // f32: what 1000 steps round away, next to what the twins do in the same steps.
+        // f32: what 1000 steps round away, next to what the references do in the same steps.
         let steps = 1000;
         let (x, v) = state(&start, "leapfrog", time, steps);
         let mut simulation = device(&shared, &start, forces(), "leapfrog", time / f64::from(steps));

@@ -182,7 +182,7 @@ fn the_planets_are_where_its_comment_says() {
     }
 }
 
-/// A scene with fewer particles in less room, by the twins: what is measured in the beginning and in the end.
+/// A scene with fewer particles in less room, by the references: what is measured in the beginning and in the end.
 fn smaller(name: &str, overrides: &[&str], steps: u32) -> [motes::measure::Flock; 2] {
     let overrides: Vec<_> = overrides.iter().map(|text| (*text).to_owned()).collect();
     let source = Source::find(name).expect("a built-in scene");

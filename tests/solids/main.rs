@@ -244,7 +244,7 @@ fn it_meets_images_and_leaves_the_held_alone() {
     assert!((x[1].x + 0.8).abs() < 1e-15 && (x[2].x - 0.7).abs() < 1e-15, "{} {}", x[1], x[2]);
 }
 
-/// Still and moving, through every drift of a step, with some held, against the twins.
+/// Still and moving, through every drift of a step, with some held, against the references.
 #[test]
 fn the_kernels_agree_with_their_twins() {
     let shared = support::device();

@@ -101,7 +101,7 @@ fn broken_stays_broken_over_a_restart() {
     assert_eq!(a.0, b.0, "to the bit");
 }
 
-/// The twins tear what the device tears, and both ends of every spring decide alike.
+/// The references tear what the device tears, and both ends of every spring decide alike.
 #[test]
 fn both_ends_decide_alike() {
     let mut particles = row();

@@ -38,7 +38,7 @@ pub fn one(position: DVec3, velocity: DVec3) -> State {
     particles
 }
 
-/// A simulation by the twins.
+/// A simulation by the references.
 pub fn cpu(particles: &State, forces: Vec<Box<dyn Component>>, name: &str, dt: f64) -> Simulation<Cpu> {
     cpu_in(&Bounds::default(), particles, forces, name, dt)
 }
@@ -63,7 +63,7 @@ pub fn cpu_in(
     Simulation::on(Cpu::new(count).expect("some"), &setup).expect("a simulation")
 }
 
-/// Position and velocity of the particles as the twins hold them, in f64.
+/// Position and velocity of the particles as the references hold them, in f64.
 pub fn phase(simulation: &mut Simulation<Cpu>) -> (Vec<DVec4>, Vec<DVec4>) {
     let host = simulation.backend().host();
     match (host.get(POSITION.name), host.get(VELOCITY.name)) {
@@ -72,7 +72,7 @@ pub fn phase(simulation: &mut Simulation<Cpu>) -> (Vec<DVec4>, Vec<DVec4>) {
     }
 }
 
-/// What the twins of some forces say at a state: acceleration, and potential per unit mass.
+/// What the references of some forces say at a state: acceleration, and potential per unit mass.
 pub fn accelerations(forces: &[Box<dyn Component>], particles: &State, time: f64) -> Vec<DVec4> {
     accelerations_in(&Bounds::default(), forces, particles, time)
 }

@@ -1,4 +1,4 @@
-//! Each walk against its twin, which opens the same nodes of the same tree and adds up in f64.
+//! Each walk against its reference, which opens the same nodes of the same tree and adds up in f64.
 
 use glam::{DVec3, Vec4};
 use motes::settings::Value;

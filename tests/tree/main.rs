@@ -1,4 +1,4 @@
-//! Trees: what the device builds and how it walks, against twins and against direct sums.
+//! Trees: what the device builds and how it walks, against references and against direct sums.
 
 #![allow(clippy::cast_possible_truncation, reason = "numbers are rounded to what f32 holds")]
 

@@ -142,7 +142,7 @@ impl Walk {
         self.simulation.backend().run(&program, 1).expect("a run");
         pollster::block_on(self.simulation.read(ACCELERATION)).expect("accelerations")
     }
-    /// The verdict of the walk against its twin.
+    /// The verdict of the walk against its reference.
     pub fn verdict(&mut self) -> Verdict {
         let all = pollster::block_on(compare(self.simulation.backend(), &self.plan, self.count)).expect("a comparison");
         let name = self.plan.kernels.iter().find(|kernel| walks(&kernel.passes[0])).map(|kernel| kernel.name.clone());

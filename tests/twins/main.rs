@@ -1,4 +1,4 @@
-//! Every kernel against its f64 twin, in lockstep: each law alone, each integrator whole, at sizes around the workgroup's.
+//! Every kernel against its f64 reference, in lockstep: each law alone, each integrator whole, at sizes around the workgroup's.
 
 mod dispatches;
 #[path = "../support/mod.rs"]

@@ -127,7 +127,12 @@ fn a_solid_leaves_its_thickness_free() {
 #[test]
 fn density_that_is_hidden_by_continuity_is_told() {
     let continuity = "force.1.density_by=continuity";
-    says(DAM, &[continuity], 0, &["everybody at rest, for density comes by continuity; sums over masses are 1.0"]);
+    says(
+        DAM,
+        &[continuity],
+        0,
+        &["every density is that of rest, for it comes by continuity; sums over masses are 1.0"],
+    );
     let two = DAM.replacen(
         "[[particles]]",
         "[[particles]]\nshape = \"block\"\nsize = [0.5, 0.8, 0]\ncenter = [0.3, 0.45, 0]\n[[particles]]",
@@ -152,7 +157,12 @@ fn parts_that_say_different_things_are_told() {
     );
     says(DAM, &["particles.0.center=[0.25,0.7,0]"], 0, &["particles of the fluid begin out of the box, particle 35 "]);
     let extrapolate = ["force.1.walls=extrapolate", "force.1.weight=[0,-1,0]"];
-    says(DAM, &extrapolate, 0, &["the fluid has weight = [0, -1, 0], and forces pull everybody by [0, -9.81, 0]"]);
+    says(
+        DAM,
+        &extrapolate,
+        0,
+        &["the fluid has weight = [0, -1, 0], and forces accelerate all particles by [0, -9.81, 0]"],
+    );
     let (_, said) = motes("check", DAM, &["force.1.walls=extrapolate", "force.1.weight=[0,-9.81,0]"]);
     assert!(!said.contains("forces pull"), "{said}");
     let (_, said) = motes("run", DAM, &["particles.0.density=900"]);

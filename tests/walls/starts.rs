@@ -142,7 +142,7 @@ fn the_bound_is_where_it_says() {
 }
 
 /// A cube of 8³ in a box that it fills, of masses e more than at rest, is everywhere at 1 + e: what fills 512 d³ wants 512 (1 + e) d³ at
-/// rest, and leaves by faces of 6 · 64 d², so that somebody goes 4/3 e spacings: 0.4 of them where e is 0.3.
+/// rest, and leaves by faces of 6 · 64 d², so that the fastest moves 4/3 e spacings: 0.4 of them where e is 0.3.
 #[test]
 fn where_pressure_is_solved_for_nobody_may_have_to_go_too_far() {
     let dense = |ratio: f64, flat: bool| {

@@ -47,7 +47,7 @@ fn check_tells_of_a_fluid_that_is_solved_for() {
         assert_eq!(code, 0, "{out}{err}");
         for words in [
             &format!("the fastest flow expected 6.2642, and dt is for {bears}: √(2 g H)"),
-            "the densest at 1.0035 of rest (particle 0), and somebody goes 0.001 spacings in the first step, at least",
+            "the densest at 1.0035 of rest (particle 0), and the fastest moves 0.001 spacings in the first step, at least",
         ] {
             assert!(out.contains(words), "no `{words}` in\n{out}");
         }

@@ -22,7 +22,7 @@ impl Bodies {
         let column = |c: usize| bodies.iter().map(|b| b[c]).chain(std::iter::repeat(0.0)).take(padded).collect();
         Self { x: column(0), y: column(1), z: column(2), mass: column(3) }
     }
-    /// Softened gravity with G = 1, everybody on everybody: acceleration and potential of all bodies.
+    /// Softened gravity with G = 1, by direct summation: acceleration and potential of all bodies.
     pub fn evaluate(&self, softening: f32) -> Vec<[Lanes; 4]> {
         (0..self.x.len() / LANES)
             .into_par_iter()

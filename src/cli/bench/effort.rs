@@ -30,7 +30,7 @@ impl Effort {
     }
 }
 
-/// Walks a tree over particles where they are now, by what they felt last. It leaves numbers of no worth in place of
+/// Walks a tree over particles where they are now, by their last accelerations. It leaves worthless numbers in place of
 /// accelerations.
 pub async fn effort(opening: Opening, problem: &Problem, simulation: &mut Simulation<Gpu>) -> Result<Effort, Error> {
     let nothing = |_: &Particle, _: &Particle, _: DVec3, (): &mut ()| ();

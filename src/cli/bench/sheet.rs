@@ -1,4 +1,4 @@
-//! A sheet of springs in plain Rust, in f32 on one thread: forces are scattered from edge to ends, then everybody moves.
+//! A sheet of springs in plain Rust, in f32 on one thread: forces are scattered from edge to ends, then all particles move.
 //! Nothing by hand; the instruction set is the one cargo compiled for.
 
 use motes::State;

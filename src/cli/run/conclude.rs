@@ -56,7 +56,7 @@ impl Run {
         }
         say(summary::speed(steps, self.count, stepping, took));
         course.summary().into_iter().for_each(&say);
-        // Birds are driven: what their energy does tells nobody anything.
+        // Birds are driven: their energy has no meaning.
         if self.conserved.energy || output.company().is_none() {
             say(summary::energy(output.rows(), &self.looks, &self.conserved));
         }

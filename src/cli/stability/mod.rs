@@ -15,7 +15,7 @@ use super::failure::Failure;
 
 /// A run after which what grows tenfold is called unstable.
 const LONG: f64 = 1e6;
-/// Who bears less than this, in units of 1 / ω, bears nothing of use.
+/// A limit of stability below this, in units of 1 / ω, is of no use.
 const NONE: f64 = 0.05;
 
 /// What an integrator makes of the two equations.

@@ -97,7 +97,7 @@ fn together(names: &[&str]) -> String {
     words.collect::<Vec<_>>().join(", ")
 }
 
-/// Within a decade of what is shown, so that equal curves are equal where nobody sees them.
+/// Within a decade of what is shown, so that equal curves are equal where they are not seen.
 fn shown(x: f64) -> f64 {
     let edge = 10f64.powi(DECADES + 1);
     if x.is_finite() { x.abs().clamp(1.0 / edge, edge) } else { edge }

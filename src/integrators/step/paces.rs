@@ -1,4 +1,4 @@
-//! Steps that are not all alike.
+//! Adaptive time steps.
 
 use super::Step;
 use crate::error::Error;
@@ -7,7 +7,7 @@ use crate::integrators::verbs::pace;
 use crate::kernel::Plan;
 
 impl Step<'_> {
-    /// How long the step is, by what forces said at the end of the one before; nothing where all are alike.
+    /// How long the step is, by the dt criteria at the end of the one before; nothing where dt is fixed.
     pub fn pace(&mut self) {
         let Some(how) = self.problem.pace else { return };
         let viscous = self.limits().map(|(_, viscous)| viscous);

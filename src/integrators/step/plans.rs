@@ -9,7 +9,7 @@ use crate::tree::Opening;
 
 impl<'a> Step<'a> {
     /// The plan of what is done once: what the integrator wrote, and a look for numbers that are broken from the start,
-    /// while they are those of the particles at fault. A step spreads them: everybody attracts everybody.
+    /// while they are those of the particles at fault. A step spreads them: every particle attracts all others.
     ///
     /// # Errors
     /// The first thing that went wrong while it was written.
@@ -17,7 +17,7 @@ impl<'a> Step<'a> {
         if !self.evaluated {
             self.evaluate();
         }
-        // Who opens groups by what was felt last, has felt something then.
+        // The relative opening criterion needs accelerations of an evaluation before.
         if self.looks_back() {
             self.evaluate();
         }
@@ -26,7 +26,7 @@ impl<'a> Step<'a> {
         self.watch_pairs();
         self.finished()
     }
-    /// Whether what is felt depends on what was felt last.
+    /// Whether an evaluation depends on the accelerations of the one before.
     fn looks_back(&self) -> bool {
         let mut laws = self.forces.iter().flat_map(|force| force.laws());
         laws.any(|law| law.tree(&self.problem).is_some_and(|tree| matches!(tree.opening, Opening::Relative { .. })))
@@ -39,7 +39,7 @@ impl<'a> Step<'a> {
         self.each(Stage::EndOfStep);
         self.add(if self.problem.pace.is_some() { pace::tick(&self.problem) } else { tick::kernel() });
         self.populate();
-        // Who has just been born has a say in the length of its first step.
+        // Particles just spawned take part in the criterion for their first step.
         self.urge();
         self.add(watch::kernel(self.problem.count));
         self.watch_pairs();

@@ -16,13 +16,13 @@ pub struct Implicit {
     pub part: f64,
     /// The time of its end, of the step.
     pub until: f64,
-    /// Where laws without a Jacobian are felt.
+    /// Where laws without a Jacobian are evaluated.
     pub explicit: Explicit,
     /// How the equations are solved.
     pub form: Form,
 }
 
-/// Where laws without a Jacobian are felt, once in a solve.
+/// Where laws without a Jacobian are evaluated, once in a solve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Explicit {
     /// Where the part begins.
@@ -79,10 +79,10 @@ impl Step<'_> {
             self.at(by.until);
             self.add(update::reach(count, factor));
         }
-        // Trees are built by what was felt last, before that is cleared.
+        // Trees are built by the last accelerations, before that is cleared.
         let laws = self.laws(|place| !which[place]);
         self.clear();
-        self.felt(laws);
+        self.add_laws(laws);
         if ahead {
             self.add(update::reach(count, 0.0));
         } else {

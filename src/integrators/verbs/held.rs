@@ -40,7 +40,7 @@ fn kernel(problem: &Problem, first: usize, end: usize, kind: &str, files: Vec<So
     if shader.reflection().overrides.contains_key("UNIT") {
         constants.extend(problem.clock_constants());
     }
-    let (held, motions, who) = (problem.held.clone(), problem.motions.clone(), problem.clone());
+    let (held, motions, all) = (problem.held.clone(), problem.motions.clone(), problem.clone());
     let twin = move |host: &Host| {
         let (world, home) = (host.world(), host.read(HOME)?);
         let target = if host.contains(TARGET.name) { host.read(TARGET)?.to_vec() } else { Vec::new() };
@@ -49,7 +49,7 @@ fn kernel(problem: &Problem, first: usize, end: usize, kind: &str, files: Vec<So
             return Ok(());
         }
         let needed = held.get(first).is_some_and(|one| one.by != Hold::Fixed);
-        let [begun, ends] = if needed { [time(host, &who, 0.0)?, time(host, &who, 1.0)?] } else { [0.0; 2] };
+        let [begun, ends] = if needed { [time(host, &all, 0.0)?, time(host, &all, 1.0)?] } else { [0.0; 2] };
         for (Held { id, by }, home) in held.iter().zip(home.iter()).take(end).skip(first) {
             let id = *id as usize;
             let (home, x) = (home.truncate(), position[id].truncate());
@@ -95,7 +95,7 @@ fn kernel(problem: &Problem, first: usize, end: usize, kind: &str, files: Vec<So
     })
 }
 
-/// After each evaluation: a ← 0 for who is held.
+/// After each evaluation: a ← 0 for held particles.
 pub fn hold(problem: &Problem) -> Result<Kernel, Error> {
     let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("motion/hold.wgsl")])?;
     let (held, count) = (problem.held.clone(), problem.held.len());

@@ -1,5 +1,5 @@
-//! Births and drains: `bear` and `drain` change who lives, at the end of a step; `rest` takes what forces do to those who do
-//! not, and `guide` what they do to those who have just been born.
+//! Births and drains: `bear` and `drain` spawn and remove particles at the end of a step; `rest` clears the accelerations of
+//! particles that are not active, and `guide` those of particles just spawned.
 
 use std::sync::Arc;
 
@@ -12,10 +12,10 @@ use crate::solids::Solid;
 
 /// What the shader of a birth is called.
 pub const BEAR: &str = "bear";
-/// Who is due within such a part of a step is due: rounding of times decides nothing.
+/// Particles that are due within such a part of a step are due: rounding of times decides nothing.
 const SOON: f64 = 1.0 / 64.0;
 
-/// At the end of a step, and before the first one: who is due is born, who is in a drain dies.
+/// At the end of a step, and before the first one: due particles are spawned, and those in a drain removed.
 pub fn kernels(problem: &Problem) -> Result<Vec<Kernel>, Error> {
     let births = (!problem.births.is_empty()).then(|| bear(problem));
     let drains = problem.drains.iter().zip(1..).map(|(drain, number)| self::drain(problem, *drain, number));
@@ -84,14 +84,14 @@ fn drain(problem: &Problem, drain: Drain, number: u32) -> Result<Kernel, Error> 
     ];
     let params = shader.reflection().binding("params");
     let params = params.map_or(Ok(Vec::new()), |binding| binding.packed.pack("a drain", &values))?;
-    let who = problem.clone();
+    let all = problem.clone();
     let twin = move |host: &Host| {
         let view = crate::visit::View::of(host)?;
         let (bodies, world) = (view.particles(), host.world());
         let mut life = host.write(LIFE)?;
         let (mut position, mut velocity) = (host.write(POSITION)?, host.write(VELOCITY)?);
         let mut acceleration = host.write(ACCELERATION)?;
-        let free = bodies.iter().filter(|body| body.lives() && !who.is_held(body.index));
+        let free = bodies.iter().filter(|body| body.lives() && !all.is_held(body.index));
         for body in free.filter(|body| drain.species.is_none_or(|kind| kind == body.species())) {
             if takes(&drain, body.position, &world) {
                 let id = body.index;
@@ -114,7 +114,7 @@ fn drain(problem: &Problem, drain: Drain, number: u32) -> Result<Kernel, Error> 
     })
 }
 
-/// Whether who stands there dies.
+/// Whether a drain removes a particle there.
 fn takes(drain: &Drain, x: glam::DVec3, world: &World) -> bool {
     let r = x - drain.position;
     let r = if matches!(drain.solid, Solid::Plane(_)) { r } else { world.bounds.shortest(r) };
@@ -122,7 +122,7 @@ fn takes(drain: &Drain, x: glam::DVec3, world: &World) -> bool {
     if drain.outside { distance > 0.0 } else { distance < 0.0 }
 }
 
-/// After each evaluation: a ← 0 for who does not live, and for who has just been born.
+/// After each evaluation: a ← 0 for particles that are not active, and for those just spawned.
 pub fn still(problem: &Problem) -> Result<Vec<Kernel>, Error> {
     let guided = problem.births.iter().any(|birth| birth.guided > 0.0).then(|| guide(problem));
     std::iter::once(rest(problem)).chain(guided).collect()

@@ -1,4 +1,4 @@
-//! The clock of steps that are not all alike: how long the next one is, of whom, and what time it is.
+//! The clock of adaptive steps: how long the next one is, the limiting particle, and the time.
 
 mod clock;
 
@@ -18,7 +18,7 @@ use crate::primitives::{Items, Operation, reduce};
 /// Binary digits of the ticks of a step, less one.
 const DIGITS: u32 = 11;
 
-/// The greatest of what everybody wants.
+/// The maximum of all dt criteria.
 pub fn measure(problem: &Problem) -> Result<Kernel, Error> {
     let (all, most) = (URGES.name.into(), URGENT.name.into());
     let kernel = reduce(Operation::Max, Items::Vec4, &all, &most, problem.count, &problem.machine)?;
@@ -93,7 +93,7 @@ pub fn pace(pace: &Pace, viscous: f64, problem: &Problem) -> Result<Kernel, Erro
     })
 }
 
-/// Who asked for a step as short as this.
+/// The limiting particle.
 pub fn blame(pace: &Pace, problem: &Problem) -> Result<Kernel, Error> {
     let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("integrators/blame.wgsl")])?;
     let twin = |host: &Host| {

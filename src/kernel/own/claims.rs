@@ -3,10 +3,10 @@
 use crate::error::Error;
 use crate::kernel::{Columns, Kernel, Plan};
 
-/// Refuses a law that writes a field of motes. Columns are no field of anybody: a law says which of them it writes.
+/// Refuses a law that writes a field of motes. Columns belong to no law: a law says which of them it writes.
 ///
 /// # Errors
-/// [`Error::Shader`] that names the law, the field and the kernel whose it is.
+/// [`Error::Shader`] that names the law, the field and the kernel that it belongs to.
 pub fn check<'a>(plans: &(impl Iterator<Item = &'a Plan> + Clone), columns: &Columns) -> Result<(), Error> {
     let kernels = || plans.clone().flat_map(|plan| &plan.kernels);
     let law = |kernel: &Kernel| {

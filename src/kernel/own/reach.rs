@@ -10,7 +10,7 @@ use crate::kernel::{ACCELERATION, ALARM, HOME, LIFE, POSITION, SPECIES, TARGET, 
 const GROUP: u32 = 3;
 /// Numbers of bindings end below this: WebGPU promises no more.
 const BINDINGS: u32 = 1000;
-/// Fields that motes has in every simulation, or whose names no one else shall give to something else. Those of a
+/// Fields that motes has in every simulation, or whose names are reserved. Those of a
 /// particular plan are looked at where there is one.
 const FIELDS: [&str; 8] =
     [POSITION.name, VELOCITY.name, ACCELERATION.name, SPECIES.name, LIFE.name, TARGET.name, HOME.name, ALARM.name];

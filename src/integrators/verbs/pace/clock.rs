@@ -9,9 +9,9 @@ use crate::kernel::{ALARM, ALARM_WORDS, Host, Kernel, PACE, PACE_WORDS, Problem,
 /// The time after a part of the step.
 pub fn at(factor: f64, problem: &Problem) -> Result<Kernel, Error> {
     let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("integrators/at_paced.wgsl")])?;
-    let who = problem.clone();
+    let all = problem.clone();
     let twin = move |host: &Host| {
-        let time = time(host, &who, factor)?;
+        let time = time(host, &all, factor)?;
         host.set_world(World { time, ..host.world() });
         Ok(())
     };

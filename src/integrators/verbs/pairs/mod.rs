@@ -135,7 +135,7 @@ pub fn kernel(
     let system = matches!(part.shape, Shape::System(_));
     let (holding, tables): (Source, Vec<Table>) =
         if system { (crate::shader!("motion/free.wgsl"), Vec::new()) } else { problem.holding() };
-    let living = if system { crate::shader!("life/everybody.wgsl") } else { problem.living() };
+    let living = if system { crate::shader!("life/all.wgsl") } else { problem.living() };
     let shader = Shader::join(&[
         crate::shader!("world.wgsl"),
         crate::shader!("broken.wgsl"),

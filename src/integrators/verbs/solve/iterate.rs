@@ -120,7 +120,7 @@ pub fn advance(system: &System<'_>, turned: bool, limit: u32, part: f64) -> Resu
     Ok(on_states(system.in_runs(kernel)?, turned))
 }
 
-/// The next state, by the sums r · z, z · A z, and r · r of who is tied and of who is alone.
+/// The next state, by the sums r · z, z · A z, and r · r of the linked and of the unlinked particles.
 fn advanced(before: State, sum: DVec4, (tolerance, part): (f64, f64), limit: f64) -> State {
     let fresh = before.iterations == 0.0;
     let mut after = before;

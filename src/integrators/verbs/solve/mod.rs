@@ -171,7 +171,7 @@ fn names(turned: bool) -> (&'static str, &'static str) {
     if turned { (OTHER, STATE) } else { (STATE, OTHER) }
 }
 
-/// Shares a twin.
+/// Shares a reference.
 fn twin(twin: impl Fn(&crate::kernel::Host) -> Result<(), Error> + Send + Sync + 'static) -> Twin {
     Arc::new(twin)
 }

@@ -1,4 +1,4 @@
-//! What became of the solves, kept on the device until somebody asks.
+//! What became of the solves, kept on the device until it is read.
 
 use super::{STATE, State, System, plain, twin, with};
 use crate::error::Error;

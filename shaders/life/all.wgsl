@@ -1,2 +1,2 @@
-// Everybody lives.
+// All particles are active.
 fn lives(id: u32) -> bool { return true; }

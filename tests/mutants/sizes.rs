@@ -21,7 +21,7 @@ pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
         pairs(device, flat, stages);
     }
     lone(device, stages);
-    crowded(device, stages);
+    over_dense(device, stages);
     // More than the smaller device takes in one dispatch.
     many(&(shared.found.device.clone(), shared.found.queue.clone()), stages);
 }
@@ -69,7 +69,7 @@ fn pairs(device: &Device, flat: bool, stages: &mut Vec<Stage>) {
     stages.push(Stage::amid(&name, &simulation, response).slack(4.0));
 }
 
-/// A state that nobody but the first begins anew.
+/// A state that no particle but the first begins anew.
 fn lone(device: &Device, stages: &mut Vec<Stage>) {
     let (simulation, plan) = resting(device, &[DVec3::ZERO], false);
     for name in ["fluid begin", "fluid collect"] {
@@ -77,8 +77,8 @@ fn lone(device: &Device, stages: &mut Vec<Stage>) {
     }
 }
 
-/// As many within reach of each other as there is room for, and more: the first of those is told.
-fn crowded(device: &Device, stages: &mut Vec<Stage>) {
+/// As many within reach of each other as there is room for, and more: the first of those is reported.
+fn over_dense(device: &Device, stages: &mut Vec<Stage>) {
     /// Neighbours in space, of a support of two spacings.
     const ROOM: usize = 72;
     for more in [1, 3] {
@@ -93,10 +93,10 @@ fn crowded(device: &Device, stages: &mut Vec<Stage>) {
         words(&simulation, POSITION.name, &back);
         let grid = plan.steps().find(|kernel| kernel.name.starts_with("grid")).expect("a grid").clone();
         let both = Plan::of([grid, named(&plan, "fluid response")]);
-        let stage = Stage::amid(&format!("a crowd and {more}"), &simulation, both).slack(4.0);
+        let stage = Stage::amid(&format!("{more} more than there is room for"), &simulation, both).slack(4.0);
         let first = [u32::MAX, u32::MAX, 0, u32::MAX, u32::MAX, 0, 0, 0];
-        let told = || first.map(f32::from_bits).to_vec();
-        stages.push(if more == 1 { stage } else { stage.told(ALARM.name, told()) });
+        let expected = || first.map(f32::from_bits).to_vec();
+        stages.push(if more == 1 { stage } else { stage.expected(ALARM.name, expected()) });
     }
 }
 
