@@ -8,4 +8,4 @@ fn particle(i: u32) -> Particle {
     return Particle(index, p.xyz, p.w);
 }
 
-fn velocity_of(who: Particle) -> vec3f { return velocity[who.index].xyz; }
+fn velocity_of(particle: Particle) -> vec3f { return velocity[particle.index].xyz; }

@@ -11,7 +11,7 @@ use motes::{Gpu, Measure, Setup, Simulation, State};
 use support::Shared;
 use support::states::{force, word};
 
-/// A scene on the device, with what is told of it here.
+/// A scene on the device, with what is needed of it here.
 fn scene(shared: &Shared, name: &str, overrides: &[&str]) -> (Simulation<Gpu>, u64) {
     let mut overrides: Vec<_> = overrides.iter().map(|text| (*text).to_owned()).collect();
     // There are too few for `auto` to take it.

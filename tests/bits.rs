@@ -15,7 +15,7 @@ use support::states::{force, integrator, vector};
 const COUNT: u32 = 300;
 const STEPS: u32 = 30;
 
-/// Everybody, everywhere, at every velocity and time.
+/// All forces, everywhere, at every velocity and time.
 fn forces() -> Vec<Box<dyn Component>> {
     vec![
         force("gravity", &[("softening", Value::Number(0.17))]),

@@ -79,7 +79,7 @@ fn a_run_leaves_numbers_a_plot_pictures_and_a_scene_that_gives_the_same_again() 
 }
 
 #[test]
-fn faults_of_a_scene_are_told_all_at_once_and_nothing_is_written() {
+fn faults_of_a_scene_are_listed_together_and_nothing_is_written() {
     let folder = tempfile::tempdir().expect("a folder");
     let (scene, out) = (path(&folder, "bad.toml"), path(&folder, "out"));
     let text =
@@ -273,7 +273,7 @@ fn a_box_is_shown_and_what_it_keeps_is_claimed() {
     let reflecting = run(&["box.boundary=reflecting"]);
     assert!(!reflecting.contains("momentum") && !reflecting.contains("not conserved"), "{reflecting}");
     assert!(run(&["box.boundary=open"]).contains("angular momentum by"));
-    // A weight that never ends: who falls through the floor comes in at the ceiling.
+    // A weight that never ends: what falls through the floor comes in at the ceiling.
     let weight = "force.0.acceleration=[0, 0, -1]";
     let falling = gas.replace("kind = \"gravity\"\nsoftening = 0.5\n", "kind = \"uniform\"\n");
     std::fs::write(&scene, falling).expect("written");
@@ -289,7 +289,7 @@ fn rules_for_whole_steps_want_their_integrators() {
     let folder = tempfile::tempdir().expect("a folder");
     let scene = path(&folder, "a.toml");
     let out = path(&folder, "out");
-    let told = |command: &[&str], integrator: &str, force: &str| {
+    let output_of = |command: &[&str], integrator: &str, force: &str| {
         let bodies = "bodies = [{ position = [0, 0, 0], mass = 1 }, { position = [0.5, 0, 0], mass = 1 }]";
         let text = format!(
             "[simulation]\ndt = 1\nsteps = 2\nintegrator = \"{integrator}\"\n[[particles]]\n{bodies}\n[[force]]\nkind = {force}\n"
@@ -299,7 +299,7 @@ fn rules_for_whole_steps_want_their_integrators() {
         assert_eq!(code, 0, "{stderr}");
         stdout + &stderr
     };
-    let check = |integrator, force| told(&["check"], integrator, force);
+    let check = |integrator, force| output_of(&["check"], integrator, force);
     let remark = "it wants forward_euler or symplectic_euler";
     for (integrator, remarked) in [("leapfrog", true), ("symplectic_euler", false), ("forward_euler", false)] {
         let words = check(integrator, "\"vicsek\"");
@@ -316,7 +316,7 @@ fn rules_for_whole_steps_want_their_integrators() {
         ("\"wander\"", false, false),
         ("\"soft_turn\"", true, false),
     ] {
-        let words = told(&run, "leapfrog", force);
+        let words = output_of(&run, "leapfrog", force);
         assert_eq!((words.contains(", error "), words.contains("momentum changed")), (energy, momentum), "{words}");
     }
 }

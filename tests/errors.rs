@@ -1,4 +1,4 @@
-//! What goes wrong is said: by whom it can be mended, where it is, and with the numbers. Nothing panics, nothing waits for ever.
+//! Errors: in which place they are mended, and with their numbers. Nothing panics, nothing waits for ever.
 
 mod support;
 
@@ -127,7 +127,7 @@ fn a_users_shader_works() {
     assert!((velocity.truncate() - want).length() < 1e-6, "{velocity} is not {want}");
 }
 
-/// What a user's file is called is nobody's business: not that of a verb, nor of the clock.
+/// The name of a user's file has no effect: not even that of a verb, or of the clock.
 #[test]
 fn a_force_may_be_called_anything() {
     let shared = support::device();
@@ -145,7 +145,7 @@ fn a_force_may_be_called_anything() {
 }
 
 #[test]
-fn a_users_shader_is_told_what_is_wrong_and_where() {
+fn faults_of_a_users_shader_name_their_place() {
     let shared = support::device();
     let complaint = |over, wgsl: &str, params: &[(&str, Value)]| {
         on_gpu(&shared, &setup(support::cloud(3, 1), custom(over, wgsl, params), 0.1)).map(|_| ()).expect_err("refused")
@@ -218,7 +218,7 @@ fn not_finite<B: Backend>(simulation: &mut Simulation<B>, steps: u32) -> (u32, u
 #[test]
 fn numbers_that_are_none_are_found_where_they_begin() {
     let shared = support::device();
-    // At one place, with no softening: 0 / 0 in the first kick, of both; the lower id is told.
+    // At one place, with no softening: 0 / 0 in the first kick, of both; the lower id is reported.
     let mut coincident = support::cloud(100, 1);
     coincident.position_mut()[70] = coincident.position()[41];
     let together = setup(coincident, vec![force("gravity", &[])], 0.1);

@@ -1,4 +1,4 @@
-//! The command and forces through a tree: how wrong they are, and whom `over = "auto"` lets meet.
+//! The command and forces through a tree: how wrong they are, and what `over = "auto"` chooses.
 
 use std::process::Command;
 
@@ -40,9 +40,9 @@ fn angles_are_compared_with_direct_sums_as_a_table_and_for_programs() {
     assert_eq!(code, Some(0), "{json}{stderr}");
     let json: Value = serde_json::from_str(&json).expect("JSON");
     let rows = json["rows"].as_array().expect("rows");
-    let told: Vec<_> = rows.iter().map(|row| (number(&row["theta"]), row["multipoles"].as_str())).collect();
+    let angles: Vec<_> = rows.iter().map(|row| (number(&row["theta"]), row["multipoles"].as_str())).collect();
     let (monopole, quadrupole) = (Some("monopole"), Some("quadrupole"));
-    assert_eq!(told, [(0.5, monopole), (0.5, quadrupole), (1.0, monopole), (1.0, quadrupole)]);
+    assert_eq!(angles, [(0.5, monopole), (0.5, quadrupole), (1.0, monopole), (1.0, quadrupole)]);
     let device: Vec<_> = rows.iter().map(|row| three(&row["errors"][0]["device"])).collect();
     for (row, theta) in rows.iter().zip(["θ=0.5", "θ=0.5", "θ=1", "θ=1"]) {
         assert_eq!(row["errors"].as_array().map(Vec::len), Some(1), "one law walks a tree: {row}");
@@ -62,7 +62,10 @@ fn angles_are_compared_with_direct_sums_as_a_table_and_for_programs() {
 
     // The table says the same, and the same again: the same run, the same bits.
     let lines: Vec<_> = table.lines().collect();
-    assert!(lines[0].starts_with("cluster: 600 particles, ") && lines[0].contains("against everybody"), "{table}");
+    assert!(
+        lines[0].starts_with("cluster: 600 particles, ") && lines[0].contains("against direct summation"),
+        "{table}"
+    );
     let row = |theta: &str, n: usize| {
         let cells: Vec<_> = device[n..n + 2].iter().flatten().map(|error| format!("{error:.1e}")).collect();
         format!("| {theta} | {} |", cells.join(" | "))
@@ -108,27 +111,27 @@ fn a_comparison_tells_what_is_left_out_from_what_is_rounded() {
     let json: Value = serde_json::from_str(&json).expect("JSON");
     assert_eq!(json["far_groups"].as_array().map(Vec::len), Some(1));
     let shown = |of: [f64; 3]| of.map(|error| format!("{error:.1e}"));
-    for (of, told) in [("device", device), ("walk", walk), ("rounding", rounding)] {
-        assert_eq!(shown(three(&json["far_groups"][0][of])), shown(told), "{of}");
+    for (of, listed) in [("device", device), ("walk", walk), ("rounding", rounding)] {
+        assert_eq!(shown(three(&json["far_groups"][0][of])), shown(listed), "{of}");
     }
     // Two digits do not tell them apart; all digits do.
     let [device, walk] = ["device", "walk"].map(|of| three(&json["far_groups"][0][of]).map(f64::to_bits));
     assert!(device != walk, "{json}");
-    // Who meets everybody takes nobody as one.
+    // Direct summation takes no group as one.
     let (code, json, _) = motes(&["compare", "--steps", "2", "--json", "--set", "force.1.over=pairs", &path]);
     let json: Value = serde_json::from_str(&json).expect("JSON");
     assert!(code == Some(0) && json["far_groups"].as_array().is_some_and(Vec::is_empty), "{json}");
 }
 
 #[test]
-fn whom_auto_lets_meet_is_said_below_and_above_the_crossing() {
+fn what_auto_chooses_is_said_below_and_above_the_crossing() {
     let folder = tempfile::tempdir().expect("a folder");
     let out = folder.path().join("out").to_str().expect("a path of words").to_owned();
     let machine = |software| motes::kernel::Machine { software, ..motes::kernel::Machine::HOST };
     let crossings = [true, false].map(|software| motes::visit::crossing(&machine(software)));
     let (_, words, _) = motes(&["check", &cluster(&folder, 40, "over = \"auto\"")]);
-    let told = words.split("from about ").nth(1).and_then(|rest| rest.split(' ').next()?.parse().ok());
-    let from: u32 = told.unwrap_or_else(|| panic!("no crossing is told: {words}"));
+    let found = words.split("from about ").nth(1).and_then(|rest| rest.split(' ').next()?.parse().ok());
+    let from: u32 = found.unwrap_or_else(|| panic!("no crossing in: {words}"));
     assert!(crossings.contains(&from) && crossings[0] < crossings[1], "{from} is none of {crossings:?}");
     let pairs = format!(
         "note: `gravity` is summed directly over all pairs: a tree is faster from about {from} particles on here"

@@ -181,9 +181,9 @@ fn program(place: &Place, folder: &str, text: &str) {
 
 #[cfg(unix)]
 #[test]
-fn ffmpeg_makes_a_video_of_the_frames_and_its_failure_is_told() {
+fn ffmpeg_makes_a_video_of_the_frames_and_its_failure_is_reported() {
     let place = Place::new(SCENE);
-    // Writes what it is told and how many frames it sees into the file that it is to make.
+    // Writes its arguments and how many frames it sees into the file that it is to make.
     program(&place, "good", "#!/bin/sh\nfor last; do :; done\nset -- \"$@\" frame_*.png\necho \"$@\" > \"$last\"\n");
     let (code, stdout, stderr) = place.run("good out", "good", &[]);
     assert!(code == 0 && stdout.contains("video: birds_film.mp4, made by ffmpeg"), "{stdout}{stderr}");

@@ -8,7 +8,7 @@ use motes::integrators::INTEGRATORS;
 use motes::kernel::World;
 use motes::settings::Value;
 use motes::{Bounds, Setup, Simulation, State, VELOCITY};
-use support::states::{accelerations, cpu, felt, force, integrator, one, phase, vector, word};
+use support::states::{accelerations, cpu, evaluated, force, integrator, one, phase, vector, word};
 
 const NUMBER: fn(f64) -> Value = Value::Number;
 
@@ -42,23 +42,23 @@ fn near(got: DVec4, want: DVec3) {
 #[test]
 fn two_by_hand() {
     let (v, w) = (DVec3::new(1.0, 0.0, 0.0), DVec3::new(0.0, 0.5, 0.0));
-    let felt = |weights, r, more: &[_]| accelerations(&boids(weights, more), &two(r, v, w), 0.0);
+    let boids_of = |weights, r, more: &[_]| accelerations(&boids(weights, more), &two(r, v, w), 0.0);
     let r = DVec3::new(0.0, 0.0, 0.25);
     // u = 2 away from the other, and towards it; and its velocity.
-    let apart = felt([1.0, 0.0, 0.0], r, &[]);
+    let apart = boids_of([1.0, 0.0, 0.0], r, &[]);
     near(apart[0], DVec3::new(-1.0, 0.0, -2.0));
     near(apart[1], DVec3::new(0.0, -0.5, 2.0));
-    near(felt([0.0, 0.0, 1.0], r, &[])[0], DVec3::new(-1.0, 0.0, 2.0));
-    near(felt([0.0, 1.0, 0.0], r, &[])[0], w - v);
+    near(boids_of([0.0, 0.0, 1.0], r, &[])[0], DVec3::new(-1.0, 0.0, 2.0));
+    near(boids_of([0.0, 1.0, 0.0], r, &[])[0], w - v);
     // Together, and each a part of its own: (−1, 0, −2) 0.5 + (−1, 0.5, 0) 2 + (−1, 0, 2) 3.
-    near(felt([0.5, 2.0, 3.0], r, &[])[0], DVec3::new(-5.5, 1.0, 5.0));
+    near(boids_of([0.5, 2.0, 3.0], r, &[])[0], DVec3::new(-5.5, 1.0, 5.0));
     // Each rule asks for √2 at most, and all together too: (−1, 0, −2) → √2/√5, the sum of two of 2 √(2/5) in x.
     let most = [("max_force", NUMBER(2f64.sqrt()))];
-    near(felt([1.0, 0.0, 0.0], r, &most)[0], DVec3::new(-1.0, 0.0, -2.0) * (2.0f64 / 5.0).sqrt());
-    near(felt([2.0, 0.0, 2.0], r, &most)[0], DVec3::new(-(2f64.sqrt()), 0.0, 0.0));
+    near(boids_of([1.0, 0.0, 0.0], r, &most)[0], DVec3::new(-1.0, 0.0, -2.0) * (2.0f64 / 5.0).sqrt());
+    near(boids_of([2.0, 0.0, 2.0], r, &most)[0], DVec3::new(-(2f64.sqrt()), 0.0, 0.0));
     // Too far to keep apart, and too far to be seen.
-    near(felt([1.0, 0.0, 0.0], DVec3::X * 0.6, &[])[0], DVec3::ZERO);
-    near(felt([1.0, 1.0, 1.0], DVec3::X * 1.1, &[])[0], DVec3::ZERO);
+    near(boids_of([1.0, 0.0, 0.0], DVec3::X * 0.6, &[])[0], DVec3::ZERO);
+    near(boids_of([1.0, 1.0, 1.0], DVec3::X * 1.1, &[])[0], DVec3::ZERO);
 }
 
 /// Separation weighs the near more: two others at 0.1 and at 0.2 of two sides.
@@ -73,7 +73,7 @@ fn separation_falls_off_with_distance() {
 }
 
 #[test]
-fn nobody_sees_behind() {
+fn no_bird_sees_behind() {
     let view = |degrees: f64, angle: f64| {
         let r = 0.3 * DVec3::new(angle.to_radians().cos(), angle.to_radians().sin(), 0.0);
         let flock = boids([0.0, 1.0, 0.0], &[("vision", NUMBER(degrees))]);
@@ -81,13 +81,13 @@ fn nobody_sees_behind() {
     };
     assert!(!view(179.0, 180.0) && view(180.0, 180.0) && view(200.0, 180.0));
     assert!(view(90.0, 89.0) && !view(90.0, 91.0) && view(135.0, -134.0) && !view(135.0, -136.0) && !view(0.5, 1.0));
-    // Who rests looks nowhere, and sees all round.
+    // A bird at rest looks nowhere, and sees all round.
     let rest = two(-DVec3::X * 0.3, DVec3::ZERO, DVec3::Y);
     near(accelerations(&boids([0.0, 1.0, 0.0], &[("vision", NUMBER(30.0))]), &rest, 0.0)[0], DVec3::Y);
 }
 
 #[test]
-fn who_is_alone_flies_straight_on() {
+fn a_bird_without_neighbours_flies_straight_on() {
     let (x, v) = (DVec3::new(0.1, 0.2, 0.3), DVec3::new(0.5, -0.25, 1.0));
     let mut pair = one(x, v);
     pair.push(x + DVec3::Z * 30.0, -v, 1.0, 0.0);
@@ -120,7 +120,7 @@ fn symmetries() {
             // Sums of some tens, rounded by 1e-16 and divided by what is left of them, a hundredth at the least.
             assert!((b[i].truncate() - want).length() < 1e-11, "{over}: {i}: {} is not {want}", b[i]);
         }
-        assert!(a.iter().any(|a| a.length() > 1.0), "{over}: nobody does anything");
+        assert!(a.iter().any(|a| a.length() > 1.0), "{over}: no bird steers");
     }
 }
 
@@ -175,7 +175,7 @@ fn what_is_degenerate_is_finite() {
     }
 }
 
-/// After every step of every integrator nobody is faster or slower than the limits say; others are left alone.
+/// After every step of every integrator no bird is faster or slower than the limits say; others are left alone.
 #[test]
 fn speeds_are_within_limits() {
     let shared = support::device();
@@ -217,11 +217,11 @@ fn speeds_are_within_limits() {
 #[test]
 fn limits_by_hand() {
     let limit = [force("speed_limit", &[("min", NUMBER(2.0)), ("max", NUMBER(5.0))])];
-    let after = |v: DVec3| felt(&limit, &one(DVec3::ZERO, v), World::default()).1[0][0].truncate();
+    let after = |v: DVec3| evaluated(&limit, &one(DVec3::ZERO, v), World::default()).1[0][0].truncate();
     assert_eq!(after(DVec3::new(0.0, 6.0, 8.0)), DVec3::new(0.0, 3.0, 4.0));
     assert_eq!(after(DVec3::new(0.0, 0.0, -1.0)), DVec3::new(0.0, 0.0, -2.0));
     assert_eq!(after(DVec3::new(3.0, 0.0, 0.0)), DVec3::new(3.0, 0.0, 0.0));
-    // Who rests has no direction: it gets one.
+    // A bird at rest has no direction: it gets one.
     assert_eq!(after(DVec3::ZERO), DVec3::new(2.0, 0.0, 0.0));
     let wrong = [("min", NUMBER(3.0)), ("max", NUMBER(2.0))];
     let setup = Setup {

@@ -265,7 +265,7 @@ fn shaders_are_used_and_say_what_they_are() {
         }
         let call = format!("shader!(\"{}\")", shader.path.trim_start_matches("shaders/"));
         if !rust.iter().any(|f| f.path.starts_with("src/") && f.text.contains(&call)) {
-            faults.push(format!("{}: nobody joins it", shader.path));
+            faults.push(format!("{}: no kernel joins it", shader.path));
         }
         for (n, line) in shader.code() {
             let sides = |op: &str| line.split(op).collect::<Vec<_>>();

@@ -11,7 +11,7 @@ use motes::kernel::{Access, Machine, World};
 use motes::settings::{Kind, Settings, Value};
 use support::choices::{self, nudged};
 use support::machines;
-use support::states::{accelerations, felt, felt_after, force, one, vector, word};
+use support::states::{accelerations, evaluated, evaluated_after, force, one, vector, word};
 
 const TIME: f64 = 0.83;
 
@@ -55,7 +55,7 @@ fn forces_are_gradients_or_depend_on_velocity() {
         if a.iter().all(|a| a.w == 0.0) {
             others += 1;
             let later = World { time: TIME, dt: 0.01, step: 5, ..World::default() };
-            let by_chance = felt(&force, &particles, later).0 != a;
+            let by_chance = evaluated(&force, &particles, later).0 != a;
             assert!(one_sided || by_chance || a != moved, "{name}: no potential, although velocity is nothing to it");
             return;
         }
@@ -119,16 +119,16 @@ fn other_species(value: &Value) -> Value {
     if let Value::Number(n) = value { Value::Number(n - 1.0) } else { Value::Number(1.0) }
 }
 
-/// A key that nobody reads, or a name mistyped, changes nothing.
+/// A key that is not read, or a name mistyped, changes nothing.
 #[test]
 fn every_key_is_read() {
     for entry in choices::entries() {
         let variants = choices::variants(entry.keys);
         let world = World { time: TIME, dt: 0.01, ..World::default() };
         let cloud = support::cloud(100, 3);
-        // What some have felt before, and some have not: by it, or by angles alone, a tree decides what is far.
+        // Some with accelerations of a step before, and some without: by them, or by angles alone, a tree decides what is far.
         let before: Vec<_> = cloud.position().iter().map(|x| DVec4::X * if x.x > 0.0 { 0.3 } else { 0.0 }).collect();
-        let at = |settings: &Settings| felt_after(&[(entry.build)(settings)], &cloud, world, &before);
+        let at = |settings: &Settings| evaluated_after(&[(entry.build)(settings)], &cloud, world, &before);
         // What wants a box of its own has tests of its own.
         for key in entry.keys.iter().filter(|key| !matches!(key.kind, Kind::Choice(["nearest", "ewald"]))) {
             assert!(
@@ -150,7 +150,7 @@ fn every_key_is_read() {
             };
             // One variant in which it matters is enough: a softening says nothing to a spring.
             let all: Vec<_> = variants.iter().flat_map(|v| others(v).into_iter().map(move |o| (v, o))).collect();
-            // Who meets whom by a grid meets the same by force.
+            // The cell list and brute force find the same pairs.
             let only_word = matches!(key.kind, Kind::Choice([_] | ["near", "within"]));
             let read = all.iter().any(|(one, other)| at(one) != at(other));
             assert!(read || only_word, "{}: the key `{}` changes nothing", entry.name, key.name);
@@ -158,7 +158,7 @@ fn every_key_is_read() {
     }
 }
 
-/// Two bodies at a distance, and what the first feels.
+/// Two bodies at a distance, and the acceleration of the first.
 fn gravity(kernel: &'static str, softening: f64, distance: f64) -> DVec4 {
     let mut two = one(DVec3::ZERO, DVec3::ZERO);
     two.push(DVec3::new(0.0, distance, 0.0), DVec3::ZERO, 3.0, 0.0);
@@ -197,7 +197,7 @@ fn the_spline_is_newton_outside_and_smooth_inside() {
 
 #[test]
 fn numbers_by_hand() {
-    let felt =
+    let at =
         |force, x: [f64; 3], v: [f64; 3], time| accelerations(&[force], &one(DVec3::from(x), DVec3::from(v)), time)[0];
     let number = Value::Number;
     let near = |got: DVec4, want: [f64; 4]| {
@@ -208,12 +208,12 @@ fn numbers_by_hand() {
     };
     // φ = −g · x
     near(
-        felt(force("uniform", &[("acceleration", vector(2.0, -3.0, 0.5))]), [4.0, 2.0, -6.0], [9.0; 3], 7.0),
+        at(force("uniform", &[("acceleration", vector(2.0, -3.0, 0.5))]), [4.0, 2.0, -6.0], [9.0; 3], 7.0),
         [2.0, -3.0, 0.5, 1.0],
     );
     // u = (3, 0, 4), |u| = 5, γ + c |u| = 0.2 + 0.5
     let drag = [("linear", number(0.2)), ("quadratic", number(0.1)), ("wind", vector(-1.0, 2.0, 0.0))];
-    near(felt(force("drag", &drag), [9.0; 3], [2.0, 2.0, 4.0], 7.0), [-2.1, 0.0, -2.8, 0.0]);
+    near(at(force("drag", &drag), [9.0; 3], [2.0, 2.0, 4.0], 7.0), [-2.1, 0.0, -2.8, 0.0]);
     // A quarter of a period less a sixth: sin 2π (1/4 − 1/6) = sin 30° = 1/2; the wind is 1 + 0.4 / 2 times (3, 0, 4).
     let wind = [
         ("velocity", vector(3.0, 0.0, 4.0)),
@@ -222,9 +222,9 @@ fn numbers_by_hand() {
         ("period", number(8.0)),
         ("wavelength", number(6.0)),
     ];
-    near(felt(force("wind", &wind), [3.0, 7.0, -1.0], [0.6, 0.2, 0.0], 2.0), [1.5, -0.1, 2.4, 0.0]);
+    near(at(force("wind", &wind), [3.0, 7.0, -1.0], [0.6, 0.2, 0.0], 2.0), [1.5, -0.1, 2.4, 0.0]);
     // Two periods later, and a wavelength further on, it is the same.
-    near(felt(force("wind", &wind), [6.6, 7.0, 3.8], [0.6, 0.2, 0.0], 18.0), [1.5, -0.1, 2.4, 0.0]);
+    near(at(force("wind", &wind), [6.6, 7.0, 3.8], [0.6, 0.2, 0.0], 18.0), [1.5, -0.1, 2.4, 0.0]);
     // r = 2 from the axis, core 1: |u| = Γ 2 / 2π 5 = 2 for Γ = 10 π; the axis may have any length; along it nothing happens.
     let vortex = [
         ("center", vector(1.0, 1.0, 1.0)),
@@ -233,7 +233,7 @@ fn numbers_by_hand() {
         ("core", number(1.0)),
         ("rate", number(0.5)),
     ];
-    near(felt(force("vortex", &vortex), [3.0, 1.0, 9.0], [0.0, 0.0, 2.0], 7.0), [0.0, 1.0, -1.0, 0.0]);
+    near(at(force("vortex", &vortex), [3.0, 1.0, 9.0], [0.0, 0.0, 2.0], 7.0), [0.0, 1.0, -1.0, 0.0]);
     // The centre has come to (1, 0, 0), d = (0, 3, 4); ε² = 11, d² + ε² = 36.
     let attractor = |profile| {
         force(
@@ -247,7 +247,7 @@ fn numbers_by_hand() {
             ],
         )
     };
-    let at = |profile| felt(attractor(profile), [1.0, 3.0, 4.0], [9.0; 3], 2.0);
+    let at = |profile| at(attractor(profile), [1.0, 3.0, 4.0], [9.0; 3], 2.0);
     near(at("point"), [0.0, -1.0, -4.0 / 3.0, -12.0]);
     near(at("harmonic"), [0.0, -216.0, -288.0, 900.0]);
     near(at("logarithmic"), [0.0, -6.0, -8.0, 36.0 * 36f64.ln()]);

@@ -53,7 +53,7 @@ fn too_long_a_step_is_noticed() {
         for step in 0..400 {
             twins.step(1).expect("a step");
             if let Some(found) = runaway(block_on(twins.check())) {
-                assert_eq!(found.1, step, "{name}: it is told in the step in which it is seen");
+                assert_eq!(found.1, step, "{name}: it is reported in the step in which it is seen");
                 seen = Some(found);
                 break;
             }
@@ -67,7 +67,7 @@ fn too_long_a_step_is_noticed() {
             let mut found = None;
             for _ in (0..400).step_by(batch as usize) {
                 device.step(batch).expect("steps");
-                // In the end nothing is finite, and what came first is told.
+                // In the end nothing is finite, and what came first is reported.
                 found = found.or(runaway(block_on(device.check())));
                 if found.is_some() {
                     break;

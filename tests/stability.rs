@@ -76,7 +76,7 @@ fn damping_shortens_the_step() {
 }
 
 #[test]
-fn who_feels_nothing_bears_everything() {
+fn without_forces_every_step_is_stable() {
     assert!(limit("forward_euler", 0.0, 0.0, 1e9).is_infinite());
 }
 
@@ -242,5 +242,5 @@ fn a_setup_is_judged() {
         (Some(2), Some(1), None)
     );
     let safe = judged(vec![force("spring", &[])], "leapfrog", 0.02).expect("springs");
-    assert!(safe.lost.is_infinite(), "nobody looked: {safe:?}");
+    assert!(safe.lost.is_infinite(), "no mode was looked at: {safe:?}");
 }

@@ -7,7 +7,7 @@ use motes::forces::Component;
 use motes::kernel::World;
 use motes::settings::Value;
 use motes::{Bounds, Side, State};
-use support::states::{accelerations, cpu, felt, force, one, phase, vector, word};
+use support::states::{accelerations, cpu, evaluated, force, one, phase, vector, word};
 
 const NUMBER: fn(f64) -> Value = Value::Number;
 
@@ -38,7 +38,7 @@ fn a_goal_is_arrived_at() {
     // It moves, and its nearest image counts.
     let moving = || vec![goal(&[("velocity", vector(-3.0, 0.0, 0.0))])];
     let at = |bounds| {
-        felt(&moving(), &one(DVec3::ZERO, DVec3::ZERO), World { time: 1.0, dt: 0.1, bounds, ..World::default() })
+        evaluated(&moving(), &one(DVec3::ZERO, DVec3::ZERO), World { time: 1.0, dt: 0.1, bounds, ..World::default() })
     };
     near(at(Bounds::default()).0[0], [0.0, 2.0, 0.0, 0.0]);
     let around = Bounds::new(DVec3::splat(-3.0), DVec3::splat(3.0), Side::Periodic);
@@ -46,7 +46,7 @@ fn a_goal_is_arrived_at() {
 }
 
 #[test]
-fn obstacles_turn_away_who_heads_into_them() {
+fn obstacles_turn_away_particles_heading_into_them() {
     let obstacle = |shape, more: &[(&'static str, Value)]| {
         let mut settings = vec![("shape", word(shape)), ("max_force", NUMBER(8.0)), ("clearance", NUMBER(0.5))];
         settings.push(("look_ahead", NUMBER(2.0)));
@@ -63,10 +63,10 @@ fn obstacles_turn_away_who_heads_into_them() {
     // Aslant, at 60° to the normal: the way to y = 0.5 is 2, of 4; cos 60° = 1/2.
     let slant = [3f64.sqrt(), -1.0, 0.0];
     let floor = obstacle("plane", &[("normal", vector(0.0, 1.0, 0.0))]);
-    let felt = alone(floor, [0.0, 1.5, 0.0], slant);
+    let got = alone(floor, [0.0, 1.5, 0.0], slant);
     // Eight marches of a half each are 1 − 2⁻⁸ of the way.
     let reached = 2.0 * (1.0 - 0.5f64.powi(8));
-    near(felt, [0.0, 8.0 * (1.0 - reached / 4.0) * 0.5, 0.0, 0.0]);
+    near(got, [0.0, 8.0 * (1.0 - reached / 4.0) * 0.5, 0.0, 0.0]);
     // Away, past, at rest outside, or too far ahead: nothing.
     for (x, v) in [
         ([-3.5, 0.0, 0.0], [-2.0, 0.0, 0.0]),
@@ -86,7 +86,7 @@ fn obstacles_turn_away_who_heads_into_them() {
     let around = Bounds::new(DVec3::splat(-2.0), DVec3::splat(2.0), Side::Periodic);
     let world = World { dt: 0.1, bounds: around, ..World::default() };
     let wall = obstacle("plane", &[("normal", vector(1.0, 0.0, 0.0)), ("position", vector(-2.0, 0.0, 0.0))]);
-    near(support::states::felt(&[wall], &one(DVec3::X, DVec3::ZERO), world).0[0], [0.0; 4]);
+    near(support::states::evaluated(&[wall], &one(DVec3::X, DVec3::ZERO), world).0[0], [0.0; 4]);
     let start = one(DVec3::new(-4.0, 0.3, 0.0), DVec3::X);
     let mut simulation = cpu(&start, vec![obstacle("sphere", &[])], "leapfrog", 0.01);
     let mut nearest = f64::INFINITY;
@@ -152,10 +152,10 @@ fn soft_walls_give_back_what_they_take() {
     };
     near(alone(walls(), [0.0; 3], [9.0; 3]), [0.0; 4]);
     near(alone(walls(), [0.75, -1.75, 3.5], [0.0; 3]), [-4.0, 4.0, -4.0, 1.0 + 1.0 + 4.0]);
-    // In the plane nobody is above the box.
+    // In the plane no particle is above the box.
     let flat = Bounds { dimensions: 2, ..Bounds::default() };
     let world = World { dt: 0.1, bounds: flat, ..World::default() };
-    near(felt(&[walls()], &one(DVec3::new(0.75, 0.0, 3.5), DVec3::ZERO), world).0[0], [-4.0, 0.0, 0.0, 1.0]);
+    near(evaluated(&[walls()], &one(DVec3::new(0.75, 0.0, 3.5), DVec3::ZERO), world).0[0], [-4.0, 0.0, 0.0, 1.0]);
     // v² / 2 a = 1/8 deep into the wall, and back again as fast.
     let mut simulation = cpu(&one(DVec3::ZERO, DVec3::X), vec![walls()], "leapfrog", 1.0 / 1024.0);
     let mut deepest = 0.0f64;
@@ -173,15 +173,15 @@ fn soft_walls_give_back_what_they_take() {
 #[test]
 fn wandering_is_diffusion() {
     const COUNT: usize = 4000;
-    let crowd = || {
-        let mut crowd = State::default();
-        (0..COUNT).for_each(|_| crowd.push(DVec3::ZERO, DVec3::ZERO, 1.0, 0.0));
-        crowd
+    let many = || {
+        let mut many = State::default();
+        (0..COUNT).for_each(|_| many.push(DVec3::ZERO, DVec3::ZERO, 1.0, 0.0));
+        many
     };
     let n = COUNT as f64;
     for (dt, steps) in [(0.25, 8u32), (0.125, 16), (0.5, 4)] {
         let wander = vec![force("wander", &[("strength", NUMBER(0.7)), ("seed", NUMBER(12.0))])];
-        let mut simulation = cpu(&crowd(), wander, "symplectic_euler", dt);
+        let mut simulation = cpu(&many(), wander, "symplectic_euler", dt);
         simulation.step(steps).expect("steps");
         let v: Vec<DVec3> = phase(&mut simulation).1.iter().map(|v| v.truncate()).collect();
         let want = 0.7 * 0.7 * 2.0;
@@ -199,7 +199,7 @@ fn wandering_is_diffusion() {
     // In the plane: no third component, all of σ² in the two.
     let flat = World { dt: 0.25, bounds: Bounds { dimensions: 2, ..Bounds::default() }, ..World::default() };
     let wander = [force("wander", &[("strength", NUMBER(0.7))])];
-    let a = felt(&wander, &crowd(), flat).0;
+    let a = evaluated(&wander, &many(), flat).0;
     assert!(a.iter().all(|a| a.z == 0.0 && (a.length() - 0.7 / 0.5).abs() < 1e-12));
     assert!((a.iter().sum::<DVec4>() / n).length() < 4.0 * 1.4 / n.sqrt());
 }

@@ -1,4 +1,4 @@
-//! The command and stiff springs: warnings before, division of steps, what is told and kept when numbers are lost, and the
+//! The command and stiff springs: warnings before, division of steps, what is reported and kept when numbers are lost, and the
 //! picture of all integrators.
 
 use std::path::Path;

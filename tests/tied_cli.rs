@@ -1,4 +1,4 @@
-//! The command and what is tied: what is remarked on, what is said to be kept, and which keys are told.
+//! The command and what is tied: what is remarked on, what is said to be kept, and which keys are listed.
 
 use std::path::Path;
 use std::process::Command;
@@ -38,7 +38,7 @@ fn springs_depend_on_velocity_where_they_are_damped() {
         assert_eq!(words.contains(", error "), !damped, "{words}");
         assert!(words.contains("momentum changed by"), "{words}");
     }
-    // Who tears a spring loses its energy, and no momentum.
+    // A spring that breaks takes its energy, and no momentum.
     let path = scene(folder.path(), CHAIN, &(SPRING.to_owned() + "[[force]]\nkind = \"tear\"\n"));
     let words = motes(&["run", &path, "-o", &out, "--overwrite", "--backend", "cpu"]);
     assert!(words.contains("not conserved") && words.contains("momentum changed by"), "{words}");
@@ -68,7 +68,7 @@ fn what_is_tied_and_does_nothing_is_remarked_on() {
 }
 
 #[test]
-fn the_keys_of_new_sections_are_told() {
+fn the_keys_of_new_sections_are_listed() {
     for (section, keys) in [
         ("solver", &["tolerance", "0.001", "iterations", "solves"][..]),
         ("motion", &["about", "smooth", "repeat", "shift", "turn"]),
@@ -85,10 +85,10 @@ fn the_keys_of_new_sections_are_told() {
 fn kernels_that_nothing_runs_are_not_explained() {
     let words = motes(&["explain", "pendulum", "--backend", "cpu"]);
     let step = words.lines().find_map(|line| line.strip_prefix("step:  ")).expect("a plan");
-    let told: Vec<_> =
+    let explained: Vec<_> =
         words.lines().zip(words.lines().skip(1)).filter(|(_, next)| next.starts_with("    from ")).collect();
-    assert!(told.len() > 3, "{words}");
-    for (name, _) in told {
+    assert!(explained.len() > 3, "{words}");
+    for (name, _) in explained {
         assert!(step.split(" | ").any(|run| run == name), "`{name}` is not in `{step}`");
     }
 }

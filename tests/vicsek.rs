@@ -90,7 +90,7 @@ fn mean(values: &[f64], blocks: usize) -> (f64, f64) {
     (mean, (variance / means.len() as f64).sqrt())
 }
 
-/// Everybody sees everybody: all get one heading, and only their noise differs, so that samples are independent and
+/// All see each other: they get one heading, and only their noise differs, so that samples are independent and
 /// ⟨φ²⟩ = 1/N + (1 − 1/N) (sin(η/2) / (η/2))², exactly.
 #[test]
 fn all_to_all_is_exact() {

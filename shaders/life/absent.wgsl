@@ -1,4 +1,4 @@
-// Who does not live is not drawn.
+// Particles that are not active are not drawn.
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(2) var<storage, read_write> projected: array<vec4f>; // pixels right and down, depth of its front, radius
 

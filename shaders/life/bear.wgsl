@@ -1,4 +1,4 @@
-// Who waits and is due is born:  x ← x + (t − b) v,  from where it waited, as if it had left there at the time b of its birth.
+// A pending particle that is due is spawned:  x ← x + (t − b) v,  from where it waited, as if it had left there at the time b of its birth.
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read_write> position: array<vec4f>; // xyz, mass
 @group(1) @binding(1) var<storage, read_write> velocity: array<vec4f>; // xyz, radius
@@ -6,7 +6,7 @@
 
 override END: u32 = 1u;
 const WORKGROUP: u32 = 64u;
-// Who is due within such a part of a step is due: rounding of times decides nothing.
+// A particle that is due within such a part of a step is due: rounding of times decides nothing.
 const SOON: f32 = 0.015625;
 
 @compute @workgroup_size(WORKGROUP)

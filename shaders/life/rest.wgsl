@@ -1,4 +1,4 @@
-// Who does not live feels nothing, and holds no share of the potential energy.
+// A particle that is not active has no acceleration, and no share of the potential energy.
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read_write> acceleration: array<vec4f>; // xyz, potential
 

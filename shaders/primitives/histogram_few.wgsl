@@ -1,4 +1,4 @@
-// counts[key] += 1 for each key, where bins are few and everybody would wait for them: each workgroup counts a block of
+// counts[key] += 1 for each key, where bins are few and contended: each workgroup counts a block of
 // keys in its own memory first. Keys beyond the last bin are counted behind it.
 struct Extent { unused_word: u32, elements: u32, bins: u32 }
 

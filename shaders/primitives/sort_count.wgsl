@@ -1,4 +1,4 @@
-// Counts the keys of each bin, and notes who came as which: ranks[i] = how many of its bin were there before i. Keys beyond
+// Counts the keys of each bin, and notes the order of arrival: ranks[i] = how many of its bin were there before i. Keys beyond
 // the last bin share the one behind it.
 struct Extent { unused_word: u32, elements: u32, bins: u32 }
 

@@ -1,4 +1,4 @@
-// Everybody goes to its bin, in the order in which they were counted.
+// Each element goes to its bin, in the order in which they were counted.
 struct Extent { unused_word: u32, elements: u32, bins: u32 }
 
 @group(1) @binding(0) var<storage, read> keys: array<u32>;

@@ -1,7 +1,7 @@
-// A rigid body: q turns what is told along its principal axes into space, I are its moments about them.
+// A rigid body: q turns components along its principal axes into space, I are its moments about them.
 @group(1) @binding(3) var<storage, read> inertia: array<vec4f>;
 
-// What is told in space, along the principal axes.
+// A vector in space, along the principal axes.
 fn inward(q: vec4f, v: vec3f) -> vec3f { return v + turned(vec4f(-q.xyz, q.w), v); }
 
 fn outward(q: vec4f, v: vec3f) -> vec3f { return v + turned(q, v); }

@@ -1,4 +1,4 @@
-// Turns a generator as often as it is told: xₙ₊₁ = 1664525 xₙ + 1013904223 (Numerical Recipes). A driver that stops loops early shows.
+// Turns a generator as often as `probe` says: xₙ₊₁ = 1664525 xₙ + 1013904223 (Numerical Recipes). A driver that stops loops early shows.
 @group(0) @binding(0) var<storage, read> probe: array<u32>;       // turns, x₀
 @group(0) @binding(1) var<storage, read_write> answer: array<u32>; // x after all turns
 

@@ -49,7 +49,7 @@ pub fn check(bounds: &Bounds) -> Result<(), Error> {
     Ok(())
 }
 
-/// Whether a box can hold these particles. Who is outside of a periodic box is in it by an image.
+/// Whether a box can hold these particles. A particle outside of a periodic box is in it by an image.
 ///
 /// # Errors
 /// [`Error::Scene`] that names the first particle out of the plane of 2 dimensions, or beyond a reflecting side.

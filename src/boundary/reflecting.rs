@@ -15,13 +15,13 @@ pub fn kernel(problem: &Problem) -> Result<Kernel, Error> {
         crate::shader!("broken.wgsl"),
         crate::shader!("boundary/reflecting.wgsl"),
     ])?;
-    let who = problem.clone();
+    let all = problem.clone();
     let twin = move |host: &Host| {
         let bounds = host.world().bounds;
         let (mut position, mut velocity) = (host.write(POSITION)?, host.write(VELOCITY)?);
         let lives = host.lives()?;
         let free =
-            position.iter_mut().zip(velocity.iter_mut()).enumerate().filter(|(id, _)| !who.is_held(*id) && lives(*id));
+            position.iter_mut().zip(velocity.iter_mut()).enumerate().filter(|(id, _)| !all.is_held(*id) && lives(*id));
         for (_, (x, v)) in free.filter(|(_, (x, _))| x.is_finite()) {
             for axis in (0..3).filter(|axis| bounds.sides[*axis] == Side::Reflecting) {
                 let (place, thrown_back) = folded(x[axis], bounds.low[axis], bounds.high[axis]);

@@ -36,7 +36,7 @@ impl Found {
     pub fn describe(&self) -> String {
         describe(&self.adapter.get_info())
     }
-    /// Why OpenGL runs the kernels, where nobody has asked for it.
+    /// Why OpenGL runs the kernels, where it was not asked for.
     #[must_use]
     pub fn substitute(&self) -> Option<String> {
         driver::substitute(&self.adapter.get_info())

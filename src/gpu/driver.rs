@@ -31,7 +31,7 @@ fn mesa(driver: &str) -> Option<(u32, u32)> {
     Some((numbers.next()??, numbers.next()??))
 }
 
-/// Why OpenGL runs the kernels, where nobody has asked for it.
+/// Why OpenGL runs the kernels, where it was not asked for.
 pub fn substitute(info: &AdapterInfo) -> Option<String> {
     substitute_in(info.backend, |name| std::env::var_os(name))
 }

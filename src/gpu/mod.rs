@@ -24,7 +24,7 @@ use submit::Queue;
 use crate::error::Error;
 use crate::kernel::{Array, Backend, Flag, Machine, Packed, Plan, Shader, World};
 
-/// A device that is borrowed from whoever owns it, with the fields and pipelines made on it.
+/// A device that is borrowed from its owner, with the fields and pipelines made on it.
 pub struct Gpu {
     device: wgpu::Device,
     queue: Queue,
@@ -69,7 +69,7 @@ impl Gpu {
     pub fn pace(&mut self, submission: Duration, patience: Duration) {
         self.queue.pace(submission, patience);
     }
-    /// Lets go of pipelines that no program keeps: whoever compiles thousands of different plans wants their memory back.
+    /// Lets go of pipelines that no program keeps: a program that compiles thousands of different plans needs their memory.
     pub fn forget_pipelines(&mut self) {
         self.pipelines.forget();
     }

@@ -84,7 +84,7 @@ fn patiently(device: &wgpu::Device, pass: &Pass) -> Result<Pipeline, Error> {
     let (made, awaited) = std::sync::mpsc::channel();
     let (device, theirs) = (device.clone(), pass.clone());
     let make = move || {
-        // Nobody waits any more, if nobody takes it.
+        // If it is not received, the receiver has timed out.
         let _ = made.send(scoped(&device, &theirs));
     };
     let thread = std::thread::Builder::new().name("compile".to_owned()).spawn(make);

@@ -50,7 +50,7 @@ pub async fn bytes(
         if let Poll::Ready(answer) = mapped.as_mut().poll(context) {
             return Poll::Ready(Ok(answer));
         }
-        // A browser maps while its own loop runs; elsewhere somebody must look.
+        // A browser maps while its own loop runs; elsewhere it must be polled.
         match device.poll(wgpu::PollType::Wait { submission_index: Some(index.clone()), timeout: Some(LOOK) }) {
             Ok(_) | Err(wgpu::PollError::Timeout) if Instant::now() > deadline => {
                 Poll::Ready(Err(queue.timeout("a read")))

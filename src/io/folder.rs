@@ -117,7 +117,7 @@ impl Folder {
         &self.path
     }
 
-    /// What is not wrong, but worth to be told: that the file system has no locks.
+    /// What is not wrong, but worth a remark: that the file system has no locks.
     #[must_use]
     pub fn remark(&self) -> Option<&str> {
         self.remark.as_deref()
@@ -145,7 +145,7 @@ impl Folder {
 
 impl Drop for Folder {
     fn drop(&mut self) {
-        // While the lock is held: whoever waits for it looks whether the file is still the one that has the name.
+        // While the lock is held: a process that waits for it looks whether the file is still the one that has the name.
         if self.lock.is_some() {
             let _ = fs::remove_file(self.path.join(LOCK));
         }

@@ -71,7 +71,7 @@ const COLUMNS: [&str; 6] = ["a", "b", "rest", "stiffness", "damping", "tie"];
 ///
 /// # Errors
 /// [`Error::Input`] that lists, with its line, everything that is wrong: unknown columns, cells that are no numbers or
-/// negative, ids of nobody, links of a particle with itself, and links that are there already.
+/// negative, ids of no particle, links of a particle with itself, and links that are there already.
 pub fn read(path: &Path, positions: &[DVec3], bounds: &Bounds, usual: &Usual) -> Result<Links, Error> {
     let (file, _) = open(path)?;
     let mut rows =

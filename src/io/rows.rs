@@ -49,9 +49,9 @@ pub(super) fn open<R: BufRead + Seek>(mut file: R) -> io::Result<Opened<R>> {
     }
     let commas = first.contains(&b',') || first.contains(&b'"') || cells(first, false).count() < 2;
     let bare = !first.is_empty() && cells(first, commas).all(is_number);
-    let told =
+    let named =
         bare && !comment.trim_ascii().is_empty() && cells(comment, commas).count() == cells(first, commas).count();
-    let titles = told.then(|| cells(comment, commas).collect());
+    let titles = named.then(|| cells(comment, commas).collect());
     file.seek(SeekFrom::Start(if commas { 0 } else { mark as u64 }))?;
     let rows = if commas {
         let mut builder = ReaderBuilder::new();

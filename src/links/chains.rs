@@ -1,4 +1,4 @@
-//! Rods as chains: open ways from particle to particle. Those that are held do not feel who pulls, so that chains end at them.
+//! Rods as chains: open ways from particle to particle. Held particles are not pulled, so that chains end at them.
 
 use super::Rod;
 use crate::error::Error;

@@ -6,7 +6,7 @@ pub const WORDS: usize = 4;
 /// A spring from one of its ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Half {
-    /// Who is at the other end.
+    /// The particle at the other end.
     pub partner: usize,
     /// How long it is at rest \[length\].
     pub rest: f64,

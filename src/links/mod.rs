@@ -1,4 +1,4 @@
-//! What ties particles together: springs and ropes, rigid rods, joints that resist bending, and triangles that feel the
+//! What ties particles together: springs and ropes, rigid rods, joints that resist bending, and triangles in the
 //! wind. Plain lists, by the particles' ids; kernels see them as tables, each element from each of its particles.
 
 mod chains;

@@ -34,7 +34,7 @@ pub struct Network {
     pub triangle_start: Arc<Vec<u32>>,
     /// Five words for each corner, as for joints; the last is zero.
     pub triangle: Arc<Vec<u32>>,
-    /// The rods. How they make chains depends on who is held.
+    /// The rods. How they make chains depends on which particles are held.
     pub rods: Arc<Vec<Rod>>,
 }
 
@@ -154,7 +154,7 @@ fn accumulate(start: &mut [u32]) {
 fn rows<const N: usize>(count: u32, mut elements: Vec<(u32, [u32; N])>) -> (Arc<Vec<u32>>, Arc<Vec<u32>>) {
     let mut start = vec![0; count as usize + 1];
     if elements.is_empty() {
-        // Zeros that nobody has written take no memory.
+        // Zeros that are never written take no memory.
         return (Arc::new(start), Arc::default());
     }
     elements.sort_unstable();

@@ -1,4 +1,4 @@
-//! How far particles move as one, and who is near whom.
+//! How far particles move as one, and which of them are near each other.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -16,7 +16,7 @@ pub struct Flock {
     /// The time.
     pub time: f64,
     /// |Σ v / |v|| / N over all that move: 1 when all head the same way, about 1 / √N when each goes its own
-    /// (Vicsek et al. 1995). 0 when nobody moves.
+    /// (Vicsek et al. 1995). 0 when none moves.
     pub order: f64,
     /// The mean speed \[length / time\].
     pub speed: f64,
@@ -34,7 +34,7 @@ pub struct Flock {
 const CHUNK: usize = 16_384;
 
 impl Flock {
-    /// Measures a state; who is within `range` of whom, if that is given; of one species, if that is given.
+    /// Measures a state; its pairs within `range`, if that is given; of one species, if that is given.
     ///
     /// # Errors
     /// [`Error::Scene`] when the range is not a positive number.

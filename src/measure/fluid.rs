@@ -7,7 +7,7 @@ use crate::fluids::Medium;
 use crate::kernel::Bounds;
 use crate::state::State;
 
-/// What a fluid has at a time, without those who are held: its walls. A row of `fluid.csv`.
+/// What a fluid has at a time, without held particles, which are its walls. A row of `fluid.csv`.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Ledger {
     /// Steps done.
@@ -28,7 +28,7 @@ pub struct Ledger {
     pub internal: f64,
     /// The largest of ρ/ρ₀ − 1, where it is above 0.
     pub worst_density: f64,
-    /// Whose that is.
+    /// Its particle.
     pub worst_particle: u32,
     /// The mean of max(ρ/ρ₀ − 1, 0).
     pub mean_density: f64,
@@ -39,7 +39,7 @@ pub struct Ledger {
 }
 
 impl Ledger {
-    /// Measures a state, with the density of everybody in it \[mass / length³, or mass / length² in two dimensions\].
+    /// Measures a state, with the densities of all particles \[mass / length³, or mass / length² in two dimensions\].
     ///
     /// # Errors
     /// [`Error::Scene`] where the state does not have the potential energies.
@@ -54,7 +54,7 @@ impl Ledger {
         let energies = snapshot.energies()?;
         let mut ledger = Self { step: snapshot.step, time: snapshot.time, ..Self::default() };
         let extent: Vec<usize> = (0..3).filter(|axis| bounds.high[*axis] > bounds.low[*axis]).collect();
-        // Single precision may put who is at a side just behind it.
+        // Single precision may put a particle at a side just behind it.
         let slack = f64::from(f32::EPSILON) * bounds.low.abs().max(bounds.high.abs());
         let sounds = medium.sound > 0.0;
         for i in (0..particles.len()).filter(|i| !held(*i) && particles.lives(*i)) {

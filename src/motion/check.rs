@@ -67,7 +67,7 @@ impl Motion {
             let across = key.shift.z != 0.0 || key.turn.x != 0.0 || key.turn.y != 0.0;
             if dimensions == 2 && across {
                 return Err(
-                    "leads out of the plane, and in 2 dimensions nobody leaves it: shift along x and y, turn about z"
+                    "leads out of the plane, and in 2 dimensions particles stay in it: shift along x and y, turn about z"
                         .to_owned(),
                 );
             }

@@ -33,7 +33,7 @@ pub(super) fn hold(particles: &mut State, ids: impl IntoIterator<Item = u32>) {
     particles.held.extend(ids.into_iter().map(|id| Held { id, by: Hold::Fixed }));
 }
 
-/// The settings of one shape, read with checks, so that a caller who skips the scene's own checks gets an error, not NaN.
+/// The settings of one shape, read with checks, so that a caller that skips the scene's own checks gets an error, not NaN.
 pub(super) struct Reader<'a> {
     pub shape: &'static str,
     pub settings: &'a Settings,

@@ -80,7 +80,7 @@ const PINS: &[&str] = &["none", "corners", "row", "column", "rim"];
 
 /// `columns * rows` particles, the middle of the sheet at `center`; those of a row follow each other, so particle i of row j
 /// has the id  i + columns j. Squares are cut into triangles along alternate diagonals;
-/// their front is towards whoever sees `right` to the right and `down` below.
+/// their front is towards a viewer that sees `right` to the right and `down` below.
 fn build(settings: &Settings) -> Result<State, Error> {
     let reader = Reader { shape: "cloth", settings };
     let (columns, rows) = (settings.whole("columns"), settings.whole("rows"));

@@ -11,7 +11,7 @@ use crate::life::{Birth, Life};
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::state::State;
 
-/// What an emitter may be told.
+/// The keys of an emitter.
 pub const KEYS: &[Key] = &[
     Key::new(
         "shape",
@@ -66,12 +66,7 @@ pub const KEYS: &[Key] = &[
         "of each particle of a spray; one of a fluid has that of its share of the lattice [mass]",
     ),
     Key::new("start", Kind::Number, Value::Number(0.0), "when the first ones leave [time]"),
-    Key::new(
-        "stop",
-        Kind::Number,
-        Value::Number(FOREVER),
-        "when nobody leaves any more [time]; left out: at the end of the run",
-    ),
+    Key::new("stop", Kind::Number, Value::Number(FOREVER), "when it ends [time]; left out: at the end of the run"),
     Key::new("count", Kind::Whole, Value::Number(0.0), "how many it has, at most; 0: as many as leave until it stops"),
     Key::new(
         "spread",
@@ -85,14 +80,14 @@ pub const KEYS: &[Key] = &[
 
 /// The largest number that single precision holds: no end.
 const FOREVER: f64 = 3.402_823_466_385_288_6e38;
-/// Room for rounding, in parts of a row: who would leave just at the end does not.
+/// Room for rounding, in parts of a row: a particle that would leave just at the end does not.
 const ROUNDING: f64 = 1e-9;
 
 /// The particles of an emitter in so many dimensions, in the order of their births. They stand in its mouth; they have no mass
 /// and no velocity before they are born. Those who would leave after `end` are left out, and there are `room` at most.
 ///
 /// # Errors
-/// [`Error::Scene`] when a setting makes no sense, or nobody would leave; [`Error::Limit`] when there would be more than `room`.
+/// [`Error::Scene`] when a setting makes no sense, or no particle would leave; [`Error::Limit`] when there would be more than `room`.
 pub fn build(settings: &Settings, dimensions: u32, end: f64, room: u32) -> Result<State, Error> {
     let reader = Reader { shape: "emitter", settings };
     let refuse = |text: String| Err(Error::Scene(format!("an emitter {text}")));
@@ -117,7 +112,7 @@ pub fn build(settings: &Settings, dimensions: u32, end: f64, room: u32) -> Resul
     let most = if wanted > 0 { wanted as f64 } else { f64::INFINITY };
     let number = (rows * sites.len() as f64).min(most);
     if number < 1.0 {
-        return refuse(format!("starts at {start}, and ends at {last}: nobody would leave it"));
+        return refuse(format!("starts at {start}, and ends at {last}: no particle would leave it"));
     }
     if number > f64::from(room) {
         return Err(Error::Limit(format!(

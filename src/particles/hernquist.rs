@@ -2,7 +2,7 @@
 //!
 //! Velocities are drawn from the model's own distribution function, his equation 17, by rejection without any table. The
 //! model ends nowhere, so particles are drawn from its inner `cutoff` alone, and have just the mass of that: forces and
-//! motions inside are those of the endless model, and only who leaves the cut meets nobody on the way in.
+//! motions inside are those of the endless model, and only particles that leave the cut meet none on the way in.
 
 use super::build::{CENTER, COUNT, G, PARTICLE_SIZE, Reader, SEED, TOTAL_MASS, VELOCITY};
 use super::random::Random;

@@ -36,7 +36,7 @@ pub struct Shape {
     pub name: &'static str,
     /// One line with the source of the model.
     pub about: &'static str,
-    /// What it may be told.
+    /// Its keys.
     pub keys: &'static [Key],
     /// Makes the particles. The same settings give the same bits on every platform.
     pub build: fn(&Settings) -> Result<State, Error>,

@@ -1,4 +1,4 @@
-//! What all walls of a fluid are told, and where their layers stand.
+//! What all walls of a fluid have in common, and where their layers stand.
 
 use std::borrow::Cow;
 
@@ -48,7 +48,7 @@ pub(super) const LAYERS: Key = Key::new(
 /// The same for all walls.
 pub(super) const RADIUS: Key = PARTICLE_SIZE;
 
-/// The most layers: supports end at 6 spacings, and no fluid feels what is farther away.
+/// The most layers: supports end at 6 spacings, and no fluid sees what is farther away.
 const MOST: u64 = 64;
 
 /// The layers of a wall.

@@ -2,9 +2,9 @@
 //!
 //! Walls of particles, those of [`TANK`] and of the shape `wall`, are part of the fluid's sums: it is as dense beside them as
 //! elsewhere, leans on them with its pressure, and rubs. They are what a fluid should stand in. The force `solid` is no part of
-//! them: it puts back who is inside, after every drift, so that nobody gets through, however fast and whatever the step; but
+//! them: it puts back particles inside, after every drift, so that none gets through, however fast and whatever the step; but
 //! beside it the fluid misses what is not there, is too thin by some 15 %, and sinks together into layers there. It serves for
-//! what few particles touch, for what is in nobody's way, and behind walls of particles, a little beyond their face, for those
+//! what few particles touch, for what is out of the way, and behind walls of particles, a little beyond their face, for those
 //! that a burst would throw through them: the scene `dam_break` has both.
 
 use std::borrow::Cow;

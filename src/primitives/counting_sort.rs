@@ -15,12 +15,12 @@ pub struct Fields {
     /// What is sorted by, `elements` of `u32`.
     pub keys: Name,
     /// Where each bin begins in `order`, `bins` + 1 of them: the last one begins where the keys of `bins` and more stand,
-    /// which nobody may drop unseen. It ends with the elements.
+    /// which must not be dropped unseen. It ends with the elements.
     pub starts: Name,
     /// The ids of the elements, bin by bin, ascending in each.
     pub order: Name,
     /// How many elements the fullest bin holds, 1 of `u32`. Beyond [`LARGEST`] the order inside such bins is that of a
-    /// race: whoever relies on it must look here.
+    /// race: code that relies on the order must look here.
     pub largest: Name,
 }
 

@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::kernel::{Host, Kernel, Machine, Name};
 
 /// `counts[b]` = the number of i < `elements` with `keys[i]` = b, for b < `bins`; `counts[bins]` = the number of keys that
-/// are `bins` or more, which nobody may drop unseen. `counts` so has `bins` + 1 elements.
+/// are `bins` or more, which must not be dropped unseen. `counts` so has `bins` + 1 elements.
 ///
 /// # Errors
 /// [`Error::Limit`] when there are more than [`MOST`](super::MOST) elements, or as many bins.
@@ -19,7 +19,7 @@ pub fn histogram(keys: &Name, counts: &Name, elements: u32, bins: u32, machine: 
     let few = pass(&[crate::shader!("primitives/histogram_few.wgsl")], 1, elements, &fields, &extent)?;
     let constant = |name| few.shader.reflection().constant(name);
     let (block, most) = (constant("BLOCK"), constant("MOST"));
-    // A processor's atomics wait for nobody, whatever the bins.
+    // Atomics of a processor do not contend, whatever the bins.
     let count = if machine.software || bins >= most {
         pass(&[crate::shader!("primitives/histogram.wgsl")], elements, elements, &fields, &extent)?
     } else {

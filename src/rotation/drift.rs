@@ -20,9 +20,9 @@ fn about(axis: DVec3, angle: f64, (q, momentum): (DQuat, DVec3)) -> (DQuat, DVec
 /// # Errors
 /// When a shader does not compile.
 pub fn drift(body: &Body, factor: f64, problem: &Problem) -> Result<Kernel, Error> {
-    let (names, who) = (body.clone(), problem.clone());
+    let (names, all) = (body.clone(), problem.clone());
     let twin = move |host: &Host| {
-        let (moving, dt) = (moving(&who, host)?, factor * host.world().dt);
+        let (moving, dt) = (moving(&all, host)?, factor * host.world().dt);
         let inertia = host.reading::<Vec4>(&names.inertia)?;
         let mut orientation = host.writing::<Vec4>(&names.orientation)?;
         let mut spin = host.writing::<Vec4>(&names.angular_velocity)?;

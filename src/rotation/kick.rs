@@ -13,9 +13,9 @@ use crate::kernel::{Host, Kernel, Problem};
 /// # Errors
 /// When a shader does not compile.
 pub fn kick(body: &Body, factor: f64, problem: &Problem) -> Result<Kernel, Error> {
-    let (names, who) = (body.clone(), problem.clone());
+    let (names, all) = (body.clone(), problem.clone());
     let twin = move |host: &Host| {
-        let (moving, dt) = (moving(&who, host)?, factor * host.world().dt);
+        let (moving, dt) = (moving(&all, host)?, factor * host.world().dt);
         let (inertia, torque) = (host.reading::<Vec4>(&names.inertia)?, host.reading::<Vec4>(&names.torque)?);
         let orientation = host.reading::<Vec4>(&names.orientation)?;
         let mut spin = host.writing::<Vec4>(&names.angular_velocity)?;

@@ -1,7 +1,7 @@
 //! Rigid bodies: how an orientation turns with its angular velocity, and that with a torque.
 //!
-//! A body has four columns. Its `orientation` is a unit quaternion q (x, y, z | w), which turns what is told along its principal
-//! axes into space, v = R(q) vᵇ. Its `angular_velocity` ω \[1 / time\] and `torque` τ \[mass length² / time²\] are told in space, so
+//! A body has four columns. Its `orientation` is a unit quaternion q (x, y, z | w), which turns components along its principal
+//! axes into space, v = R(q) vᵇ. Its `angular_velocity` ω \[1 / time\] and `torque` τ \[mass length² / time²\] are in space, so
 //! that laws between bodies use them as they are: the surface of a ball moves by v + ω × r. Its `inertia` holds its principal
 //! moments \[mass length²\], which are constant; about an axis whose moment is 0 it does not turn.
 //!
@@ -76,7 +76,7 @@ fn lightness(inertia: DVec3) -> DVec3 {
     DVec3::new(of(inertia.x), of(inertia.y), of(inertia.z))
 }
 
-/// A kernel of one invocation for each body. Its shader knows who is held and active where it asks.
+/// A kernel of one invocation for each body. Its shader knows which bodies are held and active where it needs that.
 fn kernel(
     verb: &str,
     body: &Body,

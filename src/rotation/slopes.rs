@@ -54,9 +54,9 @@ pub fn slopes(body: &Body, problem: &Problem) -> Result<Kernel, Error> {
 /// # Errors
 /// When a shader does not compile.
 pub fn unit(body: &Body, problem: &Problem) -> Result<Kernel, Error> {
-    let (names, who) = (body.clone(), problem.clone());
+    let (names, all) = (body.clone(), problem.clone());
     let twin = move |host: &Host| {
-        let moving = moving(&who, host)?;
+        let moving = moving(&all, host)?;
         let mut orientation = host.writing::<Vec4>(&names.orientation)?;
         for i in (0..orientation.len()).filter(moving) {
             orientation[i] = facing(orientation[i]).into();

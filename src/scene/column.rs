@@ -83,7 +83,7 @@ fn one(table: &Table<'_>, out: &mut Writer, report: &mut Report) -> Option<Colum
 /// All columns of a scene: those of its forces, and those that it declares.
 pub(super) fn all(forces: &[Box<dyn Component>], declared: &[(Column, Place)], report: &mut Report) -> Columns {
     let of_forces: Vec<Column> = forces.iter().flat_map(|force| force.columns()).collect();
-    // What is wrong with a force by itself is told where it is built.
+    // What is wrong with a force by itself is reported where it is built.
     let mut known = Columns::with(of_forces.clone()).unwrap_or_default();
     let mut all = of_forces;
     for (column, place) in declared {

@@ -35,7 +35,7 @@ pub const DRAIN_KEYS: &[Key] = &[
         "species",
         Kind::Species,
         Value::Text(Cow::Borrowed("all")),
-        "who dies there: a species, or \"all\" but who is held",
+        "which particles it removes: a species, or \"all\" that are not held",
     ),
 ];
 

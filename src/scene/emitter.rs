@@ -30,7 +30,7 @@ pub(super) struct Emitted {
 
 /// Reads an entry, and adds its particles to those that are there; or only their births, where the particles of a file wait
 /// already from the id `first` on. A run that has gone on for a time t goes on from a state of it with `start` less t, `first`
-/// and a `count`: who is born already is not born again.
+/// and a `count`: particles that are spawned already are not spawned again.
 pub(super) fn read(
     table: &Table<'_>,
     (dimensions, end, room, said): (u32, f64, u32, &[Entry]),

@@ -113,7 +113,7 @@ impl Located {
 }
 
 /// Whether a path stays in a folder, by its words and by where its links lead. Of a path that does not exist the part that
-/// does counts: nothing is told of what there is elsewhere.
+/// does counts: nothing is revealed of what there is elsewhere.
 fn is_inside(path: &Path, folder: &Path) -> bool {
     let (Ok(by_words), Ok(home)) = (std::path::absolute(path), std::path::absolute(folder)) else { return false };
     let by_words = plain(&by_words);

@@ -71,7 +71,7 @@ pub(super) fn contradictions<'a>(sections: &'a [(&'static str, Table<'a>)]) -> V
     remarks
 }
 
-/// What a table itself says by a key; what is wrong with it is told where it is read.
+/// What a table itself says by a key; what is wrong with it is reported where it is read.
 fn given(table: &Table<'_>, keys: &[Key], name: &str) -> Option<Value> {
     let key = keys.iter().find(|key| key.name == name)?;
     value::read(&table.get(name)?.node, key.name, key.kind, &mut Report::default())
@@ -91,9 +91,9 @@ pub(super) fn check(
     let problem = Problem::new(1, Machine::HOST).at(&[], *bounds);
     let why = match force.resolved(&problem).map(|resolved| resolved.fluid) {
         Ok(None) => return false,
-        Ok(Some(_)) if earlier => "there are two forces that make a fluid of everybody: leave one of them".to_owned(),
+        Ok(Some(_)) if earlier => "there are two forces that make a fluid of all particles: leave one of them".to_owned(),
         Ok(Some(_)) if !particles.is_empty() && particles.held.len() == particles.len() => {
-            "there is a fluid and nothing of it: everybody is held, and who is held is of its walls; add a [[particles]] of \
+            "there is a fluid and nothing of it: all particles are held, and held particles are its walls; add a [[particles]] of \
              shape = \"block\""
                 .to_owned()
         }

@@ -79,10 +79,10 @@ fn read_own(table: &Table<'_>, wgsl: &Entry, files: &Files, report: &mut Report)
     }
 }
 
-/// Who meets whom, with the range or the number of neighbours that this asks for.
+/// Which pairs are evaluated, with the cut-off radius or the number of neighbours that this needs.
 fn over(table: &Table<'_>, report: &mut Report) -> Option<Over> {
     let Some(entry) = table.get("over") else {
-        report.push(table.lacks("over", &value::wanted(Kind::Choice(Over::NAMES)), "who meets whom"));
+        report.push(table.lacks("over", &value::wanted(Kind::Choice(Over::NAMES)), "which pairs are evaluated"));
         return None;
     };
     let word = walk::choice(entry, "over", Over::NAMES, report)?;

@@ -99,7 +99,7 @@ pub struct Scene {
     pub resolved: String,
     /// The files that were read, from the root: the scene's own, where it is one, and those that it names.
     pub files: Vec<PathBuf>,
-    /// What is not wrong, but worth to be told: that `until` is no whole number of steps, for instance.
+    /// What is not wrong, but worth a remark: that `until` is no whole number of steps, for instance.
     pub remarks: Vec<String>,
 }
 
@@ -252,7 +252,7 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
     }
     out.0 += &said_of_forces.0;
 
-    // Who is born or dies, the forces must know of.
+    // The forces must know whether particles are spawned or removed.
     let integrator = (simulation.integrator.build)();
     if let (Some(first), Err(why)) =
         (all("emitter").chain(all("drain")).next(), crate::simulation::serves(&particles, &forces, integrator.as_ref()))

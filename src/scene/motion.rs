@@ -28,7 +28,7 @@ const KEYFRAME: &[Key] = &[
 ];
 const LIST: &str = "a list of tables, as in [{ time = 0 }, { time = 2, shift = [1, 0, 0] }]";
 
-/// Reads a motion and writes it out. One that is at fault still has its name, so that who names it is not told of that too.
+/// Reads a motion and writes it out. One that is at fault still has its name, so that what names it does not report that too.
 pub(super) fn read(
     table: &Table<'_>,
     earlier: &[Motion],

@@ -95,7 +95,7 @@ pub(super) fn read(
     });
     column::give(table, (columns, shape.map_or(OFFSETS, |shape| shape.keys)), &mut particles, &mut out, report);
     held::read(table, motions, &mut particles, &mut out, report);
-    // Parts that nobody tells apart are one.
+    // Parts that nothing distinguishes are one.
     if others.iter().all(|(_, own)| own.is_none()) {
         others.clear();
     }

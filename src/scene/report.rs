@@ -131,8 +131,8 @@ impl Report {
         }
         faults.sort_by_key(|f| (f.place.text, f.place.span.start));
         // What a force says is read again for each shape that takes it over.
-        let mut told = BTreeSet::new();
-        faults.retain(|f| told.insert((f.place.text, f.place.span.start, f.message.clone())));
+        let mut seen = BTreeSet::new();
+        faults.retain(|f| seen.insert((f.place.text, f.place.span.start, f.message.clone())));
         let in_scene = faults.iter().filter(|f| f.mended == Mended::InScene).count();
         let total = faults.len();
         let list: Vec<_> = faults.into_iter().take(KEPT).map(|f| self.diagnostic(f)).collect();

@@ -28,7 +28,7 @@ pub struct Standing {
     pub position: DVec3,
     /// The name of the motion that it goes along with; nothing where it stands still.
     pub motion: String,
-    /// Whether it is a container: pictures show its edges at most, for nobody would see what is in it.
+    /// Whether it is a container: pictures show its edges at most, for faces would hide what is in it.
     pub inside: bool,
 }
 

@@ -28,7 +28,7 @@ pub enum Asks {
 /// What a fluid asks of the steps of a setup.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Flow {
-    /// The largest dt that is safe \[time\]: infinite for who bears any; whatever XSPH is.
+    /// The largest dt that is safe \[time\]: infinite where any is stable; whatever XSPH is.
     pub safe: f64,
     /// How many times too long steps are: 1 is just safe. Of XSPH, how many times too strong it is.
     pub excess: f64,
@@ -60,7 +60,7 @@ impl Flow {
         let duration = PERIODS / rates.sound.max(rates.friction);
         let of = |stiffness: f64, damping: f64| limit(build, Mode { stiffness, damping }, duration);
         let swings = Oscillator::new(build(), 1.0, 0.0)?.growth(0.5).await? < 1.0 + 1e-9;
-        // Who bears no swing lives by friction.
+        // A method that is not stable for oscillations is limited by friction.
         let sound = if swings { of(rates.sound * rates.sound, 0.0).await? } else { f64::INFINITY };
         let friction = of(0.0, rates.friction).await?;
         let highest = Mode { stiffness: rates.sound * rates.sound, damping: rates.friction };

@@ -21,9 +21,9 @@ const MOST: f64 = 10.0;
 const FIRST: f64 = 0.05;
 /// From one dt that is tried to the next: a gap of stability narrower than this may be missed.
 const STRIDE: f64 = 1.05;
-/// Who bears this dt, in units of 1 / (ω + c), bears any.
+/// A method that is stable at this dt, in units of 1 / (ω + c), is stable at any.
 const LAST: f64 = 1e4;
-/// Who does not bear this one bears none.
+/// One that is unstable at this one is stable at none.
 const LEAST: f64 = 1e-9;
 
 /// A damped oscillator under an integrator, of which single steps are looked at.

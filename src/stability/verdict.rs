@@ -21,10 +21,10 @@ pub struct Verdict {
     pub bound: Bound,
     /// The largest ω² of the joints \[1 / time²\].
     pub joints: f64,
-    /// The largest dt that is safe by all of this, and by what forces of each particle add (drag, harmonic attractors) \[time\]; infinite for who bears any, 0 for who bears none.
+    /// The largest dt that is safe by all of this, and by what forces of each particle add (drag, harmonic attractors) \[time\]; infinite where any is stable, 0 where none is.
     pub safe: f64,
     /// The dt from which on modes that the network has at the start grow tenfold in the run; above `safe`, but for
-    /// rounding. Infinite where dt is safe: nobody looked.
+    /// rounding. Infinite where dt is safe: modes were not looked at.
     pub lost: f64,
     /// Whether the springs' damping asks for the shorter step, and not their stiffness.
     pub by_damping: bool,

@@ -28,8 +28,8 @@ pub(super) const PART: f64 = 1.0 / 32.0;
 type Rule = fn(&Tree, &Host) -> Result<(), Error>;
 
 impl Tree {
-    /// The kernels that build it from where particles are now, and, where the opening is relative, from what they felt
-    /// last.
+    /// The kernels that build it from where particles are now, and, where the opening is relative, from their
+    /// last accelerations.
     ///
     /// # Errors
     /// When a shader does not compile, or there are more particles than a sort takes.
@@ -62,7 +62,7 @@ impl Tree {
         Ok(kernels)
     }
 
-    /// The fields that do not have one element for each particle, and their elements: for whoever binds them.
+    /// The fields that do not have one element for each particle, and their elements: for kernels that bind them.
     #[must_use]
     pub fn sizes(&self) -> Vec<(Name, u64)> {
         let nodes =

@@ -107,7 +107,7 @@ impl Tree {
     }
 }
 
-/// Ids, in the order of the Hilbert curve; who has the same key in ascending order.
+/// Ids, in the order of the Hilbert curve; those of one key in ascending order.
 pub(crate) const TREE_ID: &str = "tree_id";
 /// Positions and masses in that order.
 pub(crate) const TREE_BODY: &str = "tree_body";
@@ -122,6 +122,6 @@ pub(crate) const TREE_SHAPE: &str = "tree_shape";
 pub(crate) const TREE_LOW: &str = "tree_low";
 /// Of each node: the highest corner of its tight box, and 0.
 pub(crate) const TREE_HIGH: &str = "tree_high";
-/// Of each group of targets: G / (α a) with the least acceleration a that any of them felt last, or a part of the sizes of
-/// all pulls where that is more; 0 where somebody felt none. Where the opening is relative.
+/// Of each group of targets: G / (α a) with the least last acceleration a of any of them, or a part of the sizes of
+/// all pulls where that is more; 0 where one of them has none. Where the opening is relative.
 pub(crate) const TREE_DEMAND: &str = "tree_demand";

@@ -88,7 +88,7 @@ impl<'a> Nodes<'a> {
     pub fn length(&self, n: u32) -> f64 {
         element(&self.shape, n).w
     }
-    /// What a group of targets demands: G / (α a), or 0 where somebody has felt nothing yet, or the opening is geometric.
+    /// What a group of targets demands: G / (α a), or 0 where a body has no acceleration yet, or the opening is geometric.
     #[must_use]
     pub fn demand(&self, group: usize) -> f64 {
         self.demand.as_ref().and_then(|demand| demand.get(group)).copied().unwrap_or(0.0)

@@ -11,8 +11,8 @@ pub enum Opening {
         /// θ, between 0 and 1: the smaller, the more exact.
         theta: f64,
     },
-    /// A node of mass M is opened where G M l² / d⁴ > α a, with a the least acceleration that any of the group felt last
-    /// (Springel 2005), or d ≤ l + s. Where somebody has felt nothing yet the criterion is the geometric one. Where pulls
+    /// A node of mass M is opened where G M l² / d⁴ > α a, with a the least last acceleration of any of the group
+    /// (Springel 2005), or d ≤ l + s. Where one of them has none yet the criterion is the geometric one. Where pulls
     /// cancel, a is a thirty-second of the sum of their sizes.
     Relative {
         /// α: about the relative error of a force.

@@ -21,7 +21,7 @@ pub(super) fn cube(_: &Tree, host: &Host) -> Result<(), Error> {
     Ok(())
 }
 
-/// Cells by the device's own arithmetic, so that who stands at an edge is on one side for both.
+/// Cells by the device's own arithmetic, so that a body at an edge is on one side for both.
 pub(super) fn keys(tree: &Tree, host: &Host) -> Result<(), Error> {
     let (position, cube) = (host.read(POSITION)?, host.read(CUBE)?);
     let cube = cube.first().map_or(Vec4::ZERO, |c| c.as_vec4());
@@ -101,8 +101,8 @@ pub(super) fn demand(tree: &Tree, host: &Host) -> Result<(), Error> {
     let mut demand = host.writing::<f32>(&tree.field(TREE_DEMAND).1)?;
     let groups = ids.chunks(GROUP as usize).zip(bodies.iter().step_by(GROUP as usize));
     for (demand, (group, body)) in demand.iter_mut().zip(groups) {
-        let felt = group.iter().filter_map(|id| acceleration.get(*id as usize)).map(|a| a.truncate().length());
-        let least = felt.fold(f64::INFINITY, f64::min);
+        let last = group.iter().filter_map(|id| acceleration.get(*id as usize)).map(|a| a.truncate().length());
+        let least = last.fold(f64::INFINITY, f64::min);
         *demand = if least > 0.0 { g / (alpha * least.max(pulls(body.truncate()))) } else { 0.0 };
     }
     Ok(())

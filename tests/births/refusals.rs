@@ -23,7 +23,7 @@ fn scenes_are_told_what_is_wrong_and_where() {
         ("[[emitter]]\nspeed = 1\nspacing = 0.1\nrate = 3\n", "wants either a `spacing`", "a.toml:6:1"),
         ("[[emitter]]\nspacing = 0.1\n", "lacks `speed`", "a.toml:6:1"),
         ("[[emitter]]\nspeed = 1\nspacing = 0.1\nspeeed = 1\n", "did you mean `speed`?", "a.toml:9:1"),
-        ("[[emitter]]\nspeed = 1\nspacing = 0.1\nstart = 7\n", "nobody would leave it", "a.toml:6:1"),
+        ("[[emitter]]\nspeed = 1\nspacing = 0.1\nstart = 7\n", "no particle would leave it", "a.toml:6:1"),
         ("[[emitter]]\nspeed = 1\nspacing = 0.01\n", "there is room for 4999", "a.toml:6:1"),
         ("[[emitter]]\nspeed = 1\nrate = 5\nspread = 91\n", "between 0 and 90", "a.toml:6:1"),
         ("[[emitter]]\nspeed = 1\nrate = 5\nfirst = 1\n", "need more than there are", "a.toml:9:9"),

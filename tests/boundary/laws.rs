@@ -16,7 +16,7 @@ use crate::{odd, scattered, setup};
 #[test]
 fn every_law_in_a_periodic_box() {
     let shared = support::device();
-    // Who is in one box far from an obstacle may be near it in another.
+    // A particle far from an obstacle in one box may be near it in another.
     let mut busy = Vec::new();
     for sides in [[Side::Periodic; 3], [Side::Periodic, Side::Open, Side::Reflecting]] {
         let bounds = odd(sides);
@@ -55,8 +55,8 @@ fn every_law_in_a_periodic_box() {
                     let verdicts = pollster::block_on(compare(simulation.backend(), &plan, 333)).expect("verdicts");
                     let bad = verdicts.iter().find(|verdict| !verdict.good());
                     assert!(bad.is_none(), "{}, {name}: {bad:?}", entry.name);
-                    let felt = |v: &Verdict| v.kernel != "clear" && v.field == "acceleration" && v.changed;
-                    if verdicts.iter().any(felt) {
+                    let accelerates = |v: &Verdict| v.kernel != "clear" && v.field == "acceleration" && v.changed;
+                    if verdicts.iter().any(accelerates) {
                         busy.push(entry.name);
                     }
                 }
@@ -76,7 +76,7 @@ fn gravity() -> Vec<Box<dyn Component>> {
     vec![force("gravity", &[("softening", Value::Number(0.05))])]
 }
 
-/// Two on either side of a seam feel each other as two in the middle do.
+/// Two on either side of a seam attract each other as two in the middle do.
 #[test]
 fn across_a_seam() {
     let two = |x: DVec3, y: DVec3| {
@@ -118,10 +118,10 @@ fn a_lattice_is_the_same_everywhere() {
         let x = DVec3::new(f64::from(place % 5), f64::from(place / 5 % 5), f64::from(place / 25));
         lattice.push(2.0 * x + DVec3::splat(0.5), DVec3::ZERO, 1.0, 0.0);
     }
-    let felt = accelerations_in(&cube(10.0), &gravity(), &lattice, 0.0);
-    for a in &felt {
+    let got = accelerations_in(&cube(10.0), &gravity(), &lattice, 0.0);
+    for a in &got {
         // 124 terms of up to 1/4, each rounded by 1e-16 of itself.
-        assert!(a.truncate().length() < 1e-14 && (a.w - felt[0].w).abs() < 1e-13, "{a} is not {}", felt[0]);
+        assert!(a.truncate().length() < 1e-14 && (a.w - got[0].w).abs() < 1e-13, "{a} is not {}", got[0]);
     }
     let open = accelerations_in(&Bounds::default(), &gravity(), &lattice, 0.0);
     assert!(open[0].truncate().length() > 1.0, "without a box the corner falls inwards");

@@ -103,9 +103,9 @@ fn many_steps_on_the_device() {
     }
 }
 
-/// Whoever starts outside of a periodic box, or is put there, is in it by an image; by a mirror it is thrown back.
+/// A particle that starts outside of a periodic box, or is put there, is in it by an image; by a mirror it is thrown back.
 #[test]
-fn who_is_put_outside_comes_in() {
+fn particles_outside_come_in() {
     let shared = support::device();
     for side in [Side::Periodic, Side::Reflecting] {
         let bounds = odd([side; 3]);

@@ -192,7 +192,7 @@ fn a_pipe_with_a_name_is_no_scene() {
     let output = child.wait_with_output().expect("it ends");
     let stderr = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.code() == Some(3) && stderr.contains("is a pipe"), "{stderr}");
-    // One that somebody fills has no name, and is read.
+    // One that another process fills has no name, and is read.
     let shell = format!("\"$0\" check <(printf '%s' '{}') --backend cpu", SCENE.replace('\'', ""));
     let mut command = std::process::Command::new("bash");
     let (code, _, stderr) = crate::output(command.args(["-c", &shell, env!("CARGO_BIN_EXE_motes")]));

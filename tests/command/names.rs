@@ -1,4 +1,4 @@
-//! Keys, and what is told of files that are not the scene's to name.
+//! Keys, and what is shown of files that are not the scene's to name.
 
 use motes::scene::SECTIONS;
 
@@ -35,19 +35,19 @@ fn a_link_out_of_the_folder_tells_nothing_of_what_is_there() {
     }
     place.put("outside/secret.csv", "x,y,z\n1,2,3\n");
     std::os::unix::fs::symlink(place.at("outside"), place.at("scene/up")).expect("a link");
-    let told = |file: &str| {
+    let shown = |file: &str| {
         let text = format!("[simulation]\ndt = 1\nsteps = 1\n[[particles]]\nfile = \"{file}\"\n");
         let (code, _, stderr) = output(&mut motes(&["check", &place.put("scene/a.toml", &text), "--backend", "cpu"]));
         assert_ne!(code, 0, "{file}");
         stderr
     };
     for file in ["up/secret.csv", "up/secrex.csv", "up/nothing/at/all.csv", "up/../outside/secrex.csv"] {
-        let words = told(file);
+        let words = shown(file);
         assert!(words.contains("leads outside of the scene's folder"), "{file}: {words}");
         assert!(!words.contains("did you mean") && !words.contains("there is no file"), "{file}: {words}");
     }
-    // What is missing inside is told as before.
+    // What is missing inside is reported as before.
     place.put("scene/bodies.csv", "x,y,z\n1,2,3\n");
-    assert!(told("bodes.csv").contains("did you mean \"bodies.csv\"?"));
-    assert!(told("no/such/folder.csv").contains("there is no file"));
+    assert!(shown("bodes.csv").contains("did you mean \"bodies.csv\"?"));
+    assert!(shown("no/such/folder.csv").contains("there is no file"));
 }

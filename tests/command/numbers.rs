@@ -21,12 +21,15 @@ fn said(text: &str, args: &[&str]) -> String {
 
 /// One body at x = 1000 with v = 1 stays where it is on the device in steps of 1e-5: numbers there are 6.1e-5 apart.
 #[test]
-fn a_motion_that_single_precision_swallows_is_told() {
+fn a_motion_below_single_precision_is_remarked_on() {
     let words = "go less far in a step than the last place of single precision";
     let lost = scene("1e-5", 10, &body("[1000, 0, 0]", "[1, 0, 0]"));
     for command in ["check", "run"] {
-        let told = said(&lost, &[command]);
-        assert!(told.contains(words) && told.contains("|v| dt = 1.0e-5") && told.contains("6.1e-5 apart"), "{told}");
+        let output = said(&lost, &[command]);
+        assert!(
+            output.contains(words) && output.contains("|v| dt = 1.0e-5") && output.contains("6.1e-5 apart"),
+            "{output}"
+        );
     }
     assert!(!said(&lost, &["check", "--backend", "cpu"]).contains(words), "f64 holds it");
     for (dt, position, velocity) in [
@@ -35,26 +38,26 @@ fn a_motion_that_single_precision_swallows_is_told() {
         ("1e-5", "[1000, 0, 0]", "[0, 0, 0]"),
         ("1e-5", "[1000, 0, 0]", "[0, 1, 0]"),
     ] {
-        let told = said(&scene(dt, 10, &body(position, velocity)), &["check"]);
-        assert!(!told.contains(words), "{dt} {position} {velocity}: {told}");
+        let output = said(&scene(dt, 10, &body(position, velocity)), &["check"]);
+        assert!(!output.contains(words), "{dt} {position} {velocity}: {output}");
     }
 }
 
 #[test]
-fn a_softening_that_single_precision_swallows_is_told() {
+fn a_softening_below_single_precision_is_remarked_on() {
     let words = "the softening 0.05 of `gravity` is";
     let at = |x: &str| {
         let sphere = format!("[[particles]]\nshape = \"plummer\"\ncount = 20\ncenter = [{x}, 0, 0]\n");
         said(&scene("0.01", 2, &format!("{sphere}[[force]]\nkind = \"gravity\"\nsoftening = 0.05\n")), &["check"])
     };
     // Numbers at 10^4 are 9.8e-4 apart, a fiftieth of the softening.
-    let told = at("1e4");
-    assert!(told.contains(words) && told.contains("off by up to 2 %"), "{told}");
+    let output = at("1e4");
+    assert!(output.contains(words) && output.contains("off by up to 2 %"), "{output}");
     assert!(!at("0").contains(words));
 }
 
 #[test]
-fn a_box_that_is_crossed_many_times_in_a_step_is_told() {
+fn a_box_crossed_many_times_in_a_step_is_remarked_on() {
     let space = "[box]\nsize = [1, 1, 1]\n";
     let fast = |v: &str| {
         said(&scene("0.01", 2, &(space.to_owned() + &body("[0.5, 0.5, 0.5]", v))), &["check", "--backend", "cpu"])
@@ -82,7 +85,7 @@ fn beyond_single_precision_both_backends_end() {
 
 /// A pendulum begins and ends where it is slow: the largest kinetic energy is in between.
 #[test]
-fn energies_are_told_by_the_largest_that_was_seen() {
+fn errors_of_energy_are_relative_to_its_maximum() {
     let change = |sets: &[&str]| -> f64 {
         let place = Place::with(&[]);
         let sets: Vec<&str> = sets.iter().flat_map(|set| ["--set", *set]).collect();
@@ -102,7 +105,7 @@ fn energies_are_told_by_the_largest_that_was_seen() {
 
 /// Rods follow their pins at once: a motion that jumps throws them.
 #[test]
-fn a_jump_of_a_motion_on_rods_is_told() {
+fn a_jump_of_a_motion_on_rods_is_remarked_on() {
     let words = "jumps in velocity by";
     let hair = |smooth: bool, dt: &str| {
         let text = format!(
@@ -112,8 +115,8 @@ fn a_jump_of_a_motion_on_rods_is_told() {
         );
         said(&text, &["check", "--backend", "cpu"])
     };
-    let told = hair(false, "0.0035");
-    assert!(told.contains(words) && told.contains("\"head\"") && told.contains("smooth = true"), "{told}");
+    let output = hair(false, "0.0035");
+    assert!(output.contains(words) && output.contains("\"head\"") && output.contains("smooth = true"), "{output}");
     assert!(!hair(true, "0.0035").contains(words));
     assert!(!hair(false, "0.0001").contains(words));
 }
@@ -123,14 +126,14 @@ fn a_jump_of_a_motion_on_rods_is_told() {
 fn remarks_do_not_mislead() {
     let spring = "[[particles]]\nshape = \"chain\"\ncount = 3\npins = \"first\"\n[[force]]\nkind = \"spring\"\n[[force]]\nkind = \"uniform\"\n\
                   acceleration = [0, 0, -9.81]\n[[force]]\nkind = \"attractor\"\n";
-    let told = said(&scene("0.001\nintegrator = \"backward_euler\"", 2, spring), &["check", "--backend", "cpu"]);
-    assert!(told.contains("with a limit on dt: `attractor`; constant: `uniform`"), "{told}");
+    let output = said(&scene("0.001\nintegrator = \"backward_euler\"", 2, spring), &["check", "--backend", "cpu"]);
+    assert!(output.contains("with a limit on dt: `attractor`; constant: `uniform`"), "{output}");
     let drop = "[box]\nsize = [4, 4, 0]\nboundary = \"open\"\n[[particles]]\nshape = \"drop\"\nsize = [0.5, 0.5, 0]\ncenter = [2, 2, 0]\n\
                 [[force]]\nkind = \"attractor\"\nprofile = \"harmonic\"\nposition = [2, 2, 0]\nstrength = 1\n\
                 [[force]]\nkind = \"fluid\"\nspacing = 0.1\nsound_speed = 9\ndensity_by = \"continuity\"\ndiffusion = 0.1\n";
-    let told = said(&scene("0.001", 2, drop), &["check", "--backend", "cpu"]);
-    assert!(!told.contains("the fluid has weight"), "{told}");
+    let output = said(&scene("0.001", 2, drop), &["check", "--backend", "cpu"]);
+    assert!(!output.contains("the fluid has weight"), "{output}");
     let pulled = drop.replace("position = [2, 2, 0]", "position = [2, 1, 0]");
-    let told = said(&scene("0.001", 2, &pulled), &["check", "--backend", "cpu"]);
-    assert!(told.contains("the fluid has weight"), "{told}");
+    let output = said(&scene("0.001", 2, &pulled), &["check", "--backend", "cpu"]);
+    assert!(output.contains("the fluid has weight"), "{output}");
 }

@@ -25,7 +25,7 @@ fn words_that_are_lost_are_a_failure() {
         assert_eq!(output.status.code(), Some(8), "{args:?}: {stderr}");
         assert!(stderr.contains("cannot write standard output"), "{args:?}: {stderr}");
     }
-    // Another failure is told as such; and results are written whether words are or not.
+    // Another failure is reported as such; and results are written whether words are or not.
     let output = motes(&["scenes", "kepller"]).stdout(full()).output().expect("the program starts");
     assert_eq!(output.status.code(), Some(3));
     let out = place.at("out");

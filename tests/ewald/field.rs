@@ -38,8 +38,8 @@ fn two_splittings_agree() {
     }
 }
 
-/// What two masses feel of each other, in a cube of side 1: that of the first of unit mass.
-fn felt(r: DVec3, light: f64) -> DVec4 {
+/// The acceleration by a second mass, in a cube of side 1: that of the first of unit mass.
+fn acceleration(r: DVec3, light: f64) -> DVec4 {
     let bounds = cube(1.0);
     let mut two = one(bounds.low + 0.3, DVec3::ZERO);
     two.push(two.position()[0] + r, DVec3::ZERO, light, 0.0);
@@ -58,7 +58,7 @@ fn the_waves_that_are_left_out_are_few() {
     let (mut square, mut most, mut potential) = (0.0, 0.0_f64, 0.0_f64);
     let mut count = 0.0;
     for (i, r) in places.enumerate() {
-        let error = felt(r, 0.0) - exact::field(r, SPLITTING) * DVec4::new(1.0, 1.0, 1.0, 0.5);
+        let error = acceleration(r, 0.0) - exact::field(r, SPLITTING) * DVec4::new(1.0, 1.0, 1.0, 0.5);
         if i % 4 == 0 {
             square += error.truncate().length_squared();
             count += 1.0;

@@ -3,9 +3,9 @@
 mod exact;
 mod field;
 mod refusals;
+mod remarks;
 #[path = "../support/mod.rs"]
 mod support;
-mod told;
 mod worlds;
 
 use glam::{DVec3, DVec4};
@@ -44,10 +44,10 @@ fn scattered(count: usize, bounds: &Bounds, seed: u64) -> State {
     cloud
 }
 
-/// What everybody feels of everybody, and of its own images: the exact sum.
+/// The accelerations of all by all others and their own images: the exact sum.
 fn exact_sum(particles: &State, side: f64, g: f64) -> Vec<DVec4> {
     let alone = exact::alone(SPLITTING);
-    let felt = |i: usize| {
+    let acceleration = |i: usize| {
         let others = (0..particles.len()).filter(|j| *j != i).map(|j| {
             let r = (particles.position()[i] - particles.position()[j]) / side;
             particles.mass()[j] * exact::field(r - r.round(), SPLITTING)
@@ -55,5 +55,5 @@ fn exact_sum(particles: &State, side: f64, g: f64) -> Vec<DVec4> {
         let sum = others.sum::<DVec4>() + DVec4::W * (particles.mass()[i] * alone);
         g * sum * DVec3::splat(1.0 / (side * side)).extend(0.5 / side)
     };
-    (0..particles.len()).map(felt).collect()
+    (0..particles.len()).map(acceleration).collect()
 }

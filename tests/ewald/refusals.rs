@@ -48,7 +48,7 @@ fn nearest_images_want_no_tree() {
             assert!(text.contains(part), "{part} is not in: {text}");
         }
         assert_eq!(refused(with("pairs", "nearest").as_ref(), bounds), None);
-        // So few meet everybody.
+        // So few are summed over all pairs.
         assert_eq!(refused(with("auto", "nearest").as_ref(), bounds), None);
     }
     assert_eq!(refused(with("tree", "nearest").as_ref(), Bounds::default()), None);

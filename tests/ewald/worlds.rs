@@ -31,16 +31,16 @@ fn lattice(side: f64, number: u8) -> State {
 const SIDE: f64 = 3.5;
 const G: f64 = 0.8;
 
-/// Nobody in a lattice knows where to go; and the energy of each is that of a mass alone in a smaller cube.
+/// In a lattice no direction is preferred; and the energy of each particle is that of a mass alone in a smaller cube.
 #[test]
-fn a_lattice_feels_no_force() {
+fn a_lattice_has_no_acceleration() {
     let side = 2.0;
     for number in [2, 5] {
         let lattice = lattice(side, number);
-        let felt = accelerations_in(&cube(side), &gravity(1.0, 0.0, "pairs"), &lattice, 0.0);
+        let got = accelerations_in(&cube(side), &gravity(1.0, 0.0, "pairs"), &lattice, 0.0);
         let n = f64::from(number);
         let want = 0.5 * crate::exact::alone(crate::SPLITTING) * n / side / n.powi(3);
-        for a in &felt {
+        for a in &got {
             // Sums of up to 250 terms of up to 25 / 4 / 125.
             assert!(a.truncate().length() < 1e-13, "{a}");
             assert!((a.w - want).abs() < 2e-5 / side, "{} is not {want}", a.w);
@@ -105,7 +105,7 @@ fn on_device(shared: &Shared, machine: Option<Machine>, count: usize, over: &'st
     simulation.write(POSITION, &places).expect("places");
     let verdicts = pollster::block_on(compare(simulation.backend(), &plan, number)).expect("verdicts");
     for v in &verdicts {
-        // One alone feels its own waves, which cancel: what is left is rounding.
+        // A single particle is pulled by its own waves, which cancel: what is left is rounding.
         assert!(if count > 1 { v.good() } else { v.sound() }, "{over}, {count}: {v:?}");
     }
     let got = pollster::block_on(simulation.read(ACCELERATION)).expect("accelerations");
@@ -151,12 +151,15 @@ fn far_groups_are_met_as_in_open_space() {
     let count = 1000;
     let cloud = scattered(count, &cube(1.0), 4);
     let error = |bounds: &Bounds, images: &'static str| {
-        let felt = |over: &'static str| {
+        let accelerations = |over: &'static str| {
             let settings = [("softening", Value::Number(0.01)), ("over", word(over)), ("images", word(images))];
             accelerations_in(bounds, &[force("gravity", &settings)], &cloud, 0.0)
         };
-        let mut errors: Vec<f64> =
-            felt("tree").iter().zip(felt("pairs")).map(|(a, b)| (*a - b).truncate().length()).collect();
+        let mut errors: Vec<f64> = accelerations("tree")
+            .iter()
+            .zip(accelerations("pairs"))
+            .map(|(a, b)| (*a - b).truncate().length())
+            .collect();
         errors.sort_by(f64::total_cmp);
         [errors[count / 2], errors[count * 99 / 100]]
     };

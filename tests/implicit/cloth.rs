@@ -73,7 +73,7 @@ impl System<'_> {
         }
         y
     }
-    /// b − A y, relative to b, leaving out who is tied to nothing.
+    /// b − A y, relative to b, without particles that have no links.
     pub fn residual(&self, b: &[DVec3], y: &[DVec3]) -> f64 {
         let image = self.product(&self.blocks(), y);
         let tied = self.particles.len() - 1;

@@ -6,10 +6,10 @@ mod cloth;
 mod growth;
 mod idle;
 mod pendulum;
+mod references;
 mod solves;
 #[path = "../support/mod.rs"]
 mod support;
-mod twins;
 
 use glam::DVec3;
 use motes::forces::Component;

@@ -226,10 +226,10 @@ fn whole_numbers_are_called_what_they_are() {
         match with(kind, n) {
             Ok(mut simulation) => {
                 assert!(fits, "{kind} holds no {n}");
-                let felt = pollster::block_on(simulation.read(motes::ACCELERATION)).expect("accelerations")[0];
+                let got = pollster::block_on(simulation.read(motes::ACCELERATION)).expect("accelerations")[0];
                 #[expect(clippy::cast_possible_truncation, reason = "as the device rounds it")]
                 let want = n as f32;
-                assert!((felt.x / want - 1.0).abs() < 1e-6, "{kind}, {n}: {felt}");
+                assert!((got.x / want - 1.0).abs() < 1e-6, "{kind}, {n}: {got}");
             }
             Err(error) => {
                 assert!(!fits && error.to_string().contains(&format!("`{kind}`")), "{kind}, {n}: {error}");

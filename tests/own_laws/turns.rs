@@ -85,8 +85,8 @@ fn setup(particles: State, force: Box<dyn Component>) -> Setup {
     }
 }
 
-/// What is felt along x after a step of a law.
-fn felt(shared: &Shared, particles: State, force: Box<dyn Component>) -> Result<Vec<f32>, Error> {
+/// Accelerations along x after a step of a law.
+fn accelerations(shared: &Shared, particles: State, force: Box<dyn Component>) -> Result<Vec<f32>, Error> {
     let setup = setup(particles, force);
     let mut simulation = Simulation::<Gpu>::new(&shared.found.device, &shared.found.queue, &setup)?;
     simulation.step(1)?;
@@ -95,7 +95,7 @@ fn felt(shared: &Shared, particles: State, force: Box<dyn Component>) -> Result<
 }
 
 fn law(shared: &Shared, over: Over, count: usize, wgsl: &str, n: Option<u32>) -> Result<Vec<f32>, Error> {
-    felt(shared, support::cloud(count, 3), Box::new(custom(over, wgsl, n)))
+    accelerations(shared, support::cloud(count, 3), Box::new(custom(over, wgsl, n)))
 }
 
 /// Whether this driver ends long loops without a word.
@@ -115,9 +115,9 @@ fn names_the_law(error: &Error) {
 /// Every turn is taken, or, where the driver cuts loops, that is said.
 fn right_or_loud(what: &str, said: Result<Vec<f32>, Error>, want: impl Fn(f32) -> bool, cuts: bool) -> bool {
     match said {
-        Ok(felt) => {
-            let wrong = felt.iter().position(|x| !want(*x));
-            assert!(wrong.is_none(), "{what}: particle {wrong:?} feels {}", felt[wrong.unwrap_or(0)]);
+        Ok(got) => {
+            let wrong = got.iter().position(|x| !want(*x));
+            assert!(wrong.is_none(), "{what}: particle {wrong:?} has {}", got[wrong.unwrap_or(0)]);
             true
         }
         Err(error @ Error::CutShort { .. }) if cuts => {
@@ -194,7 +194,7 @@ fn what_is_tied_is_never_silent_either() {
     for (over, arguments) in [(Over::Links, LINK), (Over::Joints, CORNER), (Over::Triangles, CORNER)] {
         for (n, long) in [(20_000, false), (100_000, true)] {
             let force = Box::new(custom(over, &meetings(arguments), Some(n)));
-            let said = felt(&shared, particles.clone(), force);
+            let said = accelerations(&shared, particles.clone(), force);
             let turns = f32::from(u16::try_from(n / 10).expect("few")) * 10.0;
             let right = |x: f32| x == turns || over == Over::Links && x == 2.0 * turns;
             assert_eq!(right_or_loud(&format!("{over:?}, {n}"), said, right, cuts), !(cuts && long), "{over:?}, {n}");
@@ -231,8 +231,8 @@ fn short() -> String {
     text
 }
 
-/// What a law of so many turns comes to, with this text in place of what looks at them: why it ends, if it does, and what all
-/// feel.
+/// What a law of so many turns comes to, with this text in place of what looks at them: why it ends, if it does, and the
+/// accelerations.
 fn with(shared: &Shared, turns: &str, n: u32) -> (Option<String>, Vec<f32>) {
     let force = Changed { law: custom(Over::Each, EACH, Some(n)), turns: turns.to_owned() };
     let setup = setup(support::cloud(100, 3), Box::new(force));
@@ -243,8 +243,8 @@ fn with(shared: &Shared, turns: &str, n: u32) -> (Option<String>, Vec<f32>) {
     };
     simulation.step(1).expect("a step");
     let said = pollster::block_on(simulation.check()).err().map(|error| error.to_string());
-    let felt = pollster::block_on(simulation.read(ACCELERATION)).expect("accelerations");
-    (said, felt.iter().map(|a| a.x).collect())
+    let got = pollster::block_on(simulation.read(ACCELERATION)).expect("accelerations");
+    (said, got.iter().map(|a| a.x).collect())
 }
 
 #[test]
@@ -252,10 +252,10 @@ fn an_invocation_has_so_many_turns_and_no_more() {
     let shared = support::device();
     assert_eq!(with(&shared, &short(), 63), (None, vec![63.0; 100]));
     for n in [64, 65, 1000] {
-        let (said, felt) = with(&shared, &short(), n);
+        let (said, got) = with(&shared, &short(), n);
         let said = said.expect("above");
         assert!(said.starts_with("`l` (l.wgsl): its loops have taken 16777216 turns"), "{n}: {said}");
-        assert_eq!(felt, vec![0.0; 100], "{n}: it goes on");
+        assert_eq!(got, vec![0.0; 100], "{n}: it goes on");
     }
 }
 
@@ -282,7 +282,7 @@ fn every_mutant_of_what_looks_at_turns_is_noticed() {
     for mutant in mutants(clock) {
         ledger.enter("turns.wgsl", &mutant, few(&format!("{}{rest}", mutant.text)) != right.0);
     }
-    // Where no loop is cut short nobody misses what would say so.
+    // Where no loop is cut short, nothing depends on what would say so.
     for mutant in mutants(end).iter().filter(|_| cuts) {
         ledger.enter("turns.wgsl", mutant, many(&format!("{before}{}", mutant.text)) != right.1);
     }

@@ -41,7 +41,7 @@ fn it_runs_over_every_visit_and_means_the_same() {
     let (force, grid, few) = (numbers(&last[0]), numbers(&last[1]), numbers(&last[2]));
     // Three steps, each a few units in the last place of numbers up to 2.
     assert!(force.iter().zip(&grid).all(|(a, b)| (a - b).abs() < 3e-6), "through the grid it is another law");
-    assert!(force.iter().zip(&few).any(|(a, b)| (a - b).abs() > 1e-4), "the nearest seven are everybody in range");
+    assert!(force.iter().zip(&few).any(|(a, b)| (a - b).abs() > 1e-4), "the nearest seven are all in range");
 }
 
 /// A law over a tree, with a sum of its own and nothing about far groups: they are met as one, at their centre of mass.

@@ -31,7 +31,7 @@ fn falling() -> motes::Setup {
 #[test]
 fn a_run_ends_where_it_shall() {
     let shared = support::device();
-    // Who rests feels forces anew, with velocities at rest: only those that depend on velocities differ by that.
+    // At a stop forces are evaluated anew, with velocities at rest: only those that depend on velocities differ by that.
     let smooth = falling_with(0.0);
     let (mut device, mut twin) = (on_gpu(&shared, &smooth), on_cpu(&smooth));
     // No whole number of anything.
@@ -48,7 +48,7 @@ fn a_run_ends_where_it_shall() {
     assert!((2..=3).contains(&now.reasons[Reason::Stop as usize]) && now.between[0] > 0.4 * now.between[1], "{now:?}");
     let rests = bytes(&mut device);
     device.step(20).expect("steps that do nothing");
-    assert!(bytes(&mut device) == rests && clock(&mut device) == now, "who rests must not move");
+    assert!(bytes(&mut device) == rests && clock(&mut device) == now, "nothing may change at a stop");
     // On to another stop, as if it had not rested: a run that did not do nothing in between has the same bits.
     device.stop_at(0.1).expect("a stop");
     device.step(30).expect("steps");

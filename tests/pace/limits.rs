@@ -1,4 +1,4 @@
-//! Each limit by hand, why it holds, and whose it is.
+//! Each limit by hand, its reason, and its particle.
 
 use glam::DVec3;
 use motes::kernel::Reason;
@@ -12,7 +12,7 @@ use crate::{DT, Free, LENGTH, PACE, SPACING, Silent, clock, drop, fluid, on_cpu,
 const DIGITS: f64 = 1.0 / 2048.0;
 const ROUNDING: f64 = 1e-6;
 
-/// Far apart, but for 1 and 2, which come together at 2 × 1.5 along x: so nobody feels anybody's pressure.
+/// Far apart, but for 1 and 2, which come together at 2 × 1.5 along x: so no pair has a pressure force.
 fn few() -> State {
     let mut particles = State::default();
     let speeds = [DVec3::new(0.0, 0.4, 0.0), DVec3::X * 1.5, DVec3::X * -1.5, DVec3::new(0.0, 0.0, 0.7)];
@@ -28,7 +28,7 @@ fn a_step_is_as_long_as_its_formula_says() {
     let (c, r) = (PACE.courant, f64::from(0.15f32));
     let mu = LENGTH * 3.0 * r / (r * r + 0.01 * LENGTH * LENGTH);
     let weight = |g: f64| force("uniform", &[("acceleration", vector(0.0, 0.0, -g))]);
-    // (forces, what limits, of whom, how long)
+    // (forces, what limits, which particle, how long)
     let cases = [
         ("signal", vec![fluid(9.0, &[])], Some(1), c * LENGTH / (9.0 + mu)),
         (
@@ -43,13 +43,13 @@ fn a_step_is_as_long_as_its_formula_says() {
         ("longest", vec![Box::new(Free) as _], None, DT),
     ];
     let shared = support::device();
-    for (name, forces, whose, dt) in cases {
+    for (name, forces, limiting, dt) in cases {
         let setup = paced(&few(), forces, "leapfrog", PACE);
         let (mut device, mut twin) = (on_gpu(&shared, &setup), on_cpu(&setup));
         device.step(1).expect("a step");
         twin.step(1).expect("a step");
         for now in [clock(&mut device), clock(&mut twin)] {
-            assert_eq!((now.reason.name(), now.particle, now.steps), (name, whose, 1), "{now:?}");
+            assert_eq!((now.reason.name(), now.particle, now.steps), (name, limiting, 1), "{now:?}");
             let good = (1.0 - DIGITS - ROUNDING)..=(1.0 + ROUNDING);
             assert!(good.contains(&(now.dt / dt)), "{name}: {} is not {dt}", now.dt);
             // One digit fewer would be seen: no step here is a whole power of two.
@@ -112,7 +112,7 @@ fn too_short_a_step_ends_a_run() {
     pollster::block_on(device.check()).expect("nothing has happened yet");
     device.step(3).expect("steps");
     let Err(Error::TooShort { step, wanted, least, reason, particle }) = pollster::block_on(device.check()) else {
-        panic!("a step of a millionth must be told");
+        panic!("a step of a millionth must be reported");
     };
     assert_eq!((step, reason, particle.as_str(), least), (0, "acceleration", "particle 0", PACE.least));
     let want = PACE.courant * (LENGTH / 7e8f64).sqrt();
@@ -121,10 +121,10 @@ fn too_short_a_step_ends_a_run() {
     assert!((clock(&mut device).dt / PACE.least - 1.0).abs() < 1e-4);
     let mut twin = on_cpu(&setup);
     twin.step(3).expect("steps");
-    let told = pollster::block_on(twin.check()).expect_err("the twin says the same").to_string();
+    let said = pollster::block_on(twin.check()).expect_err("the reference says the same").to_string();
     assert!(
-        told.contains("step 0") && told.contains("acceleration of particle 0") && told.contains("dt_min"),
-        "{told}"
+        said.contains("step 0") && said.contains("acceleration of particle 0") && said.contains("dt_min"),
+        "{said}"
     );
 }
 
@@ -155,8 +155,8 @@ fn what_makes_no_sense_is_refused() {
         (with(DT / 10.0, 0.3, Some(DT / 11.0)), "before the first"),
         (with(DT / 10.0, 0.3, Some(1.1 * DT)), "before the first"),
     ] {
-        let told = refused(free(), "leapfrog", pace);
-        assert!(told.contains(says), "{told}");
+        let said = refused(free(), "leapfrog", pace);
+        assert!(said.contains(says), "{said}");
     }
 }
 

@@ -86,7 +86,7 @@ fn solids_are_where_the_time_says() {
         let stop = simulation.stop_at(time).expect("a stop");
         simulation.step(1).expect("a step");
         let x = f64::from(pollster::block_on(simulation.read(POSITION)).expect("positions")[0].x);
-        // It has gone 2 t; who is behind it is put on it.
+        // It has gone 2 t; a particle behind it is put on it.
         assert!((x - (2.0 * stop).max(0.05)).abs() < 1e-6, "after {stop} at {x}");
     }
     assert!(time > 0.05, "it must have been met");

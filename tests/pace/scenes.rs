@@ -59,12 +59,12 @@ fn refusals_show_the_place() {
         ("cfl = 0.3\n", REST, "`cfl` is for adaptive steps"),
         ("dt_min = 0.003\n", REST, "`dt_min` is for adaptive steps"),
     ] {
-        let told = refused(more, rest);
-        assert!(told.contains(says) && told.contains(place) && told.contains('^'), "{told}");
+        let said = refused(more, rest);
+        assert!(said.contains(says) && said.contains(place) && said.contains('^'), "{said}");
     }
     let walks = format!("{REST}[[force]]\nkind = \"wander\"\n");
-    let told = refused("adaptive = true\n", &walks);
-    assert!(told.contains("a random walk has as many kicks") && told.contains(place), "{told}");
+    let said = refused("adaptive = true\n", &walks);
+    assert!(said.contains("a random walk has as many kicks") && said.contains(place), "{said}");
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! The device against the references, kernel by kernel; who is fixed or does not live keeps its columns.
+//! The device against the references, kernel by kernel; particles that are fixed or not active keep their columns.
 
 use std::collections::BTreeSet;
 
@@ -92,7 +92,7 @@ fn kernels_agree_with_their_references() {
 }
 
 #[test]
-fn who_is_fixed_or_does_not_live_keeps_its_columns() {
+fn fixed_and_inactive_particles_keep_their_columns() {
     for name in ["leapfrog", "forward_euler", "rk4", "heun", "implicit_midpoint"] {
         let setup = scene(40, name);
         let mut simulation = by_references(&setup, &[]);
@@ -142,7 +142,7 @@ fn measuring_leaves_no_trace() {
     }
 }
 
-/// What is no number is told with the particle that it is of.
+/// What is no number is reported with its particle.
 #[test]
 fn columns_that_are_no_numbers_are_reported() {
     let shared = support::device();
@@ -167,9 +167,9 @@ fn columns_that_are_no_numbers_are_reported() {
         host.backend().write(name, &broken).expect("a column");
         device.step(1).expect("a step");
         host.step(1).expect("a step");
-        let told = [pollster::block_on(device.check()), pollster::block_on(host.check())];
-        for told in told {
-            assert!(matches!(told, Err(motes::Error::NotFinite { particle: 42, .. })), "{name}: {told:?}");
+        let found = [pollster::block_on(device.check()), pollster::block_on(host.check())];
+        for found in found {
+            assert!(matches!(found, Err(motes::Error::NotFinite { particle: 42, .. })), "{name}: {found:?}");
         }
     }
 }

@@ -4,8 +4,8 @@ use motes::kernel::{Column, Columns, Kind, Shape};
 use motes::rotation;
 
 fn refused(columns: Vec<Column>, words: &[&str]) {
-    let told = Columns::with(columns).err().map(|error| error.to_string()).unwrap_or_default();
-    assert!(words.iter().all(|word| told.contains(word)), "{words:?} are not in: {told}");
+    let said = Columns::with(columns).err().map(|error| error.to_string()).unwrap_or_default();
+    assert!(words.iter().all(|word| said.contains(word)), "{words:?} are not in: {said}");
 }
 
 fn of(name: &'static str, kind: Kind) -> Column {

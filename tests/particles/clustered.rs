@@ -45,7 +45,7 @@ fn hernquist_is_in_equilibrium() {
         let all = |i: usize| p.velocity()[i].length_squared();
         near(&format!("{low} σ²"), mean(ids.iter().map(|i| all(*i) / wanted(*i))), 3.0, 0.01);
         near(&format!("{low} radial σ²"), mean(ids.iter().map(|i| radial(*i) / wanted(*i))), 1.0, 0.01);
-        // Nobody is beyond the escape speed, v² = 2 ψ, up to that displacement.
+        // No particle is beyond the escape speed, v² = 2 ψ, up to that displacement.
         let bound = |i: usize| 0.5 * all(i) / unit * (1.0 + p.position()[i].length() / scale);
         assert!((0..p.len()).all(|i| bound(i) < 1.05), "escapers");
     }

@@ -87,7 +87,7 @@ fn plummer_is_in_equilibrium() {
 }
 
 #[test]
-fn a_sphere_is_uniform_and_as_warm_as_told() {
+fn a_sphere_is_uniform_and_has_its_dispersion() {
     let p = make("sphere", &[("count", 4000.0), ("virial", 0.2), ("mass", 2.0), ("radius", 3.0)]);
     let radii = lengths(p.position());
     share("half radius", &radii, 1.5, 0.125);

@@ -1,4 +1,4 @@
-//! Shapes whose particles are tied: how many ties of which lengths, who is held, and what is refused.
+//! Shapes whose particles are tied: how many ties of which lengths, which are held, and what is refused.
 
 use std::borrow::Cow;
 use std::collections::BTreeSet;
@@ -168,7 +168,7 @@ fn cloths() {
     }
 }
 
-/// Who sees `right` to the right and `down` below sees the front of all triangles, which cover the sheet once.
+/// A viewer that sees `right` to the right and `down` below sees the front of all triangles, which cover the sheet once.
 #[test]
 fn the_triangles_of_a_cloth_face_one_way() {
     let (right, down) = (DVec3::new(2.0, 0.5, 0.0).normalize(), DVec3::new(0.1, -1.0, 0.3).normalize());

@@ -151,7 +151,7 @@ fn walls_are_not_drawn_and_nothing_wet_is_sky() {
     // But for the dither, each row of the sky is of one colour.
     let row: Vec<u8> = (0..120).map(|x| red(&held, x, 45)).collect();
     assert!(row.iter().max().unwrap() - row.iter().min().unwrap() <= 1);
-    // Everybody behind the eye.
+    // All particles behind the eye.
     let behind =
         settings(120, 90).with("auto_frame", Value::Flag(false)).with("center", Value::Vector(DVec3::Y * 99.0));
     let behind =

@@ -47,11 +47,11 @@ fn counts(kernel: &str, name: &str, want: &[u32], got: &[u32]) -> bool {
             let same = |(w, g): (u32, u32)| w & 0xffff == g & 0xffff && (w >> 16).abs_diff(g >> 16) <= 8;
             pairs().all(same)
         }
-        // A depth is known to some tens of its last places, but for samples at an edge, which may belong to somebody else.
+        // A depth is known to some tens of its last places, but for samples at an edge, which may belong to another facet.
         "nearest" | "lit" => pairs().filter(|(w, g)| w.abs_diff(*g) > 512).count() <= FEW + want.len() / 1000,
         "front" if kernel == "shade" => pairs().filter(|(w, g)| w.abs_diff(*g) > 512).count() <= FEW,
         "holder" => differ <= FEW + want.len() / 1000,
-        // A level, but where a sample is of somebody else, or on the rim of a shadow.
+        // A level, but where a sample is of another facet, or on the rim of a shadow.
         "scenery" => {
             let far = |(w, g): &(u32, u32)| w.to_le_bytes().iter().zip(g.to_le_bytes()).any(|(w, g)| w.abs_diff(g) > 1);
             pairs().filter(far).count() <= FEW + want.len() / 500 && differ <= FEW + want.len() / 100

@@ -12,7 +12,7 @@ const ONE_PLACE: &str = "a line of no length is at one place, whatever part of i
 const FAINT: &str = "it ends a quarter of a pixel aside, where the rim is fainter than a unit of light";
 const WHITE: &str = "more than white is white, also under another light";
 const CLAMPED: &str = "what follows cuts it off at the same end";
-const UNREAD: &str = "the fourth number is read by nobody, and written again before the end";
+const UNREAD: &str = "the fourth number is not read, and written again before the end";
 
 pub const EQUIVALENT: &[Equivalent] = &[
     same("", "const WORKGROUP: u32 = 64u;", "64u", "65u", ANY_SIZE),
@@ -145,7 +145,7 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("shade.wgsl", "let line = select(", "<", "<=", TIE),
     same("shade.wgsl", "let off = (place", "*", "/", "1 and −1 are their own inverses"),
     same("shade.wgsl", "if depth < m.way {", "<", "<=", TIE),
-    same("shade.wgsl", "frame.solids == 0u {", "0u", "1u", "a sample of nobody adds nothing"),
+    same("shade.wgsl", "frame.solids == 0u {", "0u", "1u", "a sample of no facet adds nothing"),
     same("shade.wgsl", "scenery[i] =", "1e-30", "1.5000000000000001e-30", "it is much more, or nothing"),
     same("solid.wgsl", "const NEVER: f32 = 1e30;", "1e30", "1.5000000000000002e30", "nothing is so far away"),
     same("solid.wgsl", "if rest < 0.0 {", "<", "<=", TIE),

@@ -24,8 +24,8 @@ use support::mutants::{Mutant, mutants};
 
 /// Shaders are compiled by one core: two devices keep two of them busy.
 const TURNS: usize = 2;
-/// Stages that are asked about a mutant that is known to do the same: those who noticed others the last. All of them are
-/// where one looks at chosen files.
+/// Stages that run a mutant that is listed as equivalent: those that noticed other mutants last. All of them run
+/// when only chosen files are tested.
 const ASKED: usize = 8;
 
 /// The shaders of pictures, by their names in messages.
@@ -43,10 +43,10 @@ fn endless(mutant: &Mutant) -> bool {
     mutant.line.starts_with("for ") && mutant.new == "-="
 }
 
-/// Whether any stage sees the difference; who does is asked first from now on.
+/// Whether any stage sees the difference; a stage that does runs first from now on.
 fn noticed(stages: &mut [&Stage], file: &str, mutant: &Mutant) -> bool {
     let sees = |stage: &&Stage| match stage.mutated(file, &mutant.text) {
-        // What does not compile is noticed by everybody.
+        // A mutant that does not compile is noticed.
         None => true,
         Some(kernel) => !stage.good(&kernel),
     };
@@ -98,10 +98,10 @@ fn work(
         let mut its: Vec<&Stage> = stages.iter().filter(|stage| stage.uses(&file)).collect();
         assert!(!its.is_empty(), "{file}: no stage runs it");
         for mutant in mutants(&text).iter().filter(|m| !endless(m)) {
-            let listed = ledger.lock().expect("nobody fails").expects(&file, mutant);
+            let listed = ledger.lock().expect("no thread panics").expects(&file, mutant);
             let asked = if listed && !whole { its.len().min(ASKED) } else { its.len() };
             let noticed = noticed(&mut its[..asked], &file, mutant);
-            ledger.lock().expect("nobody fails").enter(&file, mutant, noticed);
+            ledger.lock().expect("no thread panics").enter(&file, mutant, noticed);
         }
         println!("{file}: {} stages, {:.1} s", its.len(), begun.elapsed().as_secs_f64());
     }
@@ -118,10 +118,10 @@ fn every_mutant_of_a_picture_is_noticed() {
     let is_chosen = |file: &str| chosen.is_empty() || chosen.iter().any(|name| file.ends_with(&format!("/{name}")));
     let mut files = files();
     files.retain(|(file, _)| is_chosen(file));
-    // The longest first, so that nobody is left with one when the other is done.
+    // The longest first, so that no thread is left with one when the others are done.
     files.sort_by_key(|(_, text)| text.len());
     let files = Mutex::new(files);
-    let next = || files.lock().expect("nobody fails").pop();
+    let next = || files.lock().expect("no thread panics").pop();
     std::thread::scope(|scope| {
         for turn in 0..TURNS {
             let (next, shared, ledger, whole) = (&next, &*shared, &ledger, !chosen.is_empty());
@@ -129,6 +129,6 @@ fn every_mutant_of_a_picture_is_noticed() {
         }
     });
     // As many as were there when this was written, less a third: an empty list of mutants would be noticed in full.
-    let ledger = ledger.into_inner().expect("nobody fails");
+    let ledger = ledger.into_inner().expect("no thread panics");
     ledger.close(|e| chosen.is_empty() || is_chosen(&format!("/{}", e.file)), if chosen.is_empty() { 860 } else { 0 });
 }

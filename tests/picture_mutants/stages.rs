@@ -66,14 +66,14 @@ impl Stage {
         Some(kernel)
     }
     /// Bytes of a field, and behind them what a kernel that looks too far would take for a particle in the picture, near
-    /// enough to be seen: a ball for who draws balls, a light for who draws lights.
+    /// enough to be seen: a ball for kernels of balls, a light for kernels of lights.
     fn padded(&self, name: &str, array: &Array, size: u64) -> Vec<u8> {
         let mut bytes = array.to_bytes();
         let radius = if self.kernel.name == "splat" { 0.0 } else { 3.0 };
-        // A place in space for who asks where it is seen.
+        // A place in space for kernels that project it.
         let place = if self.kernel.name == "stroke" { [0.13, -0.11] } else { [20.3, 12.7] };
         let behind = Vec4::new(place[0], place[1], 0.1, radius);
-        // Of the pixels behind the last one nobody has yet taken any.
+        // Of the pixels behind the last one none is taken yet.
         let free = [u32::MAX; 4];
         let behind =
             if ["front", "owner"].contains(&name) { bytemuck::bytes_of(&free) } else { bytemuck::bytes_of(&behind) };

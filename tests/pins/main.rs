@@ -101,10 +101,10 @@ fn a_fixed_one_keeps_every_bit() {
             assert_eq!(velocity[id].truncate(), glam::Vec3::ZERO, "{}", entry.name);
         }
         for id in [10, 11] {
-            assert!(before[id] != after[id], "{}: who is free moves", entry.name);
+            assert!(before[id] != after[id], "{}: free particles move", entry.name);
         }
-        let felt = read(&mut simulation, ACCELERATION);
-        assert!(felt[0].truncate() == glam::Vec3::ZERO && felt[0].w != 0.0, "{}: no force, a potential", entry.name);
+        let got = read(&mut simulation, ACCELERATION);
+        assert!(got[0].truncate() == glam::Vec3::ZERO && got[0].w != 0.0, "{}: no force, a potential", entry.name);
     }
     // The references hold positions in f64.
     let mut twins = Simulation::on(Cpu::new(12).expect("some"), &setup(pinned(12), "rk4")).expect("a simulation");
@@ -142,7 +142,7 @@ fn a_led_one_is_where_its_motion_says_at_every_step() {
     }
 }
 
-/// However late: the time of a key is told in steps, not in seconds that run out of digits.
+/// However late: the time of a key is given in steps, not in seconds that run out of digits.
 #[test]
 fn a_motion_late_in_a_run_is_as_exact() {
     let shared = support::device();
@@ -229,7 +229,7 @@ fn through_the_side_of_a_periodic_box() {
 }
 
 #[test]
-fn no_mirror_throws_back_who_is_led() {
+fn no_mirror_throws_back_prescribed_motions() {
     let shared = support::device();
     let mut particles = pinned(12);
     particles.position_mut().iter_mut().for_each(|x| *x *= 0.9);
@@ -242,7 +242,7 @@ fn no_mirror_throws_back_who_is_led() {
     let want = particles.motions[0].place(particles.position()[7], 25.0 * DT);
     assert!((places[7].truncate().as_dvec3() - want).length() < 4e-6, "{} is not {want}", places[7]);
     for id in [10, 11] {
-        assert!(places[id].truncate().abs().max_element() <= 1.0, "who is free stays inside: {}", places[id]);
+        assert!(places[id].truncate().abs().max_element() <= 1.0, "free particles stay inside: {}", places[id]);
     }
 }
 
@@ -262,7 +262,7 @@ fn the_kernels_agree_with_their_twins() {
         let mut places = read(&mut simulation, POSITION);
         let targets: Vec<_> = places.iter().map(|x| (x.truncate() * 1.3).extend(0.2)).collect();
         simulation.write(TARGET, &targets).expect("targets");
-        // Who was moved goes home, whatever holds it.
+        // A displaced particle goes home, whatever holds it.
         for x in &mut places {
             x.x += 0.1;
         }
@@ -278,9 +278,9 @@ fn the_kernels_agree_with_their_twins() {
     }
 }
 
-/// A measurement knows who is held, and leaves no trace.
+/// A measurement knows what is held, and leaves no trace.
 #[test]
-fn a_snapshot_feels_no_force_on_the_held() {
+fn a_snapshot_has_no_force_on_the_held() {
     let shared = support::device();
     let setup = setup(pinned(12), "leapfrog");
     let mut simulation = simulation(&shared, &setup);

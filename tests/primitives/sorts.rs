@@ -45,9 +45,9 @@ fn a_counting_sort_ends_the_race() {
     }
 }
 
-/// All in one bin, at most as many as may be, or one more: that is told, and nobody is lost.
+/// All in one bin, at most as many as may be, or one more: that is reported, and no key is lost.
 #[test]
-fn a_bin_that_is_too_full_is_told() {
+fn a_bin_that_is_too_full_is_reported() {
     let shared = support::device();
     let elements = counting_sort::LARGEST + 1;
     let machine = MACHINES[1].1;
@@ -63,7 +63,7 @@ fn a_bin_that_is_too_full_is_told() {
     assert_eq!(read("starts", 4), [0, 0, elements, elements]);
     let mut order = read("order", elements);
     order.sort_unstable();
-    assert!(order.iter().copied().eq(0..elements), "not everybody is there once");
+    assert!(order.iter().copied().eq(0..elements), "not every key is there once");
 }
 
 #[test]

@@ -109,7 +109,7 @@ fn a_free_chain_keeps_momentum_and_spin() {
     assert!(l_now.distance(l) < 2e-5 * l.length(), "{l_now} is not {l}");
 }
 
-/// The first particle is pulled, and nobody else.
+/// The first particle is pulled, and no other.
 struct Pull;
 
 impl Component for Pull {
@@ -122,7 +122,7 @@ impl Component for Pull {
     }
 }
 
-/// Who pulls a straight chain at its end moves all of it alike: each rod pulls what is behind it.
+/// A pull at the end of a straight chain moves all of it alike: each rod pulls what is behind it.
 #[test]
 fn each_rod_pulls_what_is_behind_it() {
     let shared = support::device();
@@ -140,12 +140,12 @@ fn each_rod_pulls_what_is_behind_it() {
     let mut simulation = device(&shared, &particles, forces(), "leapfrog", 0.125);
     simulation.step(16).expect("steps");
     for v in read(&mut simulation).1 {
-        // 16 steps of some roundings of 6e-8 of the speed of who is pulled, 1.
+        // 16 steps of some roundings of 6e-8 of the speed of the pulled one, 1.
         assert!((v.truncate() - 2.0 * want).length() < 3e-6, "{v} is not twice {want}");
     }
 }
 
-/// Who hangs at rest stays, whatever the weights: each rod carries what is below.
+/// A chain that hangs at rest stays, whatever the weights: each rod carries what is below.
 #[test]
 fn a_hanging_chain_rests() {
     let shared = support::device();
@@ -179,7 +179,7 @@ fn modes_of_two_rods_have_their_frequencies() {
     }
 }
 
-/// A held one may be anywhere, and may carry many: what hangs at it feels nothing of the others.
+/// A held one may be anywhere, and may carry many: what hangs at it is independent of the others.
 #[test]
 fn chains_at_a_held_one_know_nothing_of_each_other() {
     let both = |two: bool| {

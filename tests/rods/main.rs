@@ -20,7 +20,7 @@ use support::Shared;
 use support::states::{cpu, force, integrator, phase};
 
 const G: f64 = 9.81;
-/// Who is held is so heavy that `Weight` leaves it alone.
+/// A held particle is so heavy that `Weight` leaves it alone.
 const HELD: f64 = 4096.0;
 
 /// Weight of all that is not held.
@@ -41,7 +41,7 @@ fn forces() -> Vec<Box<dyn Component>> {
     vec![Box::new(Weight), force("rod", &[])]
 }
 
-/// Adds a chain of particles of mass 1 at rest; who is at an end may be held.
+/// Adds a chain of particles of mass 1 at rest; those at the ends may be held.
 fn chain(particles: &mut State, places: &[DVec3], held: [bool; 2]) {
     let first = u32::try_from(particles.len()).expect("few");
     let last = first + u32::try_from(places.len()).expect("few") - 1;

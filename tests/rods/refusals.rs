@@ -69,7 +69,7 @@ fn rods_do_not_grow_at_the_start() {
     assert!(said(&grows).contains("rod 1 between particles 1 and 2 would grow by 5e-1"), "{}", said(&grows));
     grows.velocity_mut()[2].z = 0.0;
     assert_eq!(said(&grows), "");
-    // Who is fixed has no velocity, whatever is written of it; who is led has one that nobody knows yet.
+    // A fixed particle has no velocity, whatever is written of it; one with a prescribed motion has one that is not known yet.
     grows.velocity_mut()[0] = DVec3::Z;
     assert_eq!(said(&grows), "");
     grows.velocity_mut()[1] = DVec3::Z;

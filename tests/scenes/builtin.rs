@@ -174,9 +174,9 @@ fn the_planets_are_where_its_comment_says() {
         scene.about.lines().map(|l| l.split_whitespace().map(str::to_owned).collect()).collect();
     let end = after(scene, 487);
     for (id, name) in ["Mercury", "Venus", "Earth", "Mars", "Jupiter"].iter().enumerate() {
-        let told = lines.iter().find(|l| l.len() == 4 && l[0] == *name).expect("a line of the comment");
-        let told: Vec<f64> = told[1..].iter().map(|x| x.parse().expect("a number")).collect();
-        let off = (end[id + 1] - end[0]).distance(DVec3::from_slice(&told));
+        let listed = lines.iter().find(|l| l.len() == 4 && l[0] == *name).expect("a line of the comment");
+        let listed: Vec<f64> = listed[1..].iter().map(|x| x.parse().expect("a number")).collect();
+        let off = (end[id + 1] - end[0]).distance(DVec3::from_slice(&listed));
         // The error of pefrl at this step, measured against a step five times as short: 2.8e-6, and the ninth digit.
         assert!(off < if id == 0 { 3e-6 } else { 3e-8 }, "{name}: {off:e}");
     }

@@ -189,7 +189,7 @@ fn a_law_of_ones_own_is_read_from_its_file() {
         scene.resolved
     );
 
-    // Whom it meets, and how far or how many that are; and the same again out of the resolved scene.
+    // Which pairs, and how far or how many that are; and the same again out of the resolved scene.
     for (over, more, want) in [
         ("near", "range = 0.1", Over::Near { range: 0.1, of: None }),
         ("within", "range = 2", Over::Within { range: 2.0 }),

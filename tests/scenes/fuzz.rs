@@ -17,9 +17,9 @@ fn survives(text: &str, overrides: &[String]) {
             assert!(motes::boundary::check(&scene.bounds).is_ok());
         }
         Err(faults) => {
-            let told = faults.to_string();
-            assert!(told.starts_with("error: ") && faults.total >= faults.list.len() && !faults.list.is_empty());
-            assert!(!told.contains('\u{1b}'), "no control characters");
+            let text = faults.to_string();
+            assert!(text.starts_with("error: ") && faults.total >= faults.list.len() && !faults.list.is_empty());
+            assert!(!text.contains('\u{1b}'), "no control characters");
         }
     }
 }
@@ -160,7 +160,7 @@ proptest! {
 
 #[test]
 fn the_good_scene_is_good() {
-    // Else the mutations would all be told of the same fault.
+    // Else the mutations would all report the same fault.
     let text = GOOD.replace("[[force]]\nwgsl = \"swirl.wgsl\"\nover = \"each\"\nparams = { strength = 2.0, axis = [0, 0, 1], \"on\" = true }\n", "");
     let source = Source::Text { name: "good.toml".to_owned(), text, folder: ".".into() };
     let scene = Scene::load(&source, &[], &Options::default()).unwrap_or_else(|faults| panic!("{faults}"));

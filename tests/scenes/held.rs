@@ -48,8 +48,8 @@ motion = \"to and fro\"
     // Written back, it is the same scene.
     let again = load(&scene.resolved);
     assert_eq!(again.particles, scene.particles);
-    let told = |text: &str| text.split_once("[[motion]]").expect("a motion").1.to_owned();
-    assert_eq!(told(&again.resolved), told(&scene.resolved));
+    let motion = |text: &str| text.split_once("[[motion]]").expect("a motion").1.to_owned();
+    assert_eq!(motion(&again.resolved), motion(&scene.resolved));
 }
 
 #[test]
@@ -92,7 +92,7 @@ motion = \"lit\"
         faults(&format!("{HEAD}{good}motion = \"lit\"\n[[force]]\nkind = \"solid\"\nmotion = \"lft\"\n")).to_string();
     assert_eq!(said.matches("did you mean \"lift\"?").count(), 2, "{said}");
     let said = faults(&format!("{HEAD}{good}motion = \"lift\"\n")).to_string();
-    assert!(said.contains("nobody in [[particles]] is held, whom a motion could lead"), "{said}");
+    assert!(said.contains("no particle in [[particles]] is held, so the motion moves nothing"), "{said}");
     let said =
         faults(&format!("{HEAD}[[particles]]\nbodies = [{{ position = [0, 0, 0] }}]\nmotion = \"lift\"\n")).to_string();
     assert!(said.contains("there is no motion \"lift\"") && said.contains("add\n\n         [[motion]]"), "{said}");

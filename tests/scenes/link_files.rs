@@ -13,8 +13,8 @@ fn beside(csv: &str) -> Result<Scene, (u8, String)> {
     fs::write(folder.path().join("net.csv"), csv).expect("written");
     let text = FOUR.to_owned() + "file = \"net.csv\"\nstiffness = 30\n";
     let source = Source::Text { name: "scene.toml".to_owned(), text, folder: folder.path().to_owned() };
-    let told = |faults: Diagnostics| faults.to_string().replace(folder.path().to_str().expect("a path of words"), "");
-    Scene::load(&source, &[], &Options::default()).map_err(|faults| (faults.exit_code(), told(faults)))
+    let text = |faults: Diagnostics| faults.to_string().replace(folder.path().to_str().expect("a path of words"), "");
+    Scene::load(&source, &[], &Options::default()).map_err(|faults| (faults.exit_code(), text(faults)))
 }
 
 #[test]
@@ -29,14 +29,14 @@ fn a_file_says_what_it_wants_and_the_scene_the_rest() {
 }
 
 #[track_caller]
-fn assert_told(csv: &str, expected: &str) {
+fn assert_reports(csv: &str, expected: &str) {
     let (code, found) = beside(csv).err().expect("faults");
     assert!(code == 4 && found == expected, "expected:\n{expected}\n\nfound:\n{found}");
 }
 
 #[test]
-fn a_bad_file_is_told_by_its_lines() {
-    assert_told(
+fn faults_of_a_file_name_its_lines() {
+    assert_reports(
         "a,b,rest\n0,1,1\n\n# a comment\n1,1,1\n0,9,1\n1,0,1\n2,x,-3\n0,3,1,5\n",
         r#"error: /net.csv: 
   line 5: particle 1 is linked to itself
@@ -52,7 +52,7 @@ fn a_bad_file_is_told_by_its_lines() {
 
 scene.toml: 1 error"#,
     );
-    assert_told(
+    assert_reports(
         "",
         r#"error: /net.csv: is empty; its first line must name the columns, such as a,b,rest,stiffness,damping
   --> scene.toml:10:8
@@ -62,7 +62,7 @@ scene.toml: 1 error"#,
 
 scene.toml: 1 error"#,
     );
-    assert_told(
+    assert_reports(
         "a,rest,wight\n0,1,2\n",
         r#"error: /net.csv: 
   unknown column `wight`; known are a, b, rest, stiffness, damping, tie
@@ -74,7 +74,7 @@ scene.toml: 1 error"#,
 
 scene.toml: 1 error"#,
     );
-    assert_told(
+    assert_reports(
         "a,b\n0\n",
         r#"error: /net.csv: line 2, column b: the cell is missing
   --> scene.toml:10:8

@@ -1,4 +1,4 @@
-//! Scenes: what is good loads, and what is not is told well.
+//! Scenes: what is good loads, and what is not is reported well.
 
 #![allow(clippy::float_cmp, reason = "the bits are meant")]
 
@@ -69,7 +69,7 @@ formats = ["png", "gif"]
 zoom = 2
 "#;
     let report = report(text, &["output.every=often"]);
-    let told: Vec<_> = report
+    let found: Vec<_> = report
         .list
         .iter()
         .map(|d| format!("{} {}", d.excerpt.as_ref().and_then(|e| e.position).map_or(0, |p| p.0), d.message))
@@ -85,7 +85,7 @@ zoom = 2
         "17 unknown section `camera`",
         "0 `every` must be a whole number, one or above, not the text \"often\"",
     ];
-    assert_eq!(told, expected);
+    assert_eq!(found, expected);
     assert_eq!((report.total, report.exit_code()), (9, 3));
     assert!(report.to_string().ends_with("\n\na.toml: 9 errors"));
 }

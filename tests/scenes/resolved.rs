@@ -133,7 +133,7 @@ columns = []
 
 #[test]
 fn until_gives_the_steps_that_reach_it() {
-    for (dt, until, steps, told) in [
+    for (dt, until, steps, remarked) in [
         ("0.1", "1.0", 10, false),
         ("0.1", "0.3", 3, false), // 0.3 / 0.1 is 2.9999999999999996 in f64
         ("0.001", "1000", 1_000_000, false),
@@ -147,7 +147,7 @@ fn until_gives_the_steps_that_reach_it() {
         let text = SMALL.replace("dt = 0.1", &format!("dt = {dt}")).replace("steps = 10", &format!("until = {until}"));
         let scene = load(&text, &[]).unwrap_or_else(|faults| panic!("{faults}"));
         assert_eq!(scene.steps, steps, "dt = {dt}, until = {until}");
-        assert_eq!(!scene.remarks.is_empty(), told, "dt = {dt}, until = {until}: {:?}", scene.remarks);
+        assert_eq!(!scene.remarks.is_empty(), remarked, "dt = {dt}, until = {until}: {:?}", scene.remarks);
     }
 }
 

@@ -1,4 +1,4 @@
-//! `[solver]`: what is out of reach is told with its bounds, and what is not is kept.
+//! `[solver]`: what is out of reach is reported with its bounds, and what is not is kept.
 
 use motes::Solver;
 

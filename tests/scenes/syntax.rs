@@ -185,7 +185,7 @@ fn many_dots() {
 
 a.toml: 1 error",
     );
-    // The parser's own limit is told in the same words.
+    // The parser's own limit is reported in the same words.
     let worse = crate::report(&faulty.replace("a = 1", &format!("a{} = 1", ".a".repeat(100))), &[]).to_string();
     assert_eq!(worse, "error: this is nested too deeply\n  --> a.toml\n\na.toml: 1 error");
 }

@@ -1,4 +1,4 @@
-//! Trees: angles, whom they concern, and what is written back of them. Each text is what a user reads, whole.
+//! Trees: angles, the laws they concern, and what is written back of them. Each text is what a user reads, whole.
 
 use std::path::PathBuf;
 

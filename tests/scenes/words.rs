@@ -1,4 +1,4 @@
-//! Words that are not known, and how they are told. Each text is what a user reads, whole.
+//! Words that are not known, and how they are reported. Each text is what a user reads, whole.
 
 use crate::assert_report;
 

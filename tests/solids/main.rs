@@ -1,4 +1,4 @@
-//! Solids: distances in closed form, inclines, bounces, things at rest, and nobody inside after any step.
+//! Solids: distances in closed form, inclines, bounces, things at rest, and no particle inside after any step.
 
 mod shapes;
 #[path = "../support/mod.rs"]
@@ -160,9 +160,9 @@ fn a_belt_drags_by_friction() {
     assert!((phase(&mut simulation).1[0].x - 0.5).abs() < 1e-12);
 }
 
-/// Solids of random settings among flying particles: after any step nobody is nearer than the thickness.
+/// Solids of random settings among flying particles: after any step no particle is nearer than the thickness.
 #[test]
-fn nobody_is_inside_after_any_step() {
+fn no_particle_is_inside_after_any_step() {
     let mut random = Random::new(11);
     let shared = support::device();
     let swing = support::choices::swing();
@@ -224,7 +224,7 @@ fn nobody_is_inside_after_any_step() {
     }
 }
 
-/// In a periodic box a solid is at all its images; who is held is nobody's to push; other species pass.
+/// In a periodic box a solid is at all its images; held particles are not pushed; other species pass.
 #[test]
 fn it_meets_images_and_leaves_the_held_alone() {
     let ball = || solid("sphere", &[("position", vector(0.9, 0.0, 0.0)), ("species", number(0.0))]);
@@ -273,7 +273,7 @@ fn the_kernels_agree_with_their_twins() {
                 assert!(verdict.worst < 3.0 && !verdict.spilled, "{shape}, {name}: {verdict:?}");
                 met += usize::from(verdict.kernel.starts_with("solid") && verdict.changed);
             }
-            assert!(met > 0, "{shape}, {name}: it meets nobody");
+            assert!(met > 0, "{shape}, {name}: it meets no particle");
         }
     }
 }

@@ -8,9 +8,9 @@ use motes::{Gpu, Simulation, State};
 use crate::support::states::vector;
 use crate::{number, setup, solid, support};
 
-/// Who rests on a solid is where its surface is, but for what is rounded: whether it is touched there, nobody knows.
+/// Particles that rest on a solid are where its surface is, up to rounding: whether they touch it there is undecided.
 #[test]
-fn who_rests_at_the_touch_is_not_wrong() {
+fn particles_at_rest_at_the_touch_are_not_wrong() {
     let shared = support::device();
     let mut particles = State::default();
     for i in 0..64u16 {
@@ -32,5 +32,9 @@ fn who_rests_at_the_touch_is_not_wrong() {
     let verdicts = pollster::block_on(compare(simulation.backend(), &plan, 64)).expect("verdicts");
     let touch = |field: &str| verdicts.iter().find(|v| v.kernel == "solid" && v.field == field).expect("a verdict");
     assert!(verdicts.iter().all(motes::lockstep::Verdict::sound), "{verdicts:?}");
-    assert!(!touch("velocity").good() && touch("velocity").changed, "{:?}: nobody is at the touch", touch("velocity"));
+    assert!(
+        !touch("velocity").good() && touch("velocity").changed,
+        "{:?}: no particle is at the touch",
+        touch("velocity")
+    );
 }

@@ -63,10 +63,10 @@ fn momentum_is_kept_and_time_turns_back() {
     assert!(far < 1e-5 && gone > 0.1, "it was {gone} away and comes back to {far:e}");
 }
 
-/// Damping acts along springs alone: whoever falls or turns as a whole feels nothing of it.
+/// Damping acts along springs alone: a body that falls or turns as a whole is not damped.
 #[test]
 fn damping_lets_a_body_fall_and_turn() {
-    let felt = |damping: f64, velocity: &dyn Fn(DVec3) -> DVec3| {
+    let accelerated = |damping: f64, velocity: &dyn Fn(DVec3) -> DVec3| {
         let mut sheet = sheet();
         sheet.links.springs.iter_mut().for_each(|link| link.damping = damping);
         let (positions, velocities) = sheet.phase_mut();
@@ -78,13 +78,13 @@ fn damping_lets_a_body_fall_and_turn() {
     let apart = |a: &[glam::DVec4], b: &[glam::DVec4]| {
         a.iter().zip(b).map(|(a, b)| (*a - *b).truncate().length()).fold(0.0, f64::max)
     };
-    let (without, with) = (felt(0.0, &rigid), felt(50.0, &rigid));
+    let (without, with) = (accelerated(0.0, &rigid), accelerated(50.0, &rigid));
     assert!(apart(&without, &with) < 1e-9, "{:e}", apart(&without, &with));
     let breathing = |x: DVec3| rigid(x) + 0.1 * x;
-    assert!(apart(&without, &felt(50.0, &breathing)) > 1.0, "what changes its lengths feels it");
+    assert!(apart(&without, &accelerated(50.0, &breathing)) > 1.0, "what changes its lengths is damped");
 }
 
-/// Who is called what changes nothing but rounding.
+/// A change of ids changes nothing but rounding.
 #[test]
 fn names_do_not_matter() {
     let sheet = sheet();
@@ -102,7 +102,7 @@ fn names_do_not_matter() {
         let apart = (a[id as usize] - b[name(id) as usize]).length();
         assert!(apart < 1e-11 * a[id as usize].length().max(1.0), "particle {id}: {apart:e}");
     }
-    assert!((0..sheet.len()).any(|i| a[i] != b[i]), "nobody was renamed");
+    assert!((0..sheet.len()).any(|i| a[i] != b[i]), "no particle was renamed");
 }
 
 /// A rope pulls, with or without damping, and never pushes.
@@ -113,10 +113,10 @@ fn ropes_only_pull() {
         two.velocity_mut()[1] = DVec3::Y * speed;
         let rope = Link { ends: [0, 1], rest: 1.0, stiffness: 10.0, damping: 0.5, rope: true };
         two.links.springs = vec![rope];
-        let felt = accelerations(&[force("spring", &[])], &two, 0.0);
+        let got = accelerations(&[force("spring", &[])], &two, 0.0);
         let pull = (10.0 * (length - 1.0) + 0.5 * speed) * 0.5;
         let want = if pulls { pull } else { 0.0 };
-        assert!((felt[0].y - want).abs() < 1e-12 && (felt[1].y + want).abs() < 1e-12, "{length} {speed}: {felt:?}");
+        assert!((got[0].y - want).abs() < 1e-12 && (got[1].y + want).abs() < 1e-12, "{length} {speed}: {got:?}");
         two.links.springs[0].rope = false;
         let spring = accelerations(&[force("spring", &[])], &two, 0.0)[0].y;
         assert!((spring - pull).abs() < 1e-12, "a spring also pushes");
@@ -130,9 +130,9 @@ fn air_on_a_triangle() {
         let mut sail = at(&[[0.0; 3], [2.0, 0.0, 0.0], [0.0, 1.0, 0.0]], 0.5);
         sail.velocity_mut().copy_from_slice(&[DVec3::from(v); 3]);
         sail.links.triangles.push([0, 1, 2]);
-        let felt = accelerations(&[force("air", settings)], &sail, 0.0);
-        assert!(felt.iter().all(|a| *a == felt[0]), "corners bear alike");
-        felt[0].truncate() * 1.5
+        let got = accelerations(&[force("air", settings)], &sail, 0.0);
+        assert!(got.iter().all(|a| *a == got[0]), "corners bear alike");
+        got[0].truncate() * 1.5
     };
     let number = Value::Number;
     let coefficients = [("density", number(1.25)), ("drag", number(0.8)), ("lift", number(0.6))];

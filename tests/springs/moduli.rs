@@ -10,8 +10,8 @@ use crate::support::states::{accelerations, force, vector};
 /// The elastic energy after every place x has gone to (1 + ε) x.
 fn energy(mut particles: State, strain: DMat3) -> f64 {
     particles.position_mut().iter_mut().for_each(|x| *x += strain * *x);
-    let felt = accelerations(&[force("spring", &[])], &particles, 0.0);
-    felt.iter().zip(particles.mass()).map(|(a, m)| a.w * m).sum()
+    let got = accelerations(&[force("spring", &[])], &particles, 0.0);
+    got.iter().zip(particles.mass()).map(|(a, m)| a.w * m).sum()
 }
 
 /// C₁₁ and C₄₄ out of the energies of a stretch and a shear of a volume.

@@ -61,7 +61,7 @@ impl<'a> Ledger<'a> {
         }
         let what = match (noticed, known) {
             (true, None) | (false, Some(_)) => None,
-            (false, None) => Some("nobody notices it".to_owned()),
+            (false, None) => Some("no test notices it".to_owned()),
             (true, Some(k)) => Some(format!("it is noticed, although {}", self.list[k].why)),
         };
         let Mutant { line, column, old, new, .. } = mutant;

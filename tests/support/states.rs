@@ -79,21 +79,21 @@ pub fn accelerations(forces: &[Box<dyn Component>], particles: &State, time: f64
 
 /// The same in a box.
 pub fn accelerations_in(bounds: &Bounds, forces: &[Box<dyn Component>], particles: &State, time: f64) -> Vec<DVec4> {
-    felt(forces, particles, World { time, dt: 0.01, bounds: *bounds, ..World::default() }).0
+    evaluated(forces, particles, World { time, dt: 0.01, bounds: *bounds, ..World::default() }).0
 }
 
 /// The same with all that is to be known of the world; the velocities and places that the forces
 /// then allow; and what is left of the links.
-pub fn felt(
+pub fn evaluated(
     forces: &[Box<dyn Component>],
     particles: &State,
     world: World,
 ) -> (Vec<DVec4>, [Vec<DVec4>; 2], Option<Array>) {
-    felt_after(forces, particles, world, &vec![DVec4::ZERO; particles.len()])
+    evaluated_after(forces, particles, world, &vec![DVec4::ZERO; particles.len()])
 }
 
-/// The same where the particles have felt something before.
-pub fn felt_after(
+/// The same where the particles have accelerations of an evaluation before.
+pub fn evaluated_after(
     forces: &[Box<dyn Component>],
     particles: &State,
     world: World,

@@ -25,9 +25,9 @@ struct Error {
 }
 
 impl Error {
-    fn of(felt: &[Vec4], truth: &[(usize, DVec4, f64)]) -> Self {
+    fn of(got: &[Vec4], truth: &[(usize, DVec4, f64)]) -> Self {
         let error = |(i, want, _): &(usize, DVec4, f64)| {
-            (felt[*i].as_dvec4() - *want).truncate().length() / want.truncate().length()
+            (got[*i].as_dvec4() - *want).truncate().length() / want.truncate().length()
         };
         let mut all: Vec<f64> = truth.iter().map(error).collect();
         all.sort_by(f64::total_cmp);
@@ -36,7 +36,7 @@ impl Error {
     }
 }
 
-fn felt(shared: &Shared, machine: usize, bodies: &[Vec4], settings: Settings) -> Vec<Vec4> {
+fn walked(shared: &Shared, machine: usize, bodies: &[Vec4], settings: Settings) -> Vec<Vec4> {
     let walkers = walkers(shared);
     Walk::new(shared, walkers[machine % walkers.len()].1, bodies, gravity("tree", settings)).run()
 }
@@ -55,7 +55,7 @@ fn errors_of_a_sphere_are_those_of_trees() {
     let truth = direct(&bodies, SOFT, (0..16_384).step_by(11));
     let error = |theta, multipoles| {
         let settings = Settings { theta, multipoles, softening: SOFT, ..USUAL };
-        let error = Error::of(&felt(&shared, 2, &bodies, settings), &truth);
+        let error = Error::of(&walked(&shared, 2, &bodies, settings), &truth);
         println!("θ = {theta}, {multipoles}: rms {:.2e}, 99 % below {:.2e}", error.rms, error.p99);
         error
     };
@@ -86,7 +86,7 @@ fn a_thin_disk_needs_quadrupoles() {
     let truth = direct(&bodies, SOFT, (0..16_384).step_by(17));
     let [quadrupole, monopole] = ["quadrupole", "monopole"].map(|multipoles| {
         let settings = Settings { multipoles, softening: SOFT, ..USUAL };
-        Error::of(&felt(&shared, 2, &bodies, settings), &truth)
+        Error::of(&walked(&shared, 2, &bodies, settings), &truth)
     });
     assert!(10.0 * quadrupole.rms < monopole.rms, "{quadrupole:?} {monopole:?}");
 }
@@ -112,9 +112,9 @@ fn errors_of_sets_that_are_far_from_a_sphere_are_octupoles() {
     let theta: f64 = 0.5;
     let worst = |bodies: &[Vec4], machine, multipoles| {
         let settings = Settings { softening: 0.01, theta, multipoles, ..USUAL };
-        let felt = felt(&shared, machine, bodies, settings);
+        let got = walked(&shared, machine, bodies, settings);
         direct(bodies, 0.01, (0..bodies.len()).step_by(3)).iter().fold([0.0_f64; 2], |worst, (i, want, pulls)| {
-            let apart = felt[*i].as_dvec4() - *want;
+            let apart = got[*i].as_dvec4() - *want;
             let pull = apart.truncate().length() / pulls.max(f64::MIN_POSITIVE);
             [worst[0].max(pull), worst[1].max(apart.w.abs() / want.w.abs())]
         })
@@ -145,21 +145,21 @@ fn runs_give_the_same_bits_and_walks_agree() {
     let truth = direct(&bodies, SOFTENING, 0..count);
     let mut first: Vec<Vec4> = Vec::new();
     for machine in 0..walkers(&shared).len() {
-        let [felt, again] = [(); 2].map(|()| felt(&shared, machine, &bodies, USUAL));
-        assert!(bytemuck::cast_slice::<_, u8>(&felt) == bytemuck::cast_slice::<_, u8>(&again), "a rerun differs");
+        let [got, again] = [(); 2].map(|()| walked(&shared, machine, &bodies, USUAL));
+        assert!(bytemuck::cast_slice::<_, u8>(&got) == bytemuck::cast_slice::<_, u8>(&again), "a rerun differs");
         if first.is_empty() {
-            first.clone_from(&felt);
+            first.clone_from(&got);
         }
         // 1500 are met: √1500 roundings by half an epsilon. The worst seen is 4.5e-7.
-        assert!(apart(&first, &felt) < 2.3e-6, "walks do not agree: {:e}", apart(&first, &felt));
+        assert!(apart(&first, &got) < 2.3e-6, "walks do not agree: {:e}", apart(&first, &got));
         // Errors of 3e-4, alike within a group of 32, add up by chance: to √(32 / 5001) of that. Seen: 1.2e-5.
         let error = 3e-4 * (32.0 / count as f64).sqrt();
-        let pushes = (0..count).map(|i| felt[i].as_dvec4().truncate() * f64::from(bodies[i].w));
+        let pushes = (0..count).map(|i| got[i].as_dvec4().truncate() * f64::from(bodies[i].w));
         let (sum, sizes) = pushes.fold((DVec3::ZERO, 0.0), |(sum, size), push| (sum + push, size + push.length()));
         assert!(sum.length() < 2.0 * error * sizes, "momentum {:e}", sum.length() / sizes);
         // A potential's octupole is a quarter of the pull's. Seen: 5.4e-6.
         let energy = |of: &dyn Fn(usize) -> f64| (0..count).map(|i| of(i) * f64::from(bodies[i].w)).sum::<f64>();
-        let (got, want) = (energy(&|i| f64::from(felt[i].w)), energy(&|i| truth[i].1.w));
-        assert!((got / want - 1.0).abs() < 0.5 * error, "energy {:e}", got / want - 1.0);
+        let (energy, want) = (energy(&|i| f64::from(got[i].w)), energy(&|i| truth[i].1.w));
+        assert!((energy / want - 1.0).abs() < 0.5 * error, "energy {:e}", energy / want - 1.0);
     }
 }

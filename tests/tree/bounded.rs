@@ -85,9 +85,9 @@ fn bodies(places: &[DVec3]) -> Vec<Vec4> {
 }
 
 /// How many times the average the target meets that meets the most, and that average.
-fn spread(walk: &mut Walk, bodies: &[Vec4], felt: &[Vec4]) -> (f32, f32) {
+fn spread(walk: &mut Walk, bodies: &[Vec4], last: &[Vec4]) -> (f32, f32) {
     walk.simulation.write(POSITION, bodies).expect("bodies");
-    walk.simulation.write(ACCELERATION, felt).expect("what they felt");
+    walk.simulation.write(ACCELERATION, last).expect("their last accelerations");
     let met: Vec<f32> = walk.run().iter().map(|met| met.x + met.y).collect();
     let mean = met.iter().map(|met| f64::from(*met)).sum::<f64>() / met.len() as f64;
     (met.iter().fold(0.0_f32, |most, met| most.max(*met)) / mean as f32, mean as f32)
@@ -116,10 +116,10 @@ fn no_group_meets_ten_times_the_average() {
             }
             let pulls = pulls.as_mut().expect("gravity");
             pulls.simulation.write(POSITION, &bodies).expect("bodies");
-            let felt = pulls.run();
+            let last = pulls.run();
             pollster::block_on(pulls.simulation.check()).expect("no size, seed or shape ends a run");
             for (walk, opening) in counters.iter_mut().zip([GEOMETRIC, RELATIVE]) {
-                let (ratio, mean) = spread(walk, &bodies, &felt);
+                let (ratio, mean) = spread(walk, &bodies, &last);
                 println!("{shape}, seed {seed}, {opening}: {ratio:.2} times {mean:.0}");
                 assert!(ratio <= 10.0, "{shape}, seed {seed}, {opening}: a group meets {ratio:.1} times {mean:.0}");
             }

@@ -154,25 +154,25 @@ fn leaves_and_levels_part_the_bodies() {
     }
 }
 
-/// The weakest of a group decides, and who has felt nothing leaves it to the other criterion. Where pulls cancel, a part of
+/// The weakest of a group decides, and a particle without acceleration leaves it to the other criterion. Where pulls cancel, a part of
 /// their sizes is what counts: 64 roundings of half an epsilon. A length of three roots is wrong by four or less, a quotient by
 /// two and a half.
 #[test]
-fn groups_demand_by_whoever_felt_the_least() {
+fn groups_demand_by_their_smallest_acceleration() {
     let shared = support::device();
     let count = 999;
     for (scale, left) in [(1.0, 1.0), (1e-25, 1.0), (1e18, 1.0), (1.0, 0.05), (1e-20, 1e-5)] {
         let scaled = |a: Vec4| (scale * a.as_dvec4()).as_vec4();
-        let mut felt: Vec<Vec4> = cloud(count, 12).into_iter().map(|a| left as f32 * scaled(a)).collect();
-        felt[500] = Vec4::ZERO.with_w(1.0);
-        felt[600].x = 0.0;
+        let mut last: Vec<Vec4> = cloud(count, 12).into_iter().map(|a| left as f32 * scaled(a)).collect();
+        last[500] = Vec4::ZERO.with_w(1.0);
+        last[600].x = 0.0;
         let bodies: Vec<Vec4> = cloud(count, 2).into_iter().map(|b| b.truncate().extend(scaled(b).w)).collect();
-        let mut built = Built::new(&shared, &bodies, &felt, RELATIVE, 0.0, MACHINES[0]).run();
+        let mut built = Built::new(&shared, &bodies, &last, RELATIVE, 0.0, MACHINES[0]).run();
         let host = built.host();
         let nodes = Nodes::of(&built.tree, &host).expect("a tree");
         let (mut quiet, mut cancelled) = (0, 0);
         for (g, ids) in nodes.ids().chunks(GROUP as usize).enumerate() {
-            let sizes = ids.iter().map(|id| felt[*id as usize].as_dvec4().truncate().length());
+            let sizes = ids.iter().map(|id| last[*id as usize].as_dvec4().truncate().length());
             let least = sizes.fold(f64::INFINITY, f64::min);
             let place = nodes.bodies()[g * GROUP as usize].truncate();
             let pull = |n| nodes.mass(n) / (nodes.center(n).distance_squared(place) + nodes.length(n).powi(2));
@@ -194,7 +194,7 @@ const FIELDS: [&str; 7] = ["tree_id", "tree_body", "tree_center", "tree_mass", "
 fn runs_give_the_same_bits_and_ids_do_not_matter() {
     let shared = support::device();
     for machine in MACHINES {
-        // Of a cusp's middle many are in one cell, each elsewhere: there ids decide who comes first.
+        // Of a cusp's middle many are in one cell, each elsewhere: there ids decide the order.
         for (name, bodies) in awkward(777).into_iter().filter(|(name, _)| *name != "in a cusp") {
             let run = |bodies: &[Vec4]| {
                 let mut built = Built::new(&shared, bodies, &[], GEOMETRIC, 0.1, machine).run();
@@ -202,7 +202,7 @@ fn runs_give_the_same_bits_and_ids_do_not_matter() {
             };
             let first = run(&bodies);
             assert!(first == run(&bodies), "{name}: a rerun differs");
-            // Those at one place, of one mass: whoever of them is first, the sums are the same.
+            // Particles at one place, of one mass: in any order the sums are the same.
             let turned: Vec<_> = (0..777).map(|i| bodies[i * 100 % 777]).collect();
             let second = run(&turned);
             assert!(first[1..] == second[1..], "{name}: another order differs");

@@ -43,7 +43,7 @@ fn an_opening_angle_is_above_0_and_1_at_most() {
     }
 }
 
-/// What no device here holds can still be planned; of nobody there is nothing to walk.
+/// What no device here holds can still be planned; without particles there is nothing to walk.
 #[test]
 fn plans_for_none_and_for_the_most() {
     for machine in [true, false].map(|software| Machine { software, subgroup: 8, invocations: 1, ..Machine::HOST }) {

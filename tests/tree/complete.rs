@@ -1,4 +1,4 @@
-//! Nobody is forgotten and nobody is met twice: a law that adds up the mass it sees, in whole numbers, which f32 holds.
+//! No particle is left out and none is met twice: a law that adds up the mass it sees, in whole numbers, which f32 holds.
 
 use glam::{DVec3, Vec4};
 use motes::forces::{Law, Over, Particle};
@@ -40,7 +40,7 @@ pub fn weighed(mut bodies: Vec<Vec4>, heavy: bool) -> Vec<Vec4> {
     bodies
 }
 
-/// Bodies a few roundings apart: those that hold a group are told by their places, not by their sizes.
+/// Bodies a few roundings apart: those that hold a group are recognised by their places, not by their sizes.
 fn roundings() -> Vec<Vec4> {
     let mut random = Random::new(16);
     let mut place = || (1e6 + 0.0625 * (3.0 * random.next()).round()) as f32;
@@ -54,12 +54,12 @@ pub fn complete(of: &str, walk: &mut Walk, bodies: &[Vec4]) -> f32 {
         assert_eq!((a.x, a.z), (total - me.w, me.w), "{of}: {i} of {} sees another mass", bodies.len());
     }
     let others = bodies.iter().filter(|b| b.w > 0.0).count() as f32 - 1.0;
-    assert!(seen.iter().all(|a| a.y <= others + 1.0), "{of}: somebody is met twice");
+    assert!(seen.iter().all(|a| a.y <= others + 1.0), "{of}: a particle is met twice");
     seen.iter().map(|a| a.y).sum::<f32>() / bodies.len() as f32 / others.max(1.0)
 }
 
 #[test]
-fn everybody_sees_everybody_else_once() {
+fn every_pair_is_met_once() {
     let shared = support::device();
     for (name, machine) in walkers(&shared) {
         for (turn, (set, bodies)) in awkward(1111).into_iter().enumerate() {
@@ -73,7 +73,7 @@ fn everybody_sees_everybody_else_once() {
         let crowd = weighed(roundings(), false);
         let mut walk = Walk::new(&shared, machine, &crowd, Box::new(Alone(counted(over(1.0)))));
         let met = complete(&format!("{name}, a few roundings apart"), &mut walk, &crowd);
-        assert!(met < 0.9, "{name}: nobody is far");
+        assert!(met < 0.9, "{name}: no group is far");
         let mut last = 2.0;
         for theta in [0.3, 0.5, 0.7, 1.0] {
             let bodies = weighed(crate::sets::cloud(4099, 11), true);
@@ -95,13 +95,13 @@ fn everybody_sees_everybody_else_once() {
 fn so_they_do_by_any_opening() {
     let shared = support::device();
     let mut random = Random::new(14);
-    let felt: Vec<Vec4> = (0..1030).map(|_| random.vector().extend(0.0).as_vec4()).collect();
+    let last: Vec<Vec4> = (0..1030).map(|_| random.vector().extend(0.0).as_vec4()).collect();
     let bodies = weighed(crate::sets::cloud(1030, 13), true);
     for (name, machine) in walkers(&shared) {
         let relative = Opening::Relative { alpha: 0.01, g: 1e-7, theta: 0.6 };
         for (opening, core) in [(relative, 0.0), (relative, 0.4), (Opening::Geometric { theta: 1.0 }, 0.4)] {
             let law = counted(Over::Tree { opening, core, auto: false });
-            let mut walk = Walk::new(&shared, machine, &bodies, Box::new(Alone(law))).felt(&felt);
+            let mut walk = Walk::new(&shared, machine, &bodies, Box::new(Alone(law))).after(&last);
             complete(&format!("{name}, {opening}, core {core}"), &mut walk, &bodies);
         }
     }
@@ -137,6 +137,6 @@ fn padding_and_oneself_are_not_met() {
             met.push(met_beyond(0.0));
         }
         assert!(met.windows(2).all(|walks| walks[0] == walks[1]), "{count}: walks do not meet the same");
-        assert!(count < 333 || met[0].iter().any(|met| met.x > 0.0), "{count}: nobody is far");
+        assert!(count < 333 || met[0].iter().any(|met| met.x > 0.0), "{count}: no group is far");
     }
 }

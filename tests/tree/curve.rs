@@ -16,7 +16,7 @@ fn cells() -> impl Iterator<Item = IVec3> {
     (0..SIDE.pow(3)).map(|k| IVec3::new(k % SIDE, k / SIDE % SIDE, k / SIDE / SIDE))
 }
 
-/// Who follows whom stands beside it.
+/// Whether each lies beside the one before it.
 fn touches(path: &[IVec3]) -> bool {
     path.windows(2).all(|pair| (pair[0] - pair[1]).abs().element_sum() == 1)
 }
@@ -55,7 +55,7 @@ fn the_device_goes_the_same_way() {
 fn keys(bodies: &[Vec4], cube: Vec4) -> Vec<u64> {
     let key = |b: &Vec4| {
         let away = (b.truncate() - cube.truncate()) * cube.w;
-        #[expect(clippy::cast_sign_loss, reason = "nobody stands below the corner")]
+        #[expect(clippy::cast_sign_loss, reason = "no body stands below the corner")]
         hilbert(away.to_array().map(|x| (x as u32).min(LAST)))
     };
     bodies.iter().map(key).collect()
@@ -98,7 +98,7 @@ fn any_number_has_a_place() {
             let ids = built.read::<u32>("tree_id");
             let mut all = ids.clone();
             all.sort_unstable();
-            assert!(all.iter().copied().eq(0..97), "{x} among {among}: somebody is lost");
+            assert!(all.iter().copied().eq(0..97), "{x} among {among}: a body is lost");
             let program = built.gpu.compile(&built.plan).expect("a program");
             built.gpu.run(&program, 1).expect("a run");
             assert_eq!(built.read::<u32>("tree_id"), ids, "{x} among {among}");

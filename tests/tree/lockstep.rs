@@ -24,12 +24,12 @@ fn settings() -> Vec<Settings> {
     all
 }
 
-/// What they felt last, some of them nothing.
-fn felt(count: usize) -> Vec<Vec4> {
+/// Accelerations of the step before, some of them zero.
+fn last(count: usize) -> Vec<Vec4> {
     let mut random = Random::new(3);
-    let mut felt: Vec<Vec4> = (0..count).map(|_| random.vector().extend(random.next()).as_vec4()).collect();
-    felt.iter_mut().skip(100).step_by(97).for_each(|a| *a = Vec4::ZERO);
-    felt
+    let mut last: Vec<Vec4> = (0..count).map(|_| random.vector().extend(random.next()).as_vec4()).collect();
+    last.iter_mut().skip(100).step_by(97).for_each(|a| *a = Vec4::ZERO);
+    last
 }
 
 fn agrees(walk: &mut Walk, of: &str, count: usize) {
@@ -46,7 +46,7 @@ fn each_walk_agrees_with_its_twin_at_every_size() {
         for (turn, (name, machine)) in walkers(&shared).into_iter().enumerate() {
             let settings = settings[(case + 3 * turn) % settings.len()];
             let law = gravity("tree", settings);
-            let mut walk = Walk::new(&shared, machine, &cloud(count, 2), law).felt(&felt(count));
+            let mut walk = Walk::new(&shared, machine, &cloud(count, 2), law).after(&last(count));
             agrees(&mut walk, &format!("{name}, {settings:?}"), count);
         }
     }
@@ -59,7 +59,7 @@ fn each_law_agrees_with_its_twin() {
     for settings in settings() {
         for (name, machine) in walkers(&shared) {
             let law = gravity("tree", settings);
-            let mut walk = Walk::new(&shared, machine, &cloud(count, 4), law).felt(&felt(count));
+            let mut walk = Walk::new(&shared, machine, &cloud(count, 4), law).after(&last(count));
             agrees(&mut walk, &format!("{name}, {settings:?}"), count);
         }
     }

@@ -48,7 +48,7 @@ pub fn awkward(count: usize) -> Vec<(&'static str, Vec<Vec4>)> {
     ]
 }
 
-/// A device with bodies and what they felt last, and a tree over them, not yet built.
+/// A device with bodies and their last accelerations, and a tree over them, not yet built.
 pub struct Built {
     pub gpu: Gpu,
     pub tree: Tree,
@@ -57,7 +57,7 @@ pub struct Built {
 }
 
 impl Built {
-    pub fn new(shared: &Shared, bodies: &[Vec4], felt: &[Vec4], opening: Opening, core: f64, machine: Machine) -> Self {
+    pub fn new(shared: &Shared, bodies: &[Vec4], last: &[Vec4], opening: Opening, core: f64, machine: Machine) -> Self {
         let count = u32::try_from(bodies.len()).expect("few");
         let mut gpu = machines::gpu(shared, bodies.len());
         gpu.pretend(machine);
@@ -68,8 +68,8 @@ impl Built {
         gpu.compile(&plan).expect("a program");
         gpu.set_world(World { count, ..World::default() }).expect("a world");
         gpu.write_bytes(POSITION.name, 0, bytemuck::cast_slice(bodies)).expect("bodies");
-        if !felt.is_empty() && matches!(opening, Opening::Relative { .. }) {
-            gpu.write_bytes(ACCELERATION.name, 0, bytemuck::cast_slice(felt)).expect("what they felt");
+        if !last.is_empty() && matches!(opening, Opening::Relative { .. }) {
+            gpu.write_bytes(ACCELERATION.name, 0, bytemuck::cast_slice(last)).expect("their last accelerations");
         }
         Self { gpu, tree, plan, count }
     }

@@ -1,4 +1,4 @@
-//! Where a driver ends loops after so many turns, walks go on in other dispatches: nothing is lost, and nobody is met twice.
+//! Where a driver ends loops after so many turns, walks go on in other dispatches: nothing is lost, and no particle is met twice.
 
 use motes::Error;
 use motes::kernel::Machine;

@@ -106,9 +106,9 @@ impl Walk {
         simulation.backend().compile(&plan).expect("a program");
         Self { simulation, plan, count }
     }
-    /// The same after everybody has felt something: what a relative opening asks for.
-    pub fn felt(mut self, felt: &[Vec4]) -> Self {
-        self.simulation.write(ACCELERATION, felt).expect("what they felt");
+    /// The same after an evaluation with these accelerations, which a relative opening needs.
+    pub fn after(mut self, last: &[Vec4]) -> Self {
+        self.simulation.write(ACCELERATION, last).expect("their last accelerations");
         self
     }
     /// The passes that walk.
@@ -136,7 +136,7 @@ impl Walk {
         *passes = machines::parts(&passes[0], count, targets);
         self
     }
-    /// What everybody feels.
+    /// The accelerations of all bodies.
     pub fn run(&mut self) -> Vec<Vec4> {
         let program = self.simulation.backend().compile(&self.plan).expect("a program");
         self.simulation.backend().run(&program, 1).expect("a run");
@@ -151,10 +151,10 @@ impl Walk {
     }
 }
 
-/// What some targets feel of everybody by Plummer's law, and the sum of the sizes of all pulls on each, in f64.
+/// Accelerations of some targets by direct summation of Plummer's law, and the sum of the sizes of all pulls on each, in f64.
 pub fn direct(bodies: &[Vec4], softening: f64, targets: impl Iterator<Item = usize>) -> Vec<(usize, DVec4, f64)> {
     let all: Vec<DVec4> = bodies.iter().map(|b| b.as_dvec4()).collect();
-    let felt = |i: usize| {
+    let acceleration = |i: usize| {
         let mut pulls = 0.0;
         let mut sum = DVec4::ZERO;
         for (_, you) in all.iter().enumerate().filter(|(j, _)| *j != i) {
@@ -166,5 +166,5 @@ pub fn direct(bodies: &[Vec4], softening: f64, targets: impl Iterator<Item = usi
         }
         (i, sum, pulls)
     };
-    targets.map(felt).collect()
+    targets.map(acceleration).collect()
 }

@@ -39,7 +39,7 @@ fn dispatches_fold_over_two_dimensions() {
     }
 }
 
-/// Cut into many dispatches, in one layer or more, everybody still meets everybody; in one layer even to the bit.
+/// Cut into many dispatches, in one layer or more, all pairs are still evaluated; in one layer even to the bit.
 #[test]
 fn cuts_change_no_bit() {
     let shared = support::device();

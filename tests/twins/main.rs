@@ -88,7 +88,7 @@ fn every_law_alone() {
                     let mut step = Step::new(&law, problem.clone());
                     step.evaluate();
                     let mut plan = step.finished().expect("a plan");
-                    // Back to where they began: what pushes away leaves nobody to be pushed, and what brakes in steps as long
+                    // Back to where they began: repulsion leaves no pairs in range, and what brakes in steps as long
                     // as these throws them away.
                     let places = cloud.position().iter().zip(cloud.mass()).map(|(x, m)| x.extend(*m).as_vec4());
                     simulation.write(POSITION, &places.collect::<Vec<_>>()).expect("places");
@@ -105,7 +105,7 @@ fn every_law_alone() {
                         }
                         simulation.write(VELOCITY, &velocity).expect("velocities");
                     }
-                    // Alone in the world, nobody attracts; a few may be too far, or of other species.
+                    // Alone in the world, nothing attracts; a few may be too far, or of other species.
                     let idle = |v: &Verdict| {
                         v.field == "alarm" || v.kernel == "clear" || if pairs { count == 1 } else { count < 333 }
                     };

@@ -56,7 +56,7 @@ fn says(text: &str, sets: &[&str], code: i32, words: &[&str]) {
 }
 
 #[test]
-fn steps_that_are_too_long_are_told_or_refused() {
+fn steps_that_are_too_long_are_remarked_on_or_refused() {
     // 2 / ω of the lattice: 0.945 (0.1 / 40) 2, less what alpha takes.
     says(DAM, &[], 0, &["  steps        dt = 0.001 is 0.2", "of the largest that sound bears, 0.004"]);
     says(DAM, &["simulation.dt=0.0047"], 0, &["note: this run may explode", "the largest dt that is safe is 0.00"]);
@@ -125,7 +125,7 @@ fn a_solid_leaves_its_thickness_free() {
 }
 
 #[test]
-fn density_that_is_hidden_by_continuity_is_told() {
+fn density_that_is_hidden_by_continuity_is_remarked_on() {
     let continuity = "force.1.density_by=continuity";
     says(
         DAM,
@@ -147,7 +147,7 @@ fn density_that_is_hidden_by_continuity_is_told() {
 }
 
 #[test]
-fn parts_that_say_different_things_are_told() {
+fn contradicting_parts_are_remarked_on() {
     says(DAM, &["particles.1.spacing=0.2"], 0, &["[[particles]] has spacing = 0.2, and its fluid spacing = 0.1"]);
     says(
         DAM,

@@ -93,7 +93,7 @@ fn its_front_is_where_it_was_measured() {
             points.len() >= 8 && square < 2.0f64.sqrt() * APART && most < 2.5 * APART,
             "{sources}: {square} {most}"
         );
-        // Nobody draws a gate away or melts a diaphragm: if anything, it is ahead.
+        // No gate is drawn away, no diaphragm melts: if anything, the front is ahead.
         assert!((-0.02..APART).contains(&mean), "{sources}: {mean}");
     }
     for pair in dam.front.windows(2) {

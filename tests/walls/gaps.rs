@@ -6,7 +6,7 @@ use motes::{Gpu, Simulation};
 
 use crate::{made, number, setup, support, vector};
 
-/// Published by nobody: the sums over the lattice, done elsewhere with a kernel whose sum over the lattice is not quite 1 (1.0018
+/// Not published: the sums over the lattice, done elsewhere with a kernel whose sum over the lattice is not quite 1 (1.0018
 /// at 3 spacings in 3 dimensions, 1.0034 in 2): at a slope of 1 to 2 in density by spacing that moves the gap by up to 0.005.
 #[test]
 fn it_is_what_the_sum_over_the_lattice_says() {

@@ -1,4 +1,4 @@
-//! Nobody leaves.
+//! No particle leaves.
 
 use glam::DVec3;
 use motes::fluids::{Smoothing, gap};
@@ -23,7 +23,7 @@ fn walls_of_particles_leak_nothing() {
          [[force]]\nkind = \"fluid\"\nspacing = 0.1\nsound_speed = 62.6\nalpha = 0.02\n",
     );
     setup.start().expect("a good start");
-    // Walls stand so far behind the face, and who is before them is in: what is pressed to them comes near.
+    // Walls stand so far behind the face, and a particle before them is in: what is pressed to them comes near.
     let margin = 0.1 * (gap(Smoothing::Cubic, 2.0, 1, 3) - 0.5);
     let (mut top, mut right) = (0.0f64, 0.0f64);
     watched(&setup, 50, |time, places| {
@@ -37,7 +37,7 @@ fn walls_of_particles_leak_nothing() {
     assert!(right > 1.9 && top > 2.0, "{right} {top}");
 }
 
-/// The same in a solid, which puts back whoever is in it; and in one with walls of particles before it.
+/// The same in a solid, which puts back every particle in it; and in one with walls of particles before it.
 #[test]
 fn solids_leak_nothing() {
     let text = |walls: &str, thickness: f64| {
@@ -65,7 +65,7 @@ fn solids_leak_nothing() {
     }
 }
 
-/// Splash is faster than the flow, and goes where nobody thought it would: what we show ends with none out of its box.
+/// Splash is faster than the flow, and goes anywhere: what we show ends with none out of its box.
 #[test]
 fn splash_stays_in_the_box_of_what_we_show() {
     let readme =
@@ -89,7 +89,7 @@ fn splash_stays_in_the_box_of_what_we_show() {
 
 /// The paddle of the wave tank goes where its motion says, the water goes along with it, and stays before it.
 #[test]
-fn a_paddle_makes_waves_and_lets_nobody_by() {
+fn a_paddle_makes_waves_and_lets_no_particle_by() {
     let setup = builtin("wave_tank", &["force.1.spacing=0.0625", "simulation.dt=0.001", "particles.0.jitter=0.05"]);
     let count = 64 * 8;
     let (paddle, motion) =

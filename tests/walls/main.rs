@@ -1,4 +1,4 @@
-//! What fluids stand in: walls of particles at the gap that leaves a fluid at rest, starts that are refused, nobody who leaks,
+//! What fluids stand in: walls of particles at the gap that leaves a fluid at rest, starts that are refused, no leaks,
 //! and a dam that breaks as measured.
 
 mod calm;
@@ -7,11 +7,11 @@ mod dam;
 mod gaps;
 mod leaks;
 mod meshes;
+mod remarks;
 mod shapes;
 mod starts;
 #[path = "../support/mod.rs"]
 mod support;
-mod told;
 
 use std::path::PathBuf;
 
@@ -70,7 +70,7 @@ fn builtin(name: &str, overrides: &[&str]) -> Setup {
     setup_of(Scene::load(&source, &overrides, &Options::default()).unwrap_or_else(|faults| panic!("{faults}")))
 }
 
-/// Places of all, every so many steps, until nobody wants to see more.
+/// Places of all, every so many steps, until `look` has seen enough.
 fn watched(setup: &Setup, every: u32, mut look: impl FnMut(f64, &[DVec3]) -> bool) {
     let shared = support::device();
     let gpu = Gpu::new(&shared.found.device, &shared.found.queue, setup.check().expect("a setup")).expect("room");

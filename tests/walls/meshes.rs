@@ -89,7 +89,7 @@ fn a_finer_mesh_of_the_same_gives_as_many() {
 }
 
 #[test]
-fn what_is_wrong_is_told_with_its_line() {
+fn faults_of_a_mesh_name_their_lines() {
     for (text, words) in [
         ("v 0 0\n", "line 1: a vertex has three numbers, not 2"),
         ("v 0 0 0\nv 1 x 0\n", "line 2: `x` is no finite number"),

@@ -56,7 +56,7 @@ fn a_tank_is_a_hull_without_doubles() {
         made("tank", &[("size", vector(0.5, 0.7, 0.0)), ("spacing", number(d)), ("open", word("+y"))]).expect("a tank");
     assert_eq!(flat.len(), 2 * 7 + 5 + 2);
     assert!(flat.position().iter().all(|x| x.z == 0.0));
-    // A slip of the pen is told before it fills the memory.
+    // A slip of the pen is refused before it fills the memory.
     let many = made("tank", &[("size", vector(9.0, 9.0, 9.0)), ("spacing", number(1e-5))]);
     assert!(many.expect_err("many").to_string().contains("100000000 are the most"));
 }

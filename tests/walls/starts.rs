@@ -137,14 +137,14 @@ fn the_bound_is_where_it_says() {
     // Tait: B ((ρ/ρ₀)^7 − 1), B = ρ₀ c² / 7.
     let wanted = 1000.0 * 400.0 / 7.0 * (1.169f64.powi(7) - 1.0);
     assert!((start.pressure() / wanted - 1.0).abs() < 1e-9, "{} {wanted}", start.pressure());
-    // Who is led is of a wall, whatever it weighs.
+    // Particles with a prescribed motion are walls, whatever they weigh.
     assert_eq!((start.fluid, start.walls), (216, 0));
 }
 
 /// A cube of 8³ in a box that it fills, of masses e more than at rest, is everywhere at 1 + e: what fills 512 d³ wants 512 (1 + e) d³ at
 /// rest, and leaves by faces of 6 · 64 d², so that the fastest moves 4/3 e spacings: 0.4 of them where e is 0.3.
 #[test]
-fn where_pressure_is_solved_for_nobody_may_have_to_go_too_far() {
+fn starts_whose_projection_moves_particles_too_far_are_refused() {
     let dense = |ratio: f64, flat: bool| {
         let (size, box_size) = if flat { ("0.8, 0.8, 0", "0.8, 0.8, 0") } else { ("0.8, 0.8, 0.8", "0.8, 0.8, 0.8") };
         let density = 1000.0 * ratio;

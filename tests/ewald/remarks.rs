@@ -17,7 +17,7 @@ fn check(set: &[&str]) -> (bool, String) {
 }
 
 #[test]
-fn images_that_are_left_out_are_told() {
+fn images_that_are_left_out_are_remarked_on() {
     let (good, text) = check(&["force.0.images=\"nearest\""]);
     assert!(good && text.contains("all other images are left out") && text.contains("images = \"ewald\""), "{text}");
     let (good, text) = check(&["force.0.images=\"ewald\""]);
@@ -25,7 +25,7 @@ fn images_that_are_left_out_are_told() {
 }
 
 #[test]
-fn a_box_in_its_way_is_told() {
+fn a_box_that_does_not_fit_is_refused() {
     let (good, text) = check(&["force.0.images=\"ewald\"", "box.size=[6, 6, 5]"]);
     assert!(!good && text.contains("z periodic from -3 to 2"), "{text}");
 }

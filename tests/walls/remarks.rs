@@ -41,7 +41,7 @@ const SOLVED: [&str; 4] = ["--set", "force.1.solver=\"dfsph\"", "--set", "simula
 #[test]
 fn check_tells_of_a_fluid_that_is_solved_for() {
     // 0.4 of 0.2 in 0.001, and in 0.02.
-    for (dt, bears, told) in [("0.001", "80.0000", false), ("0.02", "4.0000", true)] {
+    for (dt, bears, remarked) in [("0.001", "80.0000", false), ("0.02", "4.0000", true)] {
         let few = ["--backend", "cpu", "--set", "force.1.spacing=0.2", "--set", &format!("simulation.dt={dt}")];
         let (code, out, err) = motes(&[&["check", "dam_break_2d"][..], &few, &SOLVED].concat());
         assert_eq!(code, 0, "{out}{err}");
@@ -52,7 +52,7 @@ fn check_tells_of_a_fluid_that_is_solved_for() {
             assert!(out.contains(words), "no `{words}` in\n{out}");
         }
         // 0.4 of 0.2 at √(2 · 9.81 · 2).
-        assert!(out.contains("choose 1.277e-2") == told && !out.contains("speed of sound is"), "{out}");
+        assert!(out.contains("choose 1.277e-2") == remarked && !out.contains("speed of sound is"), "{out}");
     }
 }
 
@@ -73,7 +73,7 @@ fn check_and_run_refuse_what_would_explode() {
     assert!(!folder.path().join("out").exists(), "refused before anything is written");
 }
 
-/// A fluid keeps what its pressure keeps; who rubs, or has no energy for its surface, is not said to.
+/// A fluid keeps what its pressure keeps; one with friction, or without an energy of its surface, is not said to.
 #[test]
 fn what_a_fluid_keeps_is_claimed_and_nothing_else() {
     let folder = tempfile::tempdir().expect("a folder");

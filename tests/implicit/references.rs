@@ -32,7 +32,7 @@ fn a_step_of_a_cloth() {
             for link in &mut particles.links.springs {
                 link.damping = 0.7;
             }
-            // Who has no mass is solved alone.
+            // A particle without mass is solved alone.
             let last = particles.len() - 1;
             particles.mass_mut()[last] = 0.0;
             let count = u32::try_from(particles.len()).expect("few");
