@@ -6,7 +6,7 @@ Usage: python3 benches/salva/compare.py [TURNS]
 Build both first: `cargo build --release` here and in `benches/salva` (or say where they are in MOTES and SALVA). Wants numpy and
 scipy. Each solves for pressure at the same steps, to the same mean error of the density, in one iteration
 or more; motes also takes the scene's own steps, by an equation of state, to the same time. What is measured of the density is the same for both:
-the sum of masses with the cubic spline of a reach of two spacings, over its sum on a lattice at rest, of those who are farther from
+the sum of masses with the cubic spline of a reach of two spacings, over its sum on a lattice at rest, of those that are farther from
 walls than that; its mean excess, and the front of the water.
 """
 

@@ -7,7 +7,7 @@ use glam::{DQuat, DVec3};
 use super::{Held, Hold, Keyframe, Motion};
 use crate::error::Error;
 
-/// The steps between two times of a motion are told apart by sign, in 32 bits.
+/// The steps between two times of a motion are counted with a sign, in 32 bits.
 const MOST_STEPS: f64 = 2e9;
 /// By how much the first and the last pose of a motion that repeats may differ: degrees written with some digits.
 const SAME: f64 = 1e-6;

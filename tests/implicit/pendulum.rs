@@ -42,7 +42,7 @@ fn golden_row_of_linear_backward_euler() {
     // Two unknowns are solved exactly by two iterations; one is enough only where a part of 1e-6 is left of a change of
     // about a tenth of a metre per second, a few times in a hundred steps.
     let by_twins = error(x[0].truncate(), v[0].truncate());
-    assert!(by_twins < 1e-7, "the twins are off by {by_twins:e}");
+    assert!(by_twins < 1e-7, "the references are off by {by_twins:e}");
 
     let shared = support::device();
     let mut device = on_device(&shared, &setup);

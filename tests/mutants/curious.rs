@@ -4,7 +4,7 @@ use glam::{DVec3, DVec4};
 use motes::forces::{Law, Over, Particle};
 use motes::kernel::{Source, World};
 
-/// Who is not put into a filtered grid.
+/// The species that is not put into a filtered grid.
 pub const OTHERS: u32 = 1;
 
 /// A law that looks at everything that a visit passes to it, and vanishes at no edge.

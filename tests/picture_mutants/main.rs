@@ -60,7 +60,7 @@ fn noticed(stages: &mut [&Stage], file: &str, mutant: &Mutant) -> bool {
 /// The shaders as they are agree with their references.
 fn agree<'a>(stages: impl Iterator<Item = &'a Stage>) {
     for stage in stages {
-        assert!(stage.good(&stage.kernel), "{}: the shader as it is does not agree with its twin", stage.name);
+        assert!(stage.good(&stage.kernel), "{}: the shader as it is does not agree with its reference", stage.name);
     }
 }
 

@@ -106,7 +106,7 @@ pub fn stages(scene: &Scene, canvas: &Canvas) -> Vec<Stage> {
     let count = scene.picture.frame.count;
     let mut cpu = Cpu::new(count).expect("some particles");
     for plan in &plans {
-        cpu.compile(plan).expect("twins");
+        cpu.compile(plan).expect("references");
         canvas.borrow_mut().compile(plan).expect("a good plan");
     }
     let mut random = Random::new(29);
@@ -137,7 +137,7 @@ pub fn stages(scene: &Scene, canvas: &Canvas) -> Vec<Stage> {
         let fields: Vec<_> = fields.filter(|n| cpu.host().contains(n)).collect();
         let look = |cpu: &Cpu, name: &String| (name.clone(), cpu.host().get(name).expect("a field"));
         let given = fields.iter().map(|name| look(&cpu, name)).collect();
-        kernel.twin.as_ref().expect("a twin")(cpu.host()).expect("a twin runs");
+        kernel.twin.as_ref().expect("a reference")(cpu.host()).expect("a reference runs");
         let wanted: BTreeMap<_, _> = kernel.writes().iter().map(|name| look(&cpu, name)).collect();
         for (name, array) in &wanted {
             cpu.write(name, &array.like(&array.to_bytes())).expect("a field");

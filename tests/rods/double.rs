@@ -39,7 +39,7 @@ fn it_is_where_it_should_be() {
         let got = flat(&angles(&x, &v));
         for ((got, twin), want) in got.into_iter().zip(twin).zip(want) {
             // 6e-8 in each of n steps, added up at random and in phase: n √n times that less a few; and thirteenfold by t = 5.
-            assert!((got - twin).abs() < 5e-4, "after {time}: {got} on the device, {twin} by the twins");
+            assert!((got - twin).abs() < 5e-4, "after {time}: {got} on the device, {twin} by the references");
             // What the method leaves is h² times numbers of about 100.
             assert!((got - want).abs() < 2e-3, "after {time}: {got}, not {want}");
         }

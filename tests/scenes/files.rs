@@ -210,7 +210,7 @@ fn a_law_of_ones_own_is_read_from_its_file() {
     }
 
     let wrong =
-        format!("{SMALL}[[force]]\nwgsl = \"swirl.wgsl\"\nover = \"everybody\"\nparams = {{ strength = \"2\" }}\n");
+        format!("{SMALL}[[force]]\nwgsl = \"swirl.wgsl\"\nover = \"all_of_it\"\nparams = {{ strength = \"2\" }}\n");
     let (report, code) = fault(&[("scene.toml", wrong.as_bytes()), ("swirl.wgsl", b"\xff")]);
     let expected = r#"error: cannot read swirl.wgsl: stream did not contain valid UTF-8
   --> scene.toml:7:8
@@ -218,10 +218,10 @@ fn a_law_of_ones_own_is_read_from_its_file() {
  7 | wgsl = "swirl.wgsl"
    |        ^^^^^^^^^^^^
 
-error: unknown over "everybody"
+error: unknown over "all_of_it"
   --> scene.toml:8:8
    |
- 8 | over = "everybody"
+ 8 | over = "all_of_it"
    |        ^^^^^^^^^^^
    = known: `each`, `pairs`, `within`, `near`, `nearest`, `tree`, `auto`, `links`, `joints`, `triangles`
 

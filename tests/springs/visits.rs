@@ -49,7 +49,7 @@ fn links_one_by_one_and_by_their_kind() {
         twins.step(100).expect("steps");
         let (x, _) = phase(&mut twins);
         let far = x.iter().zip(&ends[0]).map(|(a, b)| (a.as_vec4() - *b).length()).fold(0.0, f32::max);
-        assert!(far < 1e-5, "{far:e} from the twins");
+        assert!(far < 1e-5, "{far:e} from the references");
     }
 }
 

@@ -113,7 +113,7 @@ pub fn evaluated_after(
         force.stage(Stage::AfterDrift { factor: 0.8 }, &mut plan, &problem).expect("a place");
         force.stage(Stage::EndOfStep, &mut plan, &problem).expect("an end");
     }
-    let program = cpu.compile(&plan).expect("twins");
+    let program = cpu.compile(&plan).expect("references");
     let join = |v: &[DVec3], w: &[f64]| Array::Vec4(v.iter().zip(w).map(|(v, w)| v.extend(*w)).collect());
     cpu.write(POSITION.name, &join(particles.position(), particles.mass())).expect("position");
     cpu.write(VELOCITY.name, &join(particles.velocity(), particles.size())).expect("velocity");
@@ -122,7 +122,7 @@ pub fn evaluated_after(
         cpu.write(SPECIES.name, &Array::Uint(particles.species().to_vec())).expect("species");
     }
     cpu.set_world(World { count, ..world }).expect("clock");
-    cpu.run(&program, 1).expect("twins run");
+    cpu.run(&program, 1).expect("references run");
     match [ACCELERATION, VELOCITY, POSITION].map(|field| cpu.host().get(field.name)) {
         [Some(Array::Vec4(a)), Some(Array::Vec4(v)), Some(Array::Vec4(x))] => (a, [v, x], cpu.host().get("link")),
         _ => panic!("forces give accelerations"),
