@@ -297,7 +297,7 @@ fn shaders_are_used_and_say_what_they_are() {
 const PERSONS: [[&str; 2]; 8] = [
     ["wh", "o"],
     ["wh", "om"],
-    ["who", "ever"],
+    ["whoe", "ver"],
     ["every", "body"],
     ["no", "body"],
     ["some", "body"],
