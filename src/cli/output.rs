@@ -32,7 +32,7 @@ pub struct Output {
     groups: Vec<Group>,
     energy: Table,
     rows: Vec<Measure>,
-    /// Of a flock: its table, how far one looks for company, and in which box.
+    /// Of a flock: its table, the statistics radius, and the box.
     flock: Option<(Table, (f64, Option<u32>), Bounds)>,
     company: Vec<Flock>,
     /// Where particles are born or die: how many.

@@ -12,15 +12,15 @@ use crate::visit::Particle;
 
 /// What a scene may say.
 pub const KEYS: &[Key] = &[
-    Key::new("range", Kind::Positive, Value::Number(0.5), "how far one sees, near and within [length]"),
-    Key::new("separation_range", Kind::NotNegative, Value::Number(0.2), "how far one keeps apart; no farther than one sees [length]"),
+    Key::new("range", Kind::Positive, Value::Number(0.5), "the range of view, near and within [length]"),
+    Key::new("separation_range", Kind::NotNegative, Value::Number(0.2), "the range of separation; no larger than the range of view [length]"),
     Key::new("separation", Kind::NotNegative, Value::Number(1.5), "the weight of separation"),
     Key::new("alignment", Kind::NotNegative, Value::Number(1.0), "the weight of alignment"),
     Key::new("cohesion", Kind::NotNegative, Value::Number(1.0), "the weight of cohesion"),
     Key::new("vision", Kind::NotNegative, Value::Number(135.0), "half of the angle of view; 180 and more is all round, and so is the view of a bird at rest [degrees]"),
-    Key::new("max_speed", Kind::Positive, Value::Number(1.0), "the speed of the wishes, and the most there is [length / time]"),
+    Key::new("max_speed", Kind::Positive, Value::Number(1.0), "the speed of the wishes, and the maximum speed [length / time]"),
     Key::new("min_speed", Kind::NotNegative, Value::Number(0.0), "the minimum speed; a bird at rest sets off along x [length / time]"),
-    Key::new("max_force", Kind::Positive, Value::Number(1.5), "the most that one rule asks for, and that all do [length / time²]"),
+    Key::new("max_force", Kind::Positive, Value::Number(1.5), "the maximum acceleration of each rule, and of all together [length / time²]"),
     SPECIES,
     Key::new("over", Kind::Choice(&["near", "within", "nearest"]), Value::Text(Cow::Borrowed("near")), "which neighbours: all in range, by a cell list or by brute force; or the nearest, of all species, however far (Ballerini et al. 2008)"),
     Key::new("neighbors", Kind::Count, Value::Number(7.0), "how many are nearest"),

@@ -11,8 +11,8 @@ pub const KEYS: &[Key] = &[
     Key::new("velocity", Kind::Vector, Value::Vector(DVec3::ZERO), "how it moves [length / time]"),
     Key::new("max_speed", Kind::Positive, Value::Number(1.0), "the speed of the wish [length / time]"),
     Key::new("max_force", Kind::Positive, Value::Number(1.0), "the most that steering does [length / time²]"),
-    Key::new("slow_radius", Kind::NotNegative, Value::Number(0.5), "within it one slows down, to rest at the goal [length]"),
-    Key::new("free_radius", Kind::NotNegative, Value::Number(0.0), "within it one is free: a roost that is steered to from outside alone [length]"),
+    Key::new("slow_radius", Kind::NotNegative, Value::Number(0.5), "within it particles slow down, to rest at the goal [length]"),
+    Key::new("free_radius", Kind::NotNegative, Value::Number(0.0), "within it particles are free: a roost, steered to from outside alone [length]"),
     SPECIES,
     EACH,
 ];

@@ -13,7 +13,7 @@ use crate::settings::{Key, Kind, Settings, Value};
 /// What a scene may say.
 pub const KEYS: &[Key] = &[
     Key::new("min", Kind::NotNegative, Value::Number(0.0), "the minimum speed; a particle at rest sets off along x [length / time]"),
-    Key::required("max", Kind::Positive, "the most speed [length / time]"),
+    Key::required("max", Kind::Positive, "the maximum speed [length / time]"),
     SPECIES,
 ];
 
@@ -47,7 +47,7 @@ impl Component for SpeedLimit {
 /// [`Error::Scene`] when the least is above the most.
 pub fn kernel(problem: &Problem, [least, most]: [f64; 2], species: Only) -> Result<Kernel, Error> {
     if least > most {
-        let text = format!("the least speed, {least}, is above the greatest, {most}: lower one or raise the other");
+        let text = format!("the minimum speed, {least}, is above the maximum, {most}: lower one or raise the other");
         return Err(Error::Scene(text));
     }
     let (holding, tables) = problem.holding();

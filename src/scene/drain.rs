@@ -23,14 +23,14 @@ pub const DRAIN_KEYS: &[Key] = &[
     Key::new("position", Kind::Vector, Value::Vector(DVec3::ZERO), "its middle, or a point on the plane [length]"),
     Key::new("radius", Kind::Positive, Value::Number(0.5), "sphere and capsule: the radius [length]"),
     Key::new("size", Kind::Vector, Value::Vector(DVec3::ONE), "box: its sides [length]"),
-    Key::new("normal", Kind::Direction, Value::Vector(DVec3::Z), "plane: the direction away from where one dies"),
+    Key::new("normal", Kind::Direction, Value::Vector(DVec3::Z), "plane: the direction away from the drain"),
     Key::new(
         "axis",
         Kind::Vector,
         Value::Vector(DVec3::X),
         "capsule: from the centre of one end to the other's [length]",
     ),
-    Key::new("outside", Kind::Flag, Value::Flag(false), "whether one dies outside of it, and not inside"),
+    Key::new("outside", Kind::Flag, Value::Flag(false), "whether it removes particles outside of it, and not inside"),
     Key::new(
         "species",
         Kind::Species,

@@ -114,8 +114,8 @@ fn over(table: &Table<'_>, report: &mut Report) -> Option<Over> {
     };
     let Some(given) = table.get(wanted) else {
         let about = match wanted {
-            "range" => "how far one meets another [length]",
-            "theta" => "the opening angle, at most 1: a group of size l is met as one from l / theta on",
+            "range" => "the cut-off radius [length]",
+            "theta" => "the opening angle, at most 1: a group of size l is approximated from the distance l / theta on",
             _ => "how many are met",
         };
         report.push(table.lacks(wanted, &value::wanted(kind), about));

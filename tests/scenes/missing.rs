@@ -209,7 +209,7 @@ fn a_law_with_another_reach_than_it_needs() {
         &scene("near", ""),
         &[],
         &missing(
-            "`range`\n  --> a.toml:6:1\n   |\n 6 | [[force]]\n   | ^^^^^^^^^ add `range`, a number above zero: how far one meets another [length]",
+            "`range`\n  --> a.toml:6:1\n   |\n 6 | [[force]]\n   | ^^^^^^^^^ add `range`, a number above zero: the cut-off radius [length]",
         ),
     );
     assert_report(

@@ -85,7 +85,7 @@ fn a_law_over_a_tree_without_an_angle() {
   --> a.toml:6:1
    |
  6 | [[force]]
-   | ^^^^^^^^^ add `theta`, a number above zero, 1 at most: the opening angle, at most 1: a group of size l is met as one from l / theta on
+   | ^^^^^^^^^ add `theta`, a number above zero, 1 at most: the opening angle, at most 1: a group of size l is approximated from the distance l / theta on
 
 a.toml: 1 error",
         );
