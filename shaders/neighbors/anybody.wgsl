@@ -1,2 +1,2 @@
-// Everybody is put into the grid.
+// All particles are put into the grid.
 fn chosen(i: u32) -> bool { return true; }

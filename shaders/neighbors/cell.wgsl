@@ -1,14 +1,14 @@
 // A uniform grid over all of space, folded onto a box of cells: cell c of an axis is kept as c modulo the cells of the
-// axis. Along a periodic axis that is the period itself; elsewhere far cells share a place, and who is met there fails
-// the test of distance. So there is no edge, and nobody is outside.
-// A range is `fine` cells, more of them along x, where cells are contiguous: so rows are cut closer to who looks.
+// axis. Along a periodic axis that is the period itself; elsewhere far cells share a place, and what is met there fails
+// the test of distance. So there is no edge, and no particle is outside.
+// A range is `fine` cells, more of them along x, where cells are contiguous: so rows are cut closer to the particle.
 struct Grid {
     unused_word: u32, low: vec3f, range: f32, per_cell: vec3f, first: u32, cells: vec3u, end: u32, only: u32, fine: vec3u,
 }
 
 @group(2) @binding(0) var<uniform> grid: Grid;
 
-// In how many lists of all cells particles are kept, one behind the other: 2 where who is held stands behind all others.
+// In how many lists of all cells particles are kept, one behind the other: 2 where held particles stand behind all others.
 override LAYERS: u32 = 1u;
 
 // Beyond so many cells all are one: there, f32 holds no two places that are a cell apart.
@@ -23,7 +23,7 @@ fn fold(c: i32, cells: u32) -> u32 {
     return (bitcast<u32>(c) + whole) % cells;
 }
 
-// Its image in the box, for who is on the way outside of it: on my side of the seam nobody is then nearer elsewhere.
+// Its image in the box, where it is on the way outside: on my side of the seam no particle is then nearer elsewhere.
 fn home(x: vec3f) -> vec3f {
     if !PERIODIC { return x; }
     let inside = ((x >= world.low) & (x < world.high)) | (world.period <= vec3f());
@@ -31,7 +31,7 @@ fn home(x: vec3f) -> vec3f {
     return select(y, world.low, !inside & ((y < world.low) | (y >= world.high)));
 }
 
-// The cell of a place at home, folded. It is some cell even where the place is no number: who looks will see that.
+// The cell of a place at home, folded. It is some cell even where the place is no number: the watch finds it.
 fn cell(x: vec3f) -> vec3u {
     let last = select(vec3f(FARTHEST), vec3f(grid.cells) - 1.0, world.period > vec3f());
     let c = vec3i(clamp(floor(away(x)), vec3f(-FARTHEST), last));

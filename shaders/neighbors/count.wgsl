@@ -1,4 +1,4 @@
-// Who is in which cell, and how many are there. The arrival in a cell is a race, and only a place to be put down for now.
+// The cell of each particle, and how many are in each. The arrival in a cell is a race, and only a place to be put down for now.
 @group(2) @binding(1) var<storage, read_write> starts: array<atomic<u32>>;
 @group(2) @binding(2) var<storage, read_write> keys: array<u32>;
 @group(2) @binding(3) var<storage, read_write> arrivals: array<u32>;
@@ -13,7 +13,7 @@ fn count(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: v
         var k = NOWHERE;
         if chosen(i) && lives(i) {
             k = key(cell(home(position[i].xyz)));
-            // Who is held stands behind all others, where the grid keeps them apart.
+            // Held particles stand behind all others, where the grid keeps them apart.
             if is_held(i) { k += grid.cells.x * grid.cells.y * grid.cells.z; }
             arrivals[i] = atomicAdd(&starts[k], 1u);
         }

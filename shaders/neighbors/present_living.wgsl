@@ -1,4 +1,4 @@
-// Who lives stands in a slot of the grid; slots behind them hold nobody.
+// Active particles stand in slots of the grid; slots behind them are empty.
 override CELLS: u32 = 1u;
 
 fn present() -> u32 { return starts[CELLS]; }

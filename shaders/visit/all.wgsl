@@ -1,2 +1,2 @@
-// Everybody meets everybody.
+// All pairs.
 fn meets(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) { gather(me, you, r, sum); }

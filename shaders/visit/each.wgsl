@@ -1,7 +1,7 @@
 // Each particle alone. The law says: fn force(me: Particle) -> vec4f, acceleration and potential per unit mass.
 @group(1) @binding(2) var<storage, read_write> acceleration: array<vec4f>;
 
-// Whether this is the first law: nothing has been felt yet.
+// Whether this is the first law: there is no acceleration yet.
 override FIRST: bool = false;
 const WORKGROUP: u32 = 64u;
 
@@ -10,8 +10,8 @@ fn each(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
     let i = folded(group, groups) * WORKGROUP + lane;
     if i < world.count {
         let me = particle(i);
-        let felt = force(me);
-        if FIRST { acceleration[i] = felt; } else { acceleration[i] += felt; }
+        let a = force(me);
+        if FIRST { acceleration[i] = a; } else { acceleration[i] += a; }
         check_turns(me);
     }
 }

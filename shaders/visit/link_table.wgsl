@@ -1,4 +1,4 @@
-// A link from one of its ends: who is at the other, the length at rest (below zero: a rope), stiffness and damping.
+// A link from one of its ends: the particle at the other, the length at rest (below zero: a rope), stiffness and damping.
 struct Link { partner: u32, rest: f32, stiffness: f32, damping: f32 }
 
 @group(2) @binding(0) var<storage, read> link_start: array<u32>; // one for each particle, and the end

@@ -1,4 +1,4 @@
-// Everybody meets who is within a range, each invocation by itself.
+// All pairs within a range, each invocation by itself.
 const WORKGROUP: u32 = 64u;
 
 @compute @workgroup_size(WORKGROUP)

@@ -15,4 +15,4 @@ fn particle(i: u32) -> Particle {
     return Particle(i, home(p.xyz), p.w, velocity[i].xyz);
 }
 
-fn velocity_of(who: Particle) -> vec3f { return who.velocity; }
+fn velocity_of(particle: Particle) -> vec3f { return particle.velocity; }

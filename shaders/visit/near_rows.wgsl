@@ -9,7 +9,7 @@ const STRETCH: u32 = 16u;
 
 // My cell, how far I look, and how many rows and cells that is.
 struct Around { cell: vec3u, reach: vec3u, span: vec3u }
-// Some neighbouring slots, and what to add to the way to whoever is there: a period, where they lie behind the seam.
+// Some neighbouring slots, and what to add to the way to particles there: a period, where they lie behind the seam.
 struct Stretch { start: u32, end: u32, shift: vec3f }
 
 // A cell is a little wider than the range, so that rounding does not move a neighbour two cells away. Far from the
@@ -30,7 +30,7 @@ fn cube(cell: vec3u, reach: vec3u) -> Around {
 // Rows along z of all lists of cells.
 fn deep(a: Around) -> u32 { return a.span.z * LAYERS; }
 
-// Part 0, 1 or 2 of the row y, z among those around me, for who stands in a cell from `low` to `high`, which is mine or close to it.
+// Part 0, 1 or 2 of the row y, z among those around me, for a particle in a cell from `low` to `high`, which is mine or close to it.
 // Rows from z = span.z on are those of the second list.
 fn stretch(a: Around, low: u32, high: u32, z: u32, y: u32, part: u32) -> Stretch {
     let n = vec3i(grid.cells);
@@ -63,7 +63,7 @@ fn turn(c: i32, n: i32) -> i32 { return i32(c >= n) - i32(c < 0); }
 // Whether a row reaches over the seam.
 fn seam(a: Around) -> bool { return a.cell.x < a.reach.x || a.cell.x + a.reach.x >= grid.cells.x; }
 
-// The way to somebody. Where a period has so few cells that both sides of the seam are one, any image may be the nearest.
+// The way to a neighbour. Where a period has so few cells that both sides of the seam are one, any image may be the nearest.
 override NARROW: bool = false;
 
 fn way(me: vec3f, you: vec3f, shift: vec3f) -> vec3f {

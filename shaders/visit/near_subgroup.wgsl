@@ -1,11 +1,11 @@
-// Everybody meets who is within a range, for adapters whose subgroups are all of eight lanes (lavapipe with 256-bit
-// vectors). Those who stand side by side in a row of cells walk together: each lane loads one candidate of all their
+// All pairs within a range, for adapters whose subgroups are all of eight lanes (lavapipe with 256-bit
+// vectors). Particles side by side in a row of cells walk together: each lane loads one candidate of all their
 // cells taken as one, and the eight are passed round by broadcast. What of that is not around a lane fails its test of
-// distance, so everybody meets the same, in the same order, as alone.
+// distance, so each meets the same, in the same order, as alone.
 const LANES: u32 = 8u;
 const WORKGROUP: u32 = 8u * LANES;
-const NOBODY: u32 = 0xffffffffu;
-// Ranges between those who walk together, at most: more, and most of what they look at is not theirs.
+const NONE: u32 = 0xffffffffu;
+// Ranges between particles that walk together, at most: more, and most of what they look at is not theirs.
 const APART: u32 = 3u;
 
 fn consider(k: u32, slot: u32, end: u32, shift: vec3f, me: Particle, you: Particle, with_me: bool, sum: ptr<function, Sum>) {
@@ -13,7 +13,7 @@ fn consider(k: u32, slot: u32, end: u32, shift: vec3f, me: Particle, you: Partic
     if with_me && slot < end && in_range(r) && !same(k, slot, me) { gather(me, you, r, sum); }
 }
 
-// Whether I look at the rows of another, at parts of them that do not reach round the seam into each other: who walks
+// Whether I look at the rows of another, at parts of them that do not reach round the seam into each other: particles that walk
 // together stands up to twice APART from each other, on both sides of the leader.
 fn beside(a: Around, lane: u32) -> bool {
     let cell = subgroupShuffle(a.cell, lane);
@@ -39,10 +39,10 @@ fn near(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
         // Of the turns that an invocation's loops may take, those before this one had some. Two searches of MOST are all.
         let spent = max(walked, MOST) - MOST;
         var seen = spent;
-        // The first who waits, and all who can go along.
-        let leader = subgroupMin(select(NOBODY, place, waits));
+        // The first that waits, and all that can go along.
+        let leader = subgroupMin(select(NONE, place, waits));
         let with_me = waits && beside(a, leader);
-        let low = subgroupMin(select(NOBODY, a.cell.x, with_me));
+        let low = subgroupMin(select(NONE, a.cell.x, with_me));
         let high = subgroupMax(select(0u, a.cell.x, with_me));
         let led = Around(subgroupShuffle(a.cell, leader), subgroupShuffle(a.reach, leader), subgroupShuffle(a.span, leader));
         let parts = select(1u, 3u, subgroupAny(with_me && seam(a)));

@@ -1,4 +1,4 @@
-// Everybody meets the so many that are nearest to it (topological flocking: Ballerini et al. 2008), exactly: cells are
+// Each particle meets the so many that are nearest to it (topological flocking: Ballerini et al. 2008), exactly: cells are
 // looked at in growing cubes around me, until the last of my list is nearer than anything outside of the cube can be.
 @group(2) @binding(5) var<storage, read> sorted_id: array<u32>;
 @group(2) @binding(6) var<storage, read> sorted_position: array<vec4f>;
@@ -6,7 +6,7 @@
 override COUNT: u32 = 7u;
 
 const WORKGROUP: u32 = 64u;
-const NOBODY: u32 = 0xffffffffu;
+const NONE: u32 = 0xffffffffu;
 const INFINITE: u32 = 0x7f800000u;
 
 // Squares of distances, ascending, and ids; four at a time.
@@ -16,11 +16,11 @@ struct Entry { d: f32, id: u32 }
 
 fn empty() -> List {
     let d = vec4f(bitcast<f32>(INFINITE));
-    let i = vec4u(NOBODY);
+    let i = vec4u(NONE);
     return List(d, d, d, d, i, i, i, i);
 }
 
-// Puts an entry into four of the list; who is behind it moves on, and the last falls out.
+// Puts an entry into four of the list; those behind it move on, and the last falls out.
 fn insert(e: ptr<function, Entry>, d: ptr<function, vec4f>, i: ptr<function, vec4u>) {
     let tied = (vec4f((*e).d) == *d) & (vec4u((*e).id) < *i);
     let before = (vec4f((*e).d) < *d) | tied;
@@ -70,7 +70,7 @@ fn last(list: List) -> f32 {
     return d[(COUNT - 1u) % 4u];
 }
 
-// How near to me somebody outside of the cube may be; rounding moves places by a part of a cell, far away by many.
+// How near to me a particle outside of the cube may be; rounding moves places by a part of a cell, far away by many.
 fn outside(x: vec3f, a: Around) -> f32 {
     let slack = max(vec3f(0.00390625), abs(away(x)) * 0.000000238418579);
     let open = select(vec3f(bitcast<f32>(INFINITE)), (vec3f(a.reach) - slack) / grid.per_cell, a.span < grid.cells);
@@ -121,7 +121,7 @@ fn nearest(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups:
             var sum = Sum();
             for (var n = 0u; n < COUNT; n += 1u) {
                 let id = four(list, n / 4u)[n % 4u];
-                if id != NOBODY {
+                if id != NONE {
                     let you = particle(id);
                     gather(me, you, shortest(you.position - me.position), &sum);
                 }

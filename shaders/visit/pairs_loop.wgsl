@@ -1,4 +1,4 @@
-// Everybody meets everybody, for processors that play a GPU: no barrier, no shared memory, sources straight from the array.
+// All pairs, for software adapters: no barrier, no shared memory, sources straight from the array.
 const WORKGROUP: u32 = 64u;
 const TARGETS: u32 = 4u;
 const BLOCK: u32 = 128u;

@@ -1,4 +1,4 @@
-// Everybody meets everybody, for adapters whose subgroups are all of eight lanes (lavapipe with 256-bit vectors):
+// All pairs, for adapters whose subgroups are all of eight lanes (lavapipe with 256-bit vectors):
 // each lane loads one source, and the eight are passed round by broadcast.
 const WORKGROUP: u32 = 32u;
 const TARGETS: u32 = 4u;

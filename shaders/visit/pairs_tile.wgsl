@@ -1,4 +1,4 @@
-// Everybody meets everybody, for GPUs: sources pass through workgroup memory, four targets per invocation stay in registers.
+// All pairs, for GPUs: sources pass through workgroup memory, four targets per invocation stay in registers.
 const WORKGROUP: u32 = 128u;
 const TARGETS: u32 = 4u;
 const BLOCK: u32 = 128u;

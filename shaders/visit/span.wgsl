@@ -31,7 +31,7 @@ fn add(i: u32, sum: Sum) {
     conclude(particle(i), 0.5, sum);
 }
 
-// Nobody meets itself. Both ways are computed and one is kept: a branch would cost more.
+// No particle meets itself. Both ways are computed and one is kept: a branch would cost more.
 fn meet_other(me: Particle, you: Particle, sum: ptr<function, Sum>) {
     var met = *sum;
     meets(me, you, shortest(you.position - me.position), &met);

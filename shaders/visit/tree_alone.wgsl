@@ -1,6 +1,6 @@
 // Targets walk the tree side by side, for processors that play a GPU: a lane for each, no barrier, no memory of where it has
 // been. Below a node its left child comes next; then the next node of its level, or of the level of the first above it that
-// has one. All of a group open the same nodes. A turn has one node, or one body of a leaf: whoever plays lanes by
+// has one. All of a group open the same nodes. A turn has one node, or one body of a leaf: an adapter that runs lanes as
 // vectors takes every way of every branch, so there are few.
 const WORKGROUP: u32 = 32u;
 

@@ -2,7 +2,7 @@
 // passed round by broadcast. The lane of a broadcast must be a constant.
 const LANES: u32 = 8u;
 
-// A body of a place along the curve, if it is there, and four targets from `mine` on, of which one may be that body: nobody
+// A body of a place along the curve, if it is there, and four targets from `mine` on, of which one may be that body: none
 // meets itself. Both ways are computed and one is kept.
 fn meet_other(slot: u32, mine: u32, me: Particle, you: Particle, sum: ptr<function, Sum>) {
     var met = *sum;

@@ -9,7 +9,7 @@ const NEAR: u32 = 64u;
 var<workgroup> list: array<u32, 2u * FAR + 2u * NEAR>;
 
 // Nodes that are still to be looked at are bits of `waits`: eight children of a node are a byte, those of the lowest come
-// last. Of 25 levels at most, the lowest three are leaves' and wait for nobody: that leaves eight bytes. Next are those so
+// last. Of 25 levels at most, the lowest three are leaves' and wait for nothing: that leaves eight bytes. Next are those so
 // many levels below `node`, which stands on the level of `depth`, if there are more. So many have been listed, far groups
 // and leaves, and so many turns are spent.
 struct Search { waits: vec2u, node: u32, depth: u32, levels: u32, more: bool, listed: vec2u, spent: u32 }
@@ -17,7 +17,7 @@ struct Search { waits: vec2u, node: u32, depth: u32, levels: u32, more: bool, li
 // The level of those that are looked at first: from there on it is three levels at once down to the leaves.
 fn highest() -> u32 { return (tree.height + 2u) % 3u + 1u; }
 
-// Nobody meets the only group there is.
+// The only group there is has no far group.
 fn begun() -> Search { return Search(vec2u(), 1u, 0u, highest(), tree.leaves > GROUP / LEAF, vec2u(), 0u); }
 
 // Where a search stands: the node, 0 where it is done, and what waits.

@@ -1,5 +1,5 @@
 // Groups of targets walk the tree, for GPUs: a workgroup for each, a lane for each target. Nodes that wait are a stack in
-// workgroup memory; each lane tests one, and who is far enough, and leaves, go into lists. When a list is long, its entries
+// workgroup memory; each lane tests one, and far nodes, and leaves, go into lists. When a list is long, its entries
 // pass through workgroup memory and every lane meets them. Places in the lists are counted by votes, in the order of lanes.
 const WORKGROUP: u32 = 32u;
 // The stack is in the order of levels, the lowest on top, and so it stays: children are put where their parents were, in

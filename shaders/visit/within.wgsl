@@ -1,4 +1,4 @@
-// Everybody looks at everybody, and meets who is nearer than a range.
+// All pairs nearer than a range, by brute force.
 override RANGE: f32 = 1.0;
 
 fn meets(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {

@@ -1,4 +1,4 @@
-//! Who is near whom, on the host and in f64: for starts, which are looked at once.
+//! Nearby particles, on the host and in f64: for starts, which are looked at once.
 
 use std::collections::HashMap;
 use std::ops::Range;
@@ -44,7 +44,7 @@ impl<'a> Company<'a> {
             floor(part * of as f64).rem_euclid(of)
         })
     }
-    /// Everybody else in range: their ids and the ways to them.
+    /// All others in range: their ids and the ways to them.
     pub(super) fn of(&self, id: usize, mut meet: impl FnMut(usize, DVec3)) {
         let x = self.positions[id];
         let home = self.cell(x);
@@ -77,7 +77,10 @@ impl<'a> Company<'a> {
     }
 }
 
-#[expect(clippy::cast_possible_truncation, reason = "what is beyond 64 bits saturates: nobody is near anybody there")]
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "what is beyond 64 bits saturates: no particles are near each other there"
+)]
 fn floor(x: f64) -> i64 {
     // Neighbours of the last cell are still numbers.
     (x.floor() as i64).clamp(i64::MIN / 2, i64::MAX / 2)

@@ -6,12 +6,12 @@ use glam::DVec3;
 
 use super::Medium;
 
-/// Who is thinner than that has nobody on one side, and makes no room for others.
+/// A particle thinner than that has no neighbours on one side, and makes no room for others.
 const SURFACE: f64 = 0.9;
 /// The parts of the longest side, at most.
 const FINEST: f64 = 65536.0;
 
-/// How far somebody must go, at least, that nobody is too dense any more \[spacings\]; particles are places, masses and densities.
+/// How far the fastest particle must move, at least, so that none is too dense any more \[spacings\]; particles are places, masses and densities.
 ///
 /// What is at a density ρ takes the volume m / ρ, and m / ρ₀ at rest: in a part of space the fluid lacks Σ m (1/ρ₀ − 1/ρ). That much
 /// leaves by the part's faces, of an area A, whatever happens inside (Gauss): somewhere by Σ / A, or more. Parts are the box around

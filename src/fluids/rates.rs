@@ -40,7 +40,7 @@ impl Rates {
                     artificial -= slope * length * r.dot(along).powi(2) / near * apart;
                     drawn += volume * medium.kernel(*r) * apart;
                 }
-                // Artificial viscosity is felt by those who come closer, which are half of the pairs at any time.
+                // Artificial viscosity acts on pairs that come closer, which are half of the pairs at any time.
                 let damped = friction.viscosity * viscous + 0.5 * friction.alpha * medium.sound * artificial;
                 most.sound = most.sound.max(medium.sound * sound.length());
                 most.friction = most.friction.max(damped);

@@ -14,11 +14,11 @@ use crate::kernel::Bounds;
 /// flow that is expected (Monaghan 1994), so that what bursts at Mach 0.2 is twice as fast, and has four times the energy: with
 /// c = 10 √(2 g H) it leaps four times as high as it is deep.
 const MACH: f64 = 0.2;
-/// Two that are nearer than this \[spacings\] hardly feel each other's pressure, whose gradient is none at no distance: they
+/// Two that are nearer than this \[spacings\] have hardly any pressure between them, whose gradient is none at no distance: they
 /// stay together for ever.
 const SAME_PLACE: f64 = 0.1;
 
-/// What a force makes of everybody who is not held.
+/// What a force makes of all particles that are not held.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Continuum {
     /// What flows.
@@ -38,7 +38,7 @@ pub struct Still<'a> {
     pub position: &'a [DVec3],
     /// How heavy they are; what walls weigh is found here.
     pub mass: &'a [f64],
-    /// Who is of a wall, by id.
+    /// Which are of a wall, by id.
     pub walls: &'a [bool],
     /// Where they may be.
     pub bounds: &'a Bounds,
@@ -69,7 +69,7 @@ pub struct Start {
     pub same: Option<(u32, u32, f64)>,
     /// How many are too dense.
     pub dense: u32,
-    /// How far somebody must go in the first step, at least, where pressure is solved for: that takes away at once all that is too
+    /// How far the fastest particle must move in the first step, at least, where pressure is solved for: that takes away at once all that is too
     /// dense; else 0 \[spacings\].
     pub thrust: f64,
     /// What makes the densest so dense.
@@ -85,7 +85,7 @@ impl Start {
         let medium = &fluid.medium;
         let ids: Vec<usize> = (0..still.position.len()).filter(|id| !still.walls[*id]).collect();
         if ids.is_empty() {
-            let text = "there is a fluid and nothing of it: everybody is held, and who is held is of its walls; add a \
+            let text = "there is a fluid and nothing of it: all particles are held, and held particles are its walls; add a \
                         [[particles]] of shape = \"block\"";
             return Err(Error::Scene(text.to_owned()));
         }
@@ -100,7 +100,7 @@ impl Start {
         let company = Company::new(still.position, still.bounds, medium.range());
         let mass = masses(fluid, still, &company);
         let densities: Vec<(f64, Option<(usize, f64)>)> =
-            ids.par_iter().map(|id| felt(medium, still, &company, &mass, *id)).collect();
+            ids.par_iter().map(|id| density_at(medium, still, &company, &mass, *id)).collect();
         let (mut densest, mut thinnest) = ((0, 0.0), (0, f64::INFINITY));
         let (mut same, mut dense) = (None, 0);
         for (id, (density, nearest)) in ids.iter().zip(&densities) {
@@ -170,7 +170,7 @@ impl Start {
         if self.thrust > COURANT {
             return Err(Error::Scene(format!(
                 "this start would explode: particle {id} of the fluid, the densest, is at {ratio:.3} times the density at rest, and a pressure \
-                 that is solved for takes away in the first step all that is too dense: somebody would have to go {:.2} spacings in \
+                 that is solved for takes away in the first step all that is too dense: a particle would have to move {:.2} spacings in \
                  it at least, whatever dt ({COURANT} is the most): {}",
                 self.thrust, self.cause
             )));
@@ -195,7 +195,7 @@ fn speed(medium: &Medium, ratio: f64) -> f64 {
     (medium.sound / power * (ratio.powf(power) - 1.0)).max(0.0)
 }
 
-/// What everybody weighs: walls as much as the fluid whose place they take.
+/// The mass of each particle: walls as much as the fluid whose place they take.
 fn masses(fluid: &Continuum, still: &Still<'_>, company: &Company<'_>) -> Vec<f64> {
     let medium = &fluid.medium;
     let of = |id: usize| {
@@ -212,8 +212,8 @@ fn masses(fluid: &Continuum, still: &Still<'_>, company: &Company<'_>) -> Vec<f6
     (0..still.position.len()).into_par_iter().map(of).collect()
 }
 
-/// How dense the fluid is at a particle, and who of it is nearest.
-fn felt(
+/// How dense the fluid is at a particle, and the nearest particle of it.
+fn density_at(
     medium: &Medium,
     still: &Still<'_>,
     company: &Company<'_>,
@@ -231,7 +231,7 @@ fn felt(
     (density, nearest)
 }
 
-/// Why it is so dense there: the first that is out of the way among masses, spacings, walls and company.
+/// Why it is so dense there: the first that is out of the way among masses, spacings, walls and nearby particles.
 fn cause(fluid: &Continuum, still: &Still<'_>, company: &Company<'_>, mass: &[f64], id: usize) -> String {
     let medium = &fluid.medium;
     let (own, lattice, d) = (mass[id], medium.mass(), medium.spacing);
@@ -251,7 +251,7 @@ fn cause(fluid: &Continuum, still: &Still<'_>, company: &Company<'_>, mass: &[f6
     if (own / lattice - 1.0).abs() > 0.01 {
         let dimensions = medium.dimensions;
         let power = (own / medium.density).powf(1.0 / f64::from(dimensions));
-        // Whose distance goes with its mass has another lattice, and not another density.
+        // A distance that goes with the mass is another lattice, and not another density.
         let spaced = nearest.is_some_and(|(_, r)| (r / power - 1.0).abs() < 0.05) && (power / d - 1.0).abs() > 0.01;
         return if spaced {
             format!("particles have the spacing {power:.6}, and the force has {d}: give both the same")

@@ -31,13 +31,13 @@ pub fn state(medium: &Medium, problem: &Problem) -> Result<Kernel, Error> {
     let fields = [SORTED_ID, FLOW, STARTS].map(|name| grid.field(name));
     let pass = Pass { constants, ..Pass::new(shader, problem.count) }.on(&fields);
     let (starts, cells) = (grid.field(STARTS).1, u64::from(grid.bins()));
-    let (me, who) = (*medium, problem.clone());
+    let (me, all) = (*medium, problem.clone());
     let twin = move |host: &Host| {
         let (ids, density) = (grid.occupants(host)?, host.read(DENSITY)?);
         let mut flow = host.writing::<Vec4>(&grid.field(FLOW).1)?;
         for (flow, id) in flow.iter_mut().zip(ids.iter().map(|id| *id as usize)) {
             let (pressure, energy) = me.state(density[id]);
-            *flow = if who.is_held(id) { DVec4::ZERO } else { DVec4::new(density[id], pressure, energy, 0.0) };
+            *flow = if all.is_held(id) { DVec4::ZERO } else { DVec4::new(density[id], pressure, energy, 0.0) };
         }
         Ok(())
     };

@@ -5,7 +5,7 @@ use crate::error::Error;
 use crate::motion::Held;
 use crate::solids::Solid;
 
-/// Whether they make sense for `count` particles in so many dimensions, of whom some are held.
+/// Whether they make sense for `count` particles in so many dimensions, some of which are held.
 ///
 /// # Errors
 /// [`Error::Scene`] that names the first particle or drain at fault.

@@ -1,5 +1,5 @@
-//! Who lives: births by a schedule, and drains. How many particles there are is fixed for a run, and so are their ids: who is
-//! to be born waits among them from the start, and who is dead stays among them, so that no id is ever used twice.
+//! Life of particles: births by a schedule, and drains. How many particles there are is fixed for a run, and so are their ids: a particle that is
+//! to be spawned is pending among them from the start, and a removed one stays among them, so that no id is ever used twice.
 
 mod check;
 mod population;
@@ -11,7 +11,7 @@ pub use population::{Population, schedule};
 
 use crate::solids::Solid;
 
-/// Whether a particle takes part. Who does not is in no grid, feels nothing, has no mass and no velocity, and is not drawn.
+/// Whether a particle takes part. One that does not is in no cell list, has no acceleration, no mass and no velocity, and is not drawn.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Life {
     /// It is yet to be born, and stands where that will be.
@@ -37,7 +37,7 @@ impl Life {
 }
 
 /// When and how a particle that waits is born. At the end of the first step that reaches its time it is put where it would be
-/// had it left the place where it waited just then, at this velocity. Who does not wait is not born again.
+/// had it left the place where it waited just then, at this velocity. One that does not wait is not born again.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Birth {
     /// Its id.
@@ -63,7 +63,7 @@ pub struct Drain {
     pub position: DVec3,
     /// Whether one dies outside of the shape instead of inside.
     pub outside: bool,
-    /// Who dies there; everybody, but who is held, where none is named.
+    /// The species that it removes; all, but held particles, where none is named.
     pub species: Option<u32>,
 }
 

@@ -5,16 +5,16 @@ use super::{Birth, Life};
 /// How many wait, live and are dead. Together they are all particles that there are.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Population {
-    /// Who is yet to be born.
+    /// Those yet to be spawned.
     pub waiting: u64,
-    /// Who takes part.
+    /// Those that take part.
     pub living: u64,
-    /// Who has been drained.
+    /// Those removed.
     pub dead: u64,
 }
 
 impl Population {
-    /// Counts `count` particles; of whom nothing is said, lives.
+    /// Counts `count` particles; one of which nothing is said is active.
     #[must_use]
     pub fn of(life: &[Life], count: usize) -> Self {
         let number = |wanted: Life| life.iter().take(count).filter(|life| **life == wanted).count() as u64;
@@ -40,7 +40,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn everybody_is_counted_once() {
+    fn each_is_counted_once() {
         let life = [Life::Waiting, Life::Dead, Life::Living, Life::Waiting, Life::Waiting];
         assert_eq!(Population::of(&life, 9), Population { waiting: 3, living: 5, dead: 1 });
         assert_eq!(Population::of(&life, 2), Population { waiting: 1, living: 0, dead: 1 });

@@ -42,8 +42,8 @@ impl Grid {
         passes.extend(scan::passes(&starts, &sums, bins, machine)?);
         passes.push(self.pass(problem, &[crate::shader!("neighbors/scatter.wgsl")])?);
         passes.push(self.pass(problem, &[carry, crate::shader!("neighbors/order.wgsl")])?);
-        let (grid, who) = (self.clone(), problem.clone());
-        let twin = move |host: &Host| grid.sort(host, &who, moving);
+        let (grid, all) = (self.clone(), problem.clone());
+        let twin = move |host: &Host| grid.sort(host, &all, moving);
         let scratch: Vec<Name> = vec![KEYS.name.into(), ARRIVALS.name.into(), SLOTS.name.into(), sums.clone()];
         Ok(Kernel {
             name: self.title(),
@@ -68,17 +68,17 @@ impl Grid {
         Ok(Pass { constants, uniforms, ..Pass::new(shader, problem.count) }.on(&fields))
     }
 
-    /// The file with `fn present() -> u32`, how many stand in its slots; whoever joins it says `neighbors/starts.wgsl` too,
+    /// The file with `fn present() -> u32`, how many stand in its slots; a shader that joins it joins `neighbors/starts.wgsl` too,
     /// and gives it [`Grid::constants`].
     #[must_use]
     pub fn present(&self, problem: &Problem) -> Source {
-        // Where only one species is in it, everybody looks around by id.
+        // Where only one species is in it, every particle looks around by id.
         if problem.mortal && self.of.is_none() {
             return crate::shader!("neighbors/present_living.wgsl");
         }
         crate::shader!("neighbors/present.wgsl")
     }
-    /// The `override`s of a shader that the grid decides: its cells, of those who live in it, and how many lists it keeps.
+    /// The `override`s of a shader that the grid decides: its cells, of those all live in it, and how many lists it keeps.
     #[must_use]
     pub fn constants(&self, shader: &Shader) -> Vec<(&'static str, f64)> {
         let (cells, layers) = (self.bins() - 1, self.layers());
@@ -87,14 +87,14 @@ impl Grid {
         let all = [("CELLS", 0, cells), ("LAYERS", 1, layers)];
         all.into_iter().filter(|(n, usual, v)| known(n, *usual, *v)).map(|(n, _, v)| (n, f64::from(v))).collect()
     }
-    /// Who stands in its slots, slot by slot.
+    /// The ids in its slots, slot by slot.
     ///
     /// # Errors
     /// When it has not been built.
     pub fn occupants(&self, host: &Host) -> Result<Vec<u32>, Error> {
         let ids = host.reading::<u32>(&self.field(SORTED_ID).1)?;
         let starts = self.field(STARTS).1;
-        // Where nobody binds the cells, everybody is in them.
+        // Where no kernel binds the cells, all particles are in them.
         let all = ids.len();
         let end =
             if host.contains(&starts) { host.reading::<u32>(&starts)?.last().map_or(0, |n| *n as usize) } else { all };

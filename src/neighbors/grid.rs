@@ -44,7 +44,7 @@ pub struct Grid {
     pub cells: [u32; 3],
     /// Cells that make up a range along each axis.
     pub fine: [u32; 3],
-    /// Whether who is held stands behind all others: these are then side by side, and nobody who stands still looks around with them.
+    /// Whether held particles stand behind all others: those that move are then side by side, and are searched for alone.
     pub apart: bool,
     /// Particles of a cell at the start, when they are spread evenly.
     pub occupancy: f64,
@@ -66,7 +66,7 @@ impl Grid {
         Ok(Self::finest(&name, range, of, 1.0, problem))
     }
 
-    /// The same for everybody, with whoever is held behind all others.
+    /// The same for all particles, with held ones behind all others.
     ///
     /// # Errors
     /// [`Error::Scene`] when the range is not a positive number.
@@ -86,7 +86,7 @@ impl Grid {
         grids.find(|grid| grid.fitted.is_empty()).unwrap_or_else(|| make([1; 3]))
     }
 
-    /// For searches of the nearest, who may be anywhere: cells that hold about `occupancy` particles each.
+    /// For searches of the nearest, which may be anywhere: cells that hold about `occupancy` particles each.
     #[must_use]
     pub fn sparse(occupancy: f64, problem: &Problem) -> Self {
         let sides = size(problem).to_array().into_iter().filter(|side| *side > 0.0);
@@ -131,7 +131,7 @@ impl Grid {
             let coarser = (0..3).any(|axis| periodic[axis] > 0.0 && cells[axis] < wish[axis]);
             fitted = if coarser { " coarser" } else { " folded" };
         }
-        // Who starts close together in open space may spread: there is to be room for that.
+        // Particles that start close together in open space may spread: there is to be room for that.
         let open: Vec<usize> =
             (0..3).filter(|axis| problem.bounds.sides[*axis] == Side::Open && !(flat && *axis == 2)).collect();
         let spread = 0.5 * room / cells.element_product();
@@ -168,7 +168,7 @@ impl Grid {
     pub fn count(&self) -> u32 {
         self.cells.iter().product()
     }
-    /// In how many lists who is in them is kept, one behind the other.
+    /// In how many lists particles are kept, one behind the other.
     #[must_use]
     pub fn layers(&self) -> u32 {
         1 + u32::from(self.apart)
@@ -183,7 +183,7 @@ impl Grid {
     pub fn bins(&self) -> u32 {
         self.count() * self.layers() + 1
     }
-    /// Who stands before all who are held, at most.
+    /// How many stand before all held particles, at most.
     #[must_use]
     pub fn ahead(&self, problem: &Problem) -> u32 {
         let held = if self.apart { u32::try_from(problem.held.len()).unwrap_or(u32::MAX) } else { 0 };

@@ -1,4 +1,4 @@
-//! Where everybody is whom solids have put out before the first step.
+//! The initial projection: where particles are that solids have put out before the first step.
 
 use glam::DVec3;
 
@@ -6,15 +6,15 @@ use super::Setup;
 use crate::error::Error;
 use crate::forces::Problem;
 
-/// Who is nearer to where he belongs than this part of the size of his place is there: single precision tells no more.
+/// A particle nearer to its place than this part of the size of its coordinates is there: single precision holds no more.
 const ROUNDING: f64 = 1e-6;
 
-/// Where everybody is then.
+/// Where the particles are then.
 #[derive(Default)]
 pub(super) struct Kept {
     /// All places, by id \[length\].
     pub places: Vec<DVec3>,
-    /// Who has been put there, and how far from where he was \[length\].
+    /// The particles that were moved, and how far \[length\].
     pub moved: Vec<(usize, f64)>,
 }
 

@@ -6,12 +6,12 @@ use crate::kernel::{Backend, LIFE};
 use crate::life::{Life, Population};
 
 impl<B: Backend> Simulation<B> {
-    /// Whether each takes part; nothing, where everybody does all the time.
+    /// Whether each is active; empty, where all are all the time.
     pub(super) async fn lives(&mut self) -> Result<Vec<Life>, Error> {
         let words = if self.mortals > 0 { self.read(LIFE).await? } else { Vec::new() };
         Ok(words.into_iter().filter_map(Life::of).collect())
     }
-    /// How many wait to be born, live, and are dead. Who is due at the start is born when the first step begins.
+    /// How many are pending, active and removed. Particles due at the start are spawned when the first step begins.
     ///
     /// # Errors
     /// What reading says.

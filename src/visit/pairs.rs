@@ -1,4 +1,4 @@
-//! Everybody meets everybody else: which of the three files, and how the meetings are cut into dispatches.
+//! All pairs: which of the three files, and how the meetings are cut into dispatches.
 
 use std::sync::Arc;
 

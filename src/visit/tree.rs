@@ -1,4 +1,4 @@
-//! Everybody meets who is near, and far groups as one, through a tree.
+//! Near pairs, and far groups as one, through a tree.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -25,7 +25,7 @@ const MEETINGS: f64 = (1 << 30) as f64;
 /// The θ that is none: single precision holds l / θ of what is larger.
 const LEAST: f64 = 1e-30;
 
-/// How many particles there must be before the tree is faster than that everybody meets everybody. Measured on lavapipe by
+/// How many particles there must be before the tree is faster than direct summation. Measured on lavapipe by
 /// `motes bench tree`; for hardware it is an estimate, from the interactions of both and the rates of others.
 #[must_use]
 pub fn crossing(machine: &Machine) -> u32 {
@@ -112,7 +112,7 @@ pub fn kernel(law: Law, tree: &Tree, problem: &Problem) -> Result<Kernel, Error>
     if !law.distant.images && problem.bounds.has(Side::Periodic) {
         return Err(Error::Scene(format!(
             "`{}` walks a tree in a periodic box: the nearest image jumps from side to side half a box away, and no group can \
-             be met as one there; meet everybody (over = \"pairs\"), or open the box",
+             be taken as one there; sum over all pairs (over = \"pairs\"), or open the box",
             law.name
         )));
     }

@@ -99,7 +99,7 @@ pub fn twin(
             near.sum::<DVec4>() + far.sum::<DVec4>()
         };
         let slots: Vec<usize> = (0..tree.count as usize).collect();
-        let felt: Vec<(usize, DVec4)> = slots
+        let sums: Vec<(usize, DVec4)> = slots
             .par_chunks(GROUP as usize)
             .enumerate()
             .flat_map_iter(|(group, slots)| {
@@ -117,7 +117,7 @@ pub fn twin(
             })
             .collect();
         let mut acceleration = host.write(ACCELERATION)?;
-        for (id, a) in felt {
+        for (id, a) in sums {
             // Each of a pair holds half of its potential energy.
             acceleration[id] += a * DVec4::new(1.0, 1.0, 1.0, 0.5);
         }
@@ -125,7 +125,7 @@ pub fn twin(
     })
 }
 
-/// Whom a group meets.
+/// What a group meets.
 #[derive(Default)]
 struct Met {
     far: Vec<u32>,

@@ -1,4 +1,4 @@
-//! States that say who lives, and runs that go on from them.
+//! States that say which particles are active, and runs that go on from them.
 
 use motes::io::{Precision, csv, npz};
 use motes::kernel::Columns;
@@ -9,7 +9,7 @@ use motes::{Cpu, Setup, Simulation, State};
 use crate::{DT, jet, state};
 
 #[test]
-fn files_say_who_lives() {
+fn files_say_which_are_active() {
     let mut particles = jet(0.3);
     particles.set_life(1, Life::Living);
     particles.set_life(2, Life::Dead);
@@ -26,7 +26,7 @@ fn files_say_who_lives() {
     std::fs::write(&table, "x,y,z,life\n0,0,0,3\n").expect("written");
     let said = csv::read(&table, &Columns::default()).expect_err("no such life").to_string();
     assert!(said.contains("column life: 3 is none of 0 (waits), 1 (lives) and 2 (is dead)"), "{said}");
-    // Where everybody lives nothing is said of it.
+    // Where all are active nothing is said of it.
     particles.remove("life");
     csv::write_csv(std::fs::File::create(&table).expect("a file"), &particles, Precision::Double).expect("written");
     assert!(!std::fs::read_to_string(&table).expect("a text").contains("life"));
@@ -80,7 +80,7 @@ fn a_run_goes_on_from_its_state() {
     assert!(of.waiting > 0 && of.dead > 0 && of.living > 5, "{of:?}");
     assert!(half.population().waiting > of.waiting);
     for id in 0..85 {
-        // Rounding alone: in f64 births are told by their times, which are told otherwise.
+        // Rounding alone: in f64 births are decided by their times, which are written otherwise.
         assert!((then.position()[id] - end.position()[id]).length() < 1e-9, "{id}");
         assert!((then.mass()[id] - end.mass()[id]).abs() < 1e-12, "{id}");
     }

@@ -1,4 +1,4 @@
-//! Nobody is lost, nobody comes back, and what is summed is what lives.
+//! No particle is lost, none comes back, and what is summed is what is active.
 
 use glam::DVec3;
 use motes::life::{Drain, Life};
@@ -61,9 +61,9 @@ fn the_dead_stay_dead_and_ids_are_never_reused() {
     assert!(seen[0] > 20 && seen[1] > 10, "births and deaths were seen: {seen:?}");
 }
 
-/// Who waits or is dead is met by nobody: the others move as if there were nobody else, to the bit.
+/// Particles that are not active are in no pair: the others move as if there were no others, to the bit.
 #[test]
-fn nobody_meets_those_who_do_not_live() {
+fn inactive_particles_are_in_no_pair() {
     let alone = pool(Vec::new());
     let n = alone.state.len() - alone.state.births.len();
     let run = |particles| {
@@ -87,9 +87,9 @@ fn nobody_meets_those_who_do_not_live() {
     assert_eq!(run(some), run(few));
 }
 
-/// Gravity goes by mass, so that it needs no grid to pass by those who have none.
+/// Gravity goes by mass, so that it needs no cell list to skip those without.
 #[test]
-fn the_dead_attract_nobody() {
+fn removed_particles_attract_none() {
     let mut particles = support::cloud(40, 3);
     particles.links = motes::links::Links::default();
     let gravity = |particles| {
@@ -151,7 +151,7 @@ fn without_births_nothing_is_added() {
 
 /// Rows that wait at one place are no fluid that would explode.
 #[test]
-fn who_waits_is_not_looked_at_as_a_start() {
+fn pending_particles_are_no_part_of_a_start() {
     let mut setup = pool(drains());
     // Its solid stands in the middle of the fluid, and would press it together.
     assert!(setup.start().is_err_and(|why| why.to_string().contains("stand within solids")));

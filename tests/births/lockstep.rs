@@ -31,7 +31,7 @@ fn kernels_agree_with_their_twins() {
     let shared = support::device();
     for (name, machine) in machines::machines(&shared).into_iter().filter(|(name, _)| !name.contains("layers")) {
         let mut setup = pool(drains());
-        // Those who live are fewer than their ids: who is dead came first.
+        // Active particles are fewer than their ids: removed ones came first.
         setup.forces[1] = fluid_with(&[("tension", Value::Number(0.3)), ("adhesion", Value::Number(0.2))]);
         let mut gpu = machines::gpu(&shared, setup.state.len());
         gpu.pretend(machine);
@@ -58,7 +58,7 @@ fn kernels_agree_with_their_twins() {
     }
 }
 
-/// Where density is a state, those who wait keep it, and those who are dead are in nobody's sum.
+/// Where density is a state, pending particles keep it, and removed ones are in no sum.
 #[test]
 fn states_of_density_agree_with_their_twins() {
     let shared = support::device();
@@ -80,7 +80,7 @@ fn states_of_density_agree_with_their_twins() {
     assert!(of.waiting > 0 && of.dead > 0, "{of:?}");
 }
 
-/// Where pressure is solved for, only those who live are: pairs are kept, or found anew.
+/// Where pressure is solved for, active particles alone are: pairs are kept, or found anew.
 #[test]
 fn solves_for_pressure_agree_with_their_twins() {
     let shared = support::device();

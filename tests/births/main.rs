@@ -1,4 +1,4 @@
-//! Who is born when and where, who dies, and that nobody else knows of those who do not live.
+//! Which particles are spawned when and where, which are removed, and that inactive ones act on no other.
 
 mod files;
 mod ledger;

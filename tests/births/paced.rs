@@ -39,8 +39,8 @@ fn paced(particles: State, more: &[(&'static str, Value)]) -> Setup {
     Setup { integrator: Box::new(Paced { integrator: even.integrator, pace }), ..even }
 }
 
-/// Everybody is born at the end of the step that reaches its time, where it has flown to since, and weighs what it should; and as
-/// soon as somebody lives, steps are those of a fluid.
+/// Each is spawned at the end of the step that reaches its time, where it has flown to since, and weighs what it should; and as
+/// soon as one is active, steps are those of a fluid.
 #[test]
 fn births_keep_their_times() {
     let particles = jet(0.03);
@@ -70,6 +70,6 @@ fn births_keep_their_times() {
         let ledger = now.mass().iter().sum::<f64>();
         assert!(ledger.to_bits() == (lived as f64 * MASS).to_bits(), "{ledger}");
     }
-    // The first steps have nobody to ask, and then there are those of a fluid.
+    // The first steps have no active particle, and then there are those of a fluid.
     assert!((lengths[0] - DT).abs() < 1e-6 && lived >= 8, "{lived}: {lengths:?}");
 }

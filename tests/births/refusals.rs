@@ -17,7 +17,7 @@ fn said(text: &str) -> String {
 }
 
 #[test]
-fn scenes_are_told_what_is_wrong_and_where() {
+fn faults_of_scenes_name_their_place() {
     let cases = [
         ("[[emitter]]\nspeed = 1\n", "wants either a `spacing`", "a.toml:6:1"),
         ("[[emitter]]\nspeed = 1\nspacing = 0.1\nrate = 3\n", "wants either a `spacing`", "a.toml:6:1"),
@@ -54,7 +54,7 @@ fn scenes_are_told_what_is_wrong_and_where() {
 }
 
 #[test]
-fn programs_are_told_too() {
+fn programs_get_the_same_errors() {
     let birth = Birth { id: 1, time: 0.0, velocity: DVec3::X, mass: 1.0, guided: 0.0, emitter: 0 };
     let drain = Drain { solid: Solid::Sphere(1.0), position: DVec3::ZERO, outside: false, species: None };
     let life = [Life::Living, Life::Waiting];

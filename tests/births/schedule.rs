@@ -39,7 +39,7 @@ fn as_many_are_born_as_are_due() {
         let want = (6 * due(time, 0.0, 0.1 / 1.3)).min(rows) + due(time, 0.1, 1.0 / 71.0).min(all - rows);
         let have = pollster::block_on(simulation.population()).expect("a count");
         assert_eq!((have.living, have.waiting, have.dead), (want, all - want, 0), "at {time}");
-        // Those who live are the first of each emitter, and each is where it flew to by itself.
+        // Active particles are the first of each emitter, and each is where it flew to by itself.
         let now = state(&mut simulation);
         for birth in &particles.births {
             let id = birth.id as usize;
@@ -67,7 +67,7 @@ fn rows_follow_each_other_at_the_spacing() {
     simulation.step(73).expect("steps");
     let now = state(&mut simulation);
     assert!(now.life().iter().all(|life| *life == Life::Living));
-    // Of everybody in the middle of the jet the nearest others are a spacing away, and six of them.
+    // In the middle of the jet the nearest others of each are a spacing away, and six of them.
     let gap = |a: usize, b: usize| (now.position()[a] - now.position()[b]).length();
     for id in 0..particles.len() {
         let near = (0..particles.len()).filter(|other| *other != id && gap(id, *other) < 0.12).collect::<Vec<_>>();
@@ -130,7 +130,7 @@ fn a_jet_is_at_rest_density() {
     }
 }
 
-/// Who has just been born goes straight on, whatever forces say; then it falls.
+/// A particle just spawned goes straight on, whatever forces say; then it falls.
 #[test]
 fn the_newest_go_straight_on() {
     let particles = jet(0.8);

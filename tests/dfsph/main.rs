@@ -1,4 +1,4 @@
-//! Fluids whose pressure is solved for: the kernels against their twins, what a solve leaves, columns at rest, and odd states.
+//! Fluids whose pressure is solved for: the kernels against their references, what a solve leaves, columns at rest, and odd states.
 #![allow(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,

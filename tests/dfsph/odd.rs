@@ -27,7 +27,7 @@ fn after(places: &[DVec3], steps: u32) -> (Vec<DVec3>, u32) {
 }
 
 #[test]
-fn who_is_alone_flies_on() {
+fn a_single_particle_flies_on() {
     for places in
         [vec![DVec3::ZERO], vec![DVec3::ZERO, DVec3::X], vec![DVec3::ZERO, 0.999 * 2.0 * SPACING * DVec3::X, DVec3::Y]]
     {
@@ -38,7 +38,7 @@ fn who_is_alone_flies_on() {
 }
 
 #[test]
-fn who_is_all_at_one_place_is_not_solved_for_and_that_is_told() {
+fn coincident_particles_are_reported_and_not_solved_for() {
     let (velocity, failures) = after(&[DVec3::splat(0.1); 30], 2);
     assert_eq!(failures, 2);
     assert!(velocity.iter().all(|v| v.distance(DVec3::new(0.3, -0.2, 0.1)) < 1e-7), "{velocity:?}");

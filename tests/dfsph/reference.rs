@@ -5,13 +5,13 @@ use motes::fluids::{Medium, Smoothing};
 
 use crate::{DENSITY, SPACING};
 
-/// Who is where, and moves how.
+/// Where particles are, and how they move.
 pub struct Flow {
     pub medium: Medium,
     pub position: Vec<DVec3>,
     pub velocity: Vec<DVec3>,
     pub mass: Vec<f64>,
-    /// Who is of a wall.
+    /// Which are of a wall.
     pub wall: Vec<bool>,
     neighbors: Vec<Vec<usize>>,
     shortest: Box<dyn Fn(DVec3) -> DVec3>,
@@ -92,7 +92,7 @@ impl Flow {
         };
         (0..start.len()).map(one).collect()
     }
-    /// Solves such that over ρ / ρ₀ = `density` the velocity leaves no more than 1; whose `free` is true may be compressed.
+    /// Solves such that over ρ / ρ₀ = `density` the velocity leaves no more than 1; those with a true `free` may be compressed.
     pub fn solve(&mut self, density: &[f64], free: &[bool], dt: f64, tolerance: f64, most: u32) -> Solved {
         let (start, count) = (self.velocity.clone(), self.fluid().count() as f64);
         let alpha: Vec<f64> =
@@ -119,7 +119,7 @@ impl Flow {
         }
         unreachable!("there is a last iteration")
     }
-    /// Who has few neighbours.
+    /// Which have few neighbours.
     pub fn few(&self) -> Vec<bool> {
         let fewest = if self.medium.dimensions == 2 { 7 } else { 20 };
         self.neighbors.iter().map(|near| near.len() < fewest).collect()

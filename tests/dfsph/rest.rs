@@ -41,7 +41,7 @@ fn a_column_at_rest_stays_and_weighs() {
         assert!(p[..tank.walls()].iter().all(|p| *p == 0.0), "walls have a pressure");
         let p: Vec<f64> = p[tank.walls()..].iter().map(|p| p / (DENSITY * WEIGHT * height)).collect();
         let depth: Vec<f64> = x.iter().map(|x| 1.0 - (x.dot(tank.up) + 0.5 * SPACING) / height).collect();
-        // Nobody sinks or rises by half a spacing, and what moves is slow: what the tolerance leaves, 1e-4 of a spacing in a step
+        // No particle sinks or rises by half a spacing, and what moves is slow: what the tolerance leaves, 1e-4 of a spacing in a step
         // and in the mean, moves particles by 1e-3 of the speed of a fall, the loosest by ten times that.
         let top = depth.iter().copied().fold(f64::INFINITY, f64::min) * height / SPACING;
         assert!((top - 0.5).abs() < 0.5, "the top has moved by {top} - 0.5 spacings");

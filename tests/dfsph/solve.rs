@@ -87,7 +87,7 @@ fn a_solve_keeps_the_density_in_as_many_iterations_as_in_f64() {
 }
 
 #[test]
-fn who_does_not_converge_is_told() {
+fn solves_that_do_not_converge_are_reported() {
     let shared = support::device();
     let mut tank = Tank::new([9, 12], true, 0.2);
     stirred(&mut tank, true);

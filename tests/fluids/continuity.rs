@@ -26,7 +26,7 @@ fn densities(simulation: &mut Simulation<Cpu>) -> Vec<f64> {
 fn continuity_follows_the_sums() {
     let all = bounds(144, true, Side::Periodic);
     let particles = cloud(144, true, false);
-    // Nothing pushes: everybody goes straight on.
+    // Nothing pushes: all particles go straight on.
     let quiet = |by| {
         fluid(&[
             ("sound_speed", Number(1e-9)),
@@ -112,8 +112,8 @@ fn diffusion_needs_a_density_that_is_a_state() {
         0.01,
         bounds(20, true, Side::Open),
     );
-    let told = setup.plans(motes::kernel::Machine::HOST).err().map(|error| error.to_string()).unwrap_or_default();
-    assert!(told.contains("no state to diffuse"), "{told}");
+    let said = setup.plans(motes::kernel::Machine::HOST).err().map(|error| error.to_string()).unwrap_or_default();
+    assert!(said.contains("no state to diffuse"), "{said}");
 }
 
 /// Diffusion levels densities and keeps their sum; with its weight, those of a fluid at rest stay.
@@ -123,8 +123,8 @@ fn diffusion_leaves_a_fluid_at_rest_alone() {
     let mut particles: State = cloud(144, true, false);
     particles.velocity_mut().fill(DVec3::ZERO);
     let weight = DVec3::new(0.03, -0.08, 0.0);
-    let run = |told: DVec3, start: &dyn Fn(DVec3) -> f64| {
-        let still = [("diffusion", Number(0.1)), ("weight", Value::Vector(told)), ("density_by", word("continuity"))];
+    let run = |given: DVec3, start: &dyn Fn(DVec3) -> f64| {
+        let still = [("diffusion", Number(0.1)), ("weight", Value::Vector(given)), ("density_by", word("continuity"))];
         let mut simulation = cpu_in(&all, &particles, vec![fluid(&still)], "symplectic_euler", 1e-6);
         simulation.step(1).expect("a step");
         let dense = particles.position().iter().map(|x| start(*x)).collect::<Vec<_>>();
@@ -136,27 +136,27 @@ fn diffusion_leaves_a_fluid_at_rest_alone() {
     };
     // c(ρ)² dρ = ρ w·dr, by Tait's equation with γ = 7.
     let at_rest = |x: DVec3| DENSITY * (1.0 + 6.0 * weight.dot(x) / (2.7 * 2.7)).powf(1.0 / 6.0);
-    let (told, untold) = (run(weight, &at_rest), run(DVec3::ZERO, &at_rest));
+    let (with, without) = (run(weight, &at_rest), run(DVec3::ZERO, &at_rest));
     // Densities are up to 1.5 % off rest: what is left is 15 times the square of that, and with c₀ for c it would be 5 times it.
-    assert!(told < 0.01 * untold && untold > 1e-9, "{told:e} {untold:e}");
+    assert!(with < 0.01 * without && without > 1e-9, "{with:e} {without:e}");
 }
 
-/// XSPH keeps momentum, and a body that moves as a whole feels nothing of it.
+/// XSPH keeps momentum, and a body that moves as a whole is unchanged by it.
 #[test]
 fn xsph_draws_together() {
     let all = bounds(100, true, Side::Open);
     let mut particles = cloud(100, true, false);
     let quiet = |xsph: f64| [fluid(&[("alpha", Number(0.0)), ("viscosity", Number(0.0)), ("xsph", Number(xsph))])];
-    let felt = |particles: &State| {
+    let drawn_by = |particles: &State| {
         let both = [0.0, 0.5].map(|xsph| accelerations_in(&all, &quiet(xsph), particles, 0.0));
         both[1].iter().zip(&both[0]).map(|(with, without)| (*with - *without).truncate()).collect::<Vec<_>>()
     };
-    let drawn = felt(&particles);
+    let drawn = drawn_by(&particles);
     let each = || drawn.iter().zip(particles.mass()).map(|(a, m)| *m * *a);
     let (total, size) = (each().sum::<DVec3>().length(), each().map(DVec3::length).sum::<f64>());
     assert!(total < 1e-12 * size && size > 0.0, "{total:e} of {size}");
     let power: f64 = each().zip(particles.velocity()).map(|(f, v)| f.dot(*v)).sum();
     assert!(power < 0.0, "{power}");
     particles.velocity_mut().fill(DVec3::new(0.3, -0.4, 0.0));
-    assert!(felt(&particles).iter().all(|a| a.length() < 1e-12));
+    assert!(drawn_by(&particles).iter().all(|a| a.length() < 1e-12));
 }

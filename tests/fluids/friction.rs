@@ -1,4 +1,4 @@
-//! How viscous a fluid is: what a wave of shear feels.
+//! How viscous a fluid is: the decay of a wave of shear.
 
 use std::f64::consts::TAU;
 
@@ -34,8 +34,8 @@ fn viscosity(flat: bool, support: f64, rubs: (&'static str, f64)) -> f64 {
         (rubs.0, Number(rubs.1)),
     ];
     let bounds = Bounds::new(DVec3::ZERO, size, Side::Periodic);
-    let felt = accelerations_in(&bounds, &[force("fluid", &settings)], &particles, 0.0);
-    let slowed: f64 = felt.iter().zip(particles.velocity()).map(|(a, v)| a.truncate().dot(*v)).sum();
+    let got = accelerations_in(&bounds, &[force("fluid", &settings)], &particles, 0.0);
+    let slowed: f64 = got.iter().zip(particles.velocity()).map(|(a, v)| a.truncate().dot(*v)).sum();
     let square: f64 = particles.velocity().iter().map(|v| v.length_squared()).sum();
     -slowed / square / (TAU * TAU)
 }
@@ -48,7 +48,7 @@ fn waves_of_shear_are_slowed_by_the_viscosity_that_is_asked_for() {
         let laminar = viscosity(flat, 4.0, ("viscosity", 0.01)) / 0.01;
         println!("laminar: {laminar:.4}");
         assert!((laminar - 1.0).abs() < 0.04, "flat {flat}: {laminar}");
-        // ν = α s c / (2 (D + 2)) (Monaghan 2005), where both who approach and who part rub; here those alone who approach.
+        // ν = α s c / (2 (D + 2)) (Monaghan 2005), where pairs that approach and that part rub; here those alone that approach.
         let dimensions = if flat { 2.0 } else { 3.0 };
         let artificial = viscosity(flat, 4.0, ("alpha", 0.1)) / (0.1 * 0.1 * 10.0 / (4.0 * (dimensions + 2.0)));
         println!("artificial: {artificial:.4}");

@@ -38,7 +38,7 @@ fn a_key_that_is_changed_changes_something() {
     let plain = with(Settings::defaults(entry.keys), &some);
     let full = with(plain.clone(), &more);
     let before = [&plain, &full].map(becomes);
-    // What a solver of pressure is told has tests of its own.
+    // The keys of a solver of pressure have tests of their own.
     let solvers = ["tolerance", "divergence_tolerance", "min_iterations", "max_iterations"];
     for key in entry.keys.iter().filter(|key| !solvers.contains(&key.name)) {
         let read = [&plain, &full].into_iter().zip(&before).any(|(settings, before)| {

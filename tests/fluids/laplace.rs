@@ -18,7 +18,7 @@ const SUPPORT: f64 = 2.5;
 const RHO: f64 = 1000.0;
 const SOUND: f64 = 10.0;
 
-/// Drops of so many spacings, one behind the other and out of each other's reach; of lattices that are nobody's mirror image, or
+/// Drops of so many spacings, one behind the other and out of each other's reach; of lattices without mirror symmetry, or
 /// they would keep their corners. And how many are in each.
 fn drops(radii: &[f64]) -> (State, Vec<usize>) {
     let (mut particles, mut counts, mut along) = (State::default(), Vec::new(), 0.0);
@@ -117,7 +117,7 @@ fn sigmas(radii: &[f64], tension: f64) -> Vec<f64> {
     sums
 }
 
-/// Who is in a surface, as thick as a support, bears nothing of its pull: what it presses on begins below. With R − h for R the law
+/// Particles in a surface, as thick as a support, bear nothing of its pull: what it presses on begins below. With R − h for R the law
 /// of Laplace holds: over radii of 6 to 13 spacings, left alone for two seconds, σ was seen to be 22.7, 23.6, 22.6, 21.5 and 22.5,
 /// where with R it falls from 39 to 28. So long is too long here: after a third of a second small drops have 19, of which some 8 %
 /// go with the way in which what was a lattice has become a drop, and weaker surfaces take longer.

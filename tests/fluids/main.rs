@@ -1,4 +1,4 @@
-//! Fluids: what smooths them, what they feel, and what they do, against quadrature, twins, series and published numbers.
+//! Fluids: what smooths them, their forces, and what they do, against quadrature, references, series and published numbers.
 
 #![allow(clippy::cast_possible_truncation, reason = "numbers are rounded to what f32 holds")]
 
@@ -62,7 +62,7 @@ fn scene(name: &str, changes: &[&str]) -> (Scene, Setup) {
     (load(), setup)
 }
 
-/// Where everybody is, and how they move.
+/// Where the particles are, and how they move.
 fn state(simulation: &mut Simulation<Gpu>) -> Vec<(DVec3, DVec3)> {
     let read = |simulation: &mut Simulation<Gpu>, field| pollster::block_on(simulation.read(field)).expect("a field");
     let (x, v) = (read(simulation, POSITION), read(simulation, VELOCITY));

@@ -44,7 +44,7 @@ fn gradients_are_derivatives() {
         for dimensions in [2, 3] {
             let (me, r) = (medium(smoothing, 2.3, dimensions), DVec3::new(0.2, -0.31, 0.17));
             let moved = |by: f64| me.kernel(r - by * DVec3::Y);
-            // Who stands r away is where the kernel is looked at: to move there is to shorten r.
+            // A particle r away is where the kernel is looked at: to move there is to shorten r.
             let slope = (moved(e) - moved(-e)) / (2.0 * e);
             assert!((me.gradient(r) * -r.y - slope).abs() < 1e-7 * slope.abs(), "{smoothing:?}, {dimensions}: {slope}");
         }

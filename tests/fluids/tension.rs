@@ -18,8 +18,8 @@ fn two_pull_each_other_by_the_paper() {
     let mut particles = State::default();
     particles.push(DVec3::ZERO, DVec3::ZERO, mass, 0.0);
     particles.push(DVec3::new(0.5 * h, 0.0, 0.0), DVec3::ZERO, mass, 0.0);
-    let felt = |tension| accelerations_in(&bounds(2, false, Side::Open), &forces(tension), &particles, 0.0)[0].x;
-    let got = felt(3.0) - felt(0.0);
+    let pull = |tension| accelerations_in(&bounds(2, false, Side::Open), &forces(tension), &particles, 0.0)[0].x;
+    let got = pull(3.0) - pull(0.0);
     // The cubic spline at 0 and at 1/2: bells of 1 and 1/4, a slope of −3/2 in q; and its sum over a lattice of h = 2 d.
     let constant = 8.0 / (std::f64::consts::PI * h.powi(3)) / LATTICE;
     let rho = mass * constant * 1.25;
@@ -39,10 +39,10 @@ fn tension_keeps_momentum() {
     for flat in [false, true] {
         let mut particles = cloud(80, flat, false);
         particles.mass_mut().fill(0.01);
-        let felt =
+        let pull =
             accelerations_in(&bounds(80, flat, Side::Periodic), &[fluid(&[("tension", Number(5.0))])], &particles, 0.0);
-        let sum: DVec3 = felt.iter().map(|a| a.truncate()).sum();
-        let size: f64 = felt.iter().map(|a| a.truncate().length()).sum();
+        let sum: DVec3 = pull.iter().map(|a| a.truncate()).sum();
+        let size: f64 = pull.iter().map(|a| a.truncate().length()).sum();
         assert!(size > 0.0 && sum.length() < 1e-10 * size, "{sum} of {size}");
     }
 }

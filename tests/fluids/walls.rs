@@ -1,4 +1,4 @@
-//! How heavy walls are, and what a fluid that lies on them feels.
+//! How heavy walls are, and what they do to a fluid that lies on them.
 
 use glam::DVec3;
 use motes::settings::Value;

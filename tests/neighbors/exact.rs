@@ -8,7 +8,7 @@ use motes::{ACCELERATION, Bounds, Gpu, Setup, Simulation, State};
 use crate::support::states::integrator;
 use crate::support::{Shared, machines};
 
-/// Counts whom it meets, and adds their ids and the eighths of the way to them; all below 2²⁴.
+/// Counts the pairs of each particle, and adds their ids and the eighths of the way to them; all below 2²⁴.
 pub struct Whole(pub Over);
 
 const WHOLE: &str = "fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
@@ -33,7 +33,7 @@ impl Component for Whole {
     }
 }
 
-/// Everybody within a range, found on the host by looking at all, by the device's own arithmetic.
+/// All within a range, found on the host by brute force, by the device's own arithmetic.
 pub fn by_force(positions: &[DVec3], bounds: &Bounds, range: f64) -> Vec<Vec4> {
     let met = |i: usize| {
         let others = (0..positions.len()).filter(|j| *j != i);
@@ -102,7 +102,7 @@ pub fn same(got: &[Vec4], want: &[Vec4], of: &str) {
 }
 
 #[test]
-fn the_whole_law_meets_somebody() {
+fn the_whole_law_meets_neighbours() {
     let list = by_force(&[DVec3::ZERO, DVec3::X, DVec3::Y * 3.0], &Bounds::default(), 1.5);
     assert_eq!(list[0], Vec4::new(1.0, 1.0, 8.0, 1.0));
     assert_eq!(list[2], Vec4::ZERO);

@@ -40,7 +40,7 @@ fn moved(
 }
 
 #[test]
-fn a_stray_far_below_makes_nobody_blind() {
+fn a_stray_far_below_hides_no_neighbours() {
     let shared = support::device();
     for far in [1e4, 1e6, 1e7, 1e8, 1e9, 1e12, 1e30] {
         for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
@@ -60,7 +60,7 @@ fn a_stray_far_below_makes_nobody_blind() {
 }
 
 #[test]
-fn who_flies_away_from_a_thin_sheet_meets_nobody_twice() {
+fn a_stray_from_a_thin_sheet_meets_each_once() {
     let shared = support::device();
     for thin in [DVec3::X, DVec3::Y, DVec3::Z, DVec3::new(1.0, 1.0, 0.0)] {
         let sheet = cloud(300, DVec3::ZERO, DVec3::ONE - thin + DVec3::splat(6.0) * (DVec3::ONE - thin), 7);
@@ -79,7 +79,7 @@ fn who_flies_away_from_a_thin_sheet_meets_nobody_twice() {
 #[test]
 fn lanes_that_walk_together_go_no_further_than_once_round() {
     let shared = support::device();
-    // As many cells along x as those who walk together may look at, and some less and more. Those of eight ids stand in
+    // As many cells along x as particles that walk together may look at, and some less and more. Those of eight ids stand in
     // one row, the first of them in the middle.
     for cells in [6, 7, 8, 9, 10_u32] {
         let row = [3, 0, 6, 1, 5, 2, 4, cells - 1];

@@ -47,7 +47,7 @@ pub fn all() -> Vec<Place> {
         place("periodic, one cell", in_cube(300, 3.0), cube(3.0), 5.0),
         place("periodic, more than the box", in_cube(200, 3.0), cube(3.0), 50.0),
         place("open", in_cube(2000, 3.0), Bounds::default(), 0.71),
-        place("open, everybody in one cell", in_cube(500, 0.1), Bounds::default(), 3.0),
+        place("open, all in one cell", in_cube(500, 0.1), Bounds::default(), 3.0),
         place("open, all at one place", particles(&[DVec3::new(0.3, -2.0, 7.0); 100]), Bounds::default(), 0.5),
         place("open, cells all but empty", in_cube(900, 500.0), Bounds::default(), 40.0),
         place("open, folded", in_cube(2000, 1e4), Bounds::default(), 900.0),

@@ -66,7 +66,7 @@ impl Component for Half {
 }
 
 #[test]
-fn a_law_that_meets_nobody_is_refused() {
+fn a_law_without_pairs_is_refused() {
     let machine = Machine::HOST;
     for over in [Over::Near { range: 1.0, of: None }, Over::Nearest { count: 3 }] {
         let forces: [Box<dyn Component>; 1] = [Box::new(Half(over))];
@@ -78,7 +78,7 @@ fn a_law_that_meets_nobody_is_refused() {
 }
 
 #[test]
-fn who_is_nowhere_is_named_and_meets_nobody() {
+fn particles_at_nan_are_named_and_meet_none() {
     let shared = support::device();
     let positions = cloud(200);
     let boxed = Bounds::new(DVec3::splat(-1.0), DVec3::splat(1.0), Side::Periodic);
@@ -95,7 +95,7 @@ fn who_is_nowhere_is_named_and_meets_nobody() {
                     simulation.step(0).expect("a start");
                     let error = pollster::block_on(simulation.check()).expect_err("an alarm");
                     assert!(matches!(error, Error::NotFinite { particle: 60, step: 0 }), "{name}: {error}");
-                    // All others meet whom they would meet without the two.
+                    // All others meet what they would meet without the two.
                     let mut others = positions.clone();
                     (others[60], others[131]) = (DVec3::NAN, DVec3::NAN);
                     let mut want = match over {
@@ -152,7 +152,7 @@ fn a_crowd_is_named() {
             let alarm = bytemuck::pod_collect_to_vec::<u8, u32>(&bytes);
             assert_eq!(&alarm[..2], [u32::MAX; 2], "{over:?}, {name}");
             let error = pollster::block_on(simulation.check()).expect_err("an alarm");
-            // Who looks for the nearest in thin air looks far, and finds the crowd too.
+            // A search for the nearest in thin air looks far, and finds the dense part too.
             let first = if over.range().is_some() { 30 } else { 0 };
             assert!(matches!(error, Error::Crowded { particle } if particle >= first), "{over:?}, {name}: {error}");
             assert!(over.range().is_none() || alarm[2] == 30, "{name}: {alarm:?}");

@@ -1,4 +1,4 @@
-//! Runs: the same bits in any batches, one grid for all who search it, and no image missed on the way out of the box.
+//! Runs: the same bits in any batches, one cell list for all its searches, and no image missed on the way out of the box.
 
 use glam::{DVec3, Vec4};
 use motes::forces::{Component, Over, Problem};
@@ -59,7 +59,7 @@ fn the_same_bits_in_any_batches() {
 }
 
 #[test]
-fn a_grid_is_built_once_for_all_who_search_it() {
+fn a_cell_list_is_built_once_for_all_its_searches() {
     let machine = Machine { software: false, subgroup: 0, invocations: 1 << 18, ..Machine::HOST };
     let near = |range, of| Over::Near { range, of };
     let overs = [near(0.4, None), near(0.25, None), near(0.4, None), Over::Nearest { count: 7 }, near(0.4, Some(1))];
@@ -81,7 +81,7 @@ fn a_grid_is_built_once_for_all_who_search_it() {
 }
 
 #[test]
-fn every_stage_of_every_integrator_agrees_with_those_who_visit_everybody() {
+fn every_stage_of_every_integrator_agrees_with_brute_force() {
     let shared = support::device();
     for entry in INTEGRATORS {
         for over in [Over::Near { range: 0.4, of: None }, Over::Nearest { count: 5 }] {

@@ -110,7 +110,7 @@ fn the_hosts_cells_take_anything() {
 }
 
 #[test]
-fn the_hosts_cells_find_everybody_however_far() {
+fn the_hosts_cells_find_all_however_far() {
     for far in [0.0, 9000.0, 3e6, 1e7] {
         let mut random = Random::new(3);
         let place = |x: DVec3| (far + 2.0 * x).as_vec3().as_dvec3();

@@ -96,7 +96,7 @@ fn a_law_writes_what_a_scene_declares_and_files_hold_it() {
         for name in ["position", "charge", "turning", "family", "heat", "potential"] {
             assert_eq!(back.get(name), state.get(name), "{name} in {format}");
         }
-        // A file of such columns is refused where nobody declares them.
+        // A file of such columns is refused where they are not declared.
         let said = motes::io::read(&path, &Columns::default()).expect_err("unknown").to_string();
         assert!(said.contains("unknown") && said.contains("`charge`"), "{said}");
         let text = bodies(", charge = 3");
@@ -140,7 +140,7 @@ fn what_is_missing_is_named() {
     // A library's setup says the same.
     let mut state = support::cloud(4, 1);
     state.declare(&Column::new("charge", Kind::Scalar, "", "").required()).expect("a new column");
-    let Err(Error::Scene(why)) = setup_of(state.clone()).check() else { panic!("nobody gives a charge") };
+    let Err(Error::Scene(why)) = setup_of(state.clone()).check() else { panic!("no charge is given") };
     assert!(why.contains("`charge`") && why.contains("no initial value"), "{why}");
     state.set("charge", Array::Float(vec![1.0, f64::NAN, 0.0, 0.0])).expect("four");
     let Err(Error::Scene(why)) = setup_of(state).check() else { panic!("a charge is no number") };

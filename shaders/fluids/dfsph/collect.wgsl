@@ -1,4 +1,4 @@
-// The solve for a velocity without compression is taken: its accelerations are felt like all others. What is felt then is what
+// The solve for a velocity without compression is taken: its accelerations are added to all others. Their sum is what
 // the density at the end of the step is predicted with.
 @group(1) @binding(2) var<storage, read_write> acceleration: array<vec4f>;
 @group(2) @binding(5) var<storage, read> sorted_id: array<u32>;

@@ -1,2 +1,2 @@
-// Who is found by a walk of the grid is met with how strongly it pushes, V g r.
+// Neighbours found by a walk of the cell list push by V g r.
 fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) { meet(me, you, (you.mass / REST_DENSITY * gradient(r)) * r, sum); }
