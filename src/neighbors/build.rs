@@ -78,7 +78,7 @@ impl Grid {
         }
         crate::shader!("neighbors/present.wgsl")
     }
-    /// The `override`s of a shader that the grid decides: its cells, of those all live in it, and how many lists it keeps.
+    /// The `override`s of a shader that the grid decides: its cells, of the active particles in it, and how many lists it keeps.
     #[must_use]
     pub fn constants(&self, shader: &Shader) -> Vec<(&'static str, f64)> {
         let (cells, layers) = (self.bins() - 1, self.layers());
