@@ -306,7 +306,20 @@ const PERSONS: [[&str; 2]; 8] = [
 ];
 
 /// Lines of folders that are still to be rewritten, at most: these numbers only fall.
-const PERSONS_LEFT: [(&str, usize); 12] = [("docs/pages/methods/equations.md", 9), ("shaders/fluids", 10), ("src/fluids", 46), ("src/neighbors", 3), ("src/simulation", 20), ("src/state", 1), ("src/visit", 27), ("tests/births", 1), ("tests/fluids", 8), ("tests/neighbors", 12), ("tests/state", 3), ("tests/walls/starts.rs", 1)];
+const PERSONS_LEFT: [(&str, usize); 12] = [
+    ("docs/pages/methods/equations.md", 9),
+    ("shaders/fluids", 10),
+    ("src/fluids", 46),
+    ("src/neighbors", 3),
+    ("src/simulation", 20),
+    ("src/state", 1),
+    ("src/visit", 27),
+    ("tests/births", 1),
+    ("tests/fluids", 8),
+    ("tests/neighbors", 12),
+    ("tests/state", 3),
+    ("tests/walls/starts.rs", 1),
+];
 
 /// Particles are things, in sources, tests, pages, scenes and the history: also in parts of names.
 #[test]
