@@ -124,8 +124,12 @@ impl Output {
     pub fn rows(&self) -> &[Measure] {
         &self.rows
     }
-    /// Writes particles in every format that is numbers.
+    /// Writes particles in every format that is numbers, and settles the tables beside them.
     pub fn snapshot(&self, snapshot: &State) -> Result<(), Error> {
+        let flock = self.flock.as_ref().map(|(table, ..)| table);
+        for table in [Some(&self.energy), flock, self.flow.as_ref()].into_iter().flatten() {
+            table.settle()?;
+        }
         let stem = format!("snapshot_{:0width$}", snapshot.step, width = self.digits);
         if self.formats.contains(&Format::Csv) {
             let path = self.folder.file(&format!("{stem}.csv"))?;

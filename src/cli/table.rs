@@ -1,4 +1,5 @@
-//! A table of numbers that grows while a run goes on: every row is on the disk when it is written.
+//! A table of numbers that grows while a run goes on: every row is with the system when it is written, and on the
+//! disk with the next state.
 
 use std::fs::{File, OpenOptions};
 use std::io::{BufWriter, Write};
@@ -20,6 +21,11 @@ impl Table {
         let mut file = BufWriter::new(made.map_err(|e| failed(&e))?);
         writeln!(file, "{header}").map_err(|e| failed(&e))?;
         Ok(Self { path, file })
+    }
+    /// Puts the rows on the disk, where a crash of the system does not reach them.
+    pub fn settle(&self) -> Result<(), Error> {
+        let settled = self.file.get_ref().sync_data();
+        settled.map_err(|e| Error::Output { file: self.path.clone(), message: e.to_string() })
     }
     /// Adds a row: the step, and what belongs to it.
     pub fn row(&mut self, step: u64, numbers: &[f64]) -> Result<(), Error> {

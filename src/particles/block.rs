@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::build::{CENTER, PARTICLE_SIZE, Reader, SEED, VELOCITY};
 use super::random::Random;
 use super::skin::{DENSITY, SPACING, cells, steps};
-use super::{Shape, one_part};
+use super::{Amount, Shape, one_part};
 use crate::error::Error;
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::state::State;
@@ -18,6 +18,7 @@ pub const BLOCK: Shape = Shape {
     about: "a block of fluid: a cubic lattice that fills a box, or a rectangle",
     keys: KEYS,
     build,
+    amount,
     parts: one_part,
 };
 
@@ -43,6 +44,11 @@ const KEYS: &[Key] = &[
     VELOCITY,
     PARTICLE_SIZE,
 ];
+
+fn amount(settings: &Settings) -> Amount {
+    let sides = (settings.vector("size") / settings.number("spacing")).round();
+    Amount::of(sides.max(DVec3::ONE).element_product())
+}
 
 /// As many particles along each side as fit best, in the middle of their shares; each weighs what the fluid in its share does.
 fn build(settings: &Settings) -> Result<State, Error> {

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::Amount;
 use crate::error::Error;
 use crate::motion::{Held, Hold};
 use crate::settings::{Key, Kind, Settings, Value};
@@ -92,15 +93,17 @@ impl Reader<'_> {
             .ok()
             .and_then(|count| usize::try_from(count).ok())
             .ok_or_else(|| limit(format!("need ids beyond the {} that fit 32 bits", u32::MAX)))?;
-        let room = State::with_room(count);
-        let missing = format!("need {} GiB of memory, which is not there", (count >> 30) * 64);
-        Ok((count, room.map_err(|_| limit(missing))?))
+        let ties = super::shape(self.shape).map(|shape| (shape.amount)(self.settings)).unwrap_or_default();
+        let missing = |why: String| Error::Limit(format!("shape `{}`: {why}; ask for fewer", self.shape));
+        Amount { particles: count as f64, ..ties }.fits().map_err(missing)?;
+        Ok((count, State::with_room(count).map_err(|why| missing(why.to_string()))?))
     }
 
     /// Whether so many particles may be asked for at all: what takes memory before it is known how many there will be, asks first.
     pub fn fits(&self, count: f64) -> Result<(), Error> {
         if count <= f64::from(MOST) {
-            return Ok(());
+            let missing = |why: String| Error::Limit(format!("shape `{}`: {why}; ask for fewer", self.shape));
+            return Amount::of(count).fits().map_err(missing);
         }
         Err(Error::Limit(format!(
             "shape `{}`: that is {count:.0} particles, and {MOST} are the most: ask for a wider spacing, or for less",

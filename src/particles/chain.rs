@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use glam::DVec3;
 
 use super::build::{MASS, PARTICLE_SIZE, Reader, VELOCITY, hold};
-use super::{Shape, one_part};
+use super::{Amount, Shape, one_part};
 use crate::error::Error;
 use crate::links::{Joint, Link, Rod};
 use crate::settings::{Key, Kind, Settings, Value};
@@ -17,6 +17,7 @@ pub const CHAIN: Shape = Shape {
     about: "particles in a row, tied one to the next by springs, ropes or rods: pendulums, strings, beams",
     keys: KEYS,
     build,
+    amount,
     parts: one_part,
 };
 
@@ -59,6 +60,14 @@ const KEYS: &[Key] = &[
     VELOCITY,
     PARTICLE_SIZE,
 ];
+
+fn amount(settings: &Settings) -> Amount {
+    let count = settings.number("count");
+    let ties = (count - 1.0).max(0.0);
+    let (springs, rods) = if settings.text("tie") == "rod" { (0.0, ties) } else { (ties, 0.0) };
+    let joints = if settings.number("bending") > 0.0 { (ties - 1.0).max(0.0) } else { 0.0 };
+    Amount { springs, rods, joints, ..Amount::of(count) }
+}
 
 /// `count` particles from `from` to `to`, evenly, in that order.
 fn build(settings: &Settings) -> Result<State, Error> {

@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::build::{CENTER, MASS, PARTICLE_SIZE, Reader, SEED, VELOCITY, hold};
 use super::random::Random;
-use super::{Shape, one_part};
+use super::{Amount, Shape, one_part};
 use crate::error::Error;
 use crate::links::{Link, Links};
 use crate::settings::{Key, Kind, Settings, Value};
@@ -18,6 +18,7 @@ pub const CLOTH: Shape = Shape {
     about: "a sheet of springs: along the threads, across the squares, and over two against bending (Provot 1995)",
     keys: KEYS,
     build,
+    amount,
     parts: one_part,
 };
 
@@ -77,6 +78,17 @@ const KEYS: &[Key] = &[
 ];
 
 const PINS: &[&str] = &["none", "corners", "row", "column", "rim"];
+
+fn amount(settings: &Settings) -> Amount {
+    let (columns, rows) = (settings.number("columns"), settings.number("rows"));
+    let less = |n: f64, by: f64| (n - by).max(0.0);
+    let squares = less(columns, 1.0) * less(rows, 1.0);
+    let threads = less(columns, 1.0) * rows + columns * less(rows, 1.0);
+    let over_two = less(columns, 2.0) * rows + columns * less(rows, 2.0);
+    let kinds = [("stretch", threads), ("shear", 2.0 * squares), ("bend", over_two)];
+    let springs = kinds.iter().filter(|(key, _)| settings.number(key) > 0.0).map(|(_, n)| n).sum();
+    Amount { springs, triangles: 2.0 * squares, ..Amount::of(columns * rows) }
+}
 
 /// `columns * rows` particles, the middle of the sheet at `center`; those of a row follow each other, so particle i of row j
 /// has the id  i + columns j. Squares are cut into triangles along alternate diagonals;

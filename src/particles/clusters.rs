@@ -8,7 +8,7 @@ use glam::DVec3;
 
 use super::build::{CENTER, COUNT, PARTICLE_SIZE, Reader, SEED, TOTAL_MASS, VELOCITY};
 use super::random::Random;
-use super::{Shape, one_part};
+use super::{Amount, Shape, one_part};
 use crate::error::Error;
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::state::State;
@@ -18,6 +18,7 @@ pub const CLUSTERS: Shape = Shape {
     name: "clusters",
     about: "clumps of clumps, a fractal, cold or with Gaussian velocities (Soneira & Peebles 1978)",
     keys: KEYS,
+    amount: Amount::counted,
     parts: one_part,
     build,
 };

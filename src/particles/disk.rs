@@ -6,11 +6,11 @@ use std::f64::consts::TAU;
 
 use glam::{DMat3, DVec3};
 
-use super::Shape;
 use super::build::{CENTER, COUNT, G, PARTICLE_SIZE, Reader, SEED, VELOCITY};
 use super::halo::Round;
 use super::random::Random;
 use super::rotation::{Galaxy, Rotation, Sphere};
+use super::{Amount, Shape};
 use crate::error::Error;
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::state::State;
@@ -21,6 +21,7 @@ pub const DISK: Shape = Shape {
     about: "a disk galaxy in a halo, with a bulge or without, near equilibrium: the disk's particles first, then the halo's, then the bulge's (Hernquist 1993)",
     keys: KEYS,
     build,
+    amount: Amount::counted,
     parts,
 };
 

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::build::{CENTER, PARTICLE_SIZE, Reader, VELOCITY};
 use super::skin::{DENSITY, SPACING, cells, steps};
-use super::{Shape, one_part};
+use super::{Amount, Shape, one_part};
 use crate::error::Error;
 use crate::settings::{Key, Kind, Settings};
 use crate::state::State;
@@ -15,6 +15,7 @@ pub const DROP: Shape = Shape {
     about: "a drop of fluid: a ball, an ellipsoid or a disk out of a cubic lattice",
     keys: KEYS,
     build,
+    amount,
     parts: one_part,
 };
 
@@ -26,6 +27,12 @@ const KEYS: &[Key] = &[
     VELOCITY,
     PARTICLE_SIZE,
 ];
+
+/// The part of a box that an ellipsoid fills is π / 6.
+fn amount(settings: &Settings) -> Amount {
+    let sides = (settings.vector("size") / settings.number("spacing")).round();
+    Amount::of((sides.max(DVec3::ONE).element_product() * 0.55).ceil())
+}
 
 /// All places of a lattice about its centre that are within the drop; each weighs what the fluid in its share does.
 fn build(settings: &Settings) -> Result<State, Error> {

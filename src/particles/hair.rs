@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::build::{CENTER, PARTICLE_SIZE, Reader, SEED, hold};
 use super::random::Random;
-use super::{Shape, one_part};
+use super::{Amount, Shape, one_part};
 use crate::error::Error;
 use crate::links::{Joint, Rod};
 use crate::settings::{Key, Kind, Settings, Value};
@@ -16,6 +16,7 @@ pub const HAIR: Shape = Shape {
     about: "strands of rods and joints that stand on a head; the first two particles of each are fixed",
     keys: KEYS,
     build,
+    amount,
     parts: one_part,
 };
 
@@ -48,6 +49,13 @@ const KEYS: &[Key] = &[
     CENTER,
     PARTICLE_SIZE,
 ];
+
+fn amount(settings: &Settings) -> Amount {
+    let (strands, points) = (settings.number("strands"), settings.number("points"));
+    let rods = strands * (points - 2.0).max(0.0);
+    let joints = if settings.number("bending") > 0.0 { rods } else { 0.0 };
+    Amount { rods, joints, ..Amount::of(strands * points) }
+}
 
 /// `strands * points` particles, strand by strand from its root on. Roots lie evenly on the cap (Fibonacci's lattice), and
 /// strands stand straight off the head, whose middle is at `center`. Inner joints have EI / ds, the clamped one at the

@@ -6,7 +6,7 @@
 
 use super::build::{CENTER, COUNT, G, PARTICLE_SIZE, Reader, SEED, TOTAL_MASS, VELOCITY};
 use super::random::Random;
-use super::{Shape, one_part};
+use super::{Amount, Shape, one_part};
 use crate::error::Error;
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::state::State;
@@ -16,6 +16,7 @@ pub const HERNQUIST: Shape = Shape {
     name: "hernquist",
     about: "Hernquist's sphere, a galaxy or halo with a cusp ρ ∝ 1/r, in equilibrium (Hernquist 1990)",
     keys: KEYS,
+    amount: Amount::counted,
     parts: one_part,
     build,
 };

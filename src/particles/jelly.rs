@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::build::{CENTER, MASS, PARTICLE_SIZE, Reader, VELOCITY};
-use super::{Shape, one_part};
+use super::{Amount, Shape, one_part};
 use crate::error::Error;
 use crate::links::{Link, Links};
 use crate::settings::{Key, Kind, Settings, Value};
@@ -16,6 +16,7 @@ pub const JELLY: Shape = Shape {
             Poisson's ratio 1/4",
     keys: KEYS,
     build,
+    amount,
     parts: one_part,
 };
 
@@ -29,6 +30,15 @@ const KEYS: &[Key] = &[
     VELOCITY,
     PARTICLE_SIZE,
 ];
+
+fn amount(settings: &Settings) -> Amount {
+    let size = settings.vector("size");
+    let (x, y, z) = (size.x, size.y, size.z);
+    let edges = (x - 1.0) * y * z + x * (y - 1.0) * z + x * y * (z - 1.0);
+    let faces = (x - 1.0) * (y - 1.0) * z + (x - 1.0) * y * (z - 1.0) + x * (y - 1.0) * (z - 1.0);
+    let skin = (x - 1.0) * (y - 1.0) + (x - 1.0) * (z - 1.0) + (y - 1.0) * (z - 1.0);
+    Amount { springs: edges + 2.0 * faces, triangles: 4.0 * skin, ..Amount::of(x * y * z) }
+}
 
 /// `size.x * size.y * size.z` particles, the middle of the block at `center`; x runs fastest. Springs in the surface belong to
 /// one cell less than those inside: they have half of the stiffness, edges of the block a quarter, so that the block is

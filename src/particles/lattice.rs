@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::build::{CENTER, PARTICLE_SIZE, Reader, SEED, VELOCITY};
 use super::random::Random;
 use super::zeldovich::displacements;
-use super::{Shape, one_part};
+use super::{Amount, Shape, one_part};
 use crate::error::Error;
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::state::State;
@@ -16,6 +16,7 @@ pub const LATTICE: Shape = Shape {
     about: "a simple cubic lattice, straight, jittered, or displaced by random waves that grow by gravity (Zel'dovich 1970)",
     keys: KEYS,
     build,
+    amount,
     parts: one_part,
 };
 
@@ -52,6 +53,10 @@ const KEYS: &[Key] = &[
     VELOCITY,
     PARTICLE_SIZE,
 ];
+
+fn amount(settings: &Settings) -> Amount {
+    Amount::of(settings.vector("size").element_product())
+}
 
 /// `size.x * size.y * size.z` particles, the middle of the lattice at `center`; x runs fastest, so particle (i, j, k) has
 /// the id  i + size.x (j + size.y k).

@@ -1,5 +1,6 @@
 //! Shapes: named generators of states.
 
+mod amount;
 pub mod block;
 mod build;
 pub mod chain;
@@ -26,6 +27,8 @@ pub mod tank;
 pub mod wall;
 mod zeldovich;
 
+pub use amount::Amount;
+
 use crate::error::Error;
 use crate::settings::{Key, Settings};
 use crate::state::State;
@@ -40,6 +43,9 @@ pub struct Shape {
     pub keys: &'static [Key],
     /// Makes the particles. The same settings give the same bits on every platform.
     pub build: fn(&Settings) -> Result<State, Error>,
+    /// How much it makes, at most, for settings that are sound, so that memory is asked for before it is made. Nothing where
+    /// only `build` finds that out.
+    pub amount: fn(&Settings) -> Amount,
     /// What follows on its first part, where it has several, in the order of ids: the key of the colour of each, and how
     /// many particles are of it. For settings that `build` takes.
     pub parts: fn(&Settings) -> Vec<(&'static str, u32)>,

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 
 use super::build::{CENTER, COUNT, G, PARTICLE_SIZE, Reader, SEED, TOTAL_MASS, VELOCITY};
 use super::random::Random;
-use super::{Shape, one_part};
+use super::{Amount, Shape, one_part};
 use crate::error::Error;
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::state::State;
@@ -16,6 +16,7 @@ pub const PLUMMER: Shape = Shape {
     about: "Plummer's sphere, a star cluster in equilibrium (Plummer 1911; Aarseth, Hénon & Wielen 1974)",
     keys: KEYS,
     build,
+    amount: Amount::counted,
     parts: one_part,
 };
 

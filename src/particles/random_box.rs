@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::build::{CENTER, COUNT, PARTICLE_SIZE, Reader, SEED, VELOCITY};
 use super::random::Random;
-use super::{Shape, one_part};
+use super::{Amount, Shape, one_part};
 use crate::error::Error;
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::state::State;
@@ -15,6 +15,7 @@ pub const RANDOM_BOX: Shape = Shape {
     about: "a box filled uniformly at random, at rest or warm",
     keys: KEYS,
     build,
+    amount: Amount::counted,
     parts: one_part,
 };
 

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::build::{CENTER, COUNT, G, PARTICLE_SIZE, Reader, SEED, TOTAL_MASS, VELOCITY};
 use super::random::Random;
-use super::{Shape, one_part};
+use super::{Amount, Shape, one_part};
 use crate::error::Error;
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::state::State;
@@ -15,6 +15,7 @@ pub const SPHERE: Shape = Shape {
     about: "a uniform sphere, cold or with Gaussian velocities (van Albada 1982)",
     keys: KEYS,
     build,
+    amount: Amount::counted,
     parts: one_part,
 };
 

@@ -4,7 +4,7 @@ use glam::{DMat3, DVec3};
 
 use super::build::{CENTER, COUNT, PARTICLE_SIZE, Reader, SEED, VELOCITY};
 use super::random::Random;
-use super::{Shape, one_part};
+use super::{Amount, Shape, one_part};
 use crate::error::Error;
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::state::State;
@@ -15,6 +15,7 @@ pub const SPRAY: Shape = Shape {
     about: "thrown from a nozzle into a cone: sparks, drops, a fountain",
     keys: KEYS,
     build,
+    amount: Amount::counted,
     parts: one_part,
 };
 

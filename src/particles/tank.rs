@@ -13,7 +13,7 @@ use glam::DVec3;
 
 use super::build::{CENTER, Reader};
 use super::skin::{DENSITY, KERNEL, LAYERS, RADIUS, SPACING, SUPPORT, Skin, WALL_MASS, cells, steps};
-use super::{Shape, one_part};
+use super::{Amount, Shape, one_part};
 use crate::error::Error;
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::state::State;
@@ -24,6 +24,7 @@ pub const TANK: Shape = Shape {
     about: "a box, or a rectangle, of walls around a fluid, held; where they meet they do so without a gap (Akinci et al. 2012)",
     keys: KEYS,
     build,
+    amount: |_| Amount::default(),
     parts: one_part,
 };
 

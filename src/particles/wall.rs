@@ -8,7 +8,7 @@ use glam::DVec3;
 use super::build::{CENTER, Reader};
 use super::mesh::Mesh;
 use super::skin::{DENSITY, KERNEL, LAYERS, RADIUS, SPACING, SUPPORT, Skin, WALL_MASS, cells, steps};
-use super::{Shape, one_part};
+use super::{Amount, Shape, one_part};
 use crate::error::Error;
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::state::State;
@@ -19,6 +19,7 @@ pub const WALL: Shape = Shape {
     about: "a plane, a box, a sphere or a mesh as a wall of a fluid, held, or led by a motion (Akinci et al. 2012)",
     keys: KEYS,
     build,
+    amount: |_| Amount::default(),
     parts: one_part,
 };
 

@@ -17,6 +17,7 @@ mod builtin;
 mod color;
 mod column;
 mod diagnostic;
+mod draft;
 mod drain;
 mod emitter;
 mod files;
@@ -142,10 +143,14 @@ impl Scene {
         overrides::apply(&mut root, overrides, &mut report);
         let sections = walk::sections(&root, &mut report);
         let files = Files::new(&opened, options.allow_outside);
-        let mut scene = read(&sections, &files, options, &mut report);
-        if let Some(faults) = report.finish() {
-            return Err(faults);
-        }
+        // Many particles are not made for a scene that is refused anyway.
+        let refused = draft::read(&sections, &files, &mut report) && report.len() > 0;
+        let scene = (!refused).then(|| read(&sections, &files, options, &mut report));
+        let mut scene = match (report.finish(), scene) {
+            (None, Some(scene)) => scene,
+            (Some(faults), _) => return Err(faults),
+            (None, None) => return Err(Diagnostics::alone(&opened.file, "it has faults".to_owned(), Vec::new())),
+        };
         scene.name = opened.name;
         scene.about = source::about(&opened.text);
         scene.files = files.found();

@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::io;
 use crate::kernel::{Column, Columns};
 use crate::motion::{Held, Hold, Motion};
-use crate::particles::{SHAPES, Shape};
+use crate::particles::{Amount, SHAPES, Shape};
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::state::State;
 
@@ -176,9 +176,10 @@ fn from_shape(
     if report.len() > faults {
         return None;
     }
-    let (key, wanted) = wanted_count(shape, &settings);
+    let wanted = (shape.amount)(&settings).particles;
     if wanted > f64::from(room) {
-        let place = table.get(key).map_or(&entry.node.place, |e| &e.node.place);
+        let sizes = ["count", "columns", "strands", "size"];
+        let place = sizes.iter().find_map(|key| table.get(key)).map_or(&entry.node.place, |e| &e.node.place);
         report.push(
             Fault::at(place, format!("{wanted} particles are too many")).label(format!("there is room for {room}")),
         );
@@ -221,18 +222,18 @@ fn located(table: &Table<'_>, shape: &Shape, files: &Files, settings: &mut Setti
     shown
 }
 
-/// How many particles a shape will make, known before the memory is taken: its `count`, or else the product
-/// of what it counts.
-fn wanted_count(shape: &Shape, settings: &Settings) -> (&'static str, f64) {
-    let product = |a, b| settings.number(a) * settings.number(b);
-    match ["count", "columns", "strands"].into_iter().find(|key| settings.0.contains_key(key)) {
-        Some("columns") => ("columns", product("columns", "rows")),
-        Some("strands") => ("strands", product("strands", "points")),
-        Some(count) => (count, settings.number(count)),
-        // What fills a room by a spacing counts for itself.
-        None if shape.name != "lattice" => ("size", 0.0),
-        None => ("size", settings.vector("size").element_product()),
-    }
+/// How much an entry will make, told by its settings; nothing of files, and of what is written out.
+pub(super) fn amount(table: &Table<'_>, said: &[Entry], report: &mut Report) -> Amount {
+    let shape = |report: &mut Report| {
+        let entry = table.one_of(&["file", "shape", "bodies"], report).filter(|entry| entry.key == "shape")?;
+        let names: Vec<_> = SHAPES.iter().map(|s| s.name).collect();
+        let name = walk::choice(entry, "shape", &names, report)?;
+        SHAPES.iter().find(|s| s.name == name)
+    };
+    let Some(shape) = shape(report) else { return Amount::default() };
+    let entries = fluid::completed(table, shape.keys, said);
+    let table = Table { entries: &entries, ..table.named(format!("{} {}", table.name, shape.name)) };
+    (shape.amount)(&table.settings(shape.keys, &beside("shape"), report))
 }
 
 fn from_bodies(

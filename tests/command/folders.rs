@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use crate::{Place, SCENE, motes, output};
+use crate::{Place, Running, SCENE, motes, output};
 
 const RESULTS: [&str; 6] =
     ["energy.csv", "energy.svg", "scene.toml", "snapshot_00.csv", "snapshot_10.csv", "snapshot_20.csv"];
@@ -73,10 +73,10 @@ fn results_of_another_run_are_removed_when_that_is_asked_for() {
 }
 
 /// A run that goes on for minutes, unless it is ended.
-fn long(place: &Place) -> std::process::Child {
+fn long(place: &Place) -> Running {
     let (scene, out) = (place.at("a.toml"), place.at("out"));
     let mut command = motes(&["run", &scene, "-o", &out, "--backend", "cpu", "--steps", "200000000", "-q"]);
-    let child = command.spawn().expect("the program starts");
+    let child = Running(command.spawn().expect("the program starts"));
     let start = Instant::now();
     while !Path::new(&out).join("snapshot_000000000.csv").exists() {
         assert!(start.elapsed() < Duration::from_mins(1), "the run does not begin");
@@ -93,8 +93,8 @@ fn a_second_run_into_the_folder_is_refused() {
         let (code, _, stderr) = place.run("b.toml", "out", more);
         assert!(code == 8 && stderr.contains("another run writes into this folder"), "{stderr}");
     }
-    child.kill().expect("killed");
-    child.wait().expect("it ends");
+    child.0.kill().expect("killed");
+    child.0.wait().expect("it ends");
     // What a killed run has left half written goes with its results.
     place.put("out/.motes-abc123.part", "half");
     let (code, _, stderr) = place.run("b.toml", "out", &["--overwrite"]);

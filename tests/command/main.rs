@@ -1,6 +1,7 @@
 //! The command among files, signals and limits of the system.
 
 mod folders;
+mod memory;
 mod names;
 mod numbers;
 mod signals;
@@ -51,6 +52,16 @@ impl Place {
     fn run(&self, scene: &str, out: &str, more: &[&str]) -> (i32, String, String) {
         let (scene, out) = (self.at(scene), self.at(out));
         output(&mut motes(&[&["run", &scene, "-o", &out, "--backend", "cpu"], more].concat()))
+    }
+}
+
+/// A program that is ended with the test, however that ends.
+struct Running(std::process::Child);
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        let _ = self.0.kill();
+        let _ = self.0.wait();
     }
 }
 

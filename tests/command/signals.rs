@@ -2,14 +2,15 @@
 #![cfg(unix)]
 
 use std::path::Path;
-use std::process::{Child, Command, Stdio};
+use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use crate::{Place, SCENE, motes};
+use crate::{Place, Running, SCENE, motes};
 
 /// Starts a run that goes on for minutes, and waits until it has begun.
-fn begun(mut command: Command, out: &str) -> Child {
+fn begun(mut command: Command, out: &str) -> Running {
     let child = command.stdout(Stdio::piped()).stderr(Stdio::null()).spawn().expect("the program starts");
+    let child = Running(child);
     let start = Instant::now();
     while !Path::new(out).join("snapshot_000000000.csv").exists() {
         assert!(start.elapsed() < Duration::from_mins(1), "the run does not begin");
@@ -18,8 +19,8 @@ fn begun(mut command: Command, out: &str) -> Child {
     child
 }
 
-fn send(signal: &str, child: &Child) {
-    let sent = Command::new("kill").args([signal, &child.id().to_string()]).status().expect("kill");
+fn send(signal: &str, child: &Running) {
+    let sent = Command::new("kill").args([signal, &child.0.id().to_string()]).status().expect("kill");
     assert!(sent.success(), "{signal}");
 }
 
@@ -28,11 +29,12 @@ fn every_signal_that_asks_for_an_end_gets_a_whole_one() {
     for signal in ["-INT", "-TERM", "-HUP"] {
         let place = Place::with(&[("a.toml", SCENE)]);
         let (scene, out) = (place.at("a.toml"), place.at("out"));
-        let child = begun(motes(&["run", &scene, "-o", &out, "--backend", "cpu", "--steps", "200000000"]), &out);
+        let mut child = begun(motes(&["run", &scene, "-o", &out, "--backend", "cpu", "--steps", "200000000"]), &out);
         send(signal, &child);
-        let output = child.wait_with_output().expect("it ends");
-        let said = String::from_utf8_lossy(&output.stdout);
-        assert_eq!(output.status.code(), Some(75), "{signal}: {said}");
+        let mut said = String::new();
+        let stdout = child.0.stdout.as_mut().expect("a pipe");
+        std::io::Read::read_to_string(stdout, &mut said).expect("words");
+        assert_eq!(child.0.wait().expect("it ends").code(), Some(75), "{signal}: {said}");
         assert!(said.contains("stopped at step"), "{signal}: {said}");
         let names = place.names("out");
         let states = names.iter().filter(|name| name.starts_with("snapshot_")).count();
@@ -54,9 +56,9 @@ fn a_hang_up_that_is_ignored_stays_ignored() {
     let mut child = begun(command, &out);
     send("-HUP", &child);
     std::thread::sleep(Duration::from_millis(1500));
-    assert!(child.try_wait().expect("a status").is_none(), "it ended");
+    assert!(child.0.try_wait().expect("a status").is_none(), "it ended");
     send("-TERM", &child);
-    assert_eq!(child.wait().expect("it ends").code(), Some(75));
+    assert_eq!(child.0.wait().expect("it ends").code(), Some(75));
 }
 
 /// A long step is not waited for twice.
@@ -66,7 +68,7 @@ fn a_second_signal_ends_at_once() {
     let (scene, out) = (place.at("a.toml"), place.at("out"));
     let mut command = motes(&["run", &scene, "-o", &out, "--backend", "cpu", "--steps", "2000"]);
     let child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn();
-    let mut child = child.expect("the program starts");
+    let mut child = Running(child.expect("the program starts"));
     let start = Instant::now();
     while !Path::new(&out).join("energy.csv").exists() {
         assert!(start.elapsed() < Duration::from_mins(1), "the run does not begin");
@@ -75,6 +77,6 @@ fn a_second_signal_ends_at_once() {
     send("-TERM", &child);
     std::thread::sleep(Duration::from_millis(200));
     send("-TERM", &child);
-    let status = child.wait().expect("it ends");
+    let status = child.0.wait().expect("it ends");
     assert_eq!(status.code(), Some(130), "the first step takes seconds");
 }

@@ -1,0 +1,51 @@
+//! What can be told of a scene before its particles are made: how much there will be, and faults that need none.
+
+use crate::particles::Amount;
+use crate::render;
+
+use super::files::Files;
+use super::report::{Fault, Report};
+use super::resolved::Writer;
+use super::walk::Table;
+use super::{bounds, fluid, force, motion, output, particles, simulation, solver};
+
+/// Above so many particles and ties a scene is looked through first: to make them takes seconds, and more memory than text does.
+const LARGE: f64 = 300_000.0;
+
+/// Whether a scene is large. If so, takes in its faults as far as they are found without its particles, and want of memory.
+pub(super) fn read(sections: &[(&'static str, Table<'_>)], files: &Files, report: &mut Report) -> bool {
+    let all = |name: &'static str| sections.iter().filter(move |(n, _)| *n == name).map(|(_, table)| table);
+    let said = fluid::said(all("force"));
+    // Faults are taken in once it is known that somebody shall look at them.
+    let amounts: Vec<_> =
+        all("particles").map(|table| (table, particles::amount(table, &said, &mut Report::default()))).collect();
+    let mut whole = Amount::default();
+    amounts.iter().for_each(|(_, amount)| whole += *amount);
+    if whole.elements() <= LARGE {
+        return false;
+    }
+    let one = |name: &'static str| all(name).next();
+    let mut out = Writer::default();
+    let simulation = simulation::read(one("simulation"), report);
+    solver::read(one("solver"), &mut out, report);
+    let bounds = bounds::read(one("box"), &mut out, report);
+    let mut motions = Vec::new();
+    for table in all("motion") {
+        motions.extend(motion::read(table, &motions, (simulation.dt, &bounds), &mut out, report));
+    }
+    for table in all("particles") {
+        particles::amount(table, &said, report);
+    }
+    for table in all("force") {
+        force::read(table, (files, &motions), report);
+    }
+    output::read(one("output"), simulation.steps, report);
+    if let Some(table) = one("picture") {
+        table.settings(render::KEYS, &[], report);
+    }
+    let largest = amounts.iter().max_by(|a, b| a.1.bytes().total_cmp(&b.1.bytes()));
+    if let (Some((table, _)), Err(why)) = (largest, whole.fits()) {
+        report.push(Fault::at(table.place, why).label("ask for fewer"));
+    }
+    true
+}
