@@ -21,13 +21,15 @@ pub struct Amount {
     pub triangles: f64,
 }
 
-/// Bytes of the host for each from the scene to the first step: its own size twice, since a scene appends what a shape has
-/// made; and for what ties, the tables that are sorted for kernels, of 20 to 24 bytes for each end or corner and once more as
-/// words. Measured on the CPU backend (`check`, a block of jelly and a cube of gas of 10⁶): 330 for a particle, 290 for a spring.
-const PARTICLE: f64 = 300.0;
-const SPRING: f64 = 250.0;
-const ROD: f64 = 60.0;
-const CORNERS: f64 = 180.0;
+/// Bytes of the host for each from the scene to the first steps, by the largest memory of `motes check` on the CPU backend: 335
+/// for a particle (a box of 10⁶), 230 for a spring of a jelly of 100³ and 150 for one of a cloth of 700², which has few kinds of
+/// them; 577 for a rod and a joint together (60 000 strands of hair). That is each twice, since a scene appends what a shape
+/// has made, and the sorted tables of kernels, once as words and once as the backend's own.
+const PARTICLE: f64 = 335.0;
+const SPRING: f64 = 230.0;
+const ROD: f64 = 290.0;
+const JOINT: f64 = 290.0;
+const TRIANGLE: f64 = 120.0;
 
 impl Amount {
     /// So many particles, tied to nothing.

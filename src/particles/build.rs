@@ -45,6 +45,13 @@ impl Reader<'_> {
         Error::Scene(format!("shape `{}`: {message}", self.shape))
     }
 
+    /// Whether the settings are those of the shape.
+    fn named(&self) -> Result<(), Error> {
+        let keys = super::shape(self.shape).map_or(super::emitter::KEYS, |shape| shape.keys);
+        let fault = self.settings.fault(keys);
+        fault.map_or(Ok(()), |fault| Err(Error::Scene(format!("shape `{}` {fault}", self.shape))))
+    }
+
     /// A finite number above zero.
     pub fn positive(&self, key: &str) -> Result<f64, Error> {
         self.number(key, "above 0", |x| x > 0.0)
@@ -57,12 +64,14 @@ impl Reader<'_> {
 
     /// A number of a range that `rule` spells out.
     pub fn number(&self, key: &str, rule: &str, holds: fn(f64) -> bool) -> Result<f64, Error> {
+        self.named()?;
         let x = self.settings.number(key);
         if x.is_finite() && holds(x) { Ok(x) } else { Err(self.error(&format!("{key} is {x}; it must be {rule}"))) }
     }
 
     /// Three finite numbers.
     pub fn vector(&self, key: &str) -> Result<DVec3, Error> {
+        self.named()?;
         let v = self.settings.vector(key);
         if v.is_finite() { Ok(v) } else { Err(self.error(&format!("{key} is {v}; it must be three finite numbers"))) }
     }
@@ -113,10 +122,7 @@ impl Reader<'_> {
 
     /// The same particles, if every number stayed finite, and the settings were those of the shape.
     pub fn finished(&self, particles: State) -> Result<State, Error> {
-        let keys = super::shape(self.shape).map_or(super::emitter::KEYS, |shape| shape.keys);
-        if let Some(fault) = self.settings.fault(keys) {
-            return Err(Error::Scene(format!("shape `{}` {fault}", self.shape)));
-        }
+        self.named()?;
         let finite = particles.position().iter().chain(particles.velocity()).all(|v| v.is_finite())
             && particles.mass().iter().all(|m| m.is_finite());
         if finite {
