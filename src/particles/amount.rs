@@ -50,7 +50,11 @@ impl Amount {
     /// Bytes that a run takes on the host for this, about.
     #[must_use]
     pub fn bytes(&self) -> f64 {
-        PARTICLE * self.particles + SPRING * self.springs + ROD * self.rods + CORNERS * (self.joints + self.triangles)
+        PARTICLE * self.particles
+            + SPRING * self.springs
+            + ROD * self.rods
+            + JOINT * self.joints
+            + TRIANGLE * self.triangles
     }
     /// Whether there is memory for so much: of what the system says is free, and of what it grants. Gives the words that say
     /// how much is needed, and how much there is.
@@ -139,7 +143,7 @@ mod tests {
     fn amounts_are_told_in_numbers_that_are_none_too_small() {
         let some = Amount { springs: 3e9, ..Amount::of(9e7) };
         let why = some.fits().expect_err("no machine has as much");
-        assert!(why.starts_with("90000000 particles and 3000000000 springs need 723.6 GiB of memory, "), "{why}");
+        assert!(why.starts_with("90000000 particles and 3000000000 springs need 670.7 GiB of memory, "), "{why}");
         assert!(Amount::of(1000.0).fits().is_ok());
         assert_eq!(shown(99_999_999.0), "95 MiB");
     }

@@ -7,7 +7,7 @@ use super::files::Files;
 use super::report::{Fault, Report};
 use super::resolved::Writer;
 use super::walk::Table;
-use super::{bounds, fluid, force, motion, output, particles, simulation, solver};
+use super::{bounds, column, fluid, force, motion, output, particles, simulation, solver};
 
 /// Above so many particles and ties a scene is looked through first: to make them takes seconds, and more memory than text does.
 const LARGE: f64 = 300_000.0;
@@ -16,9 +16,9 @@ const LARGE: f64 = 300_000.0;
 pub(super) fn read(sections: &[(&'static str, Table<'_>)], files: &Files, report: &mut Report) -> bool {
     let all = |name: &'static str| sections.iter().filter(move |(n, _)| *n == name).map(|(_, table)| table);
     let said = fluid::said(all("force"));
-    // Faults are taken in once it is known that somebody shall look at them.
+    // Faults are taken in once it is known that the scene is large; keys of columns are then known, too.
     let amounts: Vec<_> =
-        all("particles").map(|table| (table, particles::amount(table, &said, &mut Report::default()))).collect();
+        all("particles").map(|table| (table, particles::amount(table, &said, &[], &mut Report::default()))).collect();
     let mut whole = Amount::default();
     amounts.iter().for_each(|(_, amount)| whole += *amount);
     if whole.elements() <= LARGE {
@@ -33,13 +33,18 @@ pub(super) fn read(sections: &[(&'static str, Table<'_>)], files: &Files, report
     for table in all("motion") {
         motions.extend(motion::read(table, &motions, (simulation.dt, &bounds), &mut out, report));
     }
-    for table in all("particles") {
-        particles::amount(table, &said, report);
+    let faults = report.len();
+    let chosen: Vec<_> = all("force").filter_map(|table| force::read(table, (files, &motions), report)).collect();
+    let declared = column::read(all("column"), &mut out, report);
+    // A force that is at fault may declare what others name.
+    if report.len() == faults {
+        let forces: Vec<_> = chosen.into_iter().map(force::Chosen::build).collect();
+        let known = column::all(&forces, &declared, report);
+        for table in all("particles") {
+            particles::amount(table, &said, &column::givable(&known), report);
+        }
+        output::read(one("output"), simulation.steps, &known, report);
     }
-    for table in all("force") {
-        force::read(table, (files, &motions), report);
-    }
-    output::read(one("output"), simulation.steps, report);
     if let Some(table) = one("picture") {
         table.settings(render::KEYS, &[], report);
     }

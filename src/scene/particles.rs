@@ -223,7 +223,7 @@ fn located(table: &Table<'_>, shape: &Shape, files: &Files, settings: &mut Setti
 }
 
 /// How much an entry will make, told by its settings; nothing of files, and of what is written out.
-pub(super) fn amount(table: &Table<'_>, said: &[Entry], report: &mut Report) -> Amount {
+pub(super) fn amount(table: &Table<'_>, said: &[Entry], columns: &[&Column], report: &mut Report) -> Amount {
     let shape = |report: &mut Report| {
         let entry = table.one_of(&["file", "shape", "bodies"], report).filter(|entry| entry.key == "shape")?;
         let names: Vec<_> = SHAPES.iter().map(|s| s.name).collect();
@@ -233,7 +233,7 @@ pub(super) fn amount(table: &Table<'_>, said: &[Entry], report: &mut Report) -> 
     let Some(shape) = shape(report) else { return Amount::default() };
     let entries = fluid::completed(table, shape.keys, said);
     let table = Table { entries: &entries, ..table.named(format!("{} {}", table.name, shape.name)) };
-    (shape.amount)(&table.settings(shape.keys, &beside("shape"), report))
+    (shape.amount)(&table.settings(shape.keys, &beside("shape", columns), report))
 }
 
 fn from_bodies(

@@ -58,6 +58,20 @@ impl Place {
 /// A program that is ended with the test, however that ends.
 struct Running(std::process::Child);
 
+impl Running {
+    /// Waits for its end, for two minutes at most.
+    fn ended(&mut self) -> Option<i32> {
+        let start = std::time::Instant::now();
+        loop {
+            if let Some(status) = self.0.try_wait().expect("a status") {
+                return status.code();
+            }
+            assert!(start.elapsed().as_secs() < 120, "it does not end");
+            std::thread::sleep(std::time::Duration::from_millis(20));
+        }
+    }
+}
+
 impl Drop for Running {
     fn drop(&mut self) {
         let _ = self.0.kill();
