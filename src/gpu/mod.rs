@@ -5,6 +5,8 @@ mod adapter;
 mod buffers;
 mod driver;
 mod fault;
+#[cfg(not(target_arch = "wasm32"))]
+mod patience;
 mod pipeline;
 mod program;
 mod read;
@@ -53,7 +55,7 @@ impl Gpu {
         Ok(Self {
             queue: Queue::new(device.clone(), queue.clone()),
             buffers,
-            pipelines: Pipelines::new(device.clone()),
+            pipelines: Pipelines::new(device.clone(), queue.clone()),
             machine: adapter::machine(device),
             device: device.clone(),
             count,

@@ -1,6 +1,7 @@
 //! Pipelines, made once for each shader and set of constants. Layouts come from reflection.
 
 use std::collections::{BTreeMap, HashMap};
+use std::time::Duration;
 
 use super::fault;
 use crate::error::Error;
@@ -13,21 +14,18 @@ pub struct Pipeline {
     pub groups: BTreeMap<u32, wgpu::BindGroupLayout>,
 }
 
-/// How long a driver may compile a stranger's shader.
-#[cfg(not(target_arch = "wasm32"))]
-const PATIENCE: std::time::Duration = std::time::Duration::from_mins(1);
-
 /// The text, and the constants by their bits.
 type Key = (String, Vec<(&'static str, u64)>);
 
 pub struct Pipelines {
     device: wgpu::Device,
+    queue: wgpu::Queue,
     made: HashMap<Key, Pipeline>,
 }
 
 impl Pipelines {
-    pub fn new(device: wgpu::Device) -> Self {
-        Self { device, made: HashMap::new() }
+    pub fn new(device: wgpu::Device, queue: wgpu::Queue) -> Self {
+        Self { device, queue, made: HashMap::new() }
     }
 
     /// Lets go of all of them; programs keep theirs.
@@ -35,15 +33,16 @@ impl Pipelines {
         self.made.clear();
     }
 
-    /// The pipeline of a pass.
-    pub fn get(&mut self, pass: &Pass) -> Result<Pipeline, Error> {
+    /// The pipeline of a pass; for a user's law the driver has so long.
+    pub fn get(&mut self, pass: &Pass, patience: Duration) -> Result<Pipeline, Error> {
         let constants = pass.constants.iter().map(|(name, value)| (*name, value.to_bits())).collect();
         let key = (pass.shader.text().to_owned(), constants);
         if let Some(known) = self.made.get(&key) {
             return Ok(known.clone());
         }
         self.check(&pass.shader)?;
-        let made = if pass.shader.trusted() { scoped(&self.device, pass) } else { patiently(&self.device, pass) };
+        let law = pass.shader.sources().iter().any(|source| source.law);
+        let made = if law { patiently(&self.device, &self.queue, pass, patience) } else { scoped(&self.device, pass) };
         let pipeline = made.map_err(|error| blame(error, &pass.shader))?;
         self.made.insert(key, pipeline.clone());
         Ok(pipeline)
@@ -78,26 +77,14 @@ fn scoped(device: &wgpu::Device, pass: &Pass) -> Result<Pipeline, Error> {
     fault::scoped(device, || make(device, pass))
 }
 
-/// The same for a stranger's text, which may take a driver for ever: then the thread that waits for it is given up.
+/// The same for a user's law, which may take a driver for ever.
 #[cfg(not(target_arch = "wasm32"))]
-fn patiently(device: &wgpu::Device, pass: &Pass) -> Result<Pipeline, Error> {
-    let (made, awaited) = std::sync::mpsc::channel();
-    let (device, theirs) = (device.clone(), pass.clone());
-    let make = move || {
-        // If it is not received, the receiver has timed out.
-        let _ = made.send(scoped(&device, &theirs));
-    };
-    let thread = std::thread::Builder::new().name("compile".to_owned()).spawn(make);
-    thread.map_err(|error| Error::Device(format!("no thread can be made to compile in: {error}")))?;
-    awaited.recv_timeout(PATIENCE).unwrap_or_else(|_| {
-        let file = pass.shader.sources().iter().find(|source| !source.ours).map_or("a shader", |source| &source.file);
-        let what = format!("the driver compiles {file}; use fewer functions and loops in it, or smaller arrays");
-        Err(Error::Timeout { what, seconds: PATIENCE.as_secs() })
-    })
+fn patiently(device: &wgpu::Device, queue: &wgpu::Queue, pass: &Pass, patience: Duration) -> Result<Pipeline, Error> {
+    super::patience::made(device, queue, pass, patience)
 }
 
 #[cfg(target_arch = "wasm32")]
-fn patiently(device: &wgpu::Device, pass: &Pass) -> Result<Pipeline, Error> {
+fn patiently(device: &wgpu::Device, _: &wgpu::Queue, pass: &Pass, _: Duration) -> Result<Pipeline, Error> {
     scoped(device, pass)
 }
 
@@ -125,7 +112,7 @@ fn module(device: &wgpu::Device, shader: &Shader) -> wgpu::ShaderModule {
     }
 }
 
-fn make(device: &wgpu::Device, pass: &Pass) -> Pipeline {
+pub fn make(device: &wgpu::Device, pass: &Pass) -> Pipeline {
     let (shader, reflection) = (&pass.shader, pass.shader.reflection());
     let mut groups: BTreeMap<u32, Vec<&Binding>> = BTreeMap::new();
     for binding in &reflection.bindings {

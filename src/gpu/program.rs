@@ -103,7 +103,7 @@ pub(super) type Own<'a> = (&'a str, &'a wgpu::Buffer);
 impl Builder<'_> {
     /// Makes a pass ready, and gives its place. Some of its fields may be buffers of its own.
     pub fn ready(&mut self, pass: &Pass, own: &[Own<'_>]) -> Result<usize, Error> {
-        let pipeline = self.pipelines.get(pass)?;
+        let pipeline = self.pipelines.get(pass, self.queue.patience())?;
         let device = self.queue.device().clone();
         let workgroups = match &pass.indirect {
             None => Workgroups::Known(pass.workgroups(device.limits().max_compute_workgroups_per_dimension)?),

@@ -133,15 +133,15 @@ fn what_is_too_large_to_compile() {
         refused(
             Over::Each,
             &each(&private, "a[me.index] = 1.0; return vec4f(a[0]);"),
-            &[bytes, "16384", "storage buffer"],
+            &[bytes, "4096", "storage buffer"],
         );
     }
     for size in [65_536, 4_000_000] {
         let local = format!("var a: array<vec4f, {size}>; a[me.index].x = 1.0; return a[0];");
-        refused(Over::Each, &each("", &local), &[&(16 * size).to_string(), "16384"]);
+        refused(Over::Each, &each("", &local), &[&(16 * size).to_string(), "4096"]);
     }
     let constant = "const a = array<f32, 1000000>();";
-    refused(Over::Each, &each(constant, "return vec4f(a[me.index]);"), &["4000000", "16384"]);
+    refused(Over::Each, &each(constant, "return vec4f(a[me.index]);"), &["4000000", "4096"]);
     let sum = "struct Sum { a: array<vec4f, 100000> }
         fn merge(total: ptr<function, Sum>, part: Sum) { (*total).a[0] += part.a[0]; }";
     let gather = GATHER.replace("(*sum).acceleration += r;", "(*sum).a[0] += vec4f(r, 0.0);");
@@ -247,4 +247,32 @@ fn one_element_that_no_device_binds() {
     let said = error.to_string();
     assert!(matches!(error, Error::Limit(_)), "{error:?}");
     assert!(said.contains("`mine`") && said.contains("not even one") && !said.contains("at most 0"), "{said}");
+}
+
+/// A driver that takes longer than one is ready to wait is waited for no more; what it compiled is no loss.
+#[test]
+fn a_driver_that_compiles_for_ever() {
+    let shared = support::device();
+    let law = Custom::new("l", "l.wgsl", &each("", "return vec4f(sin(me.mass) * 0.7193);"), Over::Each);
+    let setup = Setup {
+        state: support::cloud(40, 5),
+        forces: vec![Box::new(law)],
+        integrator: integrator("leapfrog"),
+        dt: 1e-3,
+        bounds: Bounds::default(),
+        solver: Solver::default(),
+    };
+    let patient = |patience: Duration| {
+        let mut gpu = Gpu::new(&shared.found.device, &shared.found.queue, 40).expect("a GPU");
+        gpu.pace(Duration::from_millis(80), patience);
+        Simulation::on(gpu, &setup).map(|_| ())
+    };
+    match patient(Duration::ZERO) {
+        Err(error @ Error::Timeout { .. }) => {
+            assert!(error.to_string().contains("the driver compiles l.wgsl"), "{error}");
+            assert_eq!(error.exit_code(), 7);
+        }
+        other => panic!("an instant is not enough: {other:?}"),
+    }
+    patient(Duration::from_mins(1)).expect("it was only slow");
 }

@@ -9,12 +9,17 @@ use naga::{AddressSpace, Block, Function, Handle, Statement, TypeInner};
 use super::Joined;
 use crate::error::Error;
 
-/// Bytes of `var`s that one invocation has, each counted as often as its function is called.
-const MEMORY: u64 = 16 << 10;
+/// Bytes of arrays that one invocation has, each counted as often as its function is called: lavapipe compiles 1 KiB of them in
+/// about a second, 4 KiB in half a minute and 16 KiB in more than three.
+const MEMORY: u64 = 4 << 10;
+/// The same with the visit, which calls a law some hundred times.
+const MEMORY_OF_VISIT: u64 = 32 << 10;
 /// Bytes of a value, or of a constant.
-const VALUE: u64 = 16 << 10;
+const VALUE: u64 = 4 << 10;
 /// Expressions and statements, each counted as often as its function is called.
 const NODES: u64 = 100_000;
+/// The same with the visit.
+const NODES_OF_VISIT: u64 = 1_000_000;
 
 /// What a function is, with all that it calls.
 #[derive(Clone, Copy, Default)]
@@ -43,7 +48,7 @@ pub fn check(joined: &Joined) -> Result<(), Error> {
         let memory = size.memory.saturating_add(private);
         if memory > MEMORY {
             let message = format!(
-                "`{name}`, with what it calls and with private memory, has {memory} bytes of variables; a driver takes minutes to \
+                "`{name}`, with what it calls and with private memory, has {memory} bytes of arrays; a driver takes minutes to \
                  compile more than {MEMORY}: use a smaller array, or a storage buffer"
             );
             return Err(joined.fault(&message, span, "here"));
@@ -60,16 +65,14 @@ pub fn check(joined: &Joined) -> Result<(), Error> {
     // The visit calls the law for many pairs in a row, and keeps a `Sum` for each.
     let entry = module.entry_points.first().map(|entry| sum(joined, &entry.function, &mut sizes)).unwrap_or_default();
     let entry = entry.plus(Size { memory: private, nodes: 0 });
-    if entry.memory > 8 * MEMORY || entry.nodes > 10 * NODES {
+    if entry.memory > MEMORY_OF_VISIT || entry.nodes > NODES_OF_VISIT {
         let file = joined.sources.iter().find(|source| source.law).map_or("a law", |source| &source.file);
         return Err(Error::Shader {
             message: format!(
-                "{file}: with the visit that calls it the law is {} operations long and has {} bytes of variables; a driver takes \
-                 minutes to compile more than {} or {}: use a smaller `Sum`, and call less",
-                entry.nodes,
-                entry.memory,
-                10 * NODES,
-                8 * MEMORY
+                "{file}: with the visit that calls it the law is {} operations long and has {} bytes of arrays; a driver takes \
+                 minutes to compile more than {NODES_OF_VISIT} or {MEMORY_OF_VISIT}: use a smaller `Sum` and smaller arrays, and \
+                 call less",
+                entry.nodes, entry.memory
             ),
         });
     }
@@ -80,6 +83,17 @@ fn bytes(inner: &TypeInner, context: GlobalCtx) -> u64 {
     match inner {
         TypeInner::Pointer { .. } | TypeInner::ValuePointer { .. } => 0,
         inner => inner.try_size(context).map_or(u64::MAX, u64::from),
+    }
+}
+
+/// Bytes of a variable that can be indexed by what is computed; drivers keep others in registers, and only what is in use.
+fn indexed(module: &naga::Module, ty: Handle<naga::Type>) -> u64 {
+    match &module.types[ty].inner {
+        inner @ TypeInner::Array { .. } => bytes(inner, module.to_ctx()),
+        TypeInner::Struct { members, .. } => {
+            members.iter().map(|member| indexed(module, member.ty)).fold(0, u64::saturating_add)
+        }
+        _ => 0,
     }
 }
 
@@ -102,8 +116,7 @@ fn constants(joined: &Joined) -> Result<(), Error> {
 fn private(joined: &Joined) -> u64 {
     let module = joined.module;
     let private = module.global_variables.iter().filter(|(_, variable)| variable.space == AddressSpace::Private);
-    let sizes = private.map(|(_, variable)| bytes(&module.types[variable.ty].inner, module.to_ctx()));
-    sizes.fold(0, u64::saturating_add)
+    private.map(|(_, variable)| indexed(module, variable.ty)).fold(0, u64::saturating_add)
 }
 
 /// Refuses values that fill the registers of many processors.
@@ -134,8 +147,8 @@ fn size(joined: &Joined, handle: Handle<Function>, known: &mut HashMap<Handle<Fu
 
 fn sum(joined: &Joined, function: &Function, known: &mut HashMap<Handle<Function>, Size>) -> Size {
     let module = joined.module;
-    let variables = function.local_variables.iter().map(|(_, variable)| &module.types[variable.ty].inner);
-    let memory = variables.map(|inner| bytes(inner, module.to_ctx())).fold(0, u64::saturating_add);
+    let variables = function.local_variables.iter().map(|(_, variable)| indexed(module, variable.ty));
+    let memory = variables.fold(0, u64::saturating_add);
     let mut size = Size { memory, nodes: function.expressions.len() as u64 };
     let mut calls = Vec::new();
     size.nodes += statements(&function.body, &mut calls);

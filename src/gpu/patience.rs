@@ -1,0 +1,71 @@
+//! Users' laws are compiled in a thread that can be given up: a driver may take for ever, and says nothing meanwhile.
+
+use std::sync::mpsc;
+use std::time::Duration;
+
+use super::fault;
+use super::pipeline::{Pipeline, make};
+use crate::error::Error;
+use crate::kernel::{Access, Pass};
+
+/// Makes a pipeline, and has the driver do all that it puts off until the first dispatch.
+///
+/// # Errors
+/// [`Error::Timeout`] where that takes too long, or what the driver complains of.
+pub fn made(device: &wgpu::Device, queue: &wgpu::Queue, pass: &Pass, patience: Duration) -> Result<Pipeline, Error> {
+    let (done, awaited) = mpsc::channel();
+    let (device, queue, law) = (device.clone(), queue.clone(), pass.clone());
+    let work = move || {
+        let pipeline = fault::scoped(&device, || {
+            let pipeline = make(&device, &law);
+            begin(&device, &queue, &law, &pipeline);
+            pipeline
+        });
+        // Where the wait is over nobody takes it.
+        let _ = done.send(pipeline);
+    };
+    let thread = std::thread::Builder::new().name("compile".to_owned()).spawn(work);
+    thread.map_err(|error| Error::Device(format!("no thread can be made to compile in: {error}")))?;
+    awaited.recv_timeout(patience).unwrap_or_else(|_| {
+        let file = pass.shader.sources().iter().find(|source| source.law).map_or("a law", |source| &source.file);
+        let what = format!(
+            "the driver compiles {file}; smaller arrays that are indexed by what is computed, fewer calls, or shorter functions are \
+             compiled faster"
+        );
+        Err(Error::Timeout { what, seconds: patience.as_secs() })
+    })
+}
+
+/// Dispatches no workgroup at all, on buffers of the least size, and waits for the end of that.
+fn begin(device: &wgpu::Device, queue: &wgpu::Queue, law: &Pass, pipeline: &Pipeline) {
+    let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+    {
+        let descriptor = wgpu::ComputePassDescriptor { label: Some("compile"), timestamp_writes: None };
+        let mut pass = encoder.begin_compute_pass(&descriptor);
+        pass.set_pipeline(&pipeline.pipeline);
+        for (index, layout) in &pipeline.groups {
+            let bindings = law.shader.reflection().bindings.iter().filter(|binding| binding.group == *index);
+            let buffers: Vec<_> = bindings
+                .map(|binding| {
+                    let usage = match binding.access {
+                        Access::Uniform => wgpu::BufferUsages::UNIFORM,
+                        _ => wgpu::BufferUsages::STORAGE,
+                    };
+                    let size = binding.stride.next_multiple_of(16).max(16);
+                    let descriptor = wgpu::BufferDescriptor { label: None, size, usage, mapped_at_creation: false };
+                    (binding.binding, device.create_buffer(&descriptor))
+                })
+                .collect();
+            let entries: Vec<_> = buffers
+                .iter()
+                .map(|(binding, buffer)| wgpu::BindGroupEntry { binding: *binding, resource: buffer.as_entire_binding() })
+                .collect();
+            let group = device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout, entries: &entries });
+            pass.set_bind_group(*index, &group, &[]);
+        }
+        pass.dispatch_workgroups(0, 1, 1);
+    }
+    let index = queue.submit([encoder.finish()]);
+    // What is wrong with the device is seen by whoever uses it next.
+    let _ = device.poll(wgpu::PollType::Wait { submission_index: Some(index), timeout: None });
+}
