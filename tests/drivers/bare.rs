@@ -7,7 +7,7 @@ use motes::wgpu::{DeviceDescriptor, Features, Limits};
 use motes::{POSITION, Simulation};
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 
-use crate::kernels::{every, machines};
+use crate::kernels::{every, fluids, machines};
 use crate::support;
 use crate::support::scenes::{setup, small};
 
@@ -31,7 +31,7 @@ fn kernels_for_machines_without_subgroups_need_no_capability() {
 }
 
 #[test]
-fn a_bare_device_steps_every_scene() {
+fn a_bare_device_steps_every_scene_and_fluid() {
     let shared = support::device();
     let descriptor = DeviceDescriptor {
         label: Some("bare"),
@@ -42,16 +42,16 @@ fn a_bare_device_steps_every_scene() {
     let bare = pollster::block_on(shared.found.adapter.request_device(&descriptor));
     let (device, queue) = bare.expect("every adapter has WebGPU's default limits");
     assert!(!device.features().contains(Features::SUBGROUP), "the device is not bare");
-    for builtin in SCENES {
-        let setup = setup(small(builtin.name));
+    let scenes = SCENES.iter().map(|builtin| (builtin.name, setup(small(builtin.name))));
+    for (name, setup) in scenes.chain(fluids()) {
         let mut simulation =
-            Simulation::new(&device, &queue, &setup).unwrap_or_else(|error| panic!("{}: {error}", builtin.name));
-        simulation.step(2).unwrap_or_else(|error| panic!("{}: {error}", builtin.name));
+            Simulation::new(&device, &queue, &setup).unwrap_or_else(|error| panic!("{}: {error}", name));
+        simulation.step(2).unwrap_or_else(|error| panic!("{}: {error}", name));
         let before = pollster::block_on(simulation.read(POSITION)).expect("positions");
-        simulation.step(1).unwrap_or_else(|error| panic!("{}: {error}", builtin.name));
+        simulation.step(1).unwrap_or_else(|error| panic!("{}: {error}", name));
         let after = pollster::block_on(simulation.read(POSITION)).expect("positions");
         let checked = pollster::block_on(simulation.check());
-        checked.unwrap_or_else(|error| panic!("{}: {error}", builtin.name));
-        assert!(before != after, "{}: nothing moves", builtin.name);
+        checked.unwrap_or_else(|error| panic!("{}: {error}", name));
+        assert!(before != after, "{}: nothing moves", name);
     }
 }

@@ -5,10 +5,11 @@ use motes::integrators::INTEGRATORS;
 use motes::kernel::{Kernel, Machine};
 use motes::render::{Exposure, Picture, Scenery, Trail};
 use motes::scene::SCENES;
-use motes::{Bounds, Setup, Solver};
+use motes::settings::Value;
+use motes::{Bounds, Setup, Side, Solver};
 
 use crate::support::scenes::{setup, small};
-use crate::support::{self, choices, machines, states};
+use crate::support::{self, choices, fluids, machines, states};
 
 /// Machines that bring about every variant, with and without subgroups.
 pub fn machines() -> Vec<(&'static str, Machine)> {
@@ -21,6 +22,30 @@ pub fn machines() -> Vec<(&'static str, Machine)> {
         ("software without subgroups", machine(true, 0, 256)),
         ("a GPU with subgroups of 32", machine(false, 32, 1 << 18)),
         ("a GPU without subgroups", machine(false, 0, 1 << 18)),
+    ]
+}
+
+/// Fluids with walls as no built-in scene has them.
+pub fn fluids() -> Vec<(&'static str, Setup)> {
+    let (count, flat) = (64, true);
+    let setup = |settings: &[(&'static str, Value)]| Setup {
+        state: fluids::cloud(count, flat, true),
+        forces: vec![states::force("fluid", settings)],
+        integrator: states::integrator("symplectic_euler"),
+        dt: 1e-4,
+        bounds: fluids::bounds(count, flat, Side::Open),
+        solver: Solver::default(),
+    };
+    let of = |more: &[(&'static str, Value)]| {
+        let same = [("density", Value::Number(fluids::DENSITY)), ("spacing", Value::Number(fluids::SPACING))];
+        setup(&[&same[..], more].concat())
+    };
+    let sound = ("sound_speed", Value::Number(9.0));
+    vec![
+        ("a fluid by DFSPH", of(&[("solver", states::word("dfsph"))])),
+        ("a fluid by continuity", of(&[sound.clone(), ("density_by", states::word("continuity"))])),
+        ("a fluid with tension", of(&[sound.clone(), ("tension", Value::Number(0.1))])),
+        ("a fluid with XSPH", of(&[sound, ("xsph", Value::Number(0.1))])),
     ]
 }
 
@@ -50,6 +75,10 @@ pub fn every(machine: Machine) -> Vec<(String, Kernel)> {
         for (name, force) in choices::forces(entry) {
             add(&name, machines::kernels(force.as_ref(), &problem));
         }
+    }
+    for (name, setup) in fluids() {
+        let plans = setup.plans(machine).unwrap_or_else(|error| panic!("{name}: {error}"));
+        add(name, plans.all().flat_map(|plan| plan.kernels.clone()).collect());
     }
     for entry in INTEGRATORS {
         let setup = Setup {
