@@ -137,24 +137,22 @@ impl<'a> Step<'a> {
     /// middle of the way
     pub fn drift(&mut self, factor: f64) {
         if self.carries() {
-            self.go(0.5 * factor);
-            self.carry(factor, self.drifted + 0.5 * factor);
-            self.go(0.5 * factor);
+            self.drift_carrying(factor);
         } else {
             self.go(factor);
         }
+        self.enclose();
         self.drift_pairs(factor);
         self.drifted += factor;
         self.confine(factor);
     }
-    /// x ← x + c v dt, and back into the box
+    /// x ← x + c v dt
     fn go(&mut self, factor: f64) {
         let count = self.problem.count;
         match self.kicked.take_if(|_| !self.apart) {
             Some(kick) => self.add(kick_drift::kernel(count, kick, factor)),
             None => self.add(drift::kernel(count, factor)),
         }
-        self.enclose();
     }
     /// Particles that left the box by a closed side come in again.
     pub fn enclose(&mut self) {

@@ -10,7 +10,7 @@ use motes::motion::{Held, Hold};
 use motes::settings::Value;
 use motes::{Setup, Simulation};
 
-use crate::support::columns::{Bodies, Columned, Grouped, fill, give};
+use crate::support::columns::{Bodies, Columned, Grouped, give};
 use crate::support::machines::gpu;
 use crate::support::states::{force, integrator, word};
 use crate::{by_references, column, setup, support};
@@ -48,7 +48,6 @@ fn kernels_agree_with_their_references() {
         for count in [1, 63, 65, 300] {
             let setup = scene(count, name);
             let mut simulation = Simulation::on(gpu(&shared, count), &setup).expect("a simulation");
-            fill(&mut simulation, &columns(), 17);
             simulation.step(2).expect("steps");
             let plans = setup.plans(simulation.backend().machine()).expect("plans");
             for plan in plans.all() {
@@ -95,8 +94,7 @@ fn kernels_agree_with_their_references() {
 fn fixed_and_inactive_particles_keep_their_columns() {
     for name in ["leapfrog", "forward_euler", "rk4", "heun", "implicit_midpoint"] {
         let setup = scene(40, name);
-        let mut simulation = by_references(&setup, &[]);
-        fill(&mut simulation, &columns(), 17);
+        let mut simulation = by_references(&setup);
         let states = ["charge", "angle", "spin", "tracer", "orientation", "angular_velocity"];
         let all = |simulation: &mut Simulation<_>| states.map(|name| column(simulation, name));
         let before = all(&mut simulation);
@@ -127,7 +125,6 @@ fn measuring_leaves_no_trace() {
         let setup = scene(65, name);
         let run = |measured: bool| {
             let mut simulation = Simulation::on(gpu(&shared, 65), &setup).expect("a simulation");
-            fill(&mut simulation, &columns(), 17);
             for _ in 0..3 {
                 simulation.step(1).expect("a step");
                 if measured {
@@ -149,9 +146,7 @@ fn columns_that_are_no_numbers_are_reported() {
     for (name, value) in [("charge", f64::NAN), ("spin", f64::INFINITY)] {
         let setup = scene(65, "leapfrog");
         let mut device = Simulation::on(gpu(&shared, 65), &setup).expect("a simulation");
-        let mut host = by_references(&setup, &[]);
-        fill(&mut device, &columns(), 17);
-        fill(&mut host, &columns(), 17);
+        let mut host = by_references(&setup);
         let broken = match column(&mut host, name) {
             Array::Float(mut all) => {
                 all[42] = value;

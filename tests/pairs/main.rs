@@ -11,7 +11,7 @@ mod refusals;
 mod tops;
 
 use motes::forces::Component;
-use motes::kernel::{Array, Backend};
+use motes::kernel::Array;
 use motes::{Bounds, Cpu, Setup, Simulation, State};
 use support::states::integrator;
 
@@ -29,24 +29,14 @@ fn setup(state: &State, forces: Vec<Box<dyn Component>>, name: &str, dt: f64) ->
 /// The same, where the columns begin so.
 fn beginning(state: &State, columns: &[(&str, Array)]) -> State {
     let mut state = state.clone();
-    for (name, values) in columns {
-        let values = match values {
-            Array::Vec4(all) if *name != "orientation" => Array::Vec3(all.iter().map(|v| v.truncate()).collect()),
-            other => other.clone(),
-        };
-        state.set(name, values).expect("values");
-    }
+    columns.iter().for_each(|(name, values)| state.set(name, values.clone()).expect("values"));
     state
 }
 
-/// A simulation by the references, whose columns begin so.
-fn by_references(setup: &Setup, columns: &[(&str, Array)]) -> Simulation<Cpu> {
+/// A simulation by the references.
+fn by_references(setup: &Setup) -> Simulation<Cpu> {
     let count = u32::try_from(setup.state.len()).expect("few");
-    let mut simulation = Simulation::on(Cpu::new(count).expect("some"), setup).expect("a simulation");
-    for (name, values) in columns {
-        simulation.backend().write(name, values).expect("a column");
-    }
-    simulation
+    Simulation::on(Cpu::new(count).expect("some"), setup).expect("a simulation")
 }
 
 fn column(simulation: &mut Simulation<Cpu>, name: &str) -> Array {

@@ -7,7 +7,7 @@ use motes::settings::Value;
 
 use crate::support::columns::{Columned, LEAK};
 use crate::support::states::{force, one, word};
-use crate::{by_references, column, setup};
+use crate::{beginning, by_references, column, setup};
 
 const TIME: f64 = 1.3;
 const X: DVec3 = DVec3::new(0.7, -0.4, 0.2);
@@ -19,14 +19,16 @@ const START: f64 = 1.3;
 /// How far each column is from its solution in the end: charge, angle and spin, dose, tracer. The particle swings about 0.
 fn errors(name: &str, steps: u32) -> [f64; 4] {
     let harmonic = force("attractor", &[("profile", word("harmonic")), ("strength", Value::Number(1.0))]);
-    let setup = setup(&one(X, V), vec![Box::new(Columned), harmonic], name, TIME / f64::from(steps));
     let start = [
         ("charge", Array::Float(vec![START])),
-        ("angle", Array::Vec4(vec![ANGLE.extend(START)])),
-        ("spin", Array::Vec4(vec![SPIN.extend(0.0)])),
+        ("angle", Array::Vec3(vec![ANGLE])),
+        ("dose", Array::Float(vec![START])),
+        ("spin", Array::Vec3(vec![SPIN])),
         ("tracer", Array::Float(vec![START])),
     ];
-    let mut simulation = by_references(&setup, &start);
+    let state = beginning(&one(X, V), &start);
+    let setup = setup(&state, vec![Box::new(Columned), harmonic], name, TIME / f64::from(steps));
+    let mut simulation = by_references(&setup);
     simulation.step(steps).expect("steps");
     let mut get = |name| match column(&mut simulation, name) {
         Array::Float(all) => DVec4::X * all[0],

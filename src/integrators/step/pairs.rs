@@ -10,8 +10,9 @@ use crate::component;
 use crate::error::Error;
 use crate::forces::{Component, Stage};
 use crate::integrators::verbs::pairs::{Advanced, Part, advance, around, runge_kutta};
-use crate::integrators::verbs::solve::update;
-use crate::kernel::{Advance, Columns, Kernel, Pair, Plan, Problem, Role, Way};
+use crate::integrators::verbs::keep::copy;
+use crate::integrators::verbs::solve::{START_POSITION, update};
+use crate::kernel::{Advance, Columns, Kernel, POSITION, Pair, Plan, Problem, Role, Way};
 use crate::rotation::{self, Body};
 
 /// The body that a pair turns, or has a torque on.
@@ -76,6 +77,16 @@ impl Step<'_> {
         let declares = |force: &dyn Component| force.columns().iter().any(|column| column.advance == Advance::Carried);
         let computes = |force: &dyn Component| force.laws().iter().any(|law| component::carries(law, &self.problem));
         self.forces.iter().map(|force| declares(force.as_ref()) || computes(force.as_ref())).collect()
+    }
+    /// A drift with what is carried along. From its middle particles do not go on, but from its start the whole way: where they come
+    /// to is rounded once.
+    pub(super) fn drift_carrying(&mut self, factor: f64) {
+        let (count, kicked) = (self.problem.count, self.kicked.take());
+        self.add(copy(count, "start", POSITION, START_POSITION));
+        self.kicked = kicked;
+        self.go(0.5 * factor);
+        self.carry(factor, self.drifted + 0.5 * factor);
+        self.add(update::reach(count, factor));
     }
     /// What is carried along goes on by `factor` of the step, in the middle of which positions are, at `middle` of it.
     pub(super) fn carry(&mut self, factor: f64, middle: f64) {
