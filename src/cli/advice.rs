@@ -1,7 +1,7 @@
 //! What one should know of a scene before it runs.
 
 use glam::{DVec3, DVec4};
-use motes::forces::{Law, Over, Problem};
+use motes::forces::{Law, Over};
 use motes::kernel::{ACCELERATION, Array, Host, Machine, POSITION, SPECIES, Twin, VELOCITY, World};
 use motes::links::Links;
 use motes::motion::Hold;
@@ -95,6 +95,7 @@ pub fn conserved(setup: &Setup) -> Result<Conserved, Error> {
         momentum: !reflecting,
         angular_momentum: !reflecting && !periodic,
     };
+    let problem = setup.problem(MACHINE)?;
     for law in setup.forces.iter().flat_map(|force| force.laws()) {
         conserved.momentum &= law.reciprocal;
         conserved.angular_momentum &= law.reciprocal;
@@ -109,8 +110,7 @@ pub fn conserved(setup: &Setup) -> Result<Conserved, Error> {
             Some(twin) => keeps_energy(twin, &setup.bounds)?,
             None => false,
         };
-        let problem = Problem::new(1, MACHINE).of_columns(setup.columns()?);
-        conserved.energy &= !law.kernel(&problem)?.names("velocity");
+        conserved.energy &= !law.depends_on_velocity(&problem)?;
     }
     // What breaks takes its energy with it.
     conserved.energy &= !setup.breaks();
@@ -156,6 +156,7 @@ pub fn advice(scene: &Scene, setup: &Setup) -> Result<Vec<String>, Error> {
     remarks.extend(births::early(setup, end));
     remarks.extend(rounding::crossings(setup));
     remarks.extend(jumps::remarks(setup, end));
+    let problem = setup.problem(MACHINE)?;
     let laws: Vec<Law> = setup.forces.iter().flat_map(|force| force.laws()).collect();
     remarks.extend(idle(&setup.state.links, &laws));
     let implicit = setup.integrator.is_implicit();
@@ -173,21 +174,21 @@ pub fn advice(scene: &Scene, setup: &Setup) -> Result<Vec<String>, Error> {
         )
     };
     for force in setup.forces.iter().filter(|force| force.properties().makes_fluid) {
-        let rates = force.resolved(&setup.problem(MACHINE)?)?.rates.unwrap_or_default();
+        let rates = force.resolved(&problem)?.rates.unwrap_or_default();
         remarks.extend((loses && rates.friction.max(rates.drawn) > 0.0).then(|| depends("fluid")));
     }
     for law in laws {
         let name = law.name.clone();
         let (untwinned, over, offered) = (law.twin.is_none(), law.over, law.jacobian.is_some());
-        let all_images = law.wgsl.ours && law.wgsl.file.ends_with("gravity_ewald.wgsl");
+        let all_images = law.distant.images;
         if let Some(twin) = law.twin.as_ref().filter(|_| setup.bounds.dimensions == 2) {
             in_the_plane(&name, twin, setup)?;
         }
-        let kernel = law.kernel(&Problem::new(1, MACHINE).of_columns(setup.columns()?))?;
+        let reads_velocity = law.depends_on_velocity(&problem)?;
         let solved = implicit && offered;
         // Velocities count in the springs of the house where they are damped, and nowhere else.
         let calm = over == Over::Links && !untwinned && !damped(&setup.state.links);
-        if kernel.names("velocity") && !calm && !solved && loses {
+        if reads_velocity && !calm && !solved && loses {
             remarks.push(depends(&name));
         }
         if over == Over::Pairs && setup.bounds.has(Side::Periodic) && !all_images {

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use motes::fluids::{COURANT, Start};
-use motes::forces::{Over, Problem};
+use motes::forces::{Over};
 use motes::kernel::Machine;
 use motes::{Error, Setup, Side};
 
@@ -127,11 +127,10 @@ pub struct Weight {
 
 /// The acceleration that all particles have in common.
 fn weight(setup: &Setup) -> Result<Weight, Error> {
-    let machine = Machine::HOST;
+    let problem = setup.problem(Machine::HOST)?;
     let mut weight = Weight::default();
     for law in setup.forces.iter().flat_map(|force| force.laws()).filter(|law| law.over == Over::Each) {
-        let velocity = law.clone().kernel(&Problem::new(1, machine).of_columns(setup.columns()?))?.names("velocity");
-        if let (Some(twin), false) = (&law.twin, velocity) {
+        if let (Some(twin), false) = (&law.twin, law.depends_on_velocity(&problem)?) {
             let places = setup.state.position();
             let middle = places.iter().sum::<DVec3>() / places.len() as f64;
             let pull = |x: DVec3| Ok::<_, Error>(acceleration_at(twin, (0.0, 0), x, setup.bounds)?.truncate());

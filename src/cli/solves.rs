@@ -1,7 +1,7 @@
 //! What a run says of its implicit solves, and which laws are solved for.
 
 use glam::DVec3;
-use motes::forces::{Law, Over, Problem};
+use motes::forces::{Law, Over};
 use motes::integrators::implicit;
 use motes::kernel::Machine;
 use motes::simulation::{Outcome, PressureSolves, Solves};
@@ -83,7 +83,7 @@ pub fn remark(setup: &Setup, integrator: &str) -> Result<String, Error> {
 /// Whether a law is the same everywhere, at any velocity: no step is too long for it.
 fn is_constant(law: &Law, setup: &Setup) -> Result<bool, Error> {
     let (Over::Each, Some(reference)) = (law.over, &law.twin) else { return Ok(false) };
-    if law.clone().kernel(&Problem::new(1, Machine::HOST))?.names("velocity") {
+    if law.depends_on_velocity(&setup.problem(Machine::HOST)?)? {
         return Ok(false);
     }
     let places = [DVec3::ZERO, DVec3::new(0.31, -0.23, 0.17), DVec3::new(-11.0, 17.0, 13.0)];

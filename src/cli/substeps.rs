@@ -162,7 +162,7 @@ fn others(scene: &Scene, verdict: &Verdict) -> String {
     if verdict.joints > 0.0 {
         return String::new();
     }
-    let bears = |entry: &&Entry| entry.name.ends_with("backward_euler") && entry.name != scene.integrator.name;
+    let bears = |entry: &&Entry| (entry.build)().damps_at_any_step() && entry.name != scene.integrator.name;
     let names: Vec<_> = INTEGRATORS.iter().filter(bears).map(|entry| entry.name).collect();
     if names.is_empty() { String::new() } else { format!(", or take {}, which bears any dt", names.join(" or ")) }
 }

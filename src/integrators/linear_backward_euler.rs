@@ -12,6 +12,9 @@ impl Integrator for LinearBackwardEuler {
     fn is_implicit(&self) -> bool {
         true
     }
+    fn damps_at_any_step(&self) -> bool {
+        true
+    }
     fn step(&self, s: &mut Step) {
         s.solve(Implicit { part: 1.0, until: 1.0, explicit: Explicit::Here, form: Form::Linear });
         s.settle(1.0);

@@ -23,6 +23,10 @@ pub trait Integrator: Send + Sync {
     fn is_implicit(&self) -> bool {
         false
     }
+    /// Whether it damps what it cannot follow, however long its steps are.
+    fn damps_at_any_step(&self) -> bool {
+        false
+    }
     /// How long its steps are, where they are not all alike.
     fn pace(&self) -> Option<Pace> {
         None

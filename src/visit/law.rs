@@ -9,7 +9,7 @@ use super::{
     Group, Jacobian, Outcome, Over, PAIR_TABLE, PairTable, Particle, Tables, each, links, near, pairs, tree, twin, walk,
 };
 use crate::error::Error;
-use crate::kernel::{ACCELERATION, Access, Kernel, Name, Problem, Scalar, Shader, Side, Source, Table, Twin, World};
+use crate::kernel::{ACCELERATION, Access, Kernel, Name, Problem, Scalar, Shader, Side, Source, Table, Twin, VELOCITY, World};
 use crate::links::{Corner, Half};
 use crate::neighbors::Grid;
 use crate::tree::Tree;
@@ -234,6 +234,13 @@ impl Law {
     /// [`Error::Scene`] when its range is none.
     pub fn grid(&self, problem: &Problem) -> Result<Option<(Grid, bool)>, Error> {
         near::grid(self, problem)
+    }
+    /// Whether it reads velocities, its own or those of others.
+    ///
+    /// # Errors
+    /// As [`Law::kernel`].
+    pub fn depends_on_velocity(&self, problem: &Problem) -> Result<bool, Error> {
+        Ok(self.clone().kernel(problem)?.names(VELOCITY.name))
     }
     /// The same law, of all images in a periodic box.
     #[must_use]
