@@ -116,9 +116,9 @@ async fn dam(spacing: f64, friction: f64) -> Result<Dam, Box<dyn Error>> {
     ];
     let scene = Scene::load(&Source::find("dam_break_2d")?, &overrides, &Options::default())?;
     let setup = Setup {
+        integrator: scene.integrator(),
         state: scene.particles,
         forces: scene.forces,
-        integrator: (scene.integrator.build)(),
         dt: scene.dt,
         bounds: scene.bounds,
         solver: scene.solver,

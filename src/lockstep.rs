@@ -67,10 +67,23 @@ impl Verdict {
 /// # Errors
 /// What the device says.
 pub async fn compare(gpu: &mut Gpu, plan: &Plan, count: u32) -> Result<Vec<Verdict>, Error> {
+    compare_while(gpu, plan, count, |_| true).await
+}
+
+/// The same up to the first kernel with a verdict that does not let it go on.
+///
+/// # Errors
+/// As [`compare`].
+pub async fn compare_while(
+    gpu: &mut Gpu,
+    plan: &Plan,
+    count: u32,
+    goes_on: impl Fn(&Verdict) -> bool,
+) -> Result<Vec<Verdict>, Error> {
     gpu.compile(plan)?;
     let mut verdicts = Vec::new();
     let mut walk = plan.walk();
-    while let Some(next) = walk.next() {
+    while let Some(next) = walk.next().filter(|_| verdicts.iter().all(&goes_on)) {
         let kernel = match next {
             Next::Run(kernel) => kernel,
             Next::Ask(flag) => {

@@ -19,9 +19,9 @@ fn scene(shared: &Shared, name: &str, overrides: &[&str]) -> (Simulation<Gpu>, u
     let source = Source::find(name).expect("a built-in scene");
     let scene = Scene::load(&source, &overrides, &Options::default()).unwrap_or_else(|faults| panic!("{faults}"));
     let setup = Setup {
+        integrator: scene.integrator(),
         state: scene.particles,
         forces: scene.forces,
-        integrator: (scene.integrator.build)(),
         dt: scene.dt,
         bounds: scene.bounds,
         solver: scene.solver,

@@ -189,7 +189,7 @@ fn speeds_are_within_limits() {
                 force("speed_limit", &limit),
                 force("uniform", &[("acceleration", vector(0.0, 2.0, 7.0))]),
             ],
-            integrator: (entry.build)(),
+            integrator: entry.by_default(),
             dt: 0.1,
             bounds: Bounds::default(),
             solver: motes::Solver::default(),

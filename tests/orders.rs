@@ -54,7 +54,7 @@ fn orders_with_position_and_time() {
     // Off the period, where errors of a closed orbit do not cancel.
     let time = 2.3;
     for entry in INTEGRATORS {
-        let order = (entry.build)().order();
+        let order = entry.by_default().order();
         let mut resting = 0.0;
         for speed in [DVec3::ZERO, DVec3::new(0.3, -0.2, 0.5)] {
             // A moving centre: what its position is at a stage depends on the stage's time.
@@ -85,7 +85,7 @@ fn orders_with_velocity() {
     let start = (DVec3::new(0.3, -0.4, 0.2), DVec3::new(0.7, 0.5, -0.6));
     let end = (start.0 + start.1 * (1.0 - (-rate * time).exp()) / rate, start.1 * (-rate * time).exp());
     for entry in INTEGRATORS {
-        let order = (entry.build)().order_with_velocity();
+        let order = entry.by_default().order_with_velocity();
         let drag = || vec![force("drag", &[("linear", Value::Number(rate))])];
         let steps = [0, 512, 128, 64, 32][order as usize];
         let errors = [steps, 2 * steps].map(|n| error(drag(), entry.name, start, end, time, n));
@@ -116,7 +116,7 @@ fn orders_with_velocity_and_time() {
     let (x, v) = states::phase(&mut fine);
     let end = (x[0].truncate(), v[0].truncate());
     for entry in INTEGRATORS {
-        let order = (entry.build)().order_with_velocity();
+        let order = entry.by_default().order_with_velocity();
         let steps = [0, 1024, 128, 64, 64][order as usize];
         let errors = [steps, 2 * steps].map(|n| error(gusts(), entry.name, start, end, time, n));
         assert_order(entry.name, order, errors[0], errors[1]);

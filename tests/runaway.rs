@@ -148,9 +148,9 @@ fn scenes_do_not_run_away() {
         };
         let count = u32::try_from(scene.particles.len()).expect("few");
         let setup = Setup {
+            integrator: scene.integrator(),
             state: scene.particles,
             forces: scene.forces,
-            integrator: (scene.integrator.build)(),
             dt: scene.dt,
             bounds: scene.bounds,
             solver: motes::Solver::default(),

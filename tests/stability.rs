@@ -86,8 +86,8 @@ fn growth_is_the_same_on_the_device() {
     let shared = support::device();
     for entry in motes::integrators::INTEGRATORS {
         let gpu = Gpu::new(&shared.found.device, &shared.found.queue, 1).expect("a device");
-        let mut device = Oscillator::on(gpu, (entry.build)(), OMEGA, 0.2).expect("an oscillator");
-        let mut twins = Oscillator::new((entry.build)(), OMEGA, 0.2).expect("an oscillator");
+        let mut device = Oscillator::on(gpu, entry.by_default(), OMEGA, 0.2).expect("an oscillator");
+        let mut twins = Oscillator::new(entry.by_default(), OMEGA, 0.2).expect("an oscillator");
         for dt in [0.1, 0.7, 2.0] {
             let (got, want) = block_on(async { (device.step(dt).await, twins.step(dt).await) });
             let (got, want) = (got.expect("a step"), want.expect("a step"));
@@ -222,12 +222,12 @@ fn a_setup_is_judged() {
         let setup = motes::Setup {
             state: particles,
             forces,
-            integrator: (entry.build)(),
+            integrator: entry.by_default(),
             dt,
             bounds,
             solver: motes::Solver::default(),
         };
-        block_on(Verdict::of(&setup, entry.build, 1_000_000)).expect("a verdict")
+        block_on(Verdict::of(&setup, &|| entry.by_default(), 1_000_000)).expect("a verdict")
     };
     assert_eq!(judged(Vec::new(), "leapfrog", 0.1), None);
     // ω² ≤ 4 k / m, c ≤ 4 · 0.2 / m: h²ω² + 2hc = 4.

@@ -3,12 +3,12 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use motes::io::{Precision, atomically, csv, npz};
-use motes::scene::Format;
+use motes::io::{Format, Precision};
 use motes::{Error, Setup, State};
 
 use super::failure::Failure;
 use super::flow;
+use super::output::written;
 
 /// So many neighbours are named.
 const NAMED: usize = 8;
@@ -20,7 +20,7 @@ pub fn explain(
     setup: &Setup,
     advice: Option<&str>,
     last: Option<&State>,
-    (folder, formats, precision): (&Path, &[Format], Precision),
+    (folder, formats, precision): (&Path, &[&Format], Precision),
 ) -> Failure {
     let (Error::NotFinite { particle, .. } | Error::Runaway { particle, .. }) = error else {
         return Failure::Error(error);
@@ -69,17 +69,13 @@ fn neighbors(setup: &Setup, particle: u32) -> String {
     format!("it is tied to {}{more}", named.join(", "))
 }
 
-fn keep(last: &State, folder: &Path, formats: &[Format], precision: Precision) -> Result<String, Error> {
+fn keep(last: &State, folder: &Path, formats: &[&Format], precision: Precision) -> Result<String, Error> {
+    let arrays = motes::io::format("npz");
+    let chosen: Vec<&Format> = if formats.is_empty() { arrays.into_iter().collect() } else { formats.to_vec() };
     let mut files = Vec::new();
-    let text = formats.contains(&Format::Csv);
-    if text {
-        let path = folder.join("last_good.csv");
-        atomically(&path, |out| csv::write_csv(out, last, precision))?;
-        files.push(path.display().to_string());
-    }
-    if formats.contains(&Format::Npz) || !text {
-        let path = folder.join("last_good.npz");
-        atomically(&path, |out| npz::write_npz(out, last, precision))?;
+    for format in chosen {
+        let path = folder.join(format!("last_good.{}", format.name));
+        written(&path, format, last, precision)?;
         files.push(path.display().to_string());
     }
     Ok(files.join(" and "))

@@ -97,8 +97,8 @@ pub fn setup(scene: &mut Scene) -> Setup {
         state: std::mem::take(&mut scene.particles),
         forces: std::mem::take(&mut scene.forces),
         integrator: match scene.pace {
-            Some(pace) => Box::new(Paced { integrator: (scene.integrator.build)(), pace }),
-            None => (scene.integrator.build)(),
+            Some(pace) => Box::new(Paced { integrator: scene.integrator(), pace }),
+            None => scene.integrator(),
         },
         dt: scene.dt,
         bounds: scene.bounds,

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use motes::fluids::{COURANT, Start};
-use motes::forces::{Over};
+use motes::forces::Over;
 use motes::kernel::Machine;
 use motes::{Error, Setup, Side};
 

@@ -1,15 +1,15 @@
 //! What a run leaves behind.
 
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
-use motes::io::{Folder, Precision, atomically, csv, npz};
+use motes::io::{Folder, Format, Precision, atomically};
 use motes::life::Population;
 use motes::links::Links;
 use motes::measure::Flock;
 use motes::render::{Color, Picture, Scenery, Trail, framed, group_color, pack};
-use motes::scene::{Format, Group, Scene};
+use motes::scene::{Group, Scene};
 use motes::settings::Settings;
 use motes::{Bounds, Error, Measure, State};
 
@@ -25,7 +25,8 @@ const FLOCK: &str = "step,time,order,speed,neighbors,most_neighbors,clusters,lar
 pub struct Output {
     folder: Rc<Folder>,
     name: String,
-    formats: Vec<Format>,
+    formats: Vec<&'static Format>,
+    pictures: bool,
     precision: Precision,
     digits: usize,
     picture: Settings,
@@ -64,6 +65,7 @@ impl Output {
             folder,
             name: scene.name.clone(),
             formats: scene.output.formats.clone(),
+            pictures: scene.output.pictures,
             precision,
             digits: scene.steps.to_string().len(),
             picture: framed(&scene.picture, &scene.bounds),
@@ -76,11 +78,7 @@ impl Output {
             population: None,
             scenery: Scenery::default(),
             // A trail is for pictures.
-            trail: Trail::new(if scene.output.formats.contains(&Format::Png) || scene.output.frames > 0 {
-                count
-            } else {
-                0
-            }),
+            trail: Trail::new(if scene.output.pictures || scene.output.frames > 0 { count } else { 0 }),
         })
     }
     /// Measures a state, and writes that down.
@@ -131,19 +129,15 @@ impl Output {
             table.settle()?;
         }
         let stem = format!("snapshot_{:0width$}", snapshot.step, width = self.digits);
-        if self.formats.contains(&Format::Csv) {
-            let path = self.folder.file(&format!("{stem}.csv"))?;
-            atomically(&path, |out| csv::write_csv(out, snapshot, self.precision))?;
-        }
-        if self.formats.contains(&Format::Npz) {
-            let path = self.folder.file(&format!("{stem}.npz"))?;
-            atomically(&path, |out| npz::write_npz(out, snapshot, self.precision))?;
+        for format in &self.formats {
+            let path = self.folder.file(&format!("{stem}.{}", format.name))?;
+            written(&path, format, snapshot, self.precision)?;
         }
         Ok(())
     }
     /// Writes what is left of links that may break, beside a snapshot: `[[links]] file` reads it.
     pub fn links(&self, step: u64, links: &Links) -> Result<(), Error> {
-        if self.formats.iter().any(|format| *format != Format::Png) {
+        if !self.formats.is_empty() {
             let path = self.folder.file(&format!("links_{step:0width$}.csv", width = self.digits))?;
             atomically(&path, |out| motes::io::links::write(out, links))?;
         }
@@ -151,7 +145,7 @@ impl Output {
     }
     /// Whether pictures are wanted.
     pub fn pictures(&self) -> bool {
-        self.formats.contains(&Format::Png)
+        self.pictures
     }
     /// The picture of a state, to be drawn.
     pub fn picture(&self, snapshot: &State) -> Result<Picture, Error> {
@@ -189,4 +183,9 @@ impl Output {
     pub fn folder(&self) -> &Folder {
         &self.folder
     }
+}
+
+/// Writes a state into a file of a format.
+pub fn written(path: &Path, format: &Format, state: &State, precision: Precision) -> Result<(), Error> {
+    atomically(path, |out| format.write.map_or(Ok(()), |write| write(out, state, precision)))
 }

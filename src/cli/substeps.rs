@@ -88,11 +88,11 @@ async fn judge(mut scene: Scene) -> Result<Loaded, Failure> {
         lines = said;
         scene.remarks.extend(notes);
     }
-    if let Some(flow) = Flow::of(&setup, scene.integrator.build).await? {
+    if let Some(flow) = Flow::of(&setup, &|| scene.integrator()).await? {
         lines.extend(flow::line(&flow, setup.dt));
         scene.remarks.extend(flow::warning(&flow, &scene)?);
     }
-    let verdict = Verdict::of(&setup, scene.integrator.build, scene.steps).await?;
+    let verdict = Verdict::of(&setup, &|| scene.integrator(), scene.steps).await?;
     Ok(Loaded { scene, setup, verdict, start, lines })
 }
 
@@ -162,7 +162,7 @@ fn others(scene: &Scene, verdict: &Verdict) -> String {
     if verdict.joints > 0.0 {
         return String::new();
     }
-    let bears = |entry: &&Entry| (entry.build)().damps_at_any_step() && entry.name != scene.integrator.name;
+    let bears = |entry: &&Entry| entry.by_default().damps_at_any_step() && entry.name != scene.integrator.name;
     let names: Vec<_> = INTEGRATORS.iter().filter(bears).map(|entry| entry.name).collect();
     if names.is_empty() { String::new() } else { format!(", or take {}, which bears any dt", names.join(" or ")) }
 }

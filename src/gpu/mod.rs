@@ -71,7 +71,12 @@ impl Gpu {
     pub fn pace(&mut self, submission: Duration, patience: Duration) {
         self.queue.pace(submission, patience);
     }
-    /// Lets go of pipelines that no program keeps: a program that compiles thousands of different plans needs their memory.
+    /// Keeps the pipelines that there are, whatever is forgotten later.
+    pub fn keep_pipelines(&mut self) {
+        self.pipelines.keep();
+    }
+    /// Lets go of pipelines that no program keeps, and that were made since [`Gpu::keep_pipelines`]: thousands of different plans
+    /// would hold much memory.
     pub fn forget_pipelines(&mut self) {
         self.pipelines.forget();
     }

@@ -58,7 +58,10 @@ fn begin(device: &wgpu::Device, queue: &wgpu::Queue, law: &Pass, pipeline: &Pipe
                 .collect();
             let entries: Vec<_> = buffers
                 .iter()
-                .map(|(binding, buffer)| wgpu::BindGroupEntry { binding: *binding, resource: buffer.as_entire_binding() })
+                .map(|(binding, buffer)| wgpu::BindGroupEntry {
+                    binding: *binding,
+                    resource: buffer.as_entire_binding(),
+                })
                 .collect();
             let group = device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout, entries: &entries });
             pass.set_bind_group(*index, &group, &[]);

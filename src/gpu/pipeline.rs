@@ -21,14 +21,20 @@ pub struct Pipelines {
     device: wgpu::Device,
     queue: wgpu::Queue,
     made: HashMap<Key, Pipeline>,
+    kept: HashMap<Key, Pipeline>,
 }
 
 impl Pipelines {
     pub fn new(device: wgpu::Device, queue: wgpu::Queue) -> Self {
-        Self { device, queue, made: HashMap::new() }
+        Self { device, queue, made: HashMap::new(), kept: HashMap::new() }
     }
 
-    /// Lets go of all of them; programs keep theirs.
+    /// Keeps those that there are.
+    pub fn keep(&mut self) {
+        self.kept.extend(self.made.drain());
+    }
+
+    /// Lets go of all that are not kept; programs keep theirs.
     pub fn forget(&mut self) {
         self.made.clear();
     }
@@ -37,7 +43,7 @@ impl Pipelines {
     pub fn get(&mut self, pass: &Pass, patience: Duration) -> Result<Pipeline, Error> {
         let constants = pass.constants.iter().map(|(name, value)| (*name, value.to_bits())).collect();
         let key = (pass.shader.text().to_owned(), constants);
-        if let Some(known) = self.made.get(&key) {
+        if let Some(known) = self.kept.get(&key).or_else(|| self.made.get(&key)) {
             return Ok(known.clone());
         }
         self.check(&pass.shader)?;

@@ -9,7 +9,8 @@ pub use step::{Explicit, Form, Implicit, Step, implicit};
 pub use verbs::solve::STATE as SOLVE_STATE;
 pub use verbs::solve::report::{NAME as SOLVE_REPORT, WORDS as SOLVE_REPORT_WORDS};
 
-use crate::kernel::Pace;
+use crate::kernel::{Column, Pace};
+use crate::settings::{Key, Settings};
 
 /// How particles are advanced by one step.
 pub trait Integrator: Send + Sync {
@@ -31,6 +32,10 @@ pub trait Integrator: Send + Sync {
     fn pace(&self) -> Option<Pace> {
         None
     }
+    /// The columns that it keeps beside those of all simulations: what a step leaves to the next.
+    fn columns(&self) -> Vec<Column> {
+        Vec::new()
+    }
     /// What must be done once, before the first step.
     fn start(&self, _step: &mut Step) {}
     /// One step.
@@ -43,23 +48,42 @@ pub struct Entry {
     pub name: &'static str,
     /// One line for a list.
     pub about: &'static str,
-    /// Makes one.
-    pub build: fn() -> Box<dyn Integrator>,
+    /// What a scene may say to it, in `[simulation]`.
+    pub keys: &'static [Key],
+    /// Makes one, from checked settings of these keys.
+    pub build: fn(&Settings) -> Box<dyn Integrator>,
+}
+
+impl Entry {
+    /// Makes one with the defaults of its keys.
+    #[must_use]
+    pub fn by_default(&self) -> Box<dyn Integrator> {
+        (self.build)(&Settings::defaults(self.keys))
+    }
 }
 
 macro_rules! register {
-    ($($module:ident: $type:ident, $about:literal;)*) => {
+    ($($module:ident: $type:ident $(($keys:ident))?, $about:literal;)*) => {
         $(mod $module; pub use $module::$type;)*
         /// All integrators, in the order of their cost.
-        pub const INTEGRATORS: &[Entry] =
-            &[$(Entry { name: stringify!($module), about: $about, build: || Box::new($type) }),*];
+        pub const INTEGRATORS: &[Entry] = &[$(Entry {
+            name: stringify!($module),
+            about: $about,
+            keys: register!(@keys $module $($keys)?),
+            build: register!(@build $module $type $($keys)?),
+        }),*];
     };
+    (@keys $module:ident) => { &[] };
+    (@keys $module:ident $keys:ident) => { $module::$keys };
+    (@build $module:ident $type:ident) => { |_| Box::new($type) };
+    (@build $module:ident $type:ident $keys:ident) => { |settings| Box::new($module::$type::new(settings)) };
 }
 
 register! {
     forward_euler: ForwardEuler, "order 1, gains energy: to show why not";
     symplectic_euler: SymplecticEuler, "order 1, keeps energy in bounds";
     leapfrog: Leapfrog, "order 2, symplectic, one evaluation per step: the default";
+    beeman: Beeman, "order 2, the positions of leapfrog with better velocities: molecules (Beeman 1976)";
     midpoint: Midpoint, "order 2 (Runge-Kutta), for forces that depend on velocity";
     heun: Heun, "order 2 (Runge-Kutta, trapezoid rule), for forces that depend on velocity";
     rk4: RungeKutta4, "order 4 (Runge-Kutta), four evaluations: accurate over short times";

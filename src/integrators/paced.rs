@@ -2,7 +2,7 @@
 //! in bounds may drift (Skeel & Gear 1992).
 
 use super::{Integrator, Step};
-use crate::kernel::Pace;
+use crate::kernel::{Column, Pace};
 
 /// Another integrator, in steps as long as forces allow.
 pub struct Paced {
@@ -24,6 +24,9 @@ impl Integrator for Paced {
     }
     fn pace(&self) -> Option<Pace> {
         Some(self.pace)
+    }
+    fn columns(&self) -> Vec<Column> {
+        self.integrator.columns()
     }
     fn start(&self, s: &mut Step) {
         self.integrator.start(s);

@@ -133,6 +133,13 @@ impl<'a> Step<'a> {
         self.kicked = Some(factor);
         self.limit();
     }
+    /// A kick by a kernel of the integrator's own, which changes velocities, within the limits of speed; other columns whose rates
+    /// evaluations compute go on by a part of the step.
+    pub fn kick_by(&mut self, kernel: Result<Kernel, Error>, factor: f64) {
+        self.kick_pairs(factor);
+        self.add(kernel);
+        self.limit();
+    }
     /// x ← x + c v dt, and back into the box, and every column whose rate is a state; what is carried along, by its rate in the
     /// middle of the way
     pub fn drift(&mut self, factor: f64) {
@@ -237,7 +244,13 @@ impl<'a> Step<'a> {
             }
         }
     }
-    fn add(&mut self, kernel: Result<Kernel, Error>) {
+    /// The number of particles.
+    #[must_use]
+    pub fn count(&self) -> u32 {
+        self.problem.count
+    }
+    /// Adds a kernel of the integrator's own. An error is given at the end.
+    pub fn add(&mut self, kernel: Result<Kernel, Error>) {
         self.flush();
         match kernel {
             Ok(kernel) => self.plan.add(kernel),

@@ -15,11 +15,21 @@ use rayon::prelude::*;
 use super::line::Line;
 use super::problems::{Problems, order};
 use super::rows::{self, Opened};
-use super::titles::{self, Number, Strip, Title};
-use super::{Precision, input, open};
+use super::titles::{self, Strip, Title};
+use super::{Format, Precision, input, open};
 use crate::error::Error;
 use crate::kernel::{Columns, Kind};
 use crate::state::State;
+
+/// Its line in the register: what no other format claims is text.
+pub(super) const FORMAT: Format = Format {
+    name: "csv",
+    about: "text, one row for each particle, between commas or blanks",
+    endings: &["csv"],
+    begins: |_| true,
+    read: Some(read),
+    write: Some(|out, state, precision| write_csv(out, state, precision)),
+};
 
 /// What else a mass is called.
 const SHORT: &str = "m";
@@ -218,32 +228,11 @@ pub fn write_csv(mut out: impl Write, state: &State, precision: Precision) -> io
 }
 
 fn row(text: &mut String, id: usize, strips: &[Strip<'_>], precision: Precision) {
-    // Writing into a String cannot fail. `{:?}` is the shortest decimal that reads back, with an exponent where that is shorter.
+    // Writing into a String cannot fail.
     let _ = write!(text, "{id}");
     for strip in strips {
-        let start = text.len();
-        let _ = match (strip.of(id), precision) {
-            (Number::Whole(number), _) => write!(text, ",{number}"),
-            (Number::Real(number), Precision::Double) => write!(text, ",{number:?}"),
-            (Number::Real(number), Precision::Single) => {
-                #[expect(clippy::cast_possible_truncation, reason = "single precision was asked for")]
-                let single = number as f32;
-                let written = write!(text, ",{single:?}");
-                if reads_back(&text[start + 1..], single) {
-                    written
-                } else {
-                    text.truncate(start);
-                    write!(text, ",{:?}", f64::from(single))
-                }
-            }
-        };
+        text.push(',');
+        strip.of(id).write(text, precision);
     }
     text.push('\n');
-}
-
-/// Whether a reader that knows only f64 finds the same f32 when it narrows: rounding twice is not always rounding once. Of all
-/// f32 only ±7.038531e-26 is lost, half way between two of them for an f64.
-fn reads_back(text: &str, single: f32) -> bool {
-    #[expect(clippy::cast_possible_truncation, reason = "this is the question")]
-    text.parse::<f64>().is_ok_and(|wide| (wide as f32).to_bits() == single.to_bits())
 }

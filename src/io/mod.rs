@@ -7,20 +7,17 @@
 pub mod apng;
 mod archive;
 mod atomic;
-pub mod csv;
 #[cfg(feature = "scene")]
 mod folder;
 mod line;
 pub mod links;
 mod npy;
-pub mod npz;
 mod problems;
 mod rows;
-pub mod tipsy;
 mod titles;
 
 use std::fs::File;
-use std::io::{BufReader, Read};
+use std::io::{self, BufReader, BufWriter, Read};
 use std::path::Path;
 
 pub use self::atomic::atomically;
@@ -40,33 +37,86 @@ pub enum Precision {
     Double,
 }
 
-/// Reads a state of these columns from a file of any known format: by its ending `.csv`, `.npz`, `.tipsy` (or `.bin`, `.std`,
-/// `.tip`), and by what it starts with where the ending says nothing.
+/// A format of files that hold a state. Its reader and its writer stand in one file.
+#[derive(Debug)]
+pub struct Format {
+    /// The word of scenes, and the ending of files that are written.
+    pub name: &'static str,
+    /// One line for a list.
+    pub about: &'static str,
+    /// Endings by which files of it are known, in small letters.
+    pub endings: &'static [&'static str],
+    /// Whether a file that begins with these bytes is of it, where the ending says nothing.
+    pub begins: fn(&[u8]) -> bool,
+    /// Reads a state of these columns, if it can be read.
+    pub read: Option<Reader>,
+    /// Writes a state, if states can be written in it without loss.
+    pub write: Option<Writer>,
+}
+
+/// Reads a state of these columns from a file.
+pub type Reader = fn(&Path, &Columns) -> Result<State, Error>;
+/// Writes a state into a file.
+pub type Writer = fn(&mut BufWriter<File>, &State, Precision) -> io::Result<()>;
+
+impl PartialEq for Format {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name
+    }
+}
+impl Eq for Format {}
+
+macro_rules! register {
+    ($($module:ident)*) => {
+        $(pub mod $module;)*
+        /// All formats, in the order in which the beginning of a file is compared with them.
+        pub const FORMATS: &[Format] = &[$($module::FORMAT),*];
+    };
+}
+
+register! {
+    npz
+    tipsy
+    xyz
+    csv
+}
+
+/// The format of a scene's word.
+#[must_use]
+pub fn format(name: &str) -> Option<&'static Format> {
+    FORMATS.iter().find(|format| format.name == name)
+}
+
+/// Reads a state of these columns from a file of any known format: by its ending (see [`FORMATS`]), and by what it starts with where
+/// that says nothing.
 ///
 /// # Errors
 /// [`Error::Input`], with the file and the line or byte offset of everything that is wrong with it.
 pub fn read(path: &Path, columns: &Columns) -> Result<State, Error> {
     let ending = path.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase();
-    match ending.as_str() {
-        "csv" => csv::read(path, columns),
-        "npz" => npz::read(path, columns),
-        "bin" | "std" | "tip" | "tipsy" => tipsy::read(path),
-        _ => {
+    let by_ending = FORMATS.iter().find(|format| format.endings.contains(&ending.as_str()));
+    let found = match by_ending {
+        Some(format) => Some(format),
+        None => {
             let mut start = Vec::new();
             let (file, _) = open(path)?;
             file.take(512).read_to_end(&mut start).map_err(|error| input(path, error.to_string()))?;
             if start.starts_with(b"\x89HDF\r\n\x1a\n") {
-                Err(input(path, "is an HDF5 file, which motes does not read: make it a CSV or NPZ file"))
-            } else if start.starts_with(b"PK\x03\x04") {
-                npz::read(path, columns)
-            } else if start.contains(&0) {
-                // A Tipsy header holds small counts, so it holds zeros; text does not.
-                tipsy::read(path)
-            } else {
-                csv::read(path, columns)
+                return Err(input(path, "is an HDF5 file, which motes does not read: make it a CSV or NPZ file"));
             }
+            FORMATS.iter().find(|format| (format.begins)(&start))
         }
+    };
+    match found.and_then(|format| format.read) {
+        Some(read) => read(path, columns),
+        None => Err(input(path, "is of no format that is known")),
     }
+}
+
+/// The first letters of a word of a file.
+fn shortened(text: &str) -> String {
+    const LONGEST: usize = 40;
+    if text.chars().count() <= LONGEST { text.to_owned() } else { text.chars().take(LONGEST).chain(['…']).collect() }
 }
 
 /// An [`Error::Input`] about a whole file.

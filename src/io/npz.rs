@@ -14,10 +14,20 @@ use npyz::{AutoSerialize, Serialize, WriterBuilder};
 use super::archive::Arrays;
 use super::problems::{Problems, order};
 use super::titles::{self, Number, Strip, Title};
-use super::{Precision, input, open};
+use super::{Format, Precision, input, open};
 use crate::error::Error;
 use crate::kernel::{Array, Column, Columns, Kind, Shape};
 use crate::state::State;
+
+/// Its line in the register.
+pub(super) const FORMAT: Format = Format {
+    name: "npz",
+    about: "arrays for NumPy, all columns and the time",
+    endings: &["npz"],
+    begins: |start| start.starts_with(b"PK\x03\x04"),
+    read: Some(read),
+    write: Some(|out, state, precision| write_npz(out, state, precision)),
+};
 
 /// Bytes that are written at once.
 const PIECE: usize = 1 << 16;

@@ -29,6 +29,11 @@ impl Problems {
         self.shown.is_empty()
     }
 
+    /// An error that lists them all so far, if there are any.
+    pub(super) fn stop(&mut self, path: &Path) -> Result<(), Error> {
+        if self.none() { Ok(()) } else { std::mem::take(self).check(path) }
+    }
+
     /// An error that lists them all.
     pub(super) fn check(mut self, path: &Path) -> Result<(), Error> {
         if self.more > 0 {

@@ -11,9 +11,20 @@ use std::path::Path;
 use glam::DVec3;
 
 use super::problems::Problems;
-use super::{input, open};
+use super::{Format, input, open};
 use crate::error::Error;
 use crate::state::State;
+
+/// Its line in the register. A header holds small counts, so it holds zeros; text does not. A state is not written in it by scenes:
+/// most columns would be lost.
+pub(super) const FORMAT: Format = Format {
+    name: "tipsy",
+    about: "Tipsy, the binary format of n-body codes: positions, velocities and masses",
+    endings: &["tipsy", "bin", "std", "tip"],
+    begins: |start| start.contains(&0),
+    read: Some(|path, _| read(path)),
+    write: None,
+};
 
 /// Bytes of the header without its padding, and of the padding.
 const HEADER: usize = 28;

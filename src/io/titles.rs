@@ -1,7 +1,9 @@
 //! What files call the components of columns, and what their numbers may be.
 
 use std::borrow::Cow;
+use std::fmt::Write as _;
 
+use super::Precision;
 use crate::kernel::{Array, Column, Columns, Kind, LIFE, Shape};
 use crate::life::Life;
 use crate::state::State;
@@ -122,6 +124,36 @@ pub(super) enum Number {
     Whole(u32),
 }
 
+impl Number {
+    /// Appends the shortest decimal that reads back to the same bits of the precision, with an exponent where that is shorter.
+    pub fn write(&self, text: &mut String, precision: Precision) {
+        let start = text.len();
+        // Writing into a String cannot fail.
+        let _ = match (self, precision) {
+            (Self::Whole(number), _) => write!(text, "{number}"),
+            (Self::Real(number), Precision::Double) => write!(text, "{number:?}"),
+            (Self::Real(number), Precision::Single) => {
+                #[expect(clippy::cast_possible_truncation, reason = "single precision was asked for")]
+                let single = *number as f32;
+                let written = write!(text, "{single:?}");
+                if reads_back(&text[start..], single) {
+                    written
+                } else {
+                    text.truncate(start);
+                    write!(text, "{:?}", f64::from(single))
+                }
+            }
+        };
+    }
+}
+
+/// Whether a reader that knows only f64 finds the same f32 when it narrows: rounding twice is not always rounding once. Of all
+/// f32 only ±7.038531e-26 is lost, half way between two of them for an f64.
+fn reads_back(text: &str, single: f32) -> bool {
+    #[expect(clippy::cast_possible_truncation, reason = "this is the question")]
+    text.parse::<f64>().is_ok_and(|wide| (wide as f32).to_bits() == single.to_bits())
+}
+
 impl Strip<'_> {
     /// That of a particle.
     pub fn of(&self, id: usize) -> Number {
@@ -154,11 +186,16 @@ fn of<'a>(column: &'a Column, values: &'a Array) -> impl Iterator<Item = Strip<'
 /// All that a table of particles holds of a state: positions, velocities and masses; sizes and species where one is not 0, life where
 /// one is not active; and every other column that it has.
 pub(super) fn strips(state: &State) -> Vec<Strip<'_>> {
+    kept(state).into_iter().flat_map(|(c, v)| of(c, v)).collect()
+}
+
+/// The columns of which those are, with their values.
+pub(super) fn kept(state: &State) -> Vec<(&Column, &Array)> {
     let usual = |column: &Column| match column.name.as_ref() {
         "size" => state.size().iter().any(|size| *size != 0.0),
         "species" => state.species().iter().any(|species| *species != 0),
         name if name == LIFE.name => (0..state.len()).any(|id| !state.lives(id)),
         _ => !matches!(column.shape, Shape::System(_)),
     };
-    state.columns().filter(|(column, _)| usual(column)).flat_map(|(c, v)| of(c, v)).collect()
+    state.columns().filter(|(column, _)| usual(column)).collect()
 }

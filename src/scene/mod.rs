@@ -53,7 +53,7 @@ use crate::state::State;
 pub use builtin::{Builtin, SCENES};
 pub use column::COLUMN_KEYS;
 pub use diagnostic::{Diagnostic, Diagnostics, Excerpt, Mended};
-pub use output::{Format, Output};
+pub use output::Output;
 pub use own::Own;
 pub use sections::{SECTIONS, Section};
 pub use source::Source;
@@ -79,6 +79,8 @@ pub struct Scene {
     pub pace: Option<Pace>,
     /// What makes a step.
     pub integrator: &'static integrators::Entry,
+    /// What the scene says to the integrator.
+    pub integrator_settings: Settings,
     /// How well implicit integrators solve their equations.
     pub solver: Solver,
     /// Where particles may be.
@@ -130,6 +132,11 @@ impl Default for Options {
 }
 
 impl Scene {
+    /// The integrator, with what the scene says to it.
+    #[must_use]
+    pub fn integrator(&self) -> Box<dyn integrators::Integrator> {
+        (self.integrator.build)(&self.integrator_settings)
+    }
     /// Reads a scene. Each override is `key=value`: `simulation.dt=0.01`, `particles.0.count=100`, `force.0.g=2`; the value
     /// is TOML, or a text without its quotes. Files that an override names are sought where the scene's are.
     ///
@@ -258,7 +265,7 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
     out.0 += &said_of_forces.0;
 
     // The forces must know whether particles are spawned or removed.
-    let integrator = (simulation.integrator.build)();
+    let integrator = simulation.made();
     if let (Some(first), Err(why)) =
         (all("emitter").chain(all("drain")).next(), crate::simulation::serves(&particles, &forces, integrator.as_ref()))
     {
@@ -285,6 +292,7 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
         until: simulation.until,
         pace: simulation.pace.map(|(pace, _)| pace),
         integrator: simulation.integrator,
+        integrator_settings: simulation.integrator_settings,
         solver,
         bounds,
         particles,

@@ -1,5 +1,6 @@
 //! `[output]`: how often the run is written down, and in which formats.
 
+use crate::io::{FORMATS, Format};
 use crate::kernel::Columns;
 use crate::settings::{Key, Kind};
 
@@ -17,54 +18,51 @@ pub(super) const OWN: &[&str] = &["every", "formats", "columns", "frames"];
 pub struct Output {
     /// A snapshot is written each time that this many steps are done; at least one.
     pub every: u64,
-    /// In which formats, each once; none at all leaves only the table of energies.
-    pub formats: Vec<Format>,
+    /// In which formats, each once; none at all leaves only the table of energies, and pictures.
+    pub formats: Vec<&'static Format>,
+    /// Whether a picture is drawn with each.
+    pub pictures: bool,
     /// How many pictures of a film, evenly spaced over the run; zero for none, and one more than the steps at most.
     pub frames: u64,
     /// Columns that snapshots have beside those of the state: what laws compute.
     pub columns: Vec<String>,
 }
 
-/// A format of snapshots.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Format {
-    /// Text, one row for each particle.
-    Csv,
-    /// Arrays for `NumPy`.
-    Npz,
-    /// A picture.
-    Png,
+/// The scene's word for pictures, which stand among the formats.
+const PICTURES: &str = "png";
+
+/// The words that `formats` takes: formats that states can be written in, and pictures.
+#[must_use]
+fn words() -> Vec<&'static str> {
+    let mut words: Vec<_> = writable().map(|format| format.name).collect();
+    words.push(PICTURES);
+    words
 }
 
-impl Format {
-    /// All formats.
-    pub const ALL: &[Self] = &[Self::Csv, Self::Npz, Self::Png];
-
-    /// The scene's word for it, which is also the extension of its files.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Csv => "csv",
-            Self::Npz => "npz",
-            Self::Png => "png",
-        }
-    }
+fn writable() -> impl Iterator<Item = &'static Format> {
+    FORMATS.iter().filter(|format| format.write.is_some())
 }
 
 pub(super) fn read(table: Option<&Table<'_>>, steps: u64, known: &Columns, report: &mut Report) -> Output {
-    let mut output =
-        Output { every: (steps / 10).max(1), formats: vec![Format::Csv, Format::Png], frames: 0, columns: Vec::new() };
+    let mut output = Output {
+        every: (steps / 10).max(1),
+        formats: FORMATS.iter().filter(|format| format.name == "csv").collect(),
+        pictures: true,
+        frames: 0,
+        columns: Vec::new(),
+    };
     let Some(table) = table else { return output };
     table.settings(KEYS, OWN, report);
     if let Some(every) = table.get("every").and_then(|e| walk::whole_from_one(e, report)) {
         output.every = every;
     }
     if let Some(entry) = table.get("formats") {
-        let names: Vec<_> = Format::ALL.iter().map(|f| f.name()).collect();
+        let names = words();
         if let Data::List(list) = &entry.node.data {
             let words: Vec<_> =
                 list.iter().filter_map(|node| value::choice(node, "formats", "format", &names, report)).collect();
-            output.formats = Format::ALL.iter().copied().filter(|f| words.contains(&f.name())).collect();
+            output.formats = writable().filter(|format| words.contains(&format.name)).collect();
+            output.pictures = words.contains(&PICTURES);
         } else {
             value::refuse::<()>(&entry.node, "formats", "a list, as in [\"csv\", \"png\"]", report);
         }
@@ -95,7 +93,9 @@ impl Output {
     pub(super) fn write(&self, out: &mut Writer) {
         out.header("[output]");
         out.line("every", &self.every.to_string());
-        let names: Vec<_> = self.formats.iter().map(|f| format!("\"{}\"", f.name())).collect();
+        let formats = self.formats.iter().map(|format| format.name);
+        let names: Vec<_> =
+            formats.chain(self.pictures.then_some(PICTURES)).map(|name| format!("\"{name}\"")).collect();
         out.line("formats", &format!("[{}]", names.join(", ")));
         out.line("frames", &self.frames.to_string());
         let columns: Vec<_> = self.columns.iter().map(|name| format!("\"{name}\"")).collect();

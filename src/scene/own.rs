@@ -75,7 +75,11 @@ pub(super) const FORCE: &[Own] = &[
 ];
 pub(super) const OUTPUT: &[Own] = &[
     own("every", "a tenth of steps", "so many steps from one written state to the next"),
-    own("formats", "[\"csv\", \"png\"]", "of states: any of csv, npz and png; [] leaves energy.csv alone"),
+    own(
+        "formats",
+        "[\"csv\", \"png\"]",
+        "of states: any of npz, xyz, csv, and png for pictures; [] leaves energy.csv alone",
+    ),
     own(
         "columns",
         "[]",

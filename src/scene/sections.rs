@@ -2,6 +2,7 @@
 //! its field in [`Scene`](super::Scene).
 
 use crate::forces::FORCES;
+use crate::integrators::INTEGRATORS;
 use crate::particles::SHAPES;
 use crate::render;
 use crate::settings::Key;
@@ -30,6 +31,7 @@ pub const SECTIONS: &[Section] = &[
     Section {
         about: "the step, how many of them, and by which integrator",
         own: own::SIMULATION,
+        kinds: || INTEGRATORS.iter().map(|i| i.keys).collect(),
         ..Section::new("simulation", false, simulation::KEYS)
     },
     Section {

@@ -1,6 +1,6 @@
 //! `[simulation]`: the step, how many of them, and by which integrator.
 
-use crate::integrators::{self, INTEGRATORS};
+use crate::integrators::{self, INTEGRATORS, Integrator};
 use crate::kernel::Pace;
 use crate::settings::{Key, Kind, Settings, Value};
 
@@ -42,6 +42,7 @@ pub(super) struct Simulation {
     pub(super) dt: f64,
     pub(super) steps: u64,
     pub(super) integrator: &'static integrators::Entry,
+    pub(super) integrator_settings: Settings,
     /// How long steps are, where they are adaptive, and where the scene says so.
     pub(super) pace: Option<(Pace, Place)>,
     /// When it ends.
@@ -52,14 +53,25 @@ pub(super) struct Simulation {
 
 pub(super) fn read(table: Option<&Table<'_>>, report: &mut Report) -> Simulation {
     let integrator = INTEGRATORS.iter().find(|i| i.name == "leapfrog").unwrap_or(&INTEGRATORS[0]);
-    let mut simulation = Simulation { dt: 1.0, steps: 1, integrator, pace: None, until: 1.0, remark: None };
+    let integrator_settings = Settings::defaults(integrator.keys);
+    let mut simulation =
+        Simulation { dt: 1.0, steps: 1, integrator, integrator_settings, pace: None, until: 1.0, remark: None };
     let Some(table) = table else {
         let fault = Fault::missing(&Place::end(), "the section [simulation] is missing");
         report.push(fault.note("help: add\n\n         [simulation]\n         dt = 0.001\n         steps = 1000"));
         return simulation;
     };
     let faults = report.len();
-    let settings: Settings = table.settings(KEYS, OWN, report);
+    if let Some(entry) = table.get("integrator") {
+        let names: Vec<_> = INTEGRATORS.iter().map(|i| i.name).collect();
+        if let Some(name) = walk::choice(entry, "integrator", &names, report) {
+            simulation.integrator = INTEGRATORS.iter().find(|i| i.name == name).unwrap_or(integrator);
+        }
+    }
+    let keys = [KEYS, simulation.integrator.keys].concat();
+    let settings: Settings = table.settings(&keys, OWN, report);
+    let its = settings.0.iter().filter(|(name, _)| simulation.integrator.keys.iter().any(|key| key.name == **name));
+    simulation.integrator_settings = Settings(its.map(|(name, value)| (*name, value.clone())).collect());
     let has_dt = report.len() == faults || settings.number("dt") > 0.0;
     if has_dt {
         simulation.dt = settings.number("dt");
@@ -88,12 +100,6 @@ pub(super) fn read(table: Option<&Table<'_>>, report: &mut Report) -> Simulation
                     simulation.dt
                 ))),
             }
-        }
-    }
-    if let Some(entry) = table.get("integrator") {
-        let names: Vec<_> = INTEGRATORS.iter().map(|i| i.name).collect();
-        if let Some(name) = walk::choice(entry, "integrator", &names, report) {
-            simulation.integrator = INTEGRATORS.iter().find(|i| i.name == name).unwrap_or(integrator);
         }
     }
     simulation.pace = pace(table, &settings, &simulation, report);
@@ -129,7 +135,7 @@ fn pace(table: &Table<'_>, settings: &Settings, of: &Simulation, report: &mut Re
     if let Err(error) = pace.check(of.dt) {
         report.push(Fault::at(&entry.place, "steps cannot be adaptive like that").label(error.to_string()));
     }
-    if (of.integrator.build)().is_implicit() {
+    if of.made().is_implicit() {
         let fault =
             format!("steps are adaptive by the limits of explicit methods, and {} is implicit", of.integrator.name);
         report.push(Fault::at(&entry.place, fault).label("choose integrator = \"leapfrog\", or leave this out"));
@@ -155,6 +161,10 @@ fn remark(until: f64, dt: f64, steps: u64) -> Option<String> {
 }
 
 impl Simulation {
+    /// The integrator, as the scene has it.
+    pub(super) fn made(&self) -> Box<dyn Integrator> {
+        (self.integrator.build)(&self.integrator_settings)
+    }
     pub(super) fn write(&self, out: &mut Writer) {
         out.header("[simulation]");
         out.number("dt", self.dt);
@@ -169,5 +179,6 @@ impl Simulation {
             None => out.line("steps", &self.steps.to_string()),
         }
         out.text("integrator", self.integrator.name);
+        out.settings(self.integrator.keys, &self.integrator_settings);
     }
 }

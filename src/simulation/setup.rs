@@ -121,7 +121,8 @@ impl Setup {
     /// [`Error::Scene`] when two declarations of one name differ, or one makes no sense.
     pub fn columns(&self) -> Result<Columns, Error> {
         let forces = self.forces.iter().flat_map(|force| force.columns());
-        let mut all: Vec<Column> = forces.chain(columns::of_held(&self.state.held)).collect();
+        let integrator = self.integrator.columns();
+        let mut all: Vec<Column> = forces.chain(integrator).chain(columns::of_held(&self.state.held)).collect();
         let known = Columns::with(all.clone())?;
         for column in self.state.declared() {
             match known.get(&column.name) {

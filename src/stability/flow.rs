@@ -44,7 +44,7 @@ impl Flow {
     ///
     /// # Errors
     /// When there is no such fluid, or what a simulation of one particle by the references says.
-    pub async fn of(setup: &Setup, build: Build) -> Result<Option<Self>, Error> {
+    pub async fn of(setup: &Setup, build: Build<'_>) -> Result<Option<Self>, Error> {
         let problem = setup.problem(Machine::HOST)?;
         let Some(rates) = setup
             .forces
@@ -55,7 +55,7 @@ impl Flow {
             return Ok(None);
         };
         // What is not solved for goes by the step of an explicit method.
-        let build: Build = if build().is_implicit() { || Box::new(SymplecticEuler) } else { build };
+        let build: Build<'_> = if build().is_implicit() { &|| Box::new(SymplecticEuler) } else { build };
         // The limit is sharp in so long a time, and few steps are no excuse.
         let duration = PERIODS / rates.sound.max(rates.friction);
         let of = |stiffness: f64, damping: f64| limit(build, Mode { stiffness, damping }, duration);

@@ -8,8 +8,8 @@ use crate::error::Error;
 use crate::integrators::{Integrator, SymplecticEuler};
 use crate::simulation::Setup;
 
-/// Makes an integrator, as its line in the register does.
-pub type Build = fn() -> Box<dyn Integrator>;
+/// Makes an integrator, as its line in the register does with what a scene says to it.
+pub type Build<'a> = &'a (dyn Fn() -> Box<dyn Integrator> + Sync);
 
 /// A part of the largest step: at the limit itself a symplectic method keeps energies within bounds that are wide.
 const MARGIN: f64 = 0.9;
@@ -35,7 +35,7 @@ impl Verdict {
     ///
     /// # Errors
     /// What a simulation of one particle by the references says.
-    pub async fn of(setup: &Setup, build: Build, steps: u64) -> Result<Option<Self>, Error> {
+    pub async fn of(setup: &Setup, build: Build<'_>, steps: u64) -> Result<Option<Self>, Error> {
         let springs = &setup.state.links.springs;
         let names: Vec<String> = setup.forces.iter().flat_map(|force| force.laws()).map(|law| law.name).collect();
         // Two forces of a kind act twice.
@@ -63,7 +63,7 @@ impl Verdict {
         if build().is_implicit() && joints > 0.0 {
             // They stay explicit in the same step.
             let bending = Mode { stiffness: joints, damping: 0.0 };
-            safe = safe.min(limit(|| Box::new(SymplecticEuler), bending, duration).await?);
+            safe = safe.min(limit(&|| Box::new(SymplecticEuler), bending, duration).await?);
         }
         let by_damping = if safe.is_finite() && safe > 0.0 {
             safe * highest.stiffness < 2.0 * highest.damping
@@ -94,13 +94,13 @@ impl Verdict {
     }
 }
 
-pub(super) async fn limit(build: Build, mode: Mode, duration: f64) -> Result<f64, Error> {
+pub(super) async fn limit(build: Build<'_>, mode: Mode, duration: f64) -> Result<f64, Error> {
     Oscillator::new(build(), mode.stiffness.sqrt(), mode.damping)?.largest_step(duration).await
 }
 
 /// What all modes up to the highest bear: its own, half as stiff and as damped, damped alone, and swinging alone. The last
 /// counts only for methods that bear swinging at all: with others, as with Euler's, damping is what springs live by.
-async fn safe(build: Build, highest: Mode, duration: f64) -> Result<f64, Error> {
+async fn safe(build: Build<'_>, highest: Mode, duration: f64) -> Result<f64, Error> {
     let Mode { stiffness, damping } = highest;
     let mut least = combined(build, highest, duration).await?;
     if damping == 0.0 || stiffness == 0.0 {
@@ -115,7 +115,7 @@ async fn safe(build: Build, highest: Mode, duration: f64) -> Result<f64, Error> 
 }
 
 /// What the highest mode bears, and one half as stiff and as damped.
-pub(super) async fn combined(build: Build, highest: Mode, duration: f64) -> Result<f64, Error> {
+pub(super) async fn combined(build: Build<'_>, highest: Mode, duration: f64) -> Result<f64, Error> {
     let least = limit(build, highest, duration).await?;
     if highest.damping == 0.0 || highest.stiffness == 0.0 {
         return Ok(least);

@@ -9,7 +9,9 @@ use super::{
     Group, Jacobian, Outcome, Over, PAIR_TABLE, PairTable, Particle, Tables, each, links, near, pairs, tree, twin, walk,
 };
 use crate::error::Error;
-use crate::kernel::{ACCELERATION, Access, Kernel, Name, Problem, Scalar, Shader, Side, Source, Table, Twin, VELOCITY, World};
+use crate::kernel::{
+    ACCELERATION, Access, Kernel, Name, Problem, Scalar, Shader, Side, Source, Table, Twin, VELOCITY, World,
+};
 use crate::links::{Corner, Half};
 use crate::neighbors::Grid;
 use crate::tree::Tree;

@@ -10,9 +10,11 @@ use crate::kernel::{
 };
 use crate::tree::{GROUP, LEAF, Opening, Tree};
 
-/// Dispatches in which walks go on that open all there is, beyond those that need no search among single targets: only few
-/// groups search, and for a small part of their nodes.
+/// Dispatches in which walks go on, beyond those that are counted: each stops a look too late.
 const MORE: u32 = 4;
+/// Of so many nodes a walk searches the targets of its group for one, at most: others are far from all of them, or near to one that
+/// has just been found. Where more are searched, the run ends with an alarm.
+const SEARCHED: u64 = 4;
 /// Dispatches that go on with walks, at most: a plan holds them all.
 const MOST: u32 = 1 << 15;
 /// Bytes of what is kept of walks that go on.
@@ -76,8 +78,8 @@ fn variant(machine: &Machine) -> Vec<Source> {
     }
 }
 
-/// How many dispatches go on with a walk where loops may take so many turns: enough for one that opens every node and meets
-/// every body.
+/// How many dispatches go on with a walk where loops may take so many turns: enough for one that opens every node, searches
+/// targets for a quarter of them, and meets every body.
 fn rounds(tree: &Tree, machine: &Machine) -> u32 {
     if !machine.software {
         return 0;
@@ -97,7 +99,7 @@ fn rounds(tree: &Tree, machine: &Machine) -> u32 {
     if walk + search <= turns {
         return 0;
     }
-    u32::try_from(walk / turns).unwrap_or(u32::MAX).saturating_add(MORE)
+    u32::try_from((walk + search / SEARCHED) / turns).unwrap_or(u32::MAX).saturating_add(MORE)
 }
 
 pub fn kernel(law: Law, tree: &Tree, problem: &Problem) -> Result<Kernel, Error> {

@@ -42,9 +42,9 @@ fn run(text: &str, folder: &std::path::Path, steps: u32) -> State {
     assert_eq!(again.particles, scene.particles);
     let count = u32::try_from(scene.particles.len()).expect("few");
     let setup = Setup {
+        integrator: scene.integrator(),
         state: scene.particles,
         forces: scene.forces,
-        integrator: (scene.integrator.build)(),
         dt: scene.dt,
         bounds: scene.bounds,
         solver: scene.solver,

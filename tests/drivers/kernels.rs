@@ -84,7 +84,7 @@ pub fn every(machine: Machine) -> Vec<(String, Kernel)> {
         let setup = Setup {
             state: support::cloud(100, 7),
             forces: vec![states::force("uniform", &[])],
-            integrator: (entry.build)(),
+            integrator: entry.by_default(),
             dt: 0.01,
             bounds: Bounds::default(),
             solver: Solver::default(),

@@ -83,7 +83,7 @@ fn every_integrator_carries_density_along() {
     let exact = [0.0, 0.3].map(|diffusion| pressed("rk4", diffusion, 96));
     for (entry, case) in INTEGRATORS.iter().flat_map(|entry| [(entry, 0), (entry, 1)]) {
         let (exact, diffusion) = (&exact[case], [0.0, 0.3][case]);
-        let its = (entry.build)();
+        let its = entry.by_default();
         let (order, staged) = (its.order(), its.order_with_velocity() > 1);
         let order = match (its.is_implicit(), staged) {
             (true, _) => 1,

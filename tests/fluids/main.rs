@@ -50,7 +50,7 @@ fn scene(name: &str, changes: &[&str]) -> (Scene, Setup) {
         Scene::load(&source, &changes, &Options::default()).unwrap_or_else(|faults| panic!("{faults}"))
     };
     let parts = load();
-    let integrator = (parts.integrator.build)();
+    let integrator = parts.integrator();
     let setup = Setup {
         state: parts.particles,
         forces: parts.forces,

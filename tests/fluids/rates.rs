@@ -33,7 +33,7 @@ fn lattice(flat: bool, more: &[(&'static str, Value)], dt: f64) -> Setup {
 }
 
 fn flow(setup: &Setup) -> Flow {
-    pollster::block_on(Flow::of(setup, || integrator("leapfrog"))).expect("a verdict").expect("a fluid")
+    pollster::block_on(Flow::of(setup, &|| integrator("leapfrog"))).expect("a verdict").expect("a fluid")
 }
 
 /// By how much the fastest has become faster in so many steps.

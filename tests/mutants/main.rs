@@ -48,7 +48,7 @@ const WITHOUT_REFERENCES: [&str; 3] = ["render", "selftest", "own"];
 /// when only chosen files are tested.
 const ASKED: usize = 8;
 
-/// Shaders are compiled by one core: two devices keep two of them busy.
+/// A software device compiles shaders in one thread, its queue's: two devices keep two cores busy.
 const TURNS: usize = 2;
 
 /// The shaders that have references, by their names in messages.
@@ -124,8 +124,8 @@ fn work(
 
 #[test]
 fn every_mutant_is_noticed() {
-    let shared = support::device();
-    let has_subgroups = support::machines::subgroups_of_eight(&shared);
+    let devices: Vec<Shared> = (0..TURNS).map(|_| support::open()).collect();
+    let has_subgroups = devices.iter().all(support::machines::subgroups_of_eight);
     let equivalents = [
         EQUIVALENT,
         SOLVES,
@@ -147,16 +147,18 @@ fn every_mutant_is_noticed() {
     let only = std::env::var("MUTANTS").unwrap_or_default();
     let wanted = |file: &str| only.split(',').any(|part| file.contains(part));
     let mut files = files();
-    files.retain(|(file, _)| wanted(file) && (has_subgroups || !["subgroup", "broadcast"].iter().any(|part| file.contains(part))));
+    files.retain(|(file, _)| {
+        wanted(file) && (has_subgroups || !["subgroup", "broadcast"].iter().any(|part| file.contains(part)))
+    });
     // The longest first, so that no thread is left with one when the others are done.
     files.sort_by_key(|(_, text)| text.len());
     let all: Vec<String> = files.iter().map(|(file, _)| file.clone()).collect();
     let files = Mutex::new(files);
     let next = || files.lock().expect("no thread panics").pop();
     std::thread::scope(|scope| {
-        for turn in 0..TURNS {
-            let (next, shared, all, ledger, whole) = (&next, &shared, &all, &ledger, !only.is_empty());
-            scope.spawn(move || work((&**shared, turn), whole, next, all, ledger));
+        for (turn, shared) in devices.iter().enumerate() {
+            let (next, all, ledger, whole) = (&next, &all, &ledger, !only.is_empty());
+            scope.spawn(move || work((shared, turn), whole, next, all, ledger));
         }
     });
     // As many as were there when this was written, less a third: an empty list of mutants would be noticed in full.

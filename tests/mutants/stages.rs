@@ -10,7 +10,7 @@ use motes::integrators::INTEGRATORS;
 use motes::kernel::{
     ALARM, Backend, Kernel, Machine, Next, POSITION, Plan, SPECIES, Shader, Source, VELOCITY, Walk, World,
 };
-use motes::lockstep::{Verdict, compare};
+use motes::lockstep::{Verdict, compare_while};
 use motes::settings::Value;
 use motes::{Gpu, Setup, Simulation, wgpu};
 
@@ -58,6 +58,7 @@ impl Stage {
         let gpu = simulation.backend();
         gpu.pace(Duration::from_millis(80), Duration::from_secs(5));
         gpu.compile(&plan).expect("a good plan");
+        gpu.keep_pipelines();
         let clock = pollster::block_on(gpu.world()).expect("a clock");
         let names = plan.fields(count).into_keys().chain([POSITION.name.into(), VELOCITY.name.into()]);
         let read = |name: String| {
@@ -99,15 +100,13 @@ impl Stage {
             let same = Self::holds(gpu, plan, field, want).unwrap_or(false);
             return (!same).then(|| format!("{field} is not what was expected"));
         }
-        let verdicts = pollster::block_on(compare(gpu, plan, count));
+        let good = |v: &Verdict| v.worst <= self.slack && !v.spilled;
+        let verdicts = pollster::block_on(compare_while(gpu, plan, count, good));
         gpu.forget_pipelines();
         match verdicts {
             Err(error) => Some(error.to_string()),
             Ok(all) if all.is_empty() => Some("nothing is written".to_owned()),
-            Ok(all) => {
-                let good = |v: &&Verdict| v.worst <= self.slack && !v.spilled;
-                all.iter().find(|v| !good(v)).map(|verdict| format!("{verdict:?}"))
-            }
+            Ok(all) => all.iter().find(|v| !good(v)).map(|verdict| format!("{verdict:?}")),
         }
     }
     /// Whether a file is part of what runs here.
@@ -232,7 +231,7 @@ fn integrators(device: &Device, stages: &mut Vec<Stage>) {
         let setup = Setup {
             state: support::cloud(FEW, 11),
             forces: Vec::new(),
-            integrator: (entry.build)(),
+            integrator: entry.by_default(),
             dt: DT,
             bounds: motes::Bounds::default(),
             solver: motes::Solver::default(),

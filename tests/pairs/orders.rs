@@ -50,7 +50,7 @@ fn errors(name: &str, steps: u32) -> [f64; 4] {
 /// The orders of the four. A rate that depends on what a kick changes has that of forces that depend on velocity; a straight
 /// way in the middle of which a rate is computed is of order 2; and implicit methods advance columns explicitly.
 fn orders(entry: &Entry) -> [u32; 4] {
-    let its = (entry.build)();
+    let its = entry.by_default();
     let (order, with_velocity) = (its.order(), its.order_with_velocity());
     if its.is_implicit() {
         return [1, 1, order, order];

@@ -138,7 +138,7 @@ fn a_free_top_has_the_order_of_its_turns() {
     let (facing, spin) = body(&mut fine);
     assert!((own(facing, spin) - solution.spin(time)).length() < 1e-11, "a fine run is no solution");
     for entry in INTEGRATORS {
-        let its = (entry.build)();
+        let its = entry.by_default();
         let order = if its.is_implicit() || its.order_with_velocity() == 1 { 2 } else { its.order() };
         let error = |steps: u32| {
             let mut simulation = top(entry.name, time / f64::from(steps), false);
@@ -205,7 +205,7 @@ fn a_dipole_in_a_field() {
         assert!((now - then).abs() < 1e-11, "{now} {then}: a fine run keeps nothing");
     }
     for entry in INTEGRATORS {
-        let its = (entry.build)();
+        let its = entry.by_default();
         let (order, staged) = (its.order(), its.order_with_velocity() > 1);
         let order = match (its.is_implicit(), staged) {
             (true, _) => 1,

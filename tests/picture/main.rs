@@ -23,7 +23,7 @@ fn word(text: &'static str) -> Value {
 }
 
 fn setup(particles: State) -> Setup {
-    let integrator = (integrators::entry("leapfrog").unwrap().build)();
+    let integrator = integrators::entry("leapfrog").unwrap().by_default();
     let mut untied = particles;
     untied.links = links::Links::default();
     Setup {

@@ -22,7 +22,7 @@ use support::Shared;
 use support::equivalents::Ledger;
 use support::mutants::{Mutant, mutants};
 
-/// Shaders are compiled by one core: two devices keep two of them busy.
+/// A software device compiles shaders in one thread, its queue's: two devices keep two cores busy.
 const TURNS: usize = 2;
 /// Stages that run a mutant that is listed as equivalent: those that noticed other mutants last. All of them run
 /// when only chosen files are tested.
@@ -111,7 +111,7 @@ fn work(
 
 #[test]
 fn every_mutant_of_a_picture_is_noticed() {
-    let shared = support::device();
+    let devices: Vec<Shared> = (0..TURNS).map(|_| support::open()).collect();
     let ledger = Mutex::new(Ledger::new(EQUIVALENT));
     let chosen = std::env::var("MUTANTS").unwrap_or_default();
     let chosen: Vec<&str> = chosen.split(',').filter(|name| !name.is_empty()).collect();
@@ -123,8 +123,8 @@ fn every_mutant_of_a_picture_is_noticed() {
     let files = Mutex::new(files);
     let next = || files.lock().expect("no thread panics").pop();
     std::thread::scope(|scope| {
-        for turn in 0..TURNS {
-            let (next, shared, ledger, whole) = (&next, &*shared, &ledger, !chosen.is_empty());
+        for (turn, shared) in devices.iter().enumerate() {
+            let (next, ledger, whole) = (&next, &ledger, !chosen.is_empty());
             scope.spawn(move || work((shared, turn), whole, next, ledger));
         }
     });

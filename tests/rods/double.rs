@@ -52,7 +52,7 @@ fn with_rods_no_method_is_of_more_than_order_2() {
     let time = 0.9;
     let exact = extrapolated(&right(), time, 2000);
     for entry in INTEGRATORS {
-        let order = (entry.build)().order().min(2);
+        let order = entry.by_default().order().min(2);
         let error = |steps| {
             let (x, v) = state(&right(), entry.name, time, steps);
             let parts = x.iter().zip(&exact.0).chain(v.iter().zip(&exact.1));

@@ -127,11 +127,10 @@ fn groups_and_colours_cover_all_particles() {
 /// The positions after some steps, in f64.
 fn after(scene: Scene, steps: u32) -> Vec<DVec3> {
     let count = u32::try_from(scene.particles.len()).expect("few particles");
-    let integrator = (scene.integrator.build)();
     let setup = Setup {
+        integrator: scene.integrator(),
         state: scene.particles,
         forces: scene.forces,
-        integrator,
         dt: scene.dt,
         bounds: motes::Bounds::default(),
         solver: motes::Solver::default(),
@@ -189,9 +188,9 @@ fn smaller(name: &str, overrides: &[&str], steps: u32) -> [motes::measure::Flock
     let scene = Scene::load(&source, &overrides, &Options::default()).unwrap_or_else(|faults| panic!("{faults}"));
     let (range, species) = scene.forces.iter().find_map(|force| force.properties().statistics_radius).expect("a flock");
     let setup = Setup {
+        integrator: scene.integrator(),
         state: scene.particles,
         forces: scene.forces,
-        integrator: (scene.integrator.build)(),
         dt: scene.dt,
         bounds: scene.bounds,
         solver: motes::Solver::default(),

@@ -1,7 +1,7 @@
 //! The scene written back: every value of the run, and the same run again.
 
 use motes::forces::Law;
-use motes::scene::{Format, Options, SCENES, Scene, Source};
+use motes::scene::{Options, SCENES, Scene, Source};
 
 use crate::{SMALL, load};
 
@@ -83,7 +83,8 @@ fn a_scene_of_everything_reloads_as_the_same() {
         scene.remarks,
         ["until = 1.0 is no whole number of steps of dt = 0.30000000000000004: 4 steps end at 1.2000000000000002"]
     );
-    assert_eq!((&scene.output.formats[..], scene.output.frames), (&[Format::Csv, Format::Png][..], 5));
+    let formats: Vec<&str> = scene.output.formats.iter().map(|format| format.name).collect();
+    assert_eq!((formats, scene.output.pictures, scene.output.frames), (vec!["csv"], true, 5));
     assert!(scene.resolved.contains("\nmass = 3.0\n") && scene.resolved.contains("\nintegrator = \"rk4\"\n"));
     assert!(scene.resolved.contains("\nseed = 9007199254740991\n"));
     assert_reloads(&scene, &folder.path().to_string_lossy());

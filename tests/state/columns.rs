@@ -36,9 +36,9 @@ fn load(folder: &Path, text: &str) -> Result<Scene, motes::scene::Diagnostics> {
 
 fn setup(scene: Scene) -> Setup {
     Setup {
+        integrator: scene.integrator(),
         state: scene.particles,
         forces: scene.forces,
-        integrator: (scene.integrator.build)(),
         dt: scene.dt,
         bounds: scene.bounds,
         solver: scene.solver,

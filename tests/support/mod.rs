@@ -23,17 +23,20 @@ pub struct Shared {
     pub found: gpu::Found,
 }
 
+/// A device of its own, which no other test has. No adapter is a failure, never a skip.
+pub fn open() -> Shared {
+    let found = pollster::block_on(async {
+        let instance = gpu::instance();
+        let adapter = gpu::choose(gpu::adapters(&instance).await, &gpu::Choice::Best)?;
+        gpu::open(adapter).await
+    });
+    Shared { found: found.expect("tests need an adapter; tests/run installs one") }
+}
+
 /// The device. No adapter is a failure, never a skip.
 pub fn device() -> MutexGuard<'static, Shared> {
     static DEVICE: OnceLock<Mutex<Shared>> = OnceLock::new();
-    let shared = DEVICE.get_or_init(|| {
-        let found = pollster::block_on(async {
-            let instance = gpu::instance();
-            let adapter = gpu::choose(gpu::adapters(&instance).await, &gpu::Choice::Best)?;
-            gpu::open(adapter).await
-        });
-        Mutex::new(Shared { found: found.expect("tests need an adapter; tests/run installs one") })
-    });
+    let shared = DEVICE.get_or_init(|| Mutex::new(open()));
     shared.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
 }
 

@@ -34,8 +34,8 @@ pub fn small(name: &str) -> Scene {
 pub fn setup(scene: Scene) -> Setup {
     Setup {
         integrator: match scene.pace {
-            Some(pace) => Box::new(Paced { integrator: (scene.integrator.build)(), pace }),
-            None => (scene.integrator.build)(),
+            Some(pace) => Box::new(Paced { integrator: scene.integrator(), pace }),
+            None => scene.integrator(),
         },
         state: scene.particles,
         forces: scene.forces,

@@ -28,7 +28,7 @@ pub fn vector(x: f64, y: f64, z: f64) -> Value {
 
 /// An integrator by its name.
 pub fn integrator(name: &str) -> Box<dyn Integrator> {
-    (integrators::entry(name).unwrap_or_else(|| panic!("no integrator is called {name}")).build)()
+    integrators::entry(name).unwrap_or_else(|| panic!("no integrator is called {name}")).by_default()
 }
 
 /// One particle of mass 1.

@@ -128,7 +128,7 @@ fn every_integrator_whole() {
             let setup = Setup {
                 state: support::cloud(count, 7),
                 forces: forces(),
-                integrator: (entry.build)(),
+                integrator: entry.by_default(),
                 dt: DT,
                 bounds: motes::Bounds::default(),
                 solver: motes::Solver::default(),
@@ -141,7 +141,7 @@ fn every_integrator_whole() {
             let solve = ["begin", "product", "advance", "update", "reach", "report"];
             let idle = |v: &Verdict| {
                 let weightless = v.kernel.contains(" WEIGHT=0 ") && v.field.starts_with("slope");
-                let settled = (entry.build)().is_implicit() && solve.iter().any(|name| v.kernel.starts_with(name));
+                let settled = entry.by_default().is_implicit() && solve.iter().any(|name| v.kernel.starts_with(name));
                 v.field == "alarm" || weightless || settled
             };
             judge(&verdicts(simulation.backend(), &plans.step, count, &entry.name), count, &entry.name, idle);

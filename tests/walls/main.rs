@@ -49,9 +49,9 @@ fn load(text: &str) -> Result<Scene, Diagnostics> {
 
 fn setup_of(scene: Scene) -> Setup {
     Setup {
+        integrator: scene.integrator(),
         state: scene.particles,
         forces: scene.forces,
-        integrator: (scene.integrator.build)(),
         dt: scene.dt,
         bounds: scene.bounds,
         solver: scene.solver,

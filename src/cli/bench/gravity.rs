@@ -107,7 +107,7 @@ fn setup(count: u32, integrator: &str) -> Result<Setup, Error> {
     Ok(Setup {
         state: particles,
         forces: vec![(gravity.build)(&settings)],
-        integrator: (integrator.build)(),
+        integrator: integrator.by_default(),
         dt: 1e-3,
         bounds: Bounds::default(),
         solver: motes::Solver::default(),

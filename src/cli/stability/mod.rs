@@ -76,19 +76,21 @@ async fn course<B: Backend>(
     backend: impl Fn() -> Result<B, Error>,
 ) -> Result<Course, Failure> {
     let (y, z) = (args.omega_step, args.decay_step);
-    let swing = oscillator((entry.build)(), 1.0, 0.0, y);
+    let swing = oscillator(entry.by_default(), 1.0, 0.0, y);
     let energy = run(Simulation::on(backend()?, &swing)?, args.steps, |x, v| x.length_squared() + v.length_squared());
-    let mut decay = oscillator((entry.build)(), 0.0, 1.0, z);
+    let mut decay = oscillator(entry.by_default(), 0.0, 1.0, z);
     decay.state.velocity_mut().copy_from_slice(&[DVec3::X]);
     let size = run(Simulation::on(backend()?, &decay)?, args.steps, |_, v| v.length());
-    let swings = Oscillator::on(backend()?, (entry.build)(), 1.0, 0.0)?.growth(y).await?;
-    let mut step = Oscillator::on(backend()?, (entry.build)(), 0.0, 1.0)?.step(z).await?;
+    let swings = Oscillator::on(backend()?, entry.by_default(), 1.0, 0.0)?.growth(y).await?;
+    let mut step = Oscillator::on(backend()?, entry.by_default(), 0.0, 1.0)?.step(z).await?;
     // Where it has come to does not matter to what decays.
     step.x_axis = DVec3::ZERO;
     step.y_axis.x = 0.0;
     step.z_axis.x = 0.0;
-    let limits =
-        [largest_step((entry.build)(), 1.0, 0.0, LONG).await?, largest_step((entry.build)(), 0.0, 1.0, LONG).await?];
+    let limits = [
+        largest_step(entry.by_default(), 1.0, 0.0, LONG).await?,
+        largest_step(entry.by_default(), 0.0, 1.0, LONG).await?,
+    ];
     Ok(Course {
         name: entry.name,
         energy: energy.await?,
