@@ -244,10 +244,23 @@ fn integrators(device: &Device, stages: &mut Vec<Stage>) {
             // Solves have stages of their own, in states that solves come to.
             let telling = telling && !file.contains("solve_");
             if telling && !stages.iter().any(|s: &Stage| s.uses(file)) {
+                if kernel.names("earlier_acceleration") {
+                    stages.push(first_step(device, &kernel));
+                }
                 stages.push(stage(&kernel.name.clone(), moving(device, FEW, None), kernel));
             }
         }
     }
+}
+
+/// A kernel of a method that goes on with accelerations of a step before, where there was none.
+fn first_step(device: &Device, kernel: &Kernel) -> Stage {
+    let (mut simulation, plan) = (moving(device, FEW, None), alone(kernel.clone()));
+    fill(&mut simulation, &plan);
+    let gpu = simulation.backend();
+    let none = vec![0; usize::try_from(gpu.size("earlier_acceleration")).expect("few")];
+    gpu.write_bytes("earlier_acceleration", 0, &none).expect("a field");
+    Stage::of(&format!("{}, in a first step", kernel.name), simulation, plan)
 }
 
 /// A law that reads everything that a visit passes to it: the other particle, its index too, and where it is.
