@@ -23,10 +23,13 @@ pub struct Shared {
     pub found: gpu::Found,
 }
 
-/// A device of its own, which no other test has. No adapter is a failure, never a skip.
+/// A device of its own, which no other test has, for shaders that may write anything: indirect arguments beyond what a device
+/// takes are none. No adapter is a failure, never a skip.
 pub fn open() -> Shared {
     let found = pollster::block_on(async {
-        let instance = gpu::instance();
+        let flags = gpu::flags() | motes::wgpu::InstanceFlags::VALIDATION_INDIRECT_CALL;
+        let default = motes::wgpu::InstanceDescriptor::new_without_display_handle();
+        let instance = motes::wgpu::Instance::new(motes::wgpu::InstanceDescriptor { flags, ..default }.with_env());
         let adapter = gpu::choose(gpu::adapters(&instance).await, &gpu::Choice::Best)?;
         gpu::open(adapter).await
     });
@@ -36,7 +39,14 @@ pub fn open() -> Shared {
 /// The device. No adapter is a failure, never a skip.
 pub fn device() -> MutexGuard<'static, Shared> {
     static DEVICE: OnceLock<Mutex<Shared>> = OnceLock::new();
-    let shared = DEVICE.get_or_init(|| Mutex::new(open()));
+    let shared = DEVICE.get_or_init(|| {
+        let found = pollster::block_on(async {
+            let instance = gpu::instance();
+            let adapter = gpu::choose(gpu::adapters(&instance).await, &gpu::Choice::Best)?;
+            gpu::open(adapter).await
+        });
+        Mutex::new(Shared { found: found.expect("tests need an adapter; tests/run installs one") })
+    });
     shared.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
 }
 
