@@ -95,22 +95,22 @@ pub fn format(name: &str) -> Option<&'static Format> {
 pub fn read(path: &Path, columns: &Columns) -> Result<State, Error> {
     let ending = path.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase();
     let by_ending = FORMATS.iter().find(|format| format.endings.contains(&ending.as_str()));
-    let found = match by_ending {
-        Some(format) => Some(format),
-        None => {
-            let mut start = Vec::new();
-            let (file, _) = open(path)?;
-            file.take(512).read_to_end(&mut start).map_err(|error| input(path, error.to_string()))?;
-            if start.starts_with(b"\x89HDF\r\n\x1a\n") {
-                return Err(input(path, "is an HDF5 file, which motes does not read: make it a CSV or NPZ file"));
-            }
-            FORMATS.iter().find(|format| (format.begins)(&start))
-        }
-    };
+    let found = if by_ending.is_some() { by_ending } else { by_beginning(path)? };
     match found.and_then(|format| format.read) {
         Some(read) => read(path, columns),
         None => Err(input(path, "is of no format that is known")),
     }
+}
+
+/// The format that a file begins like.
+fn by_beginning(path: &Path) -> Result<Option<&'static Format>, Error> {
+    let mut start = Vec::new();
+    let (file, _) = open(path)?;
+    file.take(512).read_to_end(&mut start).map_err(|error| input(path, error.to_string()))?;
+    if start.starts_with(b"\x89HDF\r\n\x1a\n") {
+        return Err(input(path, "is an HDF5 file, which motes does not read: make it a CSV or NPZ file"));
+    }
+    Ok(FORMATS.iter().find(|format| (format.begins)(&start)))
 }
 
 /// The first letters of a word of a file.

@@ -44,14 +44,13 @@ fn a_bare_device_steps_every_scene_and_fluid() {
     assert!(!device.features().contains(Features::SUBGROUP), "the device is not bare");
     let scenes = SCENES.iter().map(|builtin| (builtin.name, setup(small(builtin.name))));
     for (name, setup) in scenes.chain(fluids()) {
-        let mut simulation =
-            Simulation::new(&device, &queue, &setup).unwrap_or_else(|error| panic!("{}: {error}", name));
-        simulation.step(2).unwrap_or_else(|error| panic!("{}: {error}", name));
+        let mut simulation = Simulation::new(&device, &queue, &setup).unwrap_or_else(|error| panic!("{name}: {error}"));
+        simulation.step(2).unwrap_or_else(|error| panic!("{name}: {error}"));
         let before = pollster::block_on(simulation.read(POSITION)).expect("positions");
-        simulation.step(1).unwrap_or_else(|error| panic!("{}: {error}", name));
+        simulation.step(1).unwrap_or_else(|error| panic!("{name}: {error}"));
         let after = pollster::block_on(simulation.read(POSITION)).expect("positions");
         let checked = pollster::block_on(simulation.check());
-        checked.unwrap_or_else(|error| panic!("{}: {error}", name));
-        assert!(before != after, "{}: nothing moves", name);
+        checked.unwrap_or_else(|error| panic!("{name}: {error}"));
+        assert!(before != after, "{name}: nothing moves");
     }
 }

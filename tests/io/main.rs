@@ -9,6 +9,7 @@ mod npz_archives;
 mod round_trips;
 mod tipsy_files;
 mod whole_files;
+mod xyz_files;
 
 use std::fs;
 use std::io::Cursor;
@@ -17,7 +18,7 @@ use std::path::{Path, PathBuf};
 use glam::DVec3;
 use motes::State;
 use motes::error::Error;
-use motes::io::{Precision, csv, npz, tipsy};
+use motes::io::{Precision, csv, npz, tipsy, xyz};
 use motes::kernel::Columns;
 use tempfile::TempDir;
 
@@ -84,6 +85,14 @@ fn npz_bytes(particles: &State, precision: Precision) -> Vec<u8> {
     (state.time, state.step) = (2.5, 77);
     npz::write_npz(&mut bytes, &state, precision).expect("memory");
     bytes.into_inner()
+}
+
+fn xyz_bytes(particles: &State, precision: Precision) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let mut state = particles.clone();
+    (state.time, state.step) = (2.5, 77);
+    xyz::write_xyz(&mut bytes, &state, precision).expect("memory");
+    bytes
 }
 
 fn tipsy_bytes(particles: &State) -> Vec<u8> {

@@ -5,7 +5,7 @@ use motes::State;
 use motes::io::{Precision, tipsy};
 use proptest::prelude::*;
 
-use crate::{bits, csv_bytes, folder, npz_bytes, put, read, some, tipsy_bytes};
+use crate::{bits, csv_bytes, folder, npz_bytes, put, read, some, tipsy_bytes, xyz_bytes};
 
 /// The same, all numbers narrowed to f32.
 fn narrow(p: &State) -> Vec<u32> {
@@ -70,6 +70,10 @@ proptest! {
         let archive = put(&folder, "a.npz", npz_bytes(&particles, Precision::Double));
         let back = read(&archive).expect("npz");
         prop_assert_eq!((bits(&back), back.time, back.step), (bits(&particles), 2.5, 77));
+        // Species are elements there.
+        let particles = kinds(of(&numbers), &species.iter().map(|kind| kind % 119).collect::<Vec<_>>());
+        let back = read(&put(&folder, "a.xyz", xyz_bytes(&particles, Precision::Double))).expect("xyz");
+        prop_assert_eq!((bits(&back), back.time, back.step), (bits(&particles), 2.5, 77));
     }
 
     #[test]
@@ -79,6 +83,8 @@ proptest! {
         // Decimal text is read as f64: the same f32 when narrowed again.
         let text = put(&folder, "a.csv", csv_bytes(&particles, Precision::Single));
         prop_assert_eq!(narrow(&read(&text).expect("csv")), narrow(&particles));
+        let text = put(&folder, "a.xyz", xyz_bytes(&particles, Precision::Single));
+        prop_assert_eq!(narrow(&read(&text).expect("xyz")), narrow(&particles));
         let archive = put(&folder, "a.npz", npz_bytes(&particles, Precision::Single));
         prop_assert_eq!(bits(&read(&archive).expect("npz")), bits(&particles));
         let binary = put(&folder, "a.tipsy", tipsy_bytes(&particles));
@@ -88,13 +94,14 @@ proptest! {
 
     #[test]
     fn noise_is_an_error_or_particles_but_never_a_panic(
-        which in 0..3_usize, place in any::<prop::sample::Index>(), byte in any::<u8>(), twice in any::<prop::sample::Index>(),
+        which in 0..4_usize, place in any::<prop::sample::Index>(), byte in any::<u8>(), twice in any::<prop::sample::Index>(),
     ) {
         let folder = folder();
         let (name, mut bytes) = [
             ("a.csv", csv_bytes(&some(9), Precision::Single)),
             ("a.npz", npz_bytes(&some(9), Precision::Single)),
             ("a.tipsy", tipsy_bytes(&some(9))),
+            ("a.xyz", xyz_bytes(&some(9), Precision::Single)),
         ][which].clone();
         let length = bytes.len();
         bytes[place.index(length)] = byte;
