@@ -21,7 +21,7 @@ pub fn made(device: &wgpu::Device, queue: &wgpu::Queue, pass: &Pass, patience: D
             begin(&device, &queue, &law, &pipeline);
             pipeline
         });
-        // Where the wait is over nobody takes it.
+        // Where the wait is over, it is dropped.
         let _ = done.send(pipeline);
     };
     let thread = std::thread::Builder::new().name("compile".to_owned()).spawn(work);
@@ -69,6 +69,6 @@ fn begin(device: &wgpu::Device, queue: &wgpu::Queue, law: &Pass, pipeline: &Pipe
         pass.dispatch_workgroups(0, 1, 1);
     }
     let index = queue.submit([encoder.finish()]);
-    // What is wrong with the device is seen by whoever uses it next.
+    // What is wrong with the device is seen at its next use.
     let _ = device.poll(wgpu::PollType::Wait { submission_index: Some(index), timeout: None });
 }

@@ -94,7 +94,7 @@ pub fn read(path: &Path, columns: &Columns) -> Result<State, Error> {
 /// What to say of a table whose first row is numbers.
 fn unnamed(record: &ByteRecord) -> String {
     if record.len() == 1 {
-        return "begins with a line of one number, as an XYZ file does, which motes does not read: make it a table whose first line \
+        return "begins with a line of one number, as an XYZ file does: call it so (.xyz), or make it a table whose first line \
                 names the columns, such as x,y,z,vx,vy,vz,mass"
             .to_owned();
     }

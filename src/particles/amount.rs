@@ -1,4 +1,4 @@
-//! How much a shape makes, told before it is made, and whether there is memory for it.
+//! How much a shape makes, known before it is made, and whether there is memory for it.
 
 use std::fmt;
 use std::ops::AddAssign;
@@ -140,7 +140,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn amounts_are_told_in_numbers_that_are_none_too_small() {
+    fn the_message_has_the_numbers_and_they_are_not_too_small() {
         let some = Amount { springs: 3e9, ..Amount::of(9e7) };
         let why = some.fits().expect_err("no machine has as much");
         assert!(why.starts_with("90000000 particles and 3000000000 springs need 670.7 GiB of memory, "), "{why}");

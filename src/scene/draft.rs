@@ -1,4 +1,4 @@
-//! What can be told of a scene before its particles are made: how much there will be, and faults that need none.
+//! What is known of a scene before its particles are made: how much there will be, and faults that need none.
 
 use crate::particles::Amount;
 use crate::render;
@@ -12,8 +12,9 @@ use super::{bounds, column, fluid, force, motion, output, particles, simulation,
 /// Above so many particles and ties a scene is looked through first: to make them takes seconds, and more memory than text does.
 const LARGE: f64 = 300_000.0;
 
-/// Whether a scene is large. If so, takes in its faults as far as they are found without its particles, and want of memory.
-pub(super) fn read(sections: &[(&'static str, Table<'_>)], files: &Files, report: &mut Report) -> bool {
+/// Whether a scene is large. If so, takes in its faults as far as they are found without its particles, and want of memory; more
+/// than `most` particles are refused where they are asked for.
+pub(super) fn read(sections: &[(&'static str, Table<'_>)], files: &Files, most: u32, report: &mut Report) -> bool {
     let all = |name: &'static str| sections.iter().filter(move |(n, _)| *n == name).map(|(_, table)| table);
     let said = fluid::said(all("force"));
     // Faults are taken in once it is known that the scene is large; keys of columns are then known, too.
@@ -49,7 +50,8 @@ pub(super) fn read(sections: &[(&'static str, Table<'_>)], files: &Files, report
         table.settings(render::KEYS, &[], report);
     }
     let largest = amounts.iter().max_by(|a, b| a.1.bytes().total_cmp(&b.1.bytes()));
-    if let (Some((table, _)), Err(why)) = (largest, whole.fits()) {
+    let allowed = whole.particles <= f64::from(most);
+    if let (Some((table, _)), Some(why)) = (largest, whole.fits().err().filter(|_| allowed)) {
         report.push(Fault::at(table.place, why).label("ask for fewer"));
     }
     true

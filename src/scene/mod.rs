@@ -151,7 +151,7 @@ impl Scene {
         let sections = walk::sections(&root, &mut report);
         let files = Files::new(&opened, options.allow_outside);
         // Many particles are not made for a scene that is refused anyway.
-        let refused = draft::read(&sections, &files, &mut report) && report.len() > 0;
+        let refused = draft::read(&sections, &files, options.most_particles, &mut report) && report.len() > 0;
         let scene = (!refused).then(|| read(&sections, &files, options, &mut report));
         let mut scene = match (report.finish(), scene) {
             (None, Some(scene)) => scene,

@@ -222,7 +222,7 @@ fn located(table: &Table<'_>, shape: &Shape, files: &Files, settings: &mut Setti
     shown
 }
 
-/// How much an entry will make, told by its settings; nothing of files, and of what is written out.
+/// How much an entry will make, by its settings; nothing of files, and of what is written out.
 pub(super) fn amount(table: &Table<'_>, said: &[Entry], columns: &[&Column], report: &mut Report) -> Amount {
     let shape = |report: &mut Report| {
         let entry = table.one_of(&["file", "shape", "bodies"], report).filter(|entry| entry.key == "shape")?;

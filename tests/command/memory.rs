@@ -45,12 +45,12 @@ fn what_does_not_fit_is_refused_with_numbers() {
     assert!(code == 3 && said.contains("16000000 particles need 5.0 GiB"), "{said}");
 }
 
-/// A fault in another line is told without the 4 million particles and 18 million springs.
+/// A fault in another line is reported without the 4 million particles and 18 million springs.
 #[test]
-fn faults_are_told_before_particles_are_made() {
+fn faults_are_reported_before_particles_are_made() {
     let jelly = scene("shape = \"jelly\"\nsize = [1000000, 2, 2]");
     for fault in ["[[force]]\nkind = \"sprng\"\n", "[output]\nevry = 3\n", "[picture]\nwidth = -1\n", "[[forces]]\n"] {
-        // Not even a tenth of the memory that they take; that is told, too.
+        // Not even a tenth of the memory that they take; that is reported, too.
         let (code, said) = check(&(jelly.clone() + fault), 400_000);
         assert!(code == 3 && said.contains("unknown") != said.contains("`width`"), "{fault}: {said}");
         assert!(said.contains("4000000 particles, 17999988 springs and 7999996 triangles need"), "{fault}: {said}");

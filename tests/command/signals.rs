@@ -29,7 +29,7 @@ fn every_signal_that_asks_for_an_end_gets_a_whole_one() {
     for signal in ["-INT", "-TERM", "-HUP"] {
         let place = Place::with(&[("a.toml", SCENE)]);
         let (scene, out) = (place.at("a.toml"), place.at("out"));
-        // Whoever runs the tests may ignore hang-ups, as `nohup` does; then this program would, too.
+        // The tests may run with hang-ups ignored, as under `nohup`; then this program would ignore them, too.
         let mut command = Command::new("env");
         command.args(["--default-signal", env!("CARGO_BIN_EXE_motes"), "run", &scene, "-o", &out]);
         command.args(["--backend", "cpu", "--steps", "200000000"]);

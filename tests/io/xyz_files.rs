@@ -53,7 +53,7 @@ fn columns_go_there_and_back() {
 }
 
 #[test]
-fn faults_are_told_with_their_lines() {
+fn faults_are_reported_with_their_lines() {
     let folder = folder();
     let cases = [
         ("many\n\n", "line 1: `many` is no number of particles"),
@@ -72,12 +72,12 @@ fn faults_are_told_with_their_lines() {
         ("1\nProperties=pos:R:3\n0 0 0\n1\nProperties=pos:R:3\n0 0 0\n", "line 4: a second frame begins"),
     ];
     for (text, want) in cases {
-        let told = read(&put(&folder, "a.xyz", text)).expect_err(want).to_string();
-        assert!(told.contains(want), "{text}\n{told}");
+        let said = read(&put(&folder, "a.xyz", text)).expect_err(want).to_string();
+        assert!(said.contains(want), "{text}\n{said}");
     }
     let mut state = some(1);
     state.species_mut()[0] = 119;
-    let told =
+    let said =
         motes::io::xyz::write_xyz(std::io::sink(), &state, Precision::Single).expect_err("no element").to_string();
-    assert!(told.contains("species 119"), "{told}");
+    assert!(said.contains("species 119"), "{said}");
 }

@@ -41,7 +41,7 @@ formats = ["csv", "pgn"]
    |
  7 | formats = ["csv", "pgn"]
    |                   ^^^^^ did you mean "png"?
-   = known: `csv`, `npz`, `png`
+   = known: `npz`, `xyz`, `csv`, `png`
 
 a.toml: 1 error"#,
     );
@@ -63,7 +63,7 @@ bodies = [{ position = [0, 0, 0] }]
    |
  4 | integrator = "leapforg"
    |              ^^^^^^^^^^ did you mean "leapfrog"?
-   = known: `forward_euler`, `symplectic_euler`, `leapfrog`, `midpoint`, `heun`, `rk4`, `forest_ruth`, `pefrl`, `linear_backward_euler`, `backward_euler`, `linear_trapezoid`, `trapezoid`, `linear_implicit_midpoint`, `implicit_midpoint`
+   = known: `forward_euler`, `symplectic_euler`, `leapfrog`, `beeman`, `midpoint`, `heun`, `rk4`, `forest_ruth`, `pefrl`, `linear_backward_euler`, `backward_euler`, `linear_trapezoid`, `trapezoid`, `linear_implicit_midpoint`, `implicit_midpoint`
 
 a.toml: 1 error"#,
     );
