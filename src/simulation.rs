@@ -8,6 +8,7 @@ mod pace;
 mod pictures;
 mod population;
 mod pressures;
+mod restart;
 mod setup;
 mod solves;
 mod ties;
@@ -24,9 +25,11 @@ use crate::error::Error;
 use crate::fluids::DFSPH_REPORT;
 use crate::gpu::Gpu;
 use crate::integrators::SOLVE_REPORT;
-use crate::kernel::{ALARM, Array, Backend, Element, Field, HOME, POSITION, Pace, QUIET, VELOCITY, World};
+use crate::kernel::{Backend, Element, Field, HOME, POSITION, Pace, VELOCITY};
 use crate::state::State;
 use columns::Store;
+use glam::DVec3;
+use restart::Carried;
 use ties::Ties;
 
 /// Particles that move.
@@ -55,10 +58,19 @@ pub struct Simulation<B: Backend> {
     /// How long steps are, where they are not all alike.
     pace: Option<Pace>,
     steps: u64,
+    /// What a step leaves for the next one beside columns, and a number that tells this step from others.
+    carried: Vec<Carried>,
+    print: u64,
+    /// Whether it went on from a state that had all of it.
+    goes_on: bool,
+    /// Where particles were at the start of the run, and how many held ones began somewhere.
+    extent: (DVec3, DVec3),
+    anchored: usize,
 }
 
 impl<B: Backend> Simulation<B> {
-    /// Puts a setup on a backend.
+    /// Puts a setup on a backend. It begins at the time and the step of its state, and goes on from there: see
+    /// [`Simulation::snapshot`] and [`State::begin_anew`].
     ///
     /// # Errors
     /// When the setup makes no sense, a shader does not compile, the fields do not fit the device, or no thread can be started.
@@ -72,18 +84,18 @@ impl<B: Backend> Simulation<B> {
         let start = backend.compile(&plans.start)?;
         let step = backend.compile(&plans.step)?;
         let measure = (backend.compile(&plans.measure.0)?, backend.compile(&plans.measure.1)?);
-        backend.set_world(World { time: 0.0, dt: setup.dt, step: 0, count, bounds: setup.bounds })?;
         let state = &setup.state;
         let store = Store::new(setup, &plans, count)?;
-        store.write(&mut backend, setup)?;
-        backend.write(ALARM.name, &Array::Uint(QUIET.to_vec()))?;
-        if plans.all().any(|plan| plan.fields(count).contains_key(HOME.name)) {
-            Store::anchor(&mut backend, setup)?;
-        }
+        let print = restart::print(&plans.step);
+        store.write(&mut backend, setup, restart::is_whole(print, state))?;
+        let anchored = plans.all().any(|plan| plan.fields(count).contains_key(HOME.name));
+        let anchored = if anchored { Store::anchor(&mut backend, setup)? } else { 0 };
+        let carried = restart::carried(&plans, store.columns(), count);
+        let extent = setup.extent();
         let ties = Ties::of(state);
         let (mortal, breaks) = (state.is_mortal(), setup.breaks());
         let (begun, begins) = (false, setup.begins(backend.machine())?);
-        let (dt, steps, pace) = (setup.dt, 0, setup.integrator.pace());
+        let (dt, steps, pace) = (setup.dt, state.step, setup.integrator.pace());
         let mut made = Self {
             backend,
             start,
@@ -102,8 +114,14 @@ impl<B: Backend> Simulation<B> {
             dt,
             pace,
             steps,
+            carried,
+            print,
+            goes_on: false,
+            extent,
+            anchored,
         };
-        pace.map_or(Ok(()), |pace| made.wind(&pace))?;
+        made.unstop()?;
+        made.resume(setup, &plans)?;
         Ok(made)
     }
     /// Advances. May return before the device is done; reading waits.
@@ -154,8 +172,10 @@ impl<B: Backend> Simulation<B> {
     /// The state at the end of the last step, with the column `potential` and all that ties, moves, spawns and removes particles. It
     /// evaluates the forces once more, and leaves no trace of that in the run.
     ///
-    /// A setup of it goes on from there, but for its clock, which begins at time 0 and step 0: motions, births and forces that depend
-    /// on time begin anew. What integrators and solvers keep beside columns is not in it.
+    /// A setup of it goes on from there: at its time and step, with the same bits as if the run had never stopped, under the same
+    /// forces, integrator and step length on the same device; [`Simulation::goes_on`] says whether it did. Where positions, velocities
+    /// or other columns of the state are changed, accelerations are evaluated anew, and the clock goes on all the same.
+    /// [`State::begin_anew`] puts it back to time 0.
     ///
     /// # Errors
     /// [`Error::NotFinite`], [`Error::Crowded`], or what reading says. Speeds that run away are no error here.
@@ -181,9 +201,10 @@ impl<B: Backend> Simulation<B> {
         self.sound(&alarm)?;
         let mut state = state?;
         self.ties.give(&mut state);
-        state.links = self.links().await?;
+        let all = std::mem::replace(&mut state.links, self.links().await?);
         state.time = self.clock().await?.map_or(self.steps as f64 * self.dt, |clock| clock.time);
         state.step = self.steps;
+        self.keep(&mut state, &all).await?;
         Ok(state)
     }
     /// One step, as `motes explain` prints it.

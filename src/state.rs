@@ -3,6 +3,7 @@
 
 mod append;
 mod basic;
+mod kept;
 mod life;
 
 use crate::error::Error;
@@ -12,6 +13,8 @@ use crate::links::Links;
 use crate::motion::{Held, Motion};
 
 use basic::BASIC;
+use kept::Kept;
+pub(crate) use kept::{EXTENT as KEPT_EXTENT, HOME as KEPT_HOME, KEPT, STEP as KEPT_STEP};
 
 /// Particles and all that a run needs to go on with them. Every array has one element per particle, in the order of ids. Units
 /// are the scene's own.
@@ -35,6 +38,8 @@ pub struct State {
     pub time: f64,
     /// Steps done.
     pub step: u64,
+    /// What the last step kept for the next one.
+    pub(crate) kept: Kept,
 }
 
 /// A column, and its values where some are given.
@@ -61,6 +66,7 @@ impl Default for State {
             drains: Vec::new(),
             time: 0.0,
             step: 0,
+            kept: Kept::default(),
         }
     }
 }
@@ -92,6 +98,7 @@ impl State {
     /// The values of a column, to change in place.
     #[must_use]
     pub fn get_mut(&mut self, name: &str) -> Option<&mut Array> {
+        self.kept.touched();
         self.columns.iter_mut().find(|filled| filled.column.name == name)?.values.as_mut()
     }
     /// The values of a column of real numbers.
@@ -156,6 +163,9 @@ impl State {
                 "the column `{name}` takes {wanted} values, and {} are given; there are {count} particles",
                 values.len()
             )));
+        }
+        if old.as_ref() != Some(&values) {
+            self.kept.touched();
         }
         *old = Some(values);
         Ok(())

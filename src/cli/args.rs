@@ -105,6 +105,9 @@ pub struct RunArgs {
     /// Remove the results of an earlier run that the folder holds
     #[arg(long)]
     pub overwrite: bool,
+    /// Go on from a state that an earlier run of the scene has written, snapshot_*.npz; steps and until still count from its start
+    #[arg(long, value_name = "FILE")]
+    pub from: Option<PathBuf>,
     /// Take so many pictures, evenly spaced from the first state to the last, and join them to a film
     #[arg(long, value_name = "N")]
     pub frames: Option<u64>,

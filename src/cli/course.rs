@@ -5,7 +5,7 @@ use super::progress::plain;
 use motes::kernel::{Backend, Reason};
 use motes::scene::Scene;
 use motes::simulation::Clock;
-use motes::{Error, Simulation};
+use motes::{Error, Simulation, State};
 use serde_json::{Value, json};
 
 /// `1000 steps of 0.001`, for people.
@@ -23,6 +23,17 @@ pub fn steps(count: u64) -> String {
     if count == 1 { "1 step".to_owned() } else { format!("{count} steps") }
 }
 
+/// Steps of dt that a time is past.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "below 2³² steps, or saturated")]
+fn whole(time: f64, dt: f64) -> u64 {
+    (time / dt) as u64
+}
+
+/// Steps of dt after which a run of a scene begins, from this state.
+pub fn begun(scene: &Scene, state: &State) -> u64 {
+    if scene.pace.is_some() { whole(state.time, scene.dt) } else { state.step }
+}
+
 /// The way to the end.
 pub struct Course {
     dt: f64,
@@ -34,10 +45,12 @@ pub struct Course {
 }
 
 impl Course {
-    /// The course of a scene, at its start.
+    /// The course of a scene, where its simulation begins.
     pub async fn of<B: Backend>(scene: &Scene, simulation: &mut Simulation<B>) -> Result<Self, Error> {
-        let clock = simulation.clock().await?.map(|clock| (clock, 0, 0.0));
-        Ok(Self { dt: scene.dt, until: scene.until, steps: scene.steps, done: 0, clock })
+        let clock = simulation.clock().await?;
+        let done = clock.map_or(simulation.steps(), |clock| whole(clock.time, scene.dt));
+        let clock = clock.map(|clock| (clock, done, 0.0));
+        Ok(Self { dt: scene.dt, until: scene.until, steps: scene.steps, done, clock })
     }
     /// Steps of dt that are done.
     pub fn done(&self) -> u64 {
@@ -68,9 +81,7 @@ impl Course {
         if let Some(now) = simulation.clock().await? {
             *clock = now;
         }
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "below the target")]
-        let whole = (clock.time / self.dt) as u64;
-        self.done = if clock.time >= *time { target } else { whole.clamp(self.done, target - 1) };
+        self.done = if clock.time >= *time { target } else { whole(clock.time, self.dt).clamp(self.done, target - 1) };
         Ok(some.into())
     }
     /// The clock, where there is one.

@@ -28,6 +28,8 @@ struct Kept {
 /// The pictures of a run.
 pub struct Film {
     frames: u64,
+    /// The steps of the first and of the last frame.
+    begun: u64,
     steps: u64,
     dt: f64,
     /// Frames in a second.
@@ -46,9 +48,10 @@ pub struct Film {
 
 impl Film {
     /// The film that a scene asks for; there may be none.
-    pub fn of(scene: &Scene, folder: &Path, rate: u16) -> Option<Self> {
+    pub fn of(scene: &Scene, begun: u64, folder: &Path, rate: u16) -> Option<Self> {
         (scene.output.frames > 0).then(|| Self {
             frames: scene.output.frames,
+            begun,
             steps: scene.steps,
             dt: scene.dt,
             rate,
@@ -63,7 +66,8 @@ impl Film {
     }
     /// After how many steps the next frame is taken; `None` after the last.
     pub fn next(&self) -> Option<u64> {
-        step((self.done.len() + self.kept.len()) as u64, self.frames, self.steps)
+        let taken = (self.done.len() + self.kept.len()) as u64;
+        step(taken, self.frames, self.steps - self.begun).map(|step| self.begun + step)
     }
     /// Takes the next frame. The first one decides where the camera stands and what colours mean; a few particles, whose
     /// states are small, are only drawn in the end, by a camera that has all of their trails in view.

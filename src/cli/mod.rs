@@ -32,6 +32,7 @@ mod far;
 mod film;
 mod flow;
 mod fluid;
+mod from;
 mod jumps;
 mod ledger;
 mod looks;

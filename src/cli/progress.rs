@@ -19,6 +19,8 @@ pub struct Progress {
     kind: Kind,
     start: Instant,
     last: Option<Instant>,
+    /// The steps at which it begins and ends.
+    begun: u64,
     steps: u64,
 }
 
@@ -31,7 +33,7 @@ enum Kind {
 
 impl Progress {
     /// By the arguments, and by whether it is a terminal.
-    pub fn new(args: &RunArgs, steps: u64) -> Self {
+    pub fn new(args: &RunArgs, begun: u64, steps: u64) -> Self {
         let kind = match (args.json, args.quiet, std::io::stderr().is_terminal()) {
             (true, ..) => Kind::Json,
             (_, true, _) => Kind::Quiet,
@@ -45,7 +47,7 @@ impl Progress {
             }
             _ => Kind::Lines,
         };
-        Self { kind, start: Instant::now(), last: None, steps }
+        Self { kind, start: Instant::now(), last: None, begun, steps }
     }
     /// An event that programs may want, and people have in another form.
     pub fn event(&self, name: &str, mut fields: Value) {
@@ -81,7 +83,10 @@ impl Progress {
             Kind::Bar(bar) => bar.set_position(step),
             Kind::Lines if self.last.is_none_or(|last| last.elapsed() > PAUSE) => {
                 if self.last.is_some() && step < self.steps {
-                    let left = self.start.elapsed().mul_f64((self.steps - step) as f64 / step.max(1) as f64);
+                    let left = self
+                        .start
+                        .elapsed()
+                        .mul_f64((self.steps - step) as f64 / step.saturating_sub(self.begun).max(1) as f64);
                     note!("step {step} of {}, about {} left", self.steps, duration(left));
                 }
                 self.last = Some(Instant::now());

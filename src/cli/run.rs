@@ -19,6 +19,7 @@ use super::course::{self, Course};
 use super::engine::Engine;
 use super::failure::Failure;
 use super::film::Film;
+use super::from;
 use super::ledger::Book;
 use super::looks::Looks;
 use super::output::Output;
@@ -38,7 +39,10 @@ const TRAIL: u64 = 1000;
 /// Runs a scene.
 pub async fn run(args: &RunArgs) -> Result<(), Failure> {
     let frames = args.frames.map(|n| format!("output.frames={n}"));
-    let Loaded { scene, setup, verdict, .. } = substeps::load(&args.scene, frames).await?;
+    let Loaded { scene, mut setup, verdict, .. } = substeps::load(&args.scene, frames).await?;
+    if let Some(path) = &args.from {
+        from::go_on(&mut setup, &scene, path)?;
+    }
     let count = setup.check()?;
     let engine = Engine::choose(&args.scene.device).await?;
     let folder = args.output.clone().unwrap_or_else(|| PathBuf::from("out").join(&scene.name));
@@ -107,13 +111,14 @@ struct Run {
 
 impl Run {
     fn new(args: &RunArgs, scene: Scene, folder: PathBuf, setup: &Setup, engine: &Engine) -> Result<Self, Failure> {
-        let progress = Progress::new(args, scene.steps);
+        let begun = course::begun(&scene, &setup.state);
+        let progress = Progress::new(args, begun, scene.steps);
         let standing = setup.forces.iter().filter_map(|force| force.properties().pictured).collect();
         let scenery = Scenery::of(&setup.state).within(&scene.bounds).beside(standing, &setup.state);
         Picture::with(&scene.picture, &setup.state, &[], Trail::new(0), &scenery)?;
         let device = engine.describe();
         let count = setup.state.len();
-        let film = Film::of(&scene, &folder, args.fps);
+        let film = Film::of(&scene, begun, &folder, args.fps);
         progress.event(
             "start",
             json!({ "version": env!("CARGO_PKG_VERSION"), "scene": scene.name, "particles": count, "steps": scene.steps,
@@ -166,6 +171,10 @@ impl Run {
         output.scenery = self.scenery.clone();
         if let Some(book) = &mut self.book {
             book.open(output.folder())?;
+        }
+        if simulation.steps() > 0 || simulation.goes_on() {
+            let time = simulation.clock().await?.map_or(simulation.steps() as f64 * self.scene.dt, |clock| clock.time);
+            self.progress.remark(&from::remark(simulation.goes_on(), simulation.steps(), time));
         }
         let (steps, every) = (self.scene.steps, self.scene.output.every);
         let mut course = Course::of(&self.scene, &mut simulation).await?;
@@ -268,7 +277,7 @@ impl Run {
             output.links(snapshot.step, &links)?;
             self.torn = Some(summary::torn(self.springs, &links));
         }
-        if snapshot.step == 0 {
+        if output.rows().len() == 1 {
             output.trail.push(snapshot.position());
         }
         let mut image = None;

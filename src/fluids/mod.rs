@@ -22,7 +22,7 @@ mod xsph;
 
 pub use continuity::{Continuity, columns as continuity_columns, rate};
 pub use density::density;
-pub use dfsph::{Asked, DFSPH_ERRORS, DFSPH_REPORT, DFSPH_WORDS, Dfsph};
+pub use dfsph::{Asked, DFSPH_ERRORS, DFSPH_REPORT, DFSPH_WORDS, Dfsph, columns as dfsph_columns};
 pub use gap::gap;
 pub use limits::{COURANT, Limits, limits, viscous_steps};
 pub use medium::Medium;

@@ -148,8 +148,10 @@ impl Fluid {
 impl Component for Fluid {
     fn columns(&self) -> Vec<Column> {
         // Settings that contradict each other are refused where the fluid is resolved.
-        let carried = matches!(self.continuity(), Ok(Some(_)));
-        if carried { fluids::continuity_columns(self.0.number("density")) } else { Vec::new() }
+        if matches!(self.continuity(), Ok(Some(_))) {
+            return fluids::continuity_columns(self.0.number("density"));
+        }
+        if self.solves() { fluids::dfsph_columns() } else { Vec::new() }
     }
     fn properties(&self) -> Properties {
         let on = |name| self.0.number(name) > 0.0;

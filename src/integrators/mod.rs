@@ -5,6 +5,7 @@ mod step;
 mod verbs;
 
 pub use paced::Paced;
+pub(crate) use step::kept_rates;
 pub use step::{Explicit, Form, Implicit, Step, implicit};
 pub use verbs::solve::STATE as SOLVE_STATE;
 pub use verbs::solve::report::{NAME as SOLVE_REPORT, WORDS as SOLVE_REPORT_WORDS};

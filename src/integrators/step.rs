@@ -6,6 +6,7 @@ mod plans;
 mod search;
 mod solve;
 
+pub use pairs::kept_rates;
 pub use solve::{Explicit, Form, Implicit, implicit};
 
 use super::verbs::{at, clear, drift, held, kick, kick_drift, life, pace, runge_kutta};

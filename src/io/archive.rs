@@ -9,6 +9,7 @@ use super::csv::unknown;
 use super::npy::Header;
 use super::problems::Problems;
 use super::titles::Title;
+use crate::state::KEPT;
 
 /// The best that deflate can do: 258 bytes out of 2 bits.
 const DEFLATED: u64 = 1032;
@@ -35,10 +36,22 @@ impl<R: Read + Seek> Arrays<R> {
         let mut names: Vec<&str> = self.archive.array_names().collect();
         names.sort_unstable(); // an archive lists them in the order of a hash
         for name in names {
-            if !titles.iter().any(|known| known.text == name) && !OTHERS.contains(&name) && !system.contains(&name) {
+            if !name.starts_with(KEPT)
+                && !titles.iter().any(|known| known.text == name)
+                && !OTHERS.contains(&name)
+                && !system.contains(&name)
+            {
                 self.problems.note(|| unknown("array", &name.chars().take(40).collect::<String>(), titles, &OTHERS));
             }
         }
+    }
+
+    /// The names of what a step keeps for the next one.
+    pub(super) fn kept(&self) -> Vec<String> {
+        let mut names: Vec<String> =
+            self.archive.array_names().filter(|name| name.starts_with(KEPT)).map(str::to_owned).collect();
+        names.sort_unstable();
+        names
     }
 
     /// The numbers of an array, if it is there and in order.

@@ -1,5 +1,6 @@
 //! NPZ, `NumPy`'s archive of named arrays: `id`, `x`, `y`, `z`, `vx`, `vy`, `vz`, `mass`, `size`, `species`, `life`, those of any other
-//! column (`charge`, or `spin_x`, `spin_y`, `spin_z`), quantities of the system by their names, and `time` and `step`.
+//! column (`charge`, or `spin_x`, `spin_y`, `spin_z`), quantities of the system by their names, and `time` and `step`. Arrays whose names
+//! begin with `kept_` hold what a step keeps for the next one, so that a run goes on with the same bits; nothing else reads them.
 //!
 //! `numpy.load("snapshot.npz")["x"]` is the array of x by id.
 
@@ -48,6 +49,7 @@ pub fn read(path: &Path, columns: &Columns) -> Result<State, Error> {
     let step = arrays.single("step");
     let given: Vec<_> = known.iter().map(|title| arrays.column(&title.text)).collect();
     let ids = arrays.column("id");
+    let kept: Vec<_> = arrays.kept().into_iter().filter_map(|name| Some((arrays.column(&name)?, name))).collect();
     let own: Vec<_> = system().filter_map(|column| Some((column, arrays.column(&column.name)?))).collect();
     let mut problems = arrays.problems;
     let rows = given.first().and_then(Option::as_ref).map(Vec::len);
@@ -64,6 +66,7 @@ pub fn read(path: &Path, columns: &Columns) -> Result<State, Error> {
         return problems.check(path).map(|()| State::default());
     }
     let count = rows.unwrap_or(0);
+    let ids_in_order = ids.as_ref().is_none_or(|ids| ids.windows(2).all(|pair| pair[0] < pair[1]));
     let mut state = titles::state(columns, given, count);
     if let Some(ids) = ids {
         let ids: Vec<u64> = ids.iter().map(|id| whole(*id)).collect();
@@ -79,6 +82,10 @@ pub fn read(path: &Path, columns: &Columns) -> Result<State, Error> {
         state.put(column, Some(titles::array(column, &given, values.len() / width)));
     }
     (state.time, state.step) = (time, whole(step));
+    // In another order they are not of these particles.
+    if ids_in_order {
+        kept.into_iter().for_each(|(numbers, name)| state.kept.put(name, numbers));
+    }
     Ok(state)
 }
 
@@ -131,6 +138,9 @@ pub fn write_npz(out: impl Write + Seek, state: &State, precision: Precision) ->
     for (column, values) in state.columns().filter(|(column, _)| matches!(column.shape, Shape::System(_))) {
         system(&mut archive, column, values)?;
     }
+    for (name, numbers) in state.kept.iter() {
+        kept(&mut archive, name, numbers)?;
+    }
     archive.zip_writer().finish().map(drop).map_err(io::Error::other)
 }
 
@@ -165,6 +175,16 @@ fn system<W: Write + Seek>(archive: &mut NpzWriter<W>, column: &Column, values: 
         Array::Vec3(list) => real(list.iter().flat_map(glam::DVec3::to_array).collect(), archive),
         Array::Vec4(list) => real(list.iter().flat_map(glam::DVec4::to_array).collect(), archive),
     }
+}
+
+/// What a step keeps, in single precision where no number loses a bit by that.
+fn kept<W: Write + Seek>(archive: &mut NpzWriter<W>, name: &str, numbers: &[f64]) -> io::Result<()> {
+    let shape = &[numbers.len() as u64];
+    #[expect(clippy::cast_possible_truncation, reason = "looked at before")]
+    if numbers.iter().all(|x| f64::from(*x as f32).to_bits() == x.to_bits()) {
+        return put(archive, name, shape, numbers.iter().map(|x| (*x as f32).to_le_bytes()), 0.0_f32);
+    }
+    put(archive, name, shape, numbers.iter().map(|x| x.to_le_bytes()), 0.0_f64)
 }
 
 /// Writes one array of little-endian numbers of the type of `_like`.

@@ -51,6 +51,14 @@ pub struct Problem {
     pub columns: Arc<Columns>,
 }
 
+/// The lowest and the highest corner of some places \[length\].
+#[must_use]
+pub fn extent(positions: &[DVec3]) -> (DVec3, DVec3) {
+    let low = positions.iter().copied().reduce(DVec3::min).unwrap_or_default();
+    let high = positions.iter().copied().reduce(DVec3::max).unwrap_or_default();
+    (low, high)
+}
+
 impl Problem {
     /// So many particles in open space, somewhere in a cube of unit sides, without links: a law over links is looked at
     /// here, and runs where [`Problem::tied`] has made its tables.
@@ -85,9 +93,7 @@ impl Problem {
     /// The same with particles at these places, in this box.
     #[must_use]
     pub fn at(self, positions: &[DVec3], bounds: Bounds) -> Self {
-        let low = positions.iter().copied().reduce(DVec3::min).unwrap_or_default();
-        let high = positions.iter().copied().reduce(DVec3::max).unwrap_or_default();
-        Self { bounds, extent: (low, high), ..self }
+        Self { bounds, extent: extent(positions), ..self }
     }
     /// The same with particles of these species.
     #[must_use]

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use glam::{DVec3, DVec4};
+use glam::DVec4;
 
 use super::{Plans, Setup, Simulation};
 use crate::boundary;
@@ -10,7 +10,7 @@ use crate::error::Error;
 use crate::kernel::{
     ACCELERATION, Array, Backend, Column, Columns, HOME, Kind, LIFE, Name, POSITION, Role, TARGET, VELOCITY, insert,
 };
-use crate::motion::{self, Held, Hold};
+use crate::motion::{Held, Hold};
 use crate::state::State;
 
 /// The columns that held particles have: where they are led to.
@@ -54,8 +54,8 @@ impl Store {
     fn lies_on_device(&self, column: &Column) -> bool {
         self.bound.contains(&column.place.buffer)
     }
-    /// Fills the buffers of the device.
-    pub fn write<B: Backend>(&self, backend: &mut B, setup: &Setup) -> Result<(), Error> {
+    /// Fills the buffers of the device; where a run goes on, velocities are those of its last step.
+    pub fn write<B: Backend>(&self, backend: &mut B, setup: &Setup, goes_on: bool) -> Result<(), Error> {
         let (state, count) = (&setup.state, setup.state.len());
         for buffer in &self.bound {
             if !self.columns.of_buffer(buffer).any(|column| column.role == Role::State) {
@@ -64,18 +64,22 @@ impl Store {
             let values = |column: &Column| state.get(&column.name).filter(|_| column.role == Role::State);
             let Some(mut elements) = self.columns.packed(buffer, count, values) else { continue };
             if let Array::Vec4(elements) = &mut elements {
-                started(setup, buffer, elements);
+                started(setup, buffer, elements, goes_on);
             }
             backend.write(buffer, &elements)?;
         }
         backend.write(ACCELERATION.name, &Array::Vec4(vec![DVec4::ZERO; count]))
     }
-    /// Fills the places of held particles, in their order, where a plan asks for them.
-    pub fn anchor<B: Backend>(backend: &mut B, setup: &Setup) -> Result<(), Error> {
-        let places = setup.state.position();
-        let inside = |x: DVec3| boundary::wrapped(&setup.bounds, x).extend(0.0);
-        let held = motion::sorted(&setup.state.held);
-        backend.write(HOME.name, &Array::Vec4(held.iter().map(|one| inside(places[one.id as usize])).collect()))
+    /// Fills the places of held particles at time 0, in their order, where a plan asks for them, and says how many they are.
+    pub fn anchor<B: Backend>(backend: &mut B, setup: &Setup) -> Result<usize, Error> {
+        let homes: Vec<_> = setup.homes().into_iter().map(|home| home.extend(0.0)).collect();
+        let count = homes.len();
+        backend.write(HOME.name, &Array::Vec4(homes))?;
+        Ok(count)
+    }
+    /// All columns.
+    pub fn columns(&self) -> &Columns {
+        &self.columns
     }
     fn named(&self, name: &str) -> Result<&Column, Error> {
         self.columns.get(name).ok_or_else(|| {
@@ -86,14 +90,14 @@ impl Store {
 }
 
 /// What a simulation makes of the elements of positions and velocities, and of targets, before it starts.
-fn started(setup: &Setup, buffer: &str, elements: &mut [DVec4]) {
+fn started(setup: &Setup, buffer: &str, elements: &mut [DVec4], goes_on: bool) {
     let state = &setup.state;
     let inside = |x: DVec4| boundary::wrapped(&setup.bounds, x.truncate()).extend(x.w);
     if buffer == POSITION.name {
         elements.iter_mut().for_each(|x| *x = inside(*x));
         // Particles that are not active have no mass, and no velocity.
         elements.iter_mut().enumerate().filter(|(id, _)| !state.lives(*id)).for_each(|(_, x)| x.w = 0.0);
-    } else if buffer == VELOCITY.name {
+    } else if buffer == VELOCITY.name && !goes_on {
         let rest = |v: &mut DVec4| *v = DVec4::ZERO.with_w(v.w);
         elements.iter_mut().enumerate().filter(|(id, _)| !state.lives(*id)).for_each(|(_, v)| rest(v));
         state.held.iter().for_each(|one| rest(&mut elements[one.id as usize]));

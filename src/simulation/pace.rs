@@ -2,7 +2,7 @@
 
 use super::Simulation;
 use crate::error::Error;
-use crate::kernel::{Array, Backend, PACE, PACE_WORDS, Pace, Reason, STOP, TICKS, split};
+use crate::kernel::{Array, Backend, PACE, PACE_WORDS, Reason, STOP, TICKS, split};
 
 /// What a clock has counted.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -114,9 +114,11 @@ impl<B: Backend> Simulation<B> {
         let Array::Uint(words) = words else { return Ok(None) };
         Ok(words.try_into().ok())
     }
-    /// Sets the clock to zero.
-    pub(super) fn wind(&mut self, pace: &Pace) -> Result<(), Error> {
-        self.backend.write(PACE.name, &Array::Uint(pace.start(self.dt)))?;
+    /// Lets the run go on for ever, where its steps are adaptive.
+    pub(super) fn unstop(&mut self) -> Result<(), Error> {
+        if self.pace.is_none() {
+            return Ok(());
+        }
         self.backend.write(STOP.name, &Array::Uint(vec![u32::MAX, 0]))
     }
     /// Looks whether forces have asked for a step that is shorter than the shortest.

@@ -37,12 +37,23 @@ pub struct Plans {
     pub step: Plan,
     /// Before and after the state is read.
     pub measure: (Plan, Plan),
+    /// Where a run goes on: what time it is.
+    pub time: Plan,
 }
 
 impl Plans {
-    /// All of them.
+    /// All of them but the time, which binds nothing that these do not.
     pub fn all(&self) -> impl Iterator<Item = &Plan> + Clone {
         [&self.start, &self.step, &self.measure.0, &self.measure.1].into_iter()
+    }
+    /// What is done once where a run goes on; with what the last step kept, that is put back too.
+    #[must_use]
+    pub fn wake(&self, keeps: bool) -> Plan {
+        let mut plan = self.time.clone();
+        if keeps {
+            plan.append(self.measure.1.clone());
+        }
+        plan
     }
 }
 
@@ -65,8 +76,9 @@ impl Setup {
         step.lead();
         self.integrator.step(&mut step);
         let columns = problem.columns.clone();
+        let time = Step::time(&problem)?;
         let measure = Step::measurement(&self.forces, problem)?;
-        let plans = Plans { start: start.begun()?, step: step.done()?, measure };
+        let plans = Plans { start: start.begun()?, step: step.done()?, measure, time };
         claims(&plans.all(), &columns)?;
         unwritten::check(&plans, &columns)?;
         Ok(plans)
@@ -104,10 +116,10 @@ impl Setup {
     /// # Errors
     /// When the setup makes no sense.
     pub fn problem(&self, machine: Machine) -> Result<Problem, Error> {
-        Ok(Problem::new(self.check()?, machine)
-            .at(self.state.position(), self.bounds)
+        let problem = Problem::new(self.check()?, machine).at(self.state.position(), self.bounds);
+        Ok(Problem { extent: self.extent(), ..problem }
             .of_species(self.state.species())
-            .tied(&self.state.links, &self.state.held)
+            .tied(&self.state.all_links(), &self.state.held)
             .moved(&self.state.motions, self.dt)
             .mortal(&self.state.births, &self.state.drains, self.state.is_mortal())
             .breaking(self.breaks())
@@ -264,6 +276,7 @@ impl Setup {
                 "particle {bad} has a number that is NaN, infinite or beyond single precision, or a negative mass or size"
             )));
         }
+        self.done()?;
         self.complete()?;
         self.fluids()?;
         links.check(mass)?;

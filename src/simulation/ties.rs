@@ -21,11 +21,11 @@ pub(super) struct Ties {
 impl Ties {
     /// That of a state.
     pub fn of(state: &State) -> Self {
-        let State { links, held, motions, births, drains, .. } = state;
-        let (links, held, motions) = (links.clone(), held.clone(), motions.clone());
+        let State { held, motions, births, drains, .. } = state;
+        let (links, held, motions) = (state.all_links().into_owned(), held.clone(), motions.clone());
         Self { links, held, motions, births: births.clone(), drains: drains.clone() }
     }
-    /// Gives it to a state; the links are as they were at the start.
+    /// Gives it to a state; the links are as they were at the start, with springs that had broken before.
     pub fn give(&self, state: &mut State) {
         (state.links, state.held) = (self.links.clone(), self.held.clone());
         (state.motions, state.births, state.drains) = (self.motions.clone(), self.births.clone(), self.drains.clone());

@@ -16,6 +16,7 @@ impl State {
     pub fn append(&mut self, other: &Self) -> Result<(), Error> {
         let (before, added) = (self.len(), other.len());
         let first = u32::try_from(before).unwrap_or(u32::MAX);
+        self.kept.clear();
         other.declared().try_for_each(|column| self.declare(column))?;
         for filled in self.columns.iter_mut().filter(|filled| !matches!(filled.column.shape, Shape::System(_))) {
             let column = &filled.column;
@@ -57,6 +58,7 @@ impl State {
     #[must_use]
     pub fn picked(&self, order: &[usize]) -> Self {
         let mut picked = self.clone();
+        picked.kept.clear();
         for (column, values) in picked.particle_columns() {
             *values = values.picked(order, column.shape.len(1));
         }

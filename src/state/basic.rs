@@ -22,6 +22,7 @@ macro_rules! basic {
         #[doc = "To change in place."]
         #[must_use]
         pub fn $name_mut(&mut self) -> &mut [$element] {
+            self.kept.touched();
             if let Some(Array::$variant(values)) = &mut self.columns[$place].values { values } else { &mut [] }
         }
     };
@@ -37,6 +38,7 @@ impl State {
     /// Positions and velocities, to change both in place.
     #[must_use]
     pub fn phase_mut(&mut self) -> (&mut [DVec3], &mut [DVec3]) {
+        self.kept.touched();
         let [position, velocity, ..] = self.columns.as_mut_slice() else { return (&mut [], &mut []) };
         match (&mut position.values, &mut velocity.values) {
             (Some(Array::Vec3(position)), Some(Array::Vec3(velocity))) => (position, velocity),
@@ -45,6 +47,7 @@ impl State {
     }
     /// Adds a particle of species 0. Other columns get their initial values.
     pub fn push(&mut self, position: DVec3, velocity: DVec3, mass: f64, size: f64) {
+        self.kept.clear();
         for (place, (column, values)) in self.particle_columns().enumerate() {
             match (place, values) {
                 (0, Array::Vec3(list)) => list.push(position),

@@ -183,7 +183,7 @@ pub fn anything(
                 ("unknowns", 0) if wall => Some(-1.0),
                 ("pushes", 3) if wall => Some(0.0),
                 ("unknowns", 2) if element.is_multiple_of(3) => Some(0.0),
-                ("unknowns", 2) | ("stiffness" | "kept_stiffness", _) => Some(x.abs()),
+                ("unknowns", 2) | ("stiffness" | "warm_start", _) => Some(x.abs()),
                 ("pushes", 3) => Some(if x > -0.5 { 1.0 } else { 0.0 }),
                 ("unknowns" | "pushes" | "errors", _) => Some(x),
                 ("dfsph_state", _) => Some([4.0, if name.contains("correct") { 0.0 } else { 3.0 }, 0.3][element % 3]),

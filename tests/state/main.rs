@@ -1,6 +1,8 @@
 //! State that a caller writes, and a device that a caller loses.
 
 mod columns;
+mod commands;
+mod restarts;
 #[path = "../support/mod.rs"]
 mod support;
 

@@ -6,7 +6,7 @@
 @group(3) @binding(5) var<storage, read_write> pushes: array<vec4f>;
 @group(3) @binding(6) var<storage, read_write> errors: array<f32>;
 @group(3) @binding(7) var<storage, read_write> dfsph_state: array<State>;
-@group(3) @binding(9) var<storage, read> kept_stiffness: array<Stiffness>;
+@group(3) @binding(9) var<storage, read> warm_start: array<Stiffness>;
 
 // The cells of the fluid: behind the last of them stand walls, and nobody.
 override CELLS: u32 = 1u;
@@ -32,7 +32,7 @@ fn begin(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: v
     let response = responses[k];
     let enough = response.neighbors >= FEWEST;
     let relaxation = select(0.0, RELAXATION * response.alpha / (world.dt * world.dt), enough);
-    let stiffness = select(0.0, WARM * kept_stiffness[id].divergence, relaxation > 0.0);
+    let stiffness = select(0.0, WARM * warm_start[id].divergence, relaxation > 0.0);
     unknowns[k] = Unknown(stiffness, stiffness, relaxation, select(ANYTHING, -world.dt * response.change, enough));
     pushes[k] = vec4f(0.0, 0.0, 0.0, 1.0);
 }

@@ -2,7 +2,7 @@
 // converge, the first of them, the most iterations, those of this step, and those of all.
 @group(3) @binding(7) var<storage, read> dfsph_state: array<State>;
 @group(3) @binding(8) var<storage, read> stiffness: array<Stiffness>;
-@group(3) @binding(9) var<storage, read_write> kept_stiffness: array<Stiffness>;
+@group(3) @binding(9) var<storage, read_write> warm_start: array<Stiffness>;
 @group(3) @binding(13) var<storage, read_write> dfsph_report: array<u32>;
 @group(3) @binding(14) var<storage, read_write> dfsph_errors: array<f32>;
 
@@ -12,7 +12,7 @@ const WORKGROUP: u32 = 64u;
 @compute @workgroup_size(WORKGROUP)
 fn keep(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let i = folded(group, groups) * WORKGROUP + lane;
-    if i < world.count { kept_stiffness[i] = stiffness[i]; }
+    if i < world.count { warm_start[i] = stiffness[i]; }
     if i < 2u {
         let state = dfsph_state[i];
         let iterations = u32(state.iterations);

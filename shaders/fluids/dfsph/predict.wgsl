@@ -1,7 +1,7 @@
 // The solve for the density begins: accelerations by pressure may compress by  s = 1 − ρ/ρ₀ − dt D(v + dt a)  in the step.
 @group(3) @binding(3) var<storage, read> responses: array<Response>;
 @group(3) @binding(4) var<storage, read_write> unknowns: array<Unknown>;
-@group(3) @binding(9) var<storage, read> kept_stiffness: array<Stiffness>;
+@group(3) @binding(9) var<storage, read> warm_start: array<Stiffness>;
 
 override WARM: f32 = 0.0;
 override RELAXATION: f32 = 0.0;
@@ -12,6 +12,6 @@ fn deliver(k: u32, me: Particle, sum: Sum) {
     let response = responses[k];
     let relaxation = RELAXATION * response.alpha / (world.dt * world.dt);
     let source = -(response.excess + world.dt * (response.change + world.dt * sum.change));
-    let stiffness = select(0.0, WARM * kept_stiffness[me.index].density, relaxation > 0.0);
+    let stiffness = select(0.0, WARM * warm_start[me.index].density, relaxation > 0.0);
     unknowns[k] = Unknown(stiffness, stiffness, relaxation, source);
 }

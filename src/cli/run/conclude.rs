@@ -37,7 +37,8 @@ impl Run {
         }
         let film = self.film.as_ref().map_or_else(|| Ok(Vec::new()), |film| film.join(&self.progress))?;
         let stopped = course.done() < self.scene.steps;
-        let rate = steps as f64 / stepping.as_secs_f64().max(1e-9);
+        let done = steps - output.first().step;
+        let rate = done as f64 / stepping.as_secs_f64().max(1e-9);
         let (first, last) = (output.first(), output.rows().last().copied().unwrap_or_default());
         let worst = output.rows().iter().map(|row| row.drift_from(&first).abs()).fold(0.0, f64::max);
         self.progress.event(
@@ -54,7 +55,7 @@ impl Run {
                 self.scene.steps
             ));
         }
-        say(summary::speed(steps, self.count, stepping, took));
+        say(summary::speed(done, self.count, stepping, took));
         course.summary().into_iter().for_each(&say);
         // Birds are driven: their energy has no meaning.
         if self.conserved.energy || output.company().is_none() {

@@ -5,7 +5,8 @@ use std::sync::Arc;
 use glam::{DVec4, Vec4};
 
 use super::{
-    Dfsph, ERRORS, KEPT, PUSHES, RESPONSE, RESPONSES, STATE, STATES, STIFFNESS, UNKNOWN, UNKNOWNS, WALL, WARM, with,
+    Dfsph, ERRORS, PUSHES, RESPONSE, RESPONSES, STATE, STATES, STIFFNESS, UNKNOWN, UNKNOWNS, WALL, WARM, WARM_START,
+    with,
 };
 use crate::error::Error;
 use crate::kernel::{Host, Kernel};
@@ -21,7 +22,7 @@ pub fn kernel(of: &Dfsph<'_>) -> Result<Kernel, Error> {
     let twin = move |host: &Host| {
         let dt = host.world().dt;
         let [responses, unknowns, pushes, errors] = &names;
-        let (responses, kept) = (host.reading::<f32>(responses)?, host.reading::<f32>(KEPT)?);
+        let (responses, kept) = (host.reading::<f32>(responses)?, host.reading::<f32>(WARM_START)?);
         let (mut unknowns, mut pushes) = (host.writing::<f32>(unknowns)?, host.writing::<Vec4>(pushes)?);
         host.writing::<f32>(errors)?.fill(0.0);
         host.writing::<f32>(STATES)?[..STATE].fill(0.0);

@@ -5,7 +5,9 @@ use std::sync::Arc;
 use glam::Vec4;
 
 use super::push::{PUSHED, changes};
-use super::{Dfsph, KAPPA, KEPT, PUSHES, RESPONSE, RESPONSES, STATE, STATES, STIFFNESS, UNKNOWN, UNKNOWNS, WARM, with};
+use super::{
+    Dfsph, KAPPA, PUSHES, RESPONSE, RESPONSES, STATE, STATES, STIFFNESS, UNKNOWN, UNKNOWNS, WARM, WARM_START, with,
+};
 use crate::error::Error;
 use crate::kernel::{ACCELERATION, Host, Kernel};
 
@@ -39,7 +41,7 @@ pub fn predict(of: &Dfsph<'_>) -> Result<Kernel, Error> {
     let twin = move |host: &Host| {
         let (ids, dt) = (slots(host)?, host.world().dt);
         let changes = changes(host, &medium, &ids, &pushes)?;
-        let (responses, kept) = (host.reading::<f32>(&responses)?, host.reading::<f32>(KEPT)?);
+        let (responses, kept) = (host.reading::<f32>(&responses)?, host.reading::<f32>(WARM_START)?);
         let mut unknowns = host.writing::<f32>(&unknowns)?;
         for (k, id) in ids.into_iter().enumerate() {
             let Some(change) = changes[k] else { continue };

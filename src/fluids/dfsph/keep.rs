@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use super::{Dfsph, KAPPA, KEPT, STATE, STATES};
+use super::{Dfsph, KAPPA, STATE, STATES, WARM_START};
 use crate::error::Error;
-use crate::kernel::{Host, Kernel};
+use crate::kernel::{Column, Host, Kernel, Kind, Shape};
 
 /// The field that counts what became of solves.
 pub const REPORT: &str = "dfsph_report";
@@ -15,10 +15,18 @@ pub const WORDS: usize = 2 * EACH;
 /// The mean errors that the solves of the last step left.
 pub const ERRORS: &str = "dfsph_errors";
 
+/// The columns of a fluid whose pressure is solved for.
+#[must_use]
+pub fn columns() -> Vec<Column> {
+    let about =
+        "κ of the last step, of the solve for the divergence and of that for the density, with which the next begins";
+    vec![Column::new(WARM_START, Kind::Scalar, "length² / time²", about).shaped(Shape::Slots(2))]
+}
+
 /// The kernel.
 pub fn kernel(of: &Dfsph<'_>) -> Result<Kernel, Error> {
     let twin = move |host: &Host| {
-        host.writing::<f32>(KEPT)?.copy_from_slice(&host.reading::<f32>(KAPPA)?);
+        host.writing::<f32>(WARM_START)?.copy_from_slice(&host.reading::<f32>(KAPPA)?);
         let states = host.reading::<f32>(STATES)?;
         let (mut report, mut errors) = (host.writing::<u32>(REPORT)?, host.writing::<f32>(ERRORS)?);
         let solves = states.chunks_exact(STATE).zip(report.chunks_exact_mut(EACH));

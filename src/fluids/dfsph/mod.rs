@@ -22,7 +22,7 @@ use crate::visit::{Candidate, Sweep, block};
 
 use pairs::Pairs;
 
-pub use keep::{ERRORS as DFSPH_ERRORS, REPORT as DFSPH_REPORT, WORDS as DFSPH_WORDS};
+pub use keep::{ERRORS as DFSPH_ERRORS, REPORT as DFSPH_REPORT, WORDS as DFSPH_WORDS, columns};
 
 /// How well pressure is solved for, and how long one tries.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -64,7 +64,7 @@ const ERRORS: &str = "errors";
 const PAIRS: &str = "pairs";
 const STATES: &str = "dfsph_state";
 const KAPPA: &str = "stiffness";
-const KEPT: &str = "kept_stiffness";
+const WARM_START: &str = "warm_start";
 
 /// A fluid in a problem, for which pressure is solved.
 pub struct Dfsph<'a> {

@@ -12,7 +12,7 @@ use crate::forces::{Component, Stage};
 use crate::integrators::verbs::keep::copy;
 use crate::integrators::verbs::pairs::{Advanced, Part, advance, around, runge_kutta};
 use crate::integrators::verbs::solve::{START_POSITION, update};
-use crate::kernel::{Advance, Columns, Kernel, POSITION, Pair, Plan, Problem, Role, Way};
+use crate::kernel::{Advance, Column, Columns, Kernel, Name, POSITION, Pair, Plan, Problem, Role, Way};
 use crate::rotation::{self, Body};
 
 /// The body that a pair turns, or has a torque on.
@@ -40,6 +40,25 @@ fn slope(pair: &Pair, columns: &Columns) -> Advanced {
         (_, Some(body)) => Advanced { rate: body.acceleration(), ..advanced },
         (_, None) => advanced,
     }
+}
+
+/// The rates beside accelerations that evaluations compute and kicks use, one of each buffer.
+fn rates(columns: &Columns) -> Vec<Column> {
+    let mut known = vec![Name::from("acceleration")];
+    let used = |pair: &Pair| matches!(pair.way, Way::Kick | Way::Torque { .. });
+    let rates = columns.pairs().into_iter().filter(used).map(|pair| pair.rate);
+    let new = |rate: &Column| {
+        let new = !known.contains(&rate.place.buffer);
+        known.push(rate.place.buffer.clone());
+        new
+    };
+    rates.filter(new).collect()
+}
+
+/// The buffers of the rates beside accelerations that a step leaves for the next one.
+#[must_use]
+pub fn kept_rates(columns: &Columns) -> Vec<Name> {
+    rates(columns).into_iter().map(|rate| rate.place.buffer).collect()
 }
 
 impl Step<'_> {
@@ -178,15 +197,9 @@ impl Step<'_> {
     /// Rates that the next step is going to use, around a measurement.
     pub(super) fn keep_rates(&mut self, restore: bool) {
         let columns = self.problem.columns.clone();
-        let mut known = vec![crate::kernel::Name::from("acceleration")];
-        let used = |pair: &Pair| matches!(pair.way, Way::Kick | Way::Torque { .. });
-        for pair in columns.pairs().into_iter().filter(used) {
-            let part = Part::of(&pair.rate, &columns);
-            if !known.contains(&part.buffer) {
-                known.push(part.buffer.clone());
-                let kernel = if restore { around::restore } else { around::keep };
-                self.add(kernel(&part, &self.problem));
-            }
+        for rate in rates(&columns) {
+            let kernel = if restore { around::restore } else { around::keep };
+            self.add(kernel(&Part::of(&rate, &columns), &self.problem));
         }
     }
     /// Columns that are no numbers raise the alarm.

@@ -63,6 +63,14 @@ impl<'a> Step<'a> {
         }
         self.error.map_or(Ok(self.plan), Err)
     }
+    /// What time it is, on a clock that has just been set.
+    ///
+    /// # Errors
+    /// When a shader does not compile.
+    pub fn time(problem: &Problem) -> Result<Plan, Error> {
+        let kernel = if problem.pace.is_some() { pace::at(0.0, problem) } else { at::kernel(0.0) };
+        Ok(Plan::of(vec![kernel?]))
+    }
     /// The two plans around a measurement: the first keeps the forces that the next step is going to use and evaluates
     /// them at the present state; the second puts the kept ones back.
     ///

@@ -1,0 +1,60 @@
+//! `--from`: a run that goes on from a state of an earlier one.
+
+use std::path::Path;
+
+use motes::io;
+use motes::scene::Scene;
+use motes::{Error, Setup};
+
+use super::progress::plain;
+
+/// Puts the state of a file in the place of the scene's own.
+pub fn go_on(setup: &mut Setup, scene: &Scene, path: &Path) -> Result<(), Error> {
+    let mut state = io::read(path, &setup.columns()?)?;
+    let refuse = |message: String| Err(Error::Input { file: path.to_owned(), message });
+    if (state.step, state.time) == (0, 0.0)
+        && let Some(step) = numbered(path)
+    {
+        if scene.pace.is_some() {
+            return refuse("is a table, which holds no clock, and steps are adaptive: give the NPZ file".to_owned());
+        }
+        (state.step, state.time) = (step, step as f64 * scene.dt);
+    }
+    if setup.breaks() && !state.keeps() {
+        return refuse(
+            "does not say which springs have broken, and in this scene they may: give the NPZ archive of a run"
+                .to_owned(),
+        );
+    }
+    // In adaptive steps time alone says how far it is.
+    let over = if scene.pace.is_some() { state.time >= scene.until } else { state.step >= scene.steps };
+    if over {
+        return refuse(format!(
+            "is at step {} and time {}, where the run ends: `steps` and `until` count from the start of the first run; give later \
+             ones with --steps or --until",
+            state.step,
+            plain(state.time)
+        ));
+    }
+    match setup.state.go_on_from(&state) {
+        Err(Error::Scene(message)) => refuse(format!("cannot go on: {message}")),
+        other => other,
+    }
+}
+
+/// The step in the name of a table that a run has written, `snapshot_0100.csv`: a table holds no clock.
+fn numbered(path: &Path) -> Option<u64> {
+    let table = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv"));
+    let name = path.file_stem()?.to_str()?;
+    name.strip_prefix("snapshot_").filter(|_| table)?.parse().ok()
+}
+
+/// What is to be said where a simulation begins at this step.
+pub fn remark(goes_on: bool, step: u64, time: f64) -> String {
+    let way = if goes_on {
+        "with all that its last step kept"
+    } else {
+        "with accelerations that are evaluated anew: its last bits may be others than those of a run that was never stopped"
+    };
+    format!("goes on at step {step}, time {}, {way}", plain(time))
+}

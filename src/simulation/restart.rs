@@ -1,0 +1,278 @@
+//! How a simulation goes on from a state of another one, as if it had never stopped.
+//!
+//! Columns hold what particles are. Beside them a step keeps for the next: the accelerations of its first kick, which are those of
+//! half-kicked velocities and cannot be evaluated anew; rates of other columns; an adaptive clock, and what forces asked of it; where
+//! held particles began; springs that broke; speeds of the last steps, by which an alarm knows that they run away. A state carries
+//! these. They hold for the step that made them: under other forces, in steps of another length or of another integrator, on another
+//! kind of device, accelerations are evaluated anew.
+
+use glam::{DVec3, DVec4};
+
+use super::{Plans, Setup, Simulation};
+use crate::boundary;
+use crate::error::Error;
+use crate::fluids::{DFSPH_ERRORS, DFSPH_REPORT};
+use crate::integrators::{SOLVE_REPORT, kept_rates};
+use crate::kernel::{
+    ALARM, Array, Backend, Columns, HOME, PACE, PACE_WORDS, Plan, QUIET, TICKS, URGENT, URGES, World, extent, split,
+};
+use crate::links::Links;
+use crate::motion;
+use crate::state::{KEPT, KEPT_EXTENT, KEPT_HOME, KEPT_STEP, State};
+
+/// How far time and step may disagree, as a part of a step: 2³² steps of a time in double precision.
+const AGREEMENT: f64 = 1e-6;
+
+/// A field of the device that goes on from one step to the next.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Carried {
+    field: String,
+    /// An array of its kind, empty.
+    like: Array,
+    len: usize,
+    /// Whether it holds only for the positions and velocities of the state.
+    rate: bool,
+}
+
+/// Those of some plans.
+pub(super) fn carried(plans: &Plans, columns: &Columns, count: u32) -> Vec<Carried> {
+    let fields: std::collections::BTreeMap<String, u64> =
+        plans.all().flat_map(|plan| plan.fields(count).into_iter()).collect();
+    let particles = count as usize;
+    let (four, real, whole) = (Array::Vec4(Vec::new()), Array::Float(Vec::new()), Array::Uint(Vec::new()));
+    let one = |field: &str, like: &Array, rate| Carried { field: field.to_owned(), like: like.clone(), len: 0, rate };
+    let mut all = vec![one("kept_acceleration", &four, true)];
+    for buffer in kept_rates(columns) {
+        if let (Some(like), Some(len)) = (columns.element(&buffer), columns.len_of(&buffer, particles)) {
+            all.push(Carried { len, ..one(&format!("{KEPT}{buffer}"), &like, true) });
+        }
+    }
+    let words = [ALARM.name, PACE.name, SOLVE_REPORT, DFSPH_REPORT];
+    all.extend(words.map(|name| one(name, &whole, false)));
+    all.push(one(DFSPH_ERRORS, &real, false));
+    all.extend([URGES.name, URGENT.name].map(|name| one(name, &four, true)));
+    all.retain(|one| fields.contains_key(&one.field));
+    for one in all.iter_mut().filter(|one| one.len == 0) {
+        let bytes = one.like.zeros(1).to_bytes().len() as u64;
+        one.len = usize::try_from(fields.get(&one.field).copied().unwrap_or(0) / bytes).unwrap_or(0);
+    }
+    all
+}
+
+impl Carried {
+    /// What its numbers are called in a state.
+    fn name(&self) -> String {
+        if self.field.starts_with(KEPT) { self.field.clone() } else { format!("{KEPT}{}", self.field) }
+    }
+    /// Its elements, out of the numbers of a state.
+    fn array(&self, numbers: &[f64]) -> Option<Array> {
+        let array = match &self.like {
+            Array::Vec4(_) => Array::Vec4(numbers.chunks_exact(4).map(DVec4::from_slice).collect()),
+            Array::Vec3(_) => Array::Vec3(numbers.chunks_exact(3).map(DVec3::from_slice).collect()),
+            Array::Float(_) => Array::Float(numbers.to_vec()),
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "words, or saturated")]
+            Array::Uint(_) => Array::Uint(numbers.iter().map(|x| *x as u32).collect()),
+        };
+        (array.len() == self.len).then_some(array)
+    }
+}
+
+/// The numbers of an array, one behind another.
+fn numbers(array: &Array) -> Vec<f64> {
+    match array {
+        Array::Vec4(list) => list.iter().flat_map(DVec4::to_array).collect(),
+        Array::Vec3(list) => list.iter().flat_map(DVec3::to_array).collect(),
+        Array::Float(list) => list.clone(),
+        Array::Uint(list) => list.iter().copied().map(f64::from).collect(),
+    }
+}
+
+/// FNV-1a of 64 bits.
+struct Print(u64);
+
+impl Print {
+    fn new() -> Self {
+        Self(0xcbf2_9ce4_8422_2325)
+    }
+    fn add(&mut self, bytes: &[u8]) {
+        for byte in bytes {
+            self.0 = (self.0 ^ u64::from(*byte)).wrapping_mul(0x100_0000_01b3);
+        }
+    }
+}
+
+/// A number that two steps share only where they do the same.
+pub(super) fn print(step: &Plan) -> u64 {
+    let mut print = Print::new();
+    for kernel in step.steps() {
+        print.add(kernel.name.as_bytes());
+        for pass in &kernel.passes {
+            print.add(pass.shader.text().as_bytes());
+            pass.constants.iter().for_each(|(name, value)| {
+                print.add(name.as_bytes());
+                print.add(&value.to_bits().to_le_bytes());
+            });
+            pass.uniforms.iter().for_each(|(_, bytes)| print.add(bytes));
+            pass.fields.iter().for_each(|(_, field)| print.add(field.as_bytes()));
+        }
+        // Springs break: those that are left stand in the state.
+        for (_, words) in kernel.tables.iter().filter(|(name, _)| name != crate::visit::LINK) {
+            words.iter().for_each(|word| print.add(&word.to_le_bytes()));
+        }
+    }
+    print.0
+}
+
+/// The same of a step and the state that it made.
+fn mark(step: u64, state: &State) -> Vec<f64> {
+    let mut print = Print(step);
+    print.add(&state.step.to_le_bytes());
+    print.add(&state.time.to_bits().to_le_bytes());
+    for link in &state.links.springs {
+        print.add(&[link.ends[0].to_le_bytes(), link.ends[1].to_le_bytes()].concat());
+        [link.rest, link.stiffness, link.damping].iter().for_each(|x| print.add(&x.to_bits().to_le_bytes()));
+        print.add(&[u8::from(link.rope)]);
+    }
+    [print.0 >> 32, print.0 & 0xffff_ffff].map(|word| word as f64).to_vec()
+}
+
+/// Whether a state is that which this step has made, and nothing of it has changed since.
+pub(super) fn is_whole(step: u64, state: &State) -> bool {
+    state.kept.get(KEPT_STEP) == Some(&mark(step, state)[..])
+}
+
+impl Setup {
+    /// Where particles were at the start of the run, or where they are, if the state does not know.
+    pub(super) fn extent(&self) -> (DVec3, DVec3) {
+        let kept = || {
+            let numbers = self.state.kept.get(KEPT_EXTENT).filter(|list| list.len() == 6)?;
+            let (low, high) = (DVec3::from_slice(numbers), DVec3::from_slice(&numbers[3..]));
+            let fits = |v: DVec3| v.abs().max_element() <= f64::from(f32::MAX);
+            (fits(low) && fits(high) && low.cmple(high).all()).then_some((low, high))
+        };
+        kept().unwrap_or_else(|| extent(self.state.position()))
+    }
+    /// The steps that are done where the state is.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] when its time is not that of so many steps, or there are more than a device counts.
+    pub(super) fn done(&self) -> Result<u32, Error> {
+        let State { time, step, .. } = self.state;
+        let refuse = |text: String| Err(Error::Scene(text));
+        if !time.is_finite() || time < 0.0 {
+            return refuse(format!("the state is at time {time:e}: a simulation begins at a time from 0 on"));
+        }
+        let Ok(done) = u32::try_from(step) else {
+            return refuse(format!("the state is at step {step}, and a device counts to {}: begin anew", u32::MAX));
+        };
+        let apart = (time - f64::from(done) * self.dt).abs() > AGREEMENT * self.dt;
+        if self.integrator.pace().is_none() && apart {
+            return refuse(format!(
+                "the state is at step {step} and time {time:e}, which is not so many steps of dt = {:e}: choose a dt of which time is a \
+                 whole number of steps and set `state.step` to that, or take `state.begin_anew()`",
+                self.dt
+            ));
+        }
+        if self.integrator.pace().is_some() && split(time, self.dt)[0] == u32::MAX {
+            return refuse(format!("the state is at time {time:e}, more than {} steps of {:e}", u32::MAX, self.dt));
+        }
+        Ok(done)
+    }
+    /// The words of the adaptive clock of a state: what the last step kept, where it tells the same time, else one that stands there.
+    fn wound(&self, dt: f64) -> Option<Vec<u32>> {
+        let pace = self.integrator.pace()?;
+        let at = split(self.state.time, dt);
+        let kept = self.state.kept.get("kept_pace").filter(|list| list.len() == PACE_WORDS);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "words, or saturated")]
+        let kept = kept.map(|list| list.iter().map(|x| *x as u32).collect::<Vec<_>>());
+        Some(kept.filter(|words| words[..2] == at).unwrap_or_else(|| {
+            let mut words = pace.start(dt);
+            words[..2].copy_from_slice(&at);
+            // Why these were as long as they were, nothing tells.
+            words[12] = u32::try_from(self.state.step).unwrap_or(u32::MAX);
+            words
+        }))
+    }
+    /// Where held particles were at time 0, in their order.
+    pub(super) fn homes(&self) -> Vec<DVec3> {
+        let places = self.state.position();
+        let kept = self.state.kept.get(KEPT_HOME).unwrap_or_default().chunks_exact(7);
+        let kept: std::collections::BTreeMap<u64, &[f64]> = kept.map(|seven| (seven[0].to_bits(), seven)).collect();
+        let home = |id: u32| {
+            let here = places[id as usize];
+            // A particle that a caller has put elsewhere begins there.
+            let there = kept.get(&f64::from(id).to_bits()).filter(|seven| DVec3::from_slice(&seven[4..]) == here);
+            let home = there.map(|seven| DVec3::from_slice(&seven[1..4])).filter(|home| home.is_finite());
+            boundary::wrapped(&self.bounds, home.unwrap_or(here))
+        };
+        motion::sorted(&self.state.held).iter().map(|one| home(one.id)).collect()
+    }
+}
+
+impl<B: Backend> Simulation<B> {
+    /// Whether the state that it was made of went on with all that its last step had kept, so that bits are those of a run that was
+    /// never stopped. Else accelerations were evaluated anew there: the state is of step 0, or of a run of other forces, integrator,
+    /// step length or device, or its positions, velocities or other columns were changed.
+    #[must_use]
+    pub fn goes_on(&self) -> bool {
+        self.goes_on
+    }
+    /// Fills what a step keeps for the next one.
+    pub(super) fn resume(&mut self, setup: &Setup, plans: &Plans) -> Result<(), Error> {
+        let state = &setup.state;
+        let whole = is_whole(self.print, state);
+        let mut arrays = Vec::new();
+        for one in &self.carried {
+            let numbers = state.kept.get(&one.name()).filter(|_| whole);
+            arrays.push((one.field.clone(), one.rate, numbers.and_then(|numbers| one.array(numbers))));
+        }
+        self.goes_on = whole && arrays.iter().all(|(_, rate, array)| !rate || array.is_some());
+        self.begun = self.goes_on;
+        self.backend.write(ALARM.name, &Array::Uint(QUIET.to_vec()))?;
+        for (field, _, array) in arrays {
+            if let Some(array) = array {
+                self.backend.write(&field, &array)?;
+            }
+        }
+        let mut dt = setup.dt;
+        if let Some(words) = setup.wound(setup.dt) {
+            if words[2] > 0 {
+                dt = f64::from(words[2]) / f64::from(TICKS) * setup.dt;
+            }
+            self.backend.write(PACE.name, &Array::Uint(words))?;
+        }
+        let (step, count, bounds) = (setup.done()?, self.count, setup.bounds);
+        self.backend.set_world(World { time: state.time, dt, step, count, bounds })?;
+        if step > 0 || state.time > 0.0 || self.goes_on {
+            let wake = self.backend.compile(&plans.wake(self.goes_on))?;
+            self.backend.run(&wake, 1)?;
+        }
+        Ok(())
+    }
+    /// Gives to a state what the last step has kept for the next one.
+    pub(super) async fn keep(&mut self, state: &mut State, all: &Links) -> Result<(), Error> {
+        for one in self.carried.clone().into_iter().filter(|one| self.begun || !one.rate) {
+            let array = self.backend.read(&one.field, &one.like, one.len).await?;
+            state.kept.put(one.name(), numbers(&array));
+        }
+        if self.anchored > 0 {
+            let homes = self.backend.read(HOME.name, &Array::Vec4(Vec::new()), self.anchored).await?;
+            let Array::Vec4(homes) = homes else { return Ok(()) };
+            let held = motion::sorted(&state.held);
+            let seven = |(one, home): (&motion::Held, &DVec4)| {
+                let here = state.position().get(one.id as usize).copied().unwrap_or_default();
+                let mut numbers = vec![f64::from(one.id)];
+                numbers.extend(home.truncate().to_array().into_iter().chain(here.to_array()));
+                numbers
+            };
+            let homes = held.iter().zip(&homes).flat_map(seven).collect();
+            state.kept.put(KEPT_HOME, homes);
+        }
+        state.keep_broken(all);
+        let (low, high) = self.extent;
+        state.kept.put(KEPT_EXTENT, low.to_array().into_iter().chain(high.to_array()).collect());
+        let mark = mark(self.print, state);
+        state.kept.put(KEPT_STEP, mark);
+        Ok(())
+    }
+}

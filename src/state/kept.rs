@@ -1,0 +1,168 @@
+//! What a step leaves for the next one beside columns, so that a run goes on from a state with the bits of one that was never
+//! stopped: accelerations that the next kick uses, an adaptive clock, where kinematic particles began, springs that broke.
+
+use std::borrow::Cow;
+use std::cmp::Ordering;
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::State;
+use crate::kernel::{Array, LIFE, extent};
+use crate::life::Life;
+use crate::links::{Link, Links};
+use crate::motion::Held;
+
+/// What their names begin with in files; no column may be called so.
+pub(crate) const KEPT: &str = "kept_";
+
+/// The lowest and the highest corner of where particles were at the start of the run: cells are chosen by it, and so the order of sums.
+pub(crate) const EXTENT: &str = "kept_extent";
+
+/// A number that tells the step which made a state from others, in two words.
+pub(crate) const STEP: &str = "kept_step";
+
+/// What goes on where positions and velocities are changed by a caller: it says nothing of them.
+const LASTING: [&str; 3] = [HOME, BROKEN, "kept_pace"];
+
+/// Where held particles were at time 0, in groups of seven numbers: the id, that place, and where they are.
+pub(crate) const HOME: &str = "kept_home";
+/// Springs that have broken, in groups of three numbers: the ids of the two, and the rest length, negative for a rope.
+pub(crate) const BROKEN: &str = "kept_broken";
+
+/// Lists of numbers by their names, each of which begins with [`KEPT`].
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(crate) struct Kept(BTreeMap<String, Vec<f64>>);
+
+impl Kept {
+    /// The numbers of a name.
+    pub fn get(&self, name: &str) -> Option<&[f64]> {
+        self.0.get(name).map(Vec::as_slice)
+    }
+    /// Keeps numbers; none at all are not kept.
+    pub fn put(&mut self, name: impl Into<String>, numbers: Vec<f64>) {
+        let name = name.into();
+        if numbers.is_empty() {
+            self.0.remove(&name);
+        } else {
+            self.0.insert(name, numbers);
+        }
+    }
+    /// All of them, in the order of their names.
+    pub fn iter(&self) -> impl Iterator<Item = (&str, &[f64])> {
+        self.0.iter().map(|(name, numbers)| (name.as_str(), numbers.as_slice()))
+    }
+    /// Forgets everything.
+    pub fn clear(&mut self) {
+        self.0.clear();
+    }
+    /// Forgets what belongs to the positions and velocities that were there.
+    pub fn touched(&mut self) {
+        self.0.retain(|name, _| LASTING.contains(&name.as_str()));
+    }
+}
+
+impl State {
+    /// The same particles at time 0 and step 0, from which a simulation begins anew: kinematic particles, births, random numbers and
+    /// forces that depend on time begin again, and nothing is left of what the last step kept for the next one.
+    #[must_use]
+    pub fn begin_anew(mut self) -> Self {
+        (self.time, self.step) = (0.0, 0);
+        self.kept.clear();
+        self
+    }
+    /// Whether it holds what a step keeps for the next one, as states do that simulations give, until they are changed, and as NPZ
+    /// archives hold them; tables do not.
+    #[must_use]
+    pub fn keeps(&self) -> bool {
+        self.kept.get(STEP).is_some()
+    }
+    /// Goes on from where another state of the same particles is: its columns, its clock, and what the last step kept. What this
+    /// state alone has, stays: links, but for springs that have broken, held particles, motions, births, drains, and columns that the
+    /// other does not give.
+    ///
+    /// # Errors
+    /// [`Error::Scene`](crate::Error::Scene) when the other has not as many particles, or a column of another kind.
+    pub fn go_on_from(&mut self, other: &Self) -> Result<(), crate::Error> {
+        if other.len() != self.len() {
+            return Err(crate::Error::Scene(format!(
+                "the state has {} particles, and the run that goes on from it {}: give the state of a run of the same scene, with \
+                 the same values set",
+                other.len(),
+                self.len()
+            )));
+        }
+        self.origin(other);
+        let origin = std::mem::take(&mut self.kept);
+        // Files say nothing of life where all are active.
+        if other.get(LIFE.name).is_none() && self.get(LIFE.name).is_some() {
+            self.set(LIFE.name, Array::Uint(vec![Life::Living.word(); self.len()]))?;
+        }
+        for (column, values) in other.columns() {
+            self.declare(column)?;
+            self.set(&column.name, values.clone())?;
+        }
+        (self.time, self.step) = (other.time, other.step);
+        self.kept = other.kept.clone();
+        for (name, numbers) in origin.iter().filter(|(name, _)| other.kept.get(name).is_none()) {
+            self.kept.put(name, numbers.to_vec());
+        }
+        let named = |link: &Link| (link.ends, link.rest.to_bits());
+        let broken: BTreeSet<_> = self.broken().iter().map(named).collect();
+        self.links.springs.retain(|link| !broken.contains(&named(link)));
+        Ok(())
+    }
+    /// Keeps where particles are and held ones began, for a run that goes on from another state of theirs, if they are at its start.
+    fn origin(&mut self, other: &Self) {
+        if self.step > 0 || self.time > 0.0 || self.kept.get(EXTENT).is_some() {
+            return;
+        }
+        let places = self.position();
+        let (low, high) = extent(places);
+        let seven = |one: &Held| {
+            let id = one.id as usize;
+            let (home, here) = (places.get(id)?.to_array(), other.position().get(id)?.to_array());
+            Some([&[f64::from(one.id)][..], &home, &here].concat())
+        };
+        let homes = self.held.iter().filter_map(seven).flatten().collect();
+        self.kept.put(EXTENT, low.to_array().into_iter().chain(high.to_array()).collect());
+        self.kept.put(HOME, homes);
+    }
+    /// The springs that have broken, without stiffness and damping.
+    fn broken(&self) -> Vec<Link> {
+        let ids = 0.0..self.len() as f64;
+        let groups = self.kept.get(BROKEN).unwrap_or_default().chunks_exact(3);
+        let groups = groups.filter(|group| ids.contains(&group[0]) && ids.contains(&group[1]) && group[2].is_finite());
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within the ids")]
+        let link = |group: &[f64]| Link {
+            ends: [group[0] as u32, group[1] as u32],
+            rest: group[2].abs(),
+            stiffness: 0.0,
+            damping: 0.0,
+            rope: group[2].is_sign_negative(),
+        };
+        groups.map(link).collect()
+    }
+    /// The links with springs that have broken, which stand in the tables of kernels: how many springs an end had counts.
+    pub(crate) fn all_links(&self) -> Cow<'_, Links> {
+        let broken = self.broken();
+        if broken.is_empty() {
+            return Cow::Borrowed(&self.links);
+        }
+        let mut links = self.links.clone();
+        links.springs.extend(broken);
+        Cow::Owned(links)
+    }
+    /// Keeps which springs of these have broken since.
+    pub(crate) fn keep_broken(&mut self, all: &Links) {
+        let mut intact = self.links.springs.iter().peekable();
+        let mut broken: Vec<[f64; 3]> = Vec::new();
+        for link in &all.springs {
+            if intact.next_if(|kept| *kept == link).is_none() {
+                let rest = if link.rope { -link.rest } else { link.rest };
+                broken.push([f64::from(link.ends[0]), f64::from(link.ends[1]), rest]);
+            }
+        }
+        // In one order, however often the run has been stopped.
+        broken.sort_by(|a, b| a.iter().zip(b).map(|(a, b)| a.total_cmp(b)).fold(Ordering::Equal, Ordering::then));
+        self.kept.put(BROKEN, broken.concat());
+    }
+}
