@@ -169,6 +169,9 @@ fn advanced(setup: &Setup, steps: u32) -> State {
     block_on(simulation.snapshot()).expect("a state")
 }
 
+/// A change of a state, and its name.
+type Edit = (&'static str, fn(&mut State));
+
 #[test]
 fn what_a_step_kept_is_not_used_for_another_step_or_state() {
     let state = advanced(&mixed("leapfrog"), FIRST);
@@ -178,7 +181,7 @@ fn what_a_step_kept_is_not_used_for_another_step_or_state() {
     let mut others = mixed("leapfrog");
     others.forces.truncate(2);
     assert!(!goes_on(&Setup { state: state.clone(), ..others }), "other forces");
-    let edits: [(&str, fn(&mut State)); 5] = [
+    let edits: [Edit; 5] = [
         ("a place", |state| state.position_mut()[3].x += 0.1),
         ("a mass", |state| state.mass_mut()[3] *= 2.0),
         ("a spring", |state| state.links.springs[3].stiffness *= 2.0),
@@ -241,6 +244,26 @@ fn held_particles_keep_to_where_they_began() {
     let after = advanced(&Setup { state, ..others }, REST);
     let want = advanced(&led(), FIRST + REST);
     assert_eq!(after.position()[7], want.position()[7]);
+}
+
+/// Springs of which some break at once and some later, and a limit that counts how many springs an end had.
+fn torn() -> Setup {
+    let forces = vec![
+        force("spring", &[]),
+        force("strain_limit", &[("strain", Value::Number(0.9)), ("sweeps", Value::Number(2.0))]),
+        force("tear", &[("strain", Value::Number(0.5))]),
+    ];
+    Setup { forces, ..mixed("symplectic_euler") }
+}
+
+#[test]
+fn springs_that_broke_count_as_before() {
+    let [first, middle] = [torn().state, advanced(&torn(), FIRST)].map(|state| state.links.springs.len());
+    let last = advanced(&torn(), FIRST + REST).links.springs.len();
+    assert!(last < middle && middle < first, "{first}, {middle} and {last} springs");
+    let shared = support::device();
+    compare(&torn, &on_device(&shared), Precision::Single).expect("the device");
+    compare(&torn, &on_host, Precision::Double).expect("the references");
 }
 
 #[test]
