@@ -250,8 +250,8 @@ fn held_particles_keep_to_where_they_began() {
 fn torn() -> Setup {
     let forces = vec![
         force("spring", &[]),
-        force("strain_limit", &[("strain", Value::Number(0.9)), ("sweeps", Value::Number(2.0))]),
-        force("tear", &[("strain", Value::Number(0.5))]),
+        force("strain_limit", &[("strain", Value::Number(1.5)), ("sweeps", Value::Number(1.0))]),
+        force("tear", &[("strain", Value::Number(2.0))]),
     ];
     Setup { forces, ..mixed("symplectic_euler") }
 }
