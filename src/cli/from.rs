@@ -20,6 +20,12 @@ pub fn go_on(setup: &mut Setup, scene: &Scene, path: &Path) -> Result<(), Error>
         }
         (state.step, state.time) = (step, step as f64 * scene.dt);
     }
+    if state.step == 0 && state.time > 0.0 && scene.pace.is_none() {
+        // Formats that hold a time, and no step.
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "above 0, or saturated")]
+        let steps = (state.time / scene.dt).round() as u64;
+        state.step = steps;
+    }
     if setup.breaks() && !state.keeps() {
         return refuse(
             "does not say which springs have broken, and in this scene they may: give the NPZ archive of a run"
