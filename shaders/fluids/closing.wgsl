@@ -12,4 +12,4 @@ fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
     (*sum).most = max((*sum).most, abs(v.x * r.x + v.y * r.y + v.z * r.z) * SMOOTHING / near);
 }
 
-fn deliver(k: u32, me: Particle, sum: Sum) { closing[me.index] = sum.most; }
+fn finish(me: Particle, sum: Sum) { closing[me.index] = sum.most; }

@@ -6,11 +6,11 @@
 @group(3) @binding(2) var<storage, read> density: array<f32>;
 
 // Its density is 0 where it is of a wall.
-struct Particle { index: u32, position: vec3f, mass: f32, velocity: vec3f, density: f32, pressure: f32 }
+struct Particle { index: u32, position: vec3f, mass: f32, velocity: vec3f, density: f32, pressure: f32, slot: u32 }
 
 fn candidate(slot: u32) -> Particle {
     let p = sorted_position[slot];
     let id = sorted_id[slot];
     let known = select(density[id], 0.0, is_held(id));
-    return Particle(id, p.xyz, p.w, sorted_velocity[slot].xyz, known, 0.0);
+    return Particle(id, p.xyz, p.w, sorted_velocity[slot].xyz, known, 0.0, slot);
 }

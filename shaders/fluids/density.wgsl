@@ -7,4 +7,4 @@ fn acts_on(me: Particle) -> bool { return !is_held(me.index); }
 
 fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) { (*sum).density += you.mass * kernel(r); }
 
-fn deliver(k: u32, me: Particle, sum: Sum) { density[me.index] = sum.density + me.mass * kernel(vec3f()); }
+fn finish(me: Particle, sum: Sum) { density[me.index] = sum.density + me.mass * kernel(vec3f()); }

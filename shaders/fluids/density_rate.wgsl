@@ -24,4 +24,4 @@ fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
     }
 }
 
-fn deliver(k: u32, me: Particle, sum: Sum) { density_rate[me.index] = sum.rate; }
+fn finish(me: Particle, sum: Sum) { density_rate[me.index] = sum.rate; }

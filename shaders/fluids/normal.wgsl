@@ -9,4 +9,4 @@ fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
     if you.density > 0.0 { (*sum).normal -= (you.mass / you.density * gradient(r)) * r; }
 }
 
-fn deliver(k: u32, me: Particle, sum: Sum) { normal[k] = vec4f(sum.normal / PER_SUPPORT, 0.0); }
+fn finish(me: Particle, sum: Sum) { normal[me.slot] = vec4f(sum.normal / PER_SUPPORT, 0.0); }

@@ -6,7 +6,6 @@ struct Params { unused_word: u32, alpha: f32, viscosity: f32, wall: f32, mirror:
 struct Sum { acceleration: vec3f }
 
 @group(3) @binding(0) var<uniform> params: Params;
-@group(1) @binding(2) var<storage, read_write> acceleration: array<vec4f>;
 
 fn acts_on(me: Particle) -> bool { return me.density > 0.0; }
 
@@ -26,4 +25,5 @@ fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
     (*sum).acceleration += (you.mass * gradient(r)) * (push * r - (friction * laminar) * v);
 }
 
-fn deliver(k: u32, me: Particle, sum: Sum) { acceleration[me.index] += vec4f(sum.acceleration, flow[k].z); }
+// Internal energy is all its own: twice of it, for a visit leaves each of a pair half.
+fn finish(me: Particle, sum: Sum) -> vec4f { return vec4f(sum.acceleration, 2.0 * flow[me.slot].z); }

@@ -5,7 +5,6 @@ struct Params { unused_word: u32, cohesion: f32, curvature: f32, adhesion: f32 }
 struct Sum { acceleration: vec3f }
 
 @group(3) @binding(0) var<uniform> params: Params;
-@group(1) @binding(2) var<storage, read_write> acceleration: array<vec4f>;
 
 // Below the square of any distance; at one place there is no way from one to the other, and nobody pulls.
 const NOTHING: f32 = 1e-30;
@@ -28,4 +27,4 @@ fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
     }
 }
 
-fn deliver(k: u32, me: Particle, sum: Sum) { acceleration[me.index] += vec4f(sum.acceleration, 0.0); }
+fn finish(me: Particle, sum: Sum) -> vec4f { return vec4f(sum.acceleration, 0.0); }

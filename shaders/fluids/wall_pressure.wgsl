@@ -17,8 +17,8 @@ fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
     }
 }
 
-fn deliver(k: u32, me: Particle, sum: Sum) {
+fn finish(me: Particle, sum: Sum) {
     // Where no fluid is around, both are 0.
     let p = sum.pressure / max(sum.number, 1e-30);
-    wall_pressure[k] = select(max(p, 0.0), p, NEGATIVE) / (REST_DENSITY * REST_DENSITY);
+    wall_pressure[me.slot] = select(max(p, 0.0), p, NEGATIVE) / (REST_DENSITY * REST_DENSITY);
 }

@@ -13,6 +13,6 @@ fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
     if is_held(you.index) { (*sum).number += kernel(r); }
 }
 
-fn deliver(k: u32, me: Particle, sum: Sum) {
+fn finish(me: Particle, sum: Sum) {
     weighed[me.index].w = select(REST_DENSITY / (sum.number + kernel(vec3f())), params.mass, params.mass > 0.0);
 }

@@ -4,7 +4,6 @@ struct Params { unused_word: u32, xsph: f32 }
 struct Sum { velocity: vec3f }
 
 @group(3) @binding(0) var<uniform> params: Params;
-@group(1) @binding(2) var<storage, read_write> acceleration: array<vec4f>;
 
 fn acts_on(me: Particle) -> bool { return me.density > 0.0; }
 
@@ -15,4 +14,4 @@ fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
     }
 }
 
-fn deliver(k: u32, me: Particle, sum: Sum) { acceleration[me.index] += vec4f((params.xsph / world.dt) * sum.velocity, 0.0); }
+fn finish(me: Particle, sum: Sum) -> vec4f { return vec4f((params.xsph / world.dt) * sum.velocity, 0.0); }

@@ -1,13 +1,11 @@
 //! Density by the continuity equation: a state that goes along with positions (Monaghan 1994).
 
-use std::sync::Arc;
-
 use glam::DVec3;
 
 use super::{DENSITY, DENSITY_RATE, Medium};
 use crate::error::Error;
-use crate::kernel::{Column, Host, Kernel, Kind, Problem, Scalar};
-use crate::visit::{Candidate, Sweep, gathered};
+use crate::kernel::{Column, Kind, Problem, Scalar, World};
+use crate::visit::{Candidate, Law, Outcome, Particle};
 
 /// How the density of a fluid follows it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -35,51 +33,36 @@ pub fn columns(rest: f64) -> Vec<Column> {
     ]
 }
 
-/// The kernel that finds how fast density changes, where particles are and as they move.
+/// The law that finds how fast density changes, where particles are and as they move.
 ///
 /// # Errors
-/// When the range is none, or a shader does not compile.
-pub fn rate(medium: &Medium, continuity: Continuity, problem: &Problem) -> Result<Kernel, Error> {
-    let (holding, tables) = problem.holding();
-    let files = medium.files(&[holding, crate::shader!("fluids/density_rate.wgsl")]);
+/// When the range is none.
+pub fn rate(medium: &Medium, continuity: Continuity, problem: &Problem) -> Result<Law, Error> {
     let candidate = Candidate {
         particle: crate::shader!("fluids/dense.wgsl"),
         broadcast: crate::shader!("fluids/flowing_broadcast.wgsl"),
     };
+    let search = medium.search(candidate, &[], problem)?;
     let diffusion = 2.0 * continuity.diffusion * 0.5 * medium.range() * medium.sound;
     let params = vec![("diffusion", Scalar::Float(diffusion)), ("weight", Scalar::Vector(continuity.weight))];
-    let (me, who) = (*medium, problem.clone());
-    let twin = move |host: &Host| {
-        let density = host.read(DENSITY)?;
-        let smoothing = 0.5 * me.range();
-        let rates = gathered(
-            host,
-            me.range(),
-            |body| !who.is_held(body.index),
-            |a, b, r, rate: &mut f64| {
-                *rate += b.mass * me.gradient(r) * r.dot(b.velocity - a.velocity);
-                if !who.is_held(b.index) {
-                    let (mine, yours) = (density[a.index], density[b.index]);
-                    let denser = 0.5 * (mine + yours) - me.density;
-                    let give = me.density - f64::from(me.exponent - 2) * denser;
-                    let excess = yours - mine - give * continuity.weight.dot(r) / (me.sound * me.sound);
-                    let near = r.length_squared() / (r.length_squared() + 0.01 * smoothing * smoothing);
-                    *rate -= diffusion * b.mass / yours * excess * me.gradient(r) * near;
-                }
-            },
-        )?;
-        let mut rate = host.write(DENSITY_RATE)?;
-        rate.iter_mut().zip(rates).for_each(|(rate, found)| *rate = found.unwrap_or(*rate));
-        Ok(())
+    let (medium, who, free) = (*medium, problem.clone(), problem.clone());
+    let gather = move |me: &Particle, you: &Particle, r: DVec3, _: &World, rate: &mut f64| {
+        *rate += you.mass * medium.gradient(r) * r.dot(you.velocity - me.velocity);
+        if !who.is_held(you.index) {
+            let [mine, yours] = [me, you].map(|one| one.scalar(DENSITY.name).unwrap_or(f64::NAN));
+            let denser = 0.5 * (mine + yours) - medium.density;
+            let give = medium.density - f64::from(medium.exponent - 2) * denser;
+            let excess = yours - mine - give * continuity.weight.dot(r) / (medium.sound * medium.sound);
+            let smoothing = 0.5 * medium.range();
+            let near = r.length_squared() / (r.length_squared() + 0.01 * smoothing * smoothing);
+            *rate -= diffusion * you.mass / yours * excess * medium.gradient(r) * near;
+        }
     };
-    let sweep = Sweep {
-        name: "fluid density rate".to_owned(),
-        grid: medium.grid(problem)?,
-        candidate,
-        files,
-        params,
-        constants: medium.constants(),
-        twin: Arc::new(twin),
+    let finish = move |me: &Particle, rate: &f64, _: &World, outcome: &mut Outcome| {
+        if !free.is_held(me.index) {
+            outcome.set(DENSITY_RATE.name, *rate);
+        }
     };
-    Ok(Kernel { tables, ..sweep.kernel(problem)? })
+    let wgsl = crate::shader!("fluids/density_rate.wgsl");
+    Ok(Law::searching("fluid density rate", search, wgsl, params, &[DENSITY_RATE.name], gather, finish))
 }

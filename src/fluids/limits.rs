@@ -4,12 +4,12 @@
 
 use std::sync::Arc;
 
-use glam::{DVec4, Vec4};
+use glam::{DVec3, DVec4, Vec4};
 
 use super::Medium;
 use crate::error::Error;
-use crate::kernel::{ACCELERATION, Field, Host, Kernel, Pass, Plan, Problem, Scalar, Shader, URGES, VELOCITY};
-use crate::visit::{Candidate, Sweep, block, gathered};
+use crate::kernel::{ACCELERATION, Field, Host, Kernel, Pass, Plan, Problem, Scalar, Shader, URGES, VELOCITY, World};
+use crate::visit::{Candidate, Law, Outcome, Particle};
 
 /// How far a particle may go in a step, in spacings, where no speed of sound limits it (Courant, Friedrichs & Lewy 1928; 0.4 as
 /// Bender & Koschier 2015 have it).
@@ -52,7 +52,7 @@ pub fn limits(medium: &Medium, limits: Limits, plan: &mut Plan, problem: &Proble
     let Some(pace) = problem.pace else { return Ok(()) };
     let (length, longest) = (0.5 * medium.range(), problem.dt / pace.courant);
     if limits.sound.is_some() {
-        plan.add(closing(medium, problem)?);
+        plan.add(closing(medium, problem)?.kernel(problem)?);
     }
     let shares = Shares {
         acceleration: longest / length.sqrt(),
@@ -64,37 +64,20 @@ pub fn limits(medium: &Medium, limits: Limits, plan: &mut Plan, problem: &Proble
     Ok(())
 }
 
-fn closing(medium: &Medium, problem: &Problem) -> Result<Kernel, Error> {
-    let (holding, tables) = problem.holding();
-    let files = medium.files(&[holding, crate::shader!("fluids/closing.wgsl")]);
-    let (me, who) = (*medium, problem.clone());
-    let twin = move |host: &Host| {
-        let length = 0.5 * me.range();
-        let found = gathered(
-            host,
-            me.range(),
-            |body| !who.is_held(body.index),
-            |a, b, r, most: &mut f64| {
-                let near = r.length_squared() + 0.01 * length * length;
-                *most = most.max((b.velocity - a.velocity).dot(r).abs() * length / near);
-            },
-        )?;
-        let mut closing = host.write(CLOSING)?;
-        for (closing, found) in closing.iter_mut().zip(found) {
-            *closing = found.unwrap_or(*closing);
+fn closing(medium: &Medium, problem: &Problem) -> Result<Law, Error> {
+    let search = medium.search(Candidate::STILL, &[], problem)?;
+    let (length, who) = (0.5 * medium.range(), problem.clone());
+    let gather = move |me: &Particle, you: &Particle, r: DVec3, _: &World, most: &mut f64| {
+        let near = r.length_squared() + 0.01 * length * length;
+        *most = most.max((you.velocity - me.velocity).dot(r).abs() * length / near);
+    };
+    let finish = move |me: &Particle, most: &f64, _: &World, outcome: &mut Outcome| {
+        if !who.is_held(me.index) {
+            outcome.set(CLOSING.name, *most);
         }
-        Ok(())
     };
-    let sweep = Sweep {
-        name: "fluid closing".to_owned(),
-        grid: medium.grid(problem)?,
-        candidate: Candidate::STILL,
-        files,
-        params: Vec::new(),
-        constants: medium.constants(),
-        twin: Arc::new(twin),
-    };
-    Ok(Kernel { tables, ..sweep.kernel(problem)? })
+    let wgsl = crate::shader!("fluids/closing.wgsl");
+    Ok(Law::searching("fluid closing", search, wgsl, Vec::new(), &[CLOSING.name], gather, finish))
 }
 
 fn urge(shares: &Shares, problem: &Problem) -> Result<Kernel, Error> {
@@ -107,7 +90,7 @@ fn urge(shares: &Shares, problem: &Problem) -> Result<Kernel, Error> {
         ("sound", Scalar::Float(shares.sound)),
         ("speed", Scalar::Float(shares.speed)),
     ];
-    let uniforms = block("the limits of a fluid", &shader, "params", &params)?;
+    let uniforms = shader.block("the limits of a fluid", "params", &params)?;
     let pass = Pass { uniforms, ..Pass::new(shader, problem.count) };
     let (shares, who) = (*shares, problem.clone());
     let twin = move |host: &Host| {

@@ -6,7 +6,7 @@ use super::Smoothing;
 use crate::error::Error;
 use crate::kernel::{Problem, Source};
 use crate::neighbors::Grid;
-use crate::visit::Candidate;
+use crate::visit::{Candidate, Search};
 
 /// A fluid: its density at rest, how compressible it is, and how its particles smooth it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -99,6 +99,16 @@ impl Medium {
     /// [`Error::Scene`] when the range is none.
     pub fn grid(&self, problem: &Problem) -> Result<Grid, Error> {
         Grid::apart(self.range(), problem)
+    }
+    /// A search of the fluid, of particles that are not fixed, with these fields in the order of its grid.
+    pub(super) fn search(
+        &self,
+        candidate: Candidate,
+        sorted: &[&'static str],
+        problem: &Problem,
+    ) -> Result<Search, Error> {
+        let (grid, files, constants) = (self.grid(problem)?, self.files(&[]), self.constants());
+        Ok(Search { grid, candidate, sorted: sorted.to_vec(), files, constants, fixed: false })
     }
     /// What a search of the fluid is made of, with such files of its own.
     pub(super) fn files(&self, own: &[Source]) -> Vec<Source> {

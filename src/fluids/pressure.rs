@@ -1,15 +1,12 @@
 //! What pressure and friction do.
 
-use std::sync::Arc;
-
-use glam::{DVec3, Vec4};
+use glam::DVec3;
 
 use super::medium::FLOWING;
 use super::{FLOW, Medium};
 use crate::error::Error;
-use crate::kernel::{ACCELERATION, Host, Kernel, Problem, Scalar};
-use crate::neighbors::Grid;
-use crate::visit::{Particle, Sweep, gathered};
+use crate::kernel::{ACCELERATION, Problem, Scalar, World};
+use crate::visit::{Law, Outcome, Particle};
 
 /// How a fluid rubs.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,58 +31,37 @@ pub enum Walls {
     },
 }
 
-/// The kernel that adds accelerations, and the internal energy as the potential.
+/// The law of accelerations, with the internal energy as the potential.
 ///
 /// # Errors
-/// When the range is none, or a shader does not compile.
-pub fn pressure(medium: &Medium, friction: Friction, walls: Walls, problem: &Problem) -> Result<Kernel, Error> {
-    let grid = medium.grid(problem)?;
-    let files = medium.files(&[crate::shader!("fluids/pressure.wgsl")]);
+/// When the range is none.
+pub fn pressure(medium: &Medium, friction: Friction, walls: Walls, problem: &Problem) -> Result<Law, Error> {
+    let search = medium.search(FLOWING, &[FLOW], problem)?;
     let params = vec![
         ("alpha", Scalar::Float(friction.alpha)),
         ("viscosity", Scalar::Float(friction.viscosity)),
         ("wall", Scalar::Float(friction.wall)),
         ("mirror", Scalar::Uint(u32::from(walls == Walls::Mirror))),
     ];
-    let (me, slots) = (*medium, grid.clone());
-    let twin = move |host: &Host| {
-        let states = states(host, &slots)?;
-        let flows = |body: &Particle| states[body.index].x > 0.0;
-        let felt = gathered(host, me.range(), flows, |a, b, r, sum: &mut DVec3| {
-            *sum += push(&me, friction, walls, [a, b], [states[a.index], states[b.index]], r);
-        })?;
-        let mut acceleration = host.write(ACCELERATION)?;
-        for (i, felt) in felt.into_iter().enumerate() {
-            if let Some(felt) = felt {
-                acceleration[i] += felt.extend(states[i].z);
-            }
-        }
-        Ok(())
+    let medium = *medium;
+    let gather = move |me: &Particle, you: &Particle, r, _: &World, sum: &mut DVec3| {
+        *sum += push(&medium, friction, walls, [me, you], [flow(me), flow(you)], r);
     };
-    let (name, constants) = ("fluid pressure".to_owned(), medium.constants());
-    let sweep = Sweep { name, candidate: FLOWING, files, params, constants, twin: Arc::new(twin), grid };
-    flowing(sweep, &[], problem)
+    let finish = |me: &Particle, sum: &DVec3, _: &World, outcome: &mut Outcome| {
+        if flow(me).x > 0.0 {
+            // Twice of what is all its own: of each pair's energy a visit leaves half.
+            outcome.accelerate(sum.extend(2.0 * flow(me).z));
+        }
+    };
+    let wgsl = crate::shader!("fluids/pressure.wgsl");
+    let law = Law::searching("fluid pressure", search, wgsl, params, &[ACCELERATION.name], gather, finish);
+    // Walls are not pushed, and laminar friction does not act along the line between two.
+    Ok(Law { reciprocal: problem.held.is_empty() && friction.viscosity <= 0.0, ..law })
 }
 
-/// The kernel of a search that asks for what flows, and for more that is in the order of the grid.
-pub(super) fn flowing(sweep: Sweep, more: &[&'static str], problem: &Problem) -> Result<Kernel, Error> {
-    let fields = [&[FLOW], more].concat().into_iter().map(|name| sweep.grid.field(name)).collect::<Vec<_>>();
-    let mut kernel = sweep.kernel(problem)?;
-    kernel.passes.iter_mut().for_each(|pass| pass.fields.extend_from_slice(&fields));
-    Ok(kernel)
-}
-
-/// What flows, by id: density, p / ρ² and energy.
-pub(super) fn states(host: &Host, grid: &Grid) -> Result<Vec<DVec3>, Error> {
-    by_id(host, grid, FLOW)
-}
-
-/// What is in the order of the grid, by id; 0 of who is not in it, such as those who do not live.
-pub(super) fn by_id(host: &Host, grid: &Grid, field: &'static str) -> Result<Vec<DVec3>, Error> {
-    let (ids, slots) = (grid.occupants(host)?, host.reading::<Vec4>(&grid.field(field).1)?);
-    let mut all = vec![DVec3::ZERO; host.world().count as usize];
-    ids.iter().zip(slots.iter()).for_each(|(id, slot)| all[*id as usize] = slot.truncate());
-    Ok(all)
+/// What flows of a particle: density, p / ρ² and energy; 0 of walls.
+pub(super) fn flow(of: &Particle) -> DVec3 {
+    of.vector(FLOW).unwrap_or_default().truncate()
 }
 
 /// What one does to another, with r from the latter to the former; states are density, p / ρ² and energy.

@@ -1,16 +1,15 @@
 //! Surface tension: cohesion, curvature, and adhesion to walls (Akinci, Akinci & Teschner 2013).
 
 use std::f64::consts::PI;
-use std::sync::Arc;
 
-use glam::{DVec3, Vec4};
+use glam::DVec3;
 
 use super::medium::FLOWING;
-use super::pressure::{by_id, flowing, states};
-use super::{Medium, NORMAL};
+use super::pressure::flow;
+use super::{FLOW, Medium, NORMAL};
 use crate::error::Error;
-use crate::kernel::{ACCELERATION, Host, Kernel, Problem, Scalar};
-use crate::visit::{Candidate, Particle, Sweep, gathered};
+use crate::kernel::{ACCELERATION, Problem, Scalar, World};
+use crate::visit::{Candidate, Law, Outcome, Particle};
 
 /// How a surface pulls.
 ///
@@ -28,46 +27,38 @@ pub struct Tension {
     pub adhesion: f64,
 }
 
-/// The kernels that add what it does; it holds no potential energy, for curvature has none.
+/// The laws that add what it does; it holds no potential energy, for curvature has none.
 ///
 /// # Errors
-/// When the range is none, or a shader does not compile.
-pub fn tension(medium: &Medium, tension: Tension, problem: &Problem) -> Result<[Kernel; 2], Error> {
+/// When the range is none.
+pub fn tension(medium: &Medium, tension: Tension, problem: &Problem) -> Result<[Law; 2], Error> {
     Ok([normals(medium, problem)?, pull(medium, tension, problem)?])
 }
 
-fn normals(medium: &Medium, problem: &Problem) -> Result<Kernel, Error> {
-    let grid = medium.grid(problem)?;
-    let files = medium.files(&[crate::shader!("fluids/normal.wgsl")]);
-    let (me, slots) = (*medium, grid.clone());
-    let twin = move |host: &Host| {
-        let states = states(host, &slots)?;
-        let flows = |body: &Particle| states[body.index].x > 0.0;
-        let normals = gathered(host, me.range(), flows, |_, you, r, sum: &mut DVec3| {
-            if flows(you) {
-                *sum -= you.mass / states[you.index].x * me.gradient(r) * me.range() * r;
-            }
-        })?;
-        let mut normal = host.writing::<Vec4>(&slots.field(NORMAL).1)?;
-        for (normal, id) in normal.iter_mut().zip(slots.occupants(host)?) {
-            if let Some(sum) = normals[id as usize] {
-                *normal = sum.extend(0.0);
-            }
+fn normals(medium: &Medium, problem: &Problem) -> Result<Law, Error> {
+    let search = medium.search(FLOWING, &[FLOW, NORMAL], problem)?;
+    let medium = *medium;
+    let gather = move |_: &Particle, you: &Particle, r, _: &World, sum: &mut DVec3| {
+        let density = flow(you).x;
+        if density > 0.0 {
+            *sum -= you.mass / density * medium.gradient(r) * medium.range() * r;
         }
-        Ok(())
     };
-    let (name, params, constants) = ("fluid normals".to_owned(), Vec::new(), medium.constants());
-    let sweep = Sweep { name, candidate: FLOWING, files, params, constants, twin: Arc::new(twin), grid };
-    flowing(sweep, &[NORMAL], problem)
+    let finish = |me: &Particle, sum: &DVec3, _: &World, outcome: &mut Outcome| {
+        if flow(me).x > 0.0 {
+            outcome.set(NORMAL, *sum);
+        }
+    };
+    let wgsl = crate::shader!("fluids/normal.wgsl");
+    Ok(Law::searching("fluid normals", search, wgsl, Vec::new(), &[NORMAL], gather, finish))
 }
 
-fn pull(medium: &Medium, tension: Tension, problem: &Problem) -> Result<Kernel, Error> {
-    let grid = medium.grid(problem)?;
+fn pull(medium: &Medium, tension: Tension, problem: &Problem) -> Result<Law, Error> {
     let candidate = Candidate {
         particle: crate::shader!("fluids/bent.wgsl"),
         broadcast: crate::shader!("fluids/bent_broadcast.wgsl"),
     };
-    let files = medium.files(&[crate::shader!("fluids/tension.wgsl")]);
+    let search = medium.search(candidate, &[FLOW, NORMAL], problem)?;
     let volume = medium.range().powi(if medium.dimensions == 2 { 2 } else { 3 });
     let [cohesion, curvature, adhesion] =
         [32.0 / PI * tension.tension / volume, tension.tension, 0.007 * tension.adhesion / volume];
@@ -76,27 +67,25 @@ fn pull(medium: &Medium, tension: Tension, problem: &Problem) -> Result<Kernel, 
         ("curvature", Scalar::Float(curvature)),
         ("adhesion", Scalar::Float(adhesion)),
     ];
-    let (me, slots) = (*medium, grid.clone());
-    let twin = move |host: &Host| {
-        let (states, normals) = (states(host, &slots)?, by_id(host, &slots, NORMAL)?);
-        let flows = |body: &Particle| states[body.index].x > 0.0;
-        let felt = gathered(host, me.range(), flows, |a, b, r, sum: &mut DVec3| {
-            let (q, way) = (r.length() / me.range(), r.try_normalize().unwrap_or_default());
-            if flows(b) {
-                let share = 2.0 * me.density / (states[a.index].x + states[b.index].x);
-                let bend = normals[a.index] - normals[b.index];
-                *sum += share * (cohesion * b.mass * hump(q) * way - curvature * bend);
-            } else {
-                *sum += adhesion * b.mass * (6.0 * q - 4.0 * q * q - 2.0).max(0.0).powf(0.25) * way;
-            }
-        })?;
-        let mut acceleration = host.write(ACCELERATION)?;
-        felt.iter().zip(acceleration.iter_mut()).for_each(|(felt, a)| *a += felt.unwrap_or_default().extend(0.0));
-        Ok(())
+    let medium = *medium;
+    let gather = move |me: &Particle, you: &Particle, r: DVec3, _: &World, sum: &mut DVec3| {
+        let (q, way) = (r.length() / medium.range(), r.try_normalize().unwrap_or_default());
+        let [mine, yours] = [me, you].map(|one| flow(one).x);
+        if yours > 0.0 {
+            let share = 2.0 * medium.density / (mine + yours);
+            let [normal, other] = [me, you].map(|one| one.vector(NORMAL).unwrap_or_default().truncate());
+            *sum += share * (cohesion * you.mass * hump(q) * way - curvature * (normal - other));
+        } else {
+            *sum += adhesion * you.mass * (6.0 * q - 4.0 * q * q - 2.0).max(0.0).powf(0.25) * way;
+        }
     };
-    let (name, constants) = ("fluid tension".to_owned(), medium.constants());
-    let sweep = Sweep { name, candidate, files, params, constants, twin: Arc::new(twin), grid };
-    flowing(sweep, &[NORMAL], problem)
+    let finish = |me: &Particle, sum: &DVec3, _: &World, outcome: &mut Outcome| {
+        if flow(me).x > 0.0 {
+            outcome.accelerate(sum.extend(0.0));
+        }
+    };
+    let wgsl = crate::shader!("fluids/tension.wgsl");
+    Ok(Law::searching("fluid tension", search, wgsl, params, &[ACCELERATION.name], gather, finish))
 }
 
 /// π h^D C / 32, of q = r / h.

@@ -5,11 +5,11 @@ use std::sync::Arc;
 use glam::{DVec3, Vec4};
 
 use super::medium::FLOWING;
-use super::pressure::states;
+use super::pressure::flow;
 use super::{FLOW, Medium};
 use crate::error::Error;
-use crate::kernel::{Host, Kernel, Pass, Problem, Scalar, Shader};
-use crate::visit::{Sweep, gathered};
+use crate::kernel::{Host, Kernel, Pass, Problem, Scalar, Shader, World};
+use crate::visit::{Law, Outcome, Particle, Search};
 
 /// The pressure that walls find, over ρ₀², in the order of the grid.
 const WALL_PRESSURE: &str = "wall_pressure";
@@ -21,39 +21,25 @@ const WALL_PRESSURE: &str = "wall_pressure";
 /// # Errors
 /// When the range is none, or a shader does not compile.
 pub fn wall_pressure(medium: &Medium, weight: DVec3, problem: &Problem) -> Result<[Kernel; 2], Error> {
-    let grid = medium.grid(problem)?;
-    let files = medium.files(&[crate::shader!("fluids/wall_pressure.wgsl")]);
-    let (me, slots, who) = (*medium, grid.clone(), problem.clone());
-    let twin = move |host: &Host| {
-        let states = states(host, &slots)?;
-        let found = gathered(
-            host,
-            me.range(),
-            |body| who.is_held(body.index),
-            |_, b, r, sum: &mut [f64; 2]| {
-                let state = states[b.index];
-                if state.x > 0.0 {
-                    sum[0] += (state.y * state.x - weight.dot(r)) * state.x * me.kernel(r);
-                    sum[1] += me.kernel(r);
-                }
-            },
-        )?;
-        let ids = slots.occupants(host)?;
-        let mut pressure = host.writing::<f32>(&slots.field(WALL_PRESSURE).1)?;
-        for (pressure, id) in pressure.iter_mut().zip(ids.iter()) {
-            if let Some([sum, number]) = found[*id as usize] {
-                let p = if number > 0.0 { sum / number } else { 0.0 };
-                *pressure = if me.negative { p } else { p.max(0.0) } / (me.density * me.density);
-            }
+    let search = Search { fixed: true, ..medium.search(FLOWING, &[FLOW, WALL_PRESSURE], problem)? };
+    let (medium, who, grid) = (*medium, problem.clone(), search.grid.clone());
+    let gather = move |_: &Particle, you: &Particle, r: DVec3, _: &World, sum: &mut [f64; 2]| {
+        let state = flow(you);
+        if state.x > 0.0 {
+            sum[0] += (state.y * state.x - weight.dot(r)) * state.x * medium.kernel(r);
+            sum[1] += medium.kernel(r);
         }
-        Ok(())
     };
-    let (params, constants) = (vec![("weight", Scalar::Vector(weight))], medium.constants());
-    let name = "fluid wall pressure".to_owned();
-    let sweep = Sweep { name, candidate: FLOWING, files, params, constants, twin: Arc::new(twin), grid: grid.clone() };
-    let mut find = sweep.kernel_of_all(problem)?;
+    let finish = move |me: &Particle, [sum, number]: &[f64; 2], _: &World, outcome: &mut Outcome| {
+        if who.is_held(me.index) {
+            let p = if *number > 0.0 { sum / number } else { 0.0 };
+            let p = if medium.negative { p } else { p.max(0.0) };
+            outcome.set(WALL_PRESSURE, p / (medium.density * medium.density));
+        }
+    };
+    let (wgsl, params) = (crate::shader!("fluids/wall_pressure.wgsl"), vec![("weight", Scalar::Vector(weight))]);
+    let find = Law::searching("fluid wall pressure", search, wgsl, params, &[WALL_PRESSURE], gather, finish);
     let fields = [WALL_PRESSURE, FLOW].map(|name| grid.field(name));
-    find.passes.iter_mut().for_each(|pass| pass.fields.extend_from_slice(&fields));
     let shader = Shader::join(&[
         crate::shader!("world.wgsl"),
         crate::shader!("fields.wgsl"),
@@ -74,5 +60,5 @@ pub fn wall_pressure(medium: &Medium, weight: DVec3, problem: &Problem) -> Resul
         scratch: Vec::new(),
         tables: Vec::new(),
     };
-    Ok([find, write])
+    Ok([find.kernel(problem)?, write])
 }

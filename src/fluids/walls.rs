@@ -1,13 +1,11 @@
 //! How heavy the particles of walls are.
 
-use std::sync::Arc;
-
 use glam::DVec3;
 
 use super::Medium;
 use crate::error::Error;
-use crate::kernel::{Host, Kernel, POSITION, Problem, Scalar};
-use crate::visit::{Candidate, Sweep, gathered};
+use crate::kernel::{Kernel, POSITION, Problem, Scalar, World};
+use crate::visit::{Candidate, Law, Outcome, Particle, Search};
 
 /// What the particles of walls weigh.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -18,46 +16,31 @@ pub enum WallMass {
     Lattice,
 }
 
-/// The kernel that gives whoever is held its mass.
+/// The positions, whose fourth numbers are masses, in a shader that reads them elsewhere.
+const WEIGHED: &str = "weighed";
+
+/// The kernel that gives fixed particles their masses.
 ///
 /// # Errors
 /// When the range is none, or a shader does not compile.
 pub fn walls(medium: &Medium, weighs: WallMass, problem: &Problem) -> Result<Kernel, Error> {
-    let (holding, tables) = problem.holding();
-    let files = medium.files(&[holding, crate::shader!("fluids/walls.wgsl")]);
-    let (me, who) = (*medium, problem.clone());
-    let twin = move |host: &Host| {
-        let range = me.range();
-        let held = |i: usize| who.is_held(i);
-        let numbers = gathered(
-            host,
-            range,
-            |body| held(body.index),
-            |_, you, r, sum: &mut f64| {
-                *sum += if held(you.index) { me.kernel(r) } else { 0.0 };
-            },
-        )?;
-        let mut position = host.write(POSITION)?;
-        for (i, sum) in numbers.into_iter().enumerate() {
-            if let Some(sum) = sum {
-                let sampled = me.density / (sum + me.kernel(DVec3::ZERO));
-                position[i].w = if weighs == WallMass::Sampled { sampled } else { me.mass() };
-            }
-        }
-        Ok(())
-    };
+    let search = Search { fixed: true, ..medium.search(Candidate::STILL, &[], problem)? };
     // 0 where the sum says it.
     let mass = if weighs == WallMass::Sampled { 0.0 } else { medium.mass() };
-    let sweep = Sweep {
-        name: "fluid walls".to_owned(),
-        grid: medium.grid(problem)?,
-        candidate: Candidate::STILL,
-        files,
-        params: vec![("mass", Scalar::Float(mass))],
-        constants: medium.constants(),
-        twin: Arc::new(twin),
+    let (medium, walls, held) = (*medium, problem.clone(), problem.clone());
+    let gather = move |_: &Particle, you: &Particle, r, _: &World, sum: &mut f64| {
+        *sum += if walls.is_held(you.index) { medium.kernel(r) } else { 0.0 };
     };
-    let mut kernel = sweep.kernel_of_all(problem)?;
-    kernel.passes.iter_mut().for_each(|pass| pass.fields.push(("weighed", POSITION.name.into())));
-    Ok(Kernel { tables, ..kernel })
+    let finish = move |me: &Particle, sum: &f64, _: &World, outcome: &mut Outcome| {
+        let sampled = medium.density / (sum + medium.kernel(DVec3::ZERO));
+        if held.is_held(me.index) {
+            let mass = if weighs == WallMass::Sampled { sampled } else { medium.mass() };
+            outcome.set(POSITION.name, me.position.extend(mass));
+        }
+    };
+    let (wgsl, params) = (crate::shader!("fluids/walls.wgsl"), vec![("mass", Scalar::Float(mass))]);
+    let law = Law::searching("fluid walls", search, wgsl, params, &[WEIGHED], gather, finish);
+    let mut kernel = law.kernel(problem)?;
+    kernel.passes.iter_mut().for_each(|pass| pass.fields.push((WEIGHED, POSITION.name.into())));
+    Ok(kernel)
 }

@@ -1,55 +1,32 @@
 //! XSPH: velocities drawn towards those around.
 
-use std::sync::Arc;
-
 use glam::DVec3;
 
-use super::Medium;
 use super::medium::FLOWING;
-use super::pressure::{flowing, states};
+use super::pressure::flow;
+use super::{FLOW, Medium};
 use crate::error::Error;
-use crate::kernel::{ACCELERATION, Host, Kernel, Problem, Scalar};
-use crate::visit::{Sweep, gathered};
+use crate::kernel::{ACCELERATION, Problem, Scalar, World};
+use crate::visit::{Law, Outcome, Particle};
 
-/// The kernel that adds  ε / dt Σ m / ρ̄ (v' − v) W  to accelerations (Monaghan 1989; Schechter & Bridson 2012).
+/// The law that adds  ε / dt Σ m / ρ̄ (v' − v) W  to accelerations (Monaghan 1989; Schechter & Bridson 2012).
 ///
 /// # Errors
-/// When the range is none, or a shader does not compile.
-pub fn xsph(medium: &Medium, strength: f64, problem: &Problem) -> Result<Kernel, Error> {
-    let grid = medium.grid(problem)?;
-    let files = medium.files(&[crate::shader!("fluids/xsph.wgsl")]);
-    let (me, slots) = (*medium, grid.clone());
-    let twin = move |host: &Host| {
-        let states = states(host, &slots)?;
-        let flows = |id: usize| states[id].x > 0.0;
-        let drawn = gathered(
-            host,
-            me.range(),
-            |body| flows(body.index),
-            |a, b, r, sum: &mut DVec3| {
-                if flows(b.index) {
-                    let density = 0.5 * (states[a.index].x + states[b.index].x);
-                    *sum += b.mass / density * me.kernel(r) * (b.velocity - a.velocity);
-                }
-            },
-        )?;
-        let mut acceleration = host.write(ACCELERATION)?;
-        let rate = strength / host.world().dt;
-        acceleration.iter_mut().zip(drawn).for_each(|(a, drawn)| *a += (rate * drawn.unwrap_or_default()).extend(0.0));
-        Ok(())
+/// When the range is none.
+pub fn xsph(medium: &Medium, strength: f64, problem: &Problem) -> Result<Law, Error> {
+    let search = medium.search(FLOWING, &[FLOW], problem)?;
+    let (medium, params) = (*medium, vec![("xsph", Scalar::Float(strength))]);
+    let gather = move |me: &Particle, you: &Particle, r, _: &World, sum: &mut DVec3| {
+        let [mine, yours] = [me, you].map(|one| flow(one).x);
+        if yours > 0.0 {
+            *sum += you.mass / (0.5 * (mine + yours)) * medium.kernel(r) * (you.velocity - me.velocity);
+        }
     };
-    let (params, constants) = (vec![("xsph", Scalar::Float(strength))], medium.constants());
-    flowing(
-        Sweep {
-            name: "fluid xsph".to_owned(),
-            candidate: FLOWING,
-            files,
-            params,
-            constants,
-            twin: Arc::new(twin),
-            grid,
-        },
-        &[],
-        problem,
-    )
+    let finish = move |me: &Particle, sum: &DVec3, world: &World, outcome: &mut Outcome| {
+        if flow(me).x > 0.0 {
+            outcome.accelerate((strength / world.dt * *sum).extend(0.0));
+        }
+    };
+    let wgsl = crate::shader!("fluids/xsph.wgsl");
+    Ok(Law::searching("fluid xsph", search, wgsl, params, &[ACCELERATION.name], gather, finish))
 }

@@ -50,6 +50,7 @@ impl Component for Custom {
             jacobian: None,
             distant: Distant::default(),
             tied: None,
+            search: None,
         }]
     }
 }

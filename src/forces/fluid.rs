@@ -225,7 +225,7 @@ impl Fluid {
         // Where pressure is solved for, sound and with it the pressure of a state are none: friction and tension are left.
         if !solves || friction.viscosity > 0.0 || xsph > 0.0 || tension.is_some() {
             if self.continuity()?.is_none() {
-                plan.add(fluids::density(&medium, problem)?);
+                plan.add(fluids::density(&medium, problem)?.kernel(problem)?);
             }
             plan.add(fluids::state(&medium, problem)?);
         }
@@ -235,13 +235,15 @@ impl Fluid {
             fluids::wall_pressure(&medium, weight, problem)?.into_iter().for_each(|kernel| plan.add(kernel));
         }
         if !solves || friction.viscosity > 0.0 {
-            plan.add(fluids::pressure(&medium, friction, self.walls(), problem)?);
+            plan.add(fluids::pressure(&medium, friction, self.walls(), problem)?.kernel(problem)?);
         }
         if xsph > 0.0 {
-            plan.add(fluids::xsph(&medium, xsph, problem)?);
+            plan.add(fluids::xsph(&medium, xsph, problem)?.kernel(problem)?);
         }
         if let Some(tension) = tension {
-            fluids::tension(&medium, tension, problem)?.into_iter().for_each(|kernel| plan.add(kernel));
+            for law in fluids::tension(&medium, tension, problem)? {
+                plan.add(law.kernel(problem)?);
+            }
         }
         if solves {
             self.dfsph(medium, problem)?.evaluate(plan)?;
@@ -251,7 +253,7 @@ impl Fluid {
     /// The rate of a density that is carried along with positions.
     fn carry(&self, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
         if let Some(continuity) = self.continuity()? {
-            plan.add(fluids::rate(&self.medium(problem)?, continuity, problem)?);
+            plan.add(fluids::rate(&self.medium(problem)?, continuity, problem)?.kernel(problem)?);
         }
         Ok(())
     }

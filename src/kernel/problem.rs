@@ -135,6 +135,15 @@ impl Problem {
         }
         (crate::shader!("motion/held.wgsl"), vec![("held".into(), self.mask.clone())])
     }
+    /// Joins that file with files of which one calls the function, and gives the table.
+    pub(crate) fn hold(&self, files: &mut Vec<Source>) -> Vec<Table> {
+        if !files.iter().any(|file| file.says(&["is_held", "("])) {
+            return Vec::new();
+        }
+        let (file, table) = self.holding();
+        files.push(file);
+        table
+    }
     /// Whether a particle is held.
     #[must_use]
     pub fn is_held(&self, id: usize) -> bool {

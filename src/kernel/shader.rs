@@ -7,7 +7,7 @@ use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 
 use super::reflect::Reflection;
 use super::unused_word::{with_unused_word, written};
-use super::{message, own};
+use super::{Binding, Scalar, message, own};
 use crate::error::Error;
 
 /// One file of WGSL.
@@ -153,6 +153,19 @@ impl Shader {
     #[must_use]
     pub fn reflection(&self) -> &Reflection {
         &self.reflection
+    }
+    /// The contents of a uniform block, where the shader has it.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] when the block has other members.
+    pub fn block(
+        &self,
+        whose: &str,
+        name: &'static str,
+        values: &[(&'static str, Scalar)],
+    ) -> Result<Vec<(&'static str, Vec<u8>)>, Error> {
+        let bytes = |binding: &Binding| Ok((name, binding.packed.pack(whose, values)?));
+        self.reflection.binding(name).map(bytes).into_iter().collect()
     }
     /// Whether all of it comes with this crate.
     #[must_use]

@@ -6,7 +6,8 @@ use glam::{DVec3, DVec4};
 
 use super::twin::{ByTables, Sample};
 use super::{
-    Group, Jacobian, Outcome, Over, PAIR_TABLE, PairTable, Particle, Tables, each, links, near, pairs, tree, twin, walk,
+    Group, Jacobian, Outcome, Over, PAIR_TABLE, PairTable, Particle, Search, Tables, each, links, near, pairs, tree,
+    twin, walk,
 };
 use crate::error::Error;
 use crate::kernel::{
@@ -46,6 +47,8 @@ pub struct Law {
     pub distant: Distant,
     /// Over `links`: its reference by the tables that a problem has.
     pub tied: Option<ByTables>,
+    /// Over `near`: its search, where it says more of that than a range.
+    pub search: Option<Search>,
 }
 
 /// What a law makes of a far group.
@@ -88,6 +91,7 @@ impl Law {
             jacobian: None,
             distant: Distant::default(),
             tied: None,
+            search: None,
         }
     }
     /// A law of each particle alone; `rule(me, world)` gives acceleration and potential per unit mass.
@@ -302,6 +306,10 @@ impl Law {
     }
     /// The functions of a law over any visit but `each`.
     pub(super) fn requires_meetings(&self) -> Result<(), Error> {
+        // Those of a method say it in several files.
+        if self.search.is_some() {
+            return Ok(());
+        }
         self.requires(&[
             ("gather", "fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>)"),
             self.finish(),
@@ -355,14 +363,16 @@ impl Law {
         let mut sizes = Vec::new();
         for name in &self.into {
             let known = problem.columns.get(name);
-            if known.is_none() {
+            if known.is_none() && self.search.is_none() {
                 return Err(Error::Scene(format!(
                     "`{}` writes `{name}`, which is no column of this simulation: declare it (in a scene: [[column]] name = \"{name}\")",
                     self.name
                 )));
             }
             // Of no particles there is nothing to write.
-            if !kernel.passes.is_empty() && !kernel.writes().iter().any(|written| written == name) {
+            let sorted = self.search.as_ref().and_then(|search| search.field(name));
+            let field = sorted.as_ref().unwrap_or(name);
+            if !kernel.passes.is_empty() && !kernel.writes().iter().any(|written| written == field) {
                 return Err(Error::Scene(format!(
                     "`{}` is to write the column `{name}`, but {file} binds no `var<storage, read_write> {name}` that it uses",
                     self.name
@@ -371,6 +381,11 @@ impl Law {
         }
         for (name, binding) in kernel.bindings() {
             let Some(column) = problem.columns.get(name).filter(|column| !column.is_packed()) else { continue };
+            // A struct of a method's may hold all numbers of a particle.
+            let struct_of = |k: u32| self.search.is_some() && k > 1 && binding.stride == 4 * u64::from(k);
+            if matches!(column.shape, crate::kernel::Shape::Slots(k) if struct_of(k)) {
+                continue;
+            }
             let shared = problem.columns.of_buffer(name).count() > 1;
             let right = match column.kind {
                 crate::kernel::Kind::Whole => !binding.float && binding.stride == 4,
@@ -419,12 +434,12 @@ impl Law {
     }
     /// Whether it leaves particles out of a search; without `acts_on` of its own it acts on all.
     pub(super) fn choice(&self) -> Option<Source> {
-        (!self.wgsl.says(&["fn", "acts_on", "("])).then_some(crate::shader!("visit/everybody.wgsl"))
+        (!self.says(&["fn", "acts_on", "("])).then_some(crate::shader!("visit/everybody.wgsl"))
     }
     /// What the law leaves to the usual: a sum of accelerations; and what it calls for.
     pub(super) fn files(&self) -> Vec<Source> {
         let mut files = vec![self.turns()];
-        if self.over != Over::Each && !self.wgsl.says(&["struct", "Sum", "{"]) {
+        if self.over != Over::Each && !self.says(&["struct", "Sum", "{"]) {
             files.push(crate::shader!("visit/sum.wgsl"));
         }
         for (function, file) in ON_CALL {

@@ -13,6 +13,9 @@ pub const MOST_NEAREST: u32 = 16;
 
 /// The grid that a law searches, and whether it asks there for velocities.
 pub fn grid(law: &Law, problem: &Problem) -> Result<Option<(Grid, bool)>, Error> {
+    if let Some(search) = &law.search {
+        return Ok(Some((search.grid.clone(), true)));
+    }
     match law.over {
         Over::Near { range, of } => Ok(Some((Grid::new(range, of, problem)?, law.wgsl.says(&["velocity_of", "("])))),
         Over::Nearest { count } => {
@@ -83,22 +86,34 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
     let mut sources = ground();
     sources.push(grid.present(problem));
     sources.push(crate::shader!("visit/near_conclude.wgsl"));
+    let usual = if moving { Candidate::MOVING } else { Candidate::STILL };
+    let candidate = law.search.as_ref().map_or(usual, |search| search.candidate.clone());
     sources.extend(match law.over {
         Over::Nearest { .. } => vec![crate::shader!("particle.wgsl"), crate::shader!("visit/nearest.wgsl")],
-        _ => search(&grid, &problem.machine, if moving { Candidate::MOVING } else { Candidate::STILL }),
+        _ => search(&grid, &problem.machine, candidate),
     });
+    sources.extend(law.search.iter().flat_map(|search| search.files.clone()));
     sources.push(law.result());
     sources.extend(law.choice());
     sources.extend(law.files());
+    // A user's law may have such a function of its own.
+    let tables = if law.search.is_some() { problem.hold(&mut sources) } else { Vec::new() };
     let shader = Shader::join(&sources)?;
     let (params, mut constants) = (law.uniforms(&shader)?, problem.constants(&shader));
     constants.extend(law.mark());
     if let Over::Nearest { count } = law.over {
         constants.push(("COUNT", f64::from(count)));
     }
-    let passes = passes(&grid, &Pass { constants, uniforms: params, ..Pass::new(shader, 0) }, problem.count, problem)?;
+    let mut targets = problem.count;
+    if let Some(search) = &law.search {
+        targets = search.targets(problem);
+        constants.extend(shader.reflection().known(&search.constants));
+    }
+    let passes = passes(&grid, &Pass { constants, uniforms: params, ..Pass::new(shader, 0) }, targets, problem)?;
     let (twin, sizes) = (law.twin, sizes(&grid));
-    Ok(Kernel { name: law.name, passes, twin, sizes, scratch: Vec::new(), tables: Vec::new() })
+    let mut kernel = Kernel { name: law.name, passes, twin, sizes, scratch: Vec::new(), tables };
+    law.search.iter().for_each(|search| search.bind(&mut kernel));
+    Ok(kernel)
 }
 
 /// The dispatches of a search, each of some of the targets, which are the first so many.

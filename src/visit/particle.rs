@@ -41,6 +41,10 @@ impl<'a> View<'a> {
         let count = host.read(POSITION)?.len().min(host.world().count as usize);
         Ok(Self { arrays, count })
     }
+    /// Arrays by particle that the host has in another order.
+    pub(super) fn extend(&mut self, arrays: Vec<(&'static str, Array)>) {
+        self.arrays.extend(arrays.into_iter().map(|(name, array)| (name, Arc::new(array))));
+    }
     fn slice<T: Element>(&self, name: &str) -> &[T::Twin] {
         self.arrays.get(name).and_then(|array| T::view(array)).map_or(&[], Vec::as_slice)
     }
@@ -85,6 +89,18 @@ impl Particle<'_> {
     #[must_use]
     pub fn vector(&self, column: &str) -> Option<DVec4> {
         self.view.slice::<Vec4>(column).get(self.index).copied()
+    }
+    /// Its numbers of a field of structs of them; nothing where the host has none.
+    #[must_use]
+    pub fn numbers(&self, field: &str) -> &[f64] {
+        let all = self.all(field);
+        let width = all.len() / self.view.count.max(1);
+        all.get(width * self.index..width * (self.index + 1)).unwrap_or_default()
+    }
+    /// All numbers of a field, whoever they are of; nothing where the host has none.
+    #[must_use]
+    pub fn all(&self, field: &str) -> &[f64] {
+        self.view.slice::<f32>(field)
     }
     /// Its value of a column of whole numbers.
     #[must_use]

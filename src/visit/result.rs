@@ -2,6 +2,7 @@
 
 use glam::DVec4;
 
+use super::Search;
 use crate::error::Error;
 use crate::kernel::{ACCELERATION, Array, Host, Name};
 
@@ -71,14 +72,17 @@ impl Outcome {
     }
 }
 
-/// Writes outcomes down, by index. Of a potential energy each particle gets its share.
+/// Writes outcomes down, by index. Of a potential energy each particle gets its share. What lies in the order of a search's grid is
+/// written where a particle stands there.
 pub(super) fn write(
     host: &Host,
     share: f64,
+    search: Option<&Search>,
     outcomes: impl IntoIterator<Item = (usize, Outcome)>,
 ) -> Result<(), Error> {
     // Each column is opened once, when it is first named.
     let mut columns: Vec<(Name, Array)> = Vec::new();
+    let slots = search.map_or(Ok(Vec::new()), |search| search.slots(host))?;
     let mut acceleration = None;
     for (index, outcome) in outcomes {
         if let Some(a) = outcome.acceleration {
@@ -90,6 +94,10 @@ pub(super) fn write(
             }
         }
         for (name, change) in outcome.changes {
+            let sorted = search.and_then(|search| search.field(&name));
+            // What is not in the grid has no place there.
+            let slot = if sorted.is_some() { slots.get(index).copied().flatten() } else { Some(index) };
+            let (Some(index), name) = (slot, sorted.unwrap_or(name)) else { continue };
             let place = columns.iter().position(|(known, _)| *known == name);
             let place = if let Some(place) = place {
                 place
@@ -115,6 +123,10 @@ impl Change {
             (Self::Add(Cell::Scalar(x)), Array::Float(all)) => *all.get_mut(index)? += x,
             (Self::Set(Cell::Vector(v)), Array::Vec4(all)) => *all.get_mut(index)? = v,
             (Self::Add(Cell::Vector(v)), Array::Vec4(all)) => *all.get_mut(index)? += v,
+            // Of a struct of four numbers.
+            (Self::Set(Cell::Vector(v)), Array::Float(all)) => {
+                all.get_mut(4 * index..4 * (index + 1))?.copy_from_slice(&v.to_array());
+            }
             (Self::Set(Cell::Whole(n)), Array::Uint(all)) => *all.get_mut(index)? = n,
             (Self::Add(Cell::Whole(n)), Array::Uint(all)) => {
                 let old = all.get_mut(index)?;

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::particle::{Particle, View};
 use super::tied::{Tables, Tied, row};
-use super::{Outcome, Over, result};
+use super::{Outcome, Over, Search, result};
 use crate::error::Error;
 use crate::kernel::{ACCELERATION, Bounds, Host, Twin, World};
 use crate::links::{Corner, Half};
@@ -34,7 +34,7 @@ pub fn updating(rule: impl Fn(&Particle, &World, &mut Outcome) + Send + Sync + '
             (me.index, outcome)
         };
         let outcomes: Vec<_> = bodies.par_iter().map(outcome).collect();
-        result::write(host, 1.0, outcomes)
+        result::write(host, 1.0, None, outcomes)
     })
 }
 
@@ -56,8 +56,30 @@ pub fn computing<S: Default>(
     gather: impl Fn(&Particle, &Particle, DVec3, &World, &mut S) + Send + Sync + 'static,
     finish: impl Fn(&Particle, &S, &World, &mut Outcome) + Send + Sync + 'static,
 ) -> Twin {
+    meeting(over, None, gather, finish)
+}
+
+/// The same for a law of a method with a search of its own.
+pub fn searching<S: Default>(
+    over: Over,
+    search: Search,
+    gather: impl Fn(&Particle, &Particle, DVec3, &World, &mut S) + Send + Sync + 'static,
+    finish: impl Fn(&Particle, &S, &World, &mut Outcome) + Send + Sync + 'static,
+) -> Twin {
+    meeting(over, Some(search), gather, finish)
+}
+
+fn meeting<S: Default>(
+    over: Over,
+    search: Option<Search>,
+    gather: impl Fn(&Particle, &Particle, DVec3, &World, &mut S) + Send + Sync + 'static,
+    finish: impl Fn(&Particle, &S, &World, &mut Outcome) + Send + Sync + 'static,
+) -> Twin {
     Arc::new(move |host| {
-        let view = View::of(host)?;
+        let mut view = View::of(host)?;
+        if let Some(search) = &search {
+            view.extend(search.by_particle(host)?);
+        }
         let (bodies, world) = (view.particles(), host.world());
         let outcome = |me: &Particle| {
             let mut sum = S::default();
@@ -85,7 +107,7 @@ pub fn computing<S: Default>(
         };
         let outcomes: Vec<_> = bodies.par_iter().filter_map(outcome).collect();
         // Each of a pair holds half of its potential energy.
-        result::write(host, 0.5, outcomes)
+        result::write(host, 0.5, search.as_ref(), outcomes)
     })
 }
 

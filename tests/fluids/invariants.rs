@@ -1,13 +1,13 @@
 //! What must hold whatever the fluid is.
 
 use glam::{DVec3, DVec4, Vec4};
-use motes::fluids::DENSITY;
-use motes::kernel::{ACCELERATION, Array};
+use motes::fluids::{DENSITY, Friction, Medium, Smoothing, Walls, pressure};
+use motes::kernel::{ACCELERATION, Array, Machine, Problem};
 use motes::settings::Value;
 use motes::{Bounds, POSITION, Side, State, VELOCITY};
 
 use crate::support;
-use crate::support::fluids::{bounds, cloud, fluid};
+use crate::support::fluids::{DENSITY as DENSITY_AT_REST, SPACING, bounds, cloud, fluid};
 use crate::support::states::{accelerations_in, cpu_in, word};
 use crate::{gpu, setup};
 use Value::{Flag, Number};
@@ -55,6 +55,13 @@ fn pressure_is_the_slope_of_the_energy() {
     }
 }
 
+/// What those fluids are of.
+fn medium(flat: bool) -> Medium {
+    let (density, spacing, support, smoothing) = (DENSITY_AT_REST, SPACING, 2.0, Smoothing::Cubic);
+    let (sound, exponent, negative, dimensions) = (2.7, 7, true, if flat { 2 } else { 3 });
+    Medium { density, spacing, support, smoothing, sound, exponent, negative, dimensions }
+}
+
 /// Σ m a and Σ m x × a are nothing; laminar friction does not act along the line between two, and turns a fluid.
 #[test]
 fn momentum_is_kept_without_walls() {
@@ -69,6 +76,11 @@ fn momentum_is_kept_without_walls() {
             let turning = || each().zip(particles.position()).map(|(f, x)| x.cross(f));
             let (total, size) = (turning().sum::<DVec3>().length(), turning().map(DVec3::length).sum::<f64>());
             assert!((total > 1e-6 * size) == turns && (turns || total < 1e-13 * size), "{total:e} of {size}");
+            // The law claims what is so.
+            let problem = Problem::new(200, Machine::HOST).at(particles.position(), open(flat));
+            let friction = Friction { alpha: 0.3, viscosity: if turns { 0.07 } else { 0.0 }, wall: 0.6 };
+            let law = pressure(&medium(flat), friction, Walls::Mirror, &problem).expect("a law");
+            assert_eq!(law.reciprocal, !turns);
         }
     }
 }

@@ -2,14 +2,13 @@
 
 use std::cell::RefCell;
 use std::rc::Rc;
-use std::sync::Arc;
 
-use glam::{DVec4, Vec4};
+use glam::{DVec3, DVec4};
 use motes::integrators::Step;
-use motes::kernel::{ACCELERATION, Backend, Host, Kernel, Machine, Problem, Source};
+use motes::kernel::{ACCELERATION, Backend, Kernel, Machine, Problem, Source, World};
 use motes::neighbors::Grid;
 use motes::settings::Value;
-use motes::visit::{Candidate, Sweep, gathered};
+use motes::visit::{Candidate, Law, Outcome, Particle, Search};
 use motes::{Gpu, Setup, Side, Simulation};
 
 use crate::stages::{Device, FEW, Stage};
@@ -175,47 +174,34 @@ fn seen(device: &Device, machine: Machine, stages: &mut Vec<Stage>) {
 }
 
 const CURIOUS: &str = "struct Sum { acceleration: vec3f, state: f32 }
-@group(1) @binding(2) var<storage, read_write> acceleration: array<vec4f>;
 fn acts_on(me: Particle) -> bool { return me.index % 5u != 1u; }
 fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
     let near = 1.0 / (1.0 + 40.0 * dot(r, r));
     (*sum).acceleration += (you.mass * near) * (you.velocity - me.velocity + f32(you.index % 7u) * r);
     (*sum).state += near * (you.density + you.pressure);
 }
-fn deliver(k: u32, me: Particle, sum: Sum) { acceleration[me.index] += vec4f(sum.acceleration, sum.state); }";
+fn finish(me: Particle, sum: Sum) -> vec4f { return vec4f(sum.acceleration, 2.0 * sum.state); }";
 
 fn curious(problem: &Problem) -> Kernel {
     let grid = Grid::apart(2.0 * SPACING, problem).expect("a grid");
-    let slots = grid.clone();
-    let twin = move |host: &Host| {
-        let (ids, flow) =
-            (host.reading::<u32>(&slots.field("sorted_id").1)?, host.reading::<Vec4>(&slots.field("flow").1)?);
-        let mut states = vec![DVec4::ZERO; ids.len()];
-        ids.iter().zip(flow.iter()).for_each(|(id, flow)| states[*id as usize] = *flow);
-        let sums = gathered(
-            host,
-            2.0 * SPACING,
-            |me| me.index % 5 != 1,
-            |me, you, r, sum: &mut DVec4| {
-                let near = 1.0 / (1.0 + 40.0 * r.length_squared());
-                let way = you.velocity - me.velocity + (you.index % 7) as f64 * r;
-                let state = states[you.index];
-                *sum += near * (you.mass * way).extend(state.x + state.y);
-            },
-        )?;
-        let mut acceleration = host.write(ACCELERATION)?;
-        acceleration.iter_mut().zip(sums).for_each(|(a, sum)| *a += sum.unwrap_or_default());
-        Ok(())
-    };
-    let files = vec![Source::ours("curious", CURIOUS)];
     let candidate = Candidate {
         particle: motes::shader!("fluids/flowing.wgsl"),
         broadcast: motes::shader!("fluids/flowing_broadcast.wgsl"),
     };
-    let flow = grid.field("flow");
-    let (params, constants) = (Vec::new(), Vec::new());
-    let sweep = Sweep { name: "seen".to_owned(), grid, candidate, files, params, constants, twin: Arc::new(twin) };
-    let mut kernel = sweep.kernel_of_all(problem).expect("a search");
-    kernel.passes.iter_mut().for_each(|pass| pass.fields.push(flow.clone()));
-    kernel
+    let search =
+        Search { grid, candidate, sorted: vec!["flow"], files: Vec::new(), constants: Vec::new(), fixed: true };
+    let gather = |me: &Particle, you: &Particle, r: DVec3, _: &World, sum: &mut DVec4| {
+        let near = 1.0 / (1.0 + 40.0 * r.length_squared());
+        let way = you.velocity - me.velocity + (you.index % 7) as f64 * r;
+        let flow = you.vector("flow").unwrap_or(DVec4::NAN);
+        *sum += near * (you.mass * way).extend(flow.x + flow.y);
+    };
+    let finish = |me: &Particle, sum: &DVec4, _: &World, outcome: &mut Outcome| {
+        if me.index % 5 != 1 {
+            outcome.accelerate(*sum * DVec4::new(1.0, 1.0, 1.0, 2.0));
+        }
+    };
+    let (wgsl, into) = (Source::ours("curious", CURIOUS), [ACCELERATION.name]);
+    let law = Law::searching("seen", search, wgsl, Vec::new(), &into, gather, finish);
+    law.kernel(problem).expect("a search")
 }

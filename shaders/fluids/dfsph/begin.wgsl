@@ -29,7 +29,7 @@ fn begin(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: v
         pushes[k] = vec4f();
         return;
     }
-    let response = responses[k];
+    let response = responses[id];
     let enough = response.neighbors >= FEWEST;
     let relaxation = select(0.0, RELAXATION * response.alpha / (world.dt * world.dt), enough);
     let stiffness = select(0.0, WARM * warm_start[id].divergence, relaxation > 0.0);

@@ -9,13 +9,13 @@ override SOLVE: u32 = 0u;
 
 fn acts_on(me: Particle) -> bool { return me.solved > 0.0; }
 
-fn deliver(k: u32, me: Particle, sum: Sum) {
-    let unknown = unknowns[k];
+fn finish(me: Particle, sum: Sum) {
+    let unknown = unknowns[me.slot];
     let turn = dfsph_state[SOLVE].iterations;
     let residual = unknown.source - world.dt * world.dt * sum.change;
     let next = max(unknown.stiffness - unknown.relaxation * residual, 0.0);
-    unknowns[k].stiffness = max(next + turn / (turn + 3.0) * (next - unknown.reached), 0.0);
-    unknowns[k].reached = next;
-    errors[k] = max(-residual, 0.0);
-    if unknown.relaxation > 0.0 { errors[k] = abs(next - unknown.stiffness) / unknown.relaxation; }
+    unknowns[me.slot].stiffness = max(next + turn / (turn + 3.0) * (next - unknown.reached), 0.0);
+    unknowns[me.slot].reached = next;
+    errors[me.slot] = max(-residual, 0.0);
+    if unknown.relaxation > 0.0 { errors[me.slot] = abs(next - unknown.stiffness) / unknown.relaxation; }
 }

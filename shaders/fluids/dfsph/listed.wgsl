@@ -22,7 +22,7 @@ fn near(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
                 gather(me, you, r, &sum);
                 pairs[place] = vec4f((you.mass / REST_DENSITY * gradient(r)) * r, slot);
             }
-            deliver(k, me, sum);
+            finish(me, sum);
         }
     }
 }

@@ -1,19 +1,12 @@
 // Who is in range of whom, slot by slot: row 0 says of slot k how many are, and the n-th stands in row n, so that invocations side
 // by side read side by side.
-struct Particle { index: u32, position: vec3f, slot: u32 }
 struct Sum { number: u32 }
 
-@group(2) @binding(5) var<storage, read> sorted_id: array<u32>;
-@group(2) @binding(6) var<storage, read> sorted_position: array<vec4f>;
 @group(3) @binding(2) var<storage, read_write> pairs: array<vec4f>; // V g r, and the neighbour's slot
 
 // Slots of a row, and rows of neighbours.
 override STRIDE: u32 = 1u;
 override ROOM: u32 = 1u;
-
-fn candidate(slot: u32) -> Particle { return Particle(sorted_id[slot], sorted_position[slot].xyz, slot); }
-
-fn acts_on(me: Particle) -> bool { return true; }
 
 fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
     // A whole number below 2²⁴ is exact.
@@ -21,8 +14,8 @@ fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
     if (*sum).number <= ROOM { pairs[(*sum).number * STRIDE + me.slot].w = f32(you.slot); }
 }
 
-fn deliver(k: u32, me: Particle, sum: Sum) {
-    pairs[k].w = f32(min(sum.number, ROOM));
+fn finish(me: Particle, sum: Sum) {
+    pairs[me.slot].w = f32(min(sum.number, ROOM));
     // There is room for twice as many as at rest.
     if sum.number > ROOM { atomicMin(&alarm[2], me.index); }
 }

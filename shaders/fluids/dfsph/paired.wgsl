@@ -16,7 +16,7 @@ fn near(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
                 let pair = pairs[n * STRIDE + k];
                 meet(me, candidate(u32(pair.w)), pair.xyz, &sum);
             }
-            deliver(k, me, sum);
+            finish(me, sum);
         }
     }
 }

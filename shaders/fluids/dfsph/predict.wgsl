@@ -8,10 +8,10 @@ override RELAXATION: f32 = 0.0;
 
 fn acts_on(me: Particle) -> bool { return me.solved > 0.0; }
 
-fn deliver(k: u32, me: Particle, sum: Sum) {
-    let response = responses[k];
+fn finish(me: Particle, sum: Sum) {
+    let response = responses[me.index];
     let relaxation = RELAXATION * response.alpha / (world.dt * world.dt);
     let source = -(response.excess + world.dt * (response.change + world.dt * sum.change));
     let stiffness = select(0.0, WARM * warm_start[me.index].density, relaxation > 0.0);
-    unknowns[k] = Unknown(stiffness, stiffness, relaxation, source);
+    unknowns[me.slot] = Unknown(stiffness, stiffness, relaxation, source);
 }

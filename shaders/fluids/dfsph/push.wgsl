@@ -10,4 +10,4 @@ fn meet(me: Particle, you: Particle, slope: vec3f, sum: ptr<function, Sum>) {
     (*sum).acceleration += (me.stiffness + yours) * slope;
 }
 
-fn deliver(k: u32, me: Particle, sum: Sum) { pushes[k] = vec4f(sum.acceleration, 1.0); }
+fn finish(me: Particle, sum: Sum) { pushes[me.slot] = vec4f(sum.acceleration, 1.0); }

@@ -24,11 +24,11 @@ fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
     (*sum).neighbors += 1.0;
 }
 
-fn deliver(k: u32, me: Particle, sum: Sum) {
+fn finish(me: Particle, sum: Sum) {
     let volume = me.mass / REST_DENSITY;
     let number = sum.number + volume * kernel(vec3f());
     let inverse = dot(sum.gradient + sum.walls, sum.gradient) + volume * sum.squares;
     let resists = inverse > LEAST * PER_SUPPORT * PER_SUPPORT;
     density[me.index] = REST_DENSITY * number;
-    responses[k] = Response(number - 1.0, select(0.0, 1.0 / inverse, resists), sum.change, sum.neighbors);
+    responses[me.index] = Response(number - 1.0, select(0.0, 1.0 / inverse, resists), sum.change, sum.neighbors);
 }

@@ -162,7 +162,7 @@ fn sweep(
     let gpu = simulation.backend();
     let problem = setup.problem(gpu.machine())?;
     let mut plan = Plan::default();
-    plan.add(fluids::pressure(medium, friction, Walls::Mirror, &problem)?);
+    plan.add(fluids::pressure(medium, friction, Walls::Mirror, &problem)?.kernel(&problem)?);
     let program = gpu.compile(&plan)?;
     let mut run = |turns| time(turns, || gpu.run(&program, turns).and_then(|()| gpu.wait()));
     let turns = super::repeats(run(1)?.min(run(1)?));

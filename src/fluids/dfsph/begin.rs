@@ -18,11 +18,11 @@ const ANYTHING: f64 = 1000.0;
 pub fn kernel(of: &Dfsph<'_>) -> Result<Kernel, Error> {
     let (slots, fewest) = (of.slots(), of.fewest());
     let relaxes = of.relaxation();
-    let names = [RESPONSES, UNKNOWNS, PUSHES, ERRORS].map(|name| of.name(name));
+    let names = [UNKNOWNS, PUSHES, ERRORS].map(|name| of.name(name));
     let twin = move |host: &Host| {
         let dt = host.world().dt;
-        let [responses, unknowns, pushes, errors] = &names;
-        let (responses, kept) = (host.reading::<f32>(responses)?, host.reading::<f32>(WARM_START)?);
+        let [unknowns, pushes, errors] = &names;
+        let (responses, kept) = (host.reading::<f32>(RESPONSES)?, host.reading::<f32>(WARM_START)?);
         let (mut unknowns, mut pushes) = (host.writing::<f32>(unknowns)?, host.writing::<Vec4>(pushes)?);
         host.writing::<f32>(errors)?.fill(0.0);
         host.writing::<f32>(STATES)?[..STATE].fill(0.0);
@@ -31,7 +31,7 @@ pub fn kernel(of: &Dfsph<'_>) -> Result<Kernel, Error> {
             *push = DVec4::ZERO;
         }
         for (k, id) in slots(host)?.into_iter().enumerate() {
-            let response = &responses[RESPONSE * k..];
+            let response = &responses[RESPONSE * id..];
             let enough = response[3] >= fewest;
             let relaxation = if enough { relaxes * response[1] / (dt * dt) } else { 0.0 };
             let kappa = if relaxation > 0.0 { WARM * kept[STIFFNESS * id] } else { 0.0 };

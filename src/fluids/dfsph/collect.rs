@@ -2,14 +2,13 @@
 
 use std::sync::Arc;
 
-use glam::Vec4;
+use glam::{DVec4, Vec4};
 
-use super::push::{PUSHED, changes};
-use super::{
-    Dfsph, KAPPA, PUSHES, RESPONSE, RESPONSES, STATE, STATES, STIFFNESS, UNKNOWN, UNKNOWNS, WARM, WARM_START, with,
-};
+use super::push::{PUSHED, change, pushed};
+use super::{Dfsph, KAPPA, PUSHES, RESPONSES, STATE, STATES, STIFFNESS, UNKNOWN, UNKNOWNS, WARM, WARM_START};
 use crate::error::Error;
-use crate::kernel::{ACCELERATION, Host, Kernel};
+use crate::kernel::{ACCELERATION, Host, Kernel, World};
+use crate::visit::{Law, Outcome, Particle};
 
 /// The first is taken.
 pub fn collect(of: &Dfsph<'_>) -> Result<Kernel, Error> {
@@ -35,25 +34,21 @@ pub fn collect(of: &Dfsph<'_>) -> Result<Kernel, Error> {
 
 /// The second begins: what the density will be at the end of the step.
 pub fn predict(of: &Dfsph<'_>) -> Result<Kernel, Error> {
-    let (medium, slots) = (of.medium, of.slots());
     let relaxes = of.relaxation();
-    let [unknowns, pushes, responses] = [UNKNOWNS, PUSHES, RESPONSES].map(|name| of.name(name));
-    let twin = move |host: &Host| {
-        let (ids, dt) = (slots(host)?, host.world().dt);
-        let changes = changes(host, &medium, &ids, &pushes)?;
-        let (responses, kept) = (host.reading::<f32>(&responses)?, host.reading::<f32>(WARM_START)?);
-        let mut unknowns = host.writing::<f32>(&unknowns)?;
-        for (k, id) in ids.into_iter().enumerate() {
-            let Some(change) = changes[k] else { continue };
-            let response = &responses[RESPONSE * k..];
-            let relaxation = relaxes * response[1] / (dt * dt);
-            let source = -(response[0] + dt * (response[2] + dt * change));
-            let kappa = if relaxation > 0.0 { WARM * kept[STIFFNESS * id + 1] } else { 0.0 };
-            unknowns[UNKNOWN * k..UNKNOWN * (k + 1)].copy_from_slice(&[kappa, kappa, relaxation, source]);
+    let finish = move |me: &Particle, change: &f64, world: &World, outcome: &mut Outcome| {
+        if pushed(me).w <= 0.0 {
+            return;
         }
-        Ok(())
+        let (response, kept, dt) = (me.numbers(RESPONSES), me.numbers(WARM_START), world.dt);
+        let relaxation = relaxes * response[1] / (dt * dt);
+        let source = -(response[0] + dt * (response[2] + dt * change));
+        let kappa = if relaxation > 0.0 { WARM * kept[1] } else { 0.0 };
+        outcome.set(UNKNOWNS, DVec4::new(kappa, kappa, relaxation, source));
     };
-    let files = vec![crate::shader!("fluids/dfsph/change.wgsl"), crate::shader!("fluids/dfsph/predict.wgsl")];
-    let kernel = of.sweep("fluid predict".to_owned(), PUSHED, files, Arc::new(twin))?;
-    Ok(with(kernel, &[("WARM", WARM), ("RELAXATION", relaxes)]))
+    let mut search = of.searching(PUSHED, &[UNKNOWNS, PUSHES]);
+    search.files.push(crate::shader!("fluids/dfsph/change.wgsl"));
+    search.constants.extend([("WARM", WARM), ("RELAXATION", relaxes)]);
+    let wgsl = crate::shader!("fluids/dfsph/predict.wgsl");
+    let gather = change(of.medium);
+    of.sweep(Law::searching("fluid predict", search, wgsl, Vec::new(), &[UNKNOWNS], gather, finish))
 }

@@ -18,7 +18,7 @@ use super::Medium;
 use crate::error::Error;
 use crate::kernel::{Host, Kernel, Name, Pass, Plan, Problem, Scalar, Shader, Source, Twin};
 use crate::neighbors::{Grid, SORTED_ID, SORTED_POSITION, SORTED_VELOCITY, STARTS};
-use crate::visit::{Candidate, Sweep, block};
+use crate::visit::{Candidate, Law, Search};
 
 use pairs::Pairs;
 
@@ -152,29 +152,29 @@ impl<'a> Dfsph<'a> {
         all.extend(own);
         all
     }
-    /// A search of all pairs, before these are known, with a `gather` of where they are.
-    fn search(&self, name: &str, candidate: Candidate, files: Vec<Source>, twin: Twin) -> Result<Kernel, Error> {
-        let all = self.files(files);
+    /// A search of the fluid's particles, with these fields in the order of the grid.
+    fn searching(&self, candidate: Candidate, sorted: &[&'static str]) -> Search {
+        let (grid, files, constants) = (self.grid.clone(), self.files(Vec::new()), self.medium.constants());
+        Search { grid, candidate, sorted: sorted.to_vec(), files, constants, fixed: false }
+    }
+    /// The kernel of a law that meets all pairs before these are known, with a `gather` of where they are.
+    fn search(&self, law: Law) -> Result<Kernel, Error> {
         let kernel = match self.pairs {
-            Some(pairs) => pairs.find(self, name, candidate, all, twin)?,
-            None => self.walk(name.to_owned(), candidate, all, twin)?,
+            Some(pairs) => pairs.find(self, &law)?,
+            None => law.kernel(self.problem)?,
         };
         Ok(self.bound(kernel))
     }
-    /// A sweep over all pairs: each `meet`s the other with its V g r.
-    fn sweep(&self, name: String, candidate: Candidate, files: Vec<Source>, twin: Twin) -> Result<Kernel, Error> {
-        let mut all = self.files(files);
-        if let Some(pairs) = self.pairs {
-            all.push(candidate.particle);
-            return Ok(self.bound(pairs.sweep(self, name, all, twin)?));
-        }
-        all.push(crate::shader!("fluids/dfsph/walked.wgsl"));
-        Ok(self.bound(self.walk(name, candidate, all, twin)?))
-    }
-    fn walk(&self, name: String, candidate: Candidate, files: Vec<Source>, twin: Twin) -> Result<Kernel, Error> {
-        let constants = self.medium.constants();
-        let sweep = Sweep { name, grid: self.grid.clone(), candidate, files, params: Vec::new(), constants, twin };
-        sweep.kernel(self.problem)
+    /// The kernel of a law whose pairs are known: each `meet`s the other with its V g r.
+    fn sweep(&self, mut law: Law) -> Result<Kernel, Error> {
+        let kernel = if let Some(pairs) = self.pairs {
+            pairs.sweep(self, &law)?
+        } else {
+            let walked = crate::shader!("fluids/dfsph/walked.wgsl");
+            law.search.iter_mut().for_each(|search| search.files.push(walked.clone()));
+            law.kernel(self.problem)?
+        };
+        Ok(self.bound(kernel))
     }
     /// A kernel over slots or particles, or of so many invocations.
     fn plain(
@@ -189,7 +189,7 @@ impl<'a> Dfsph<'a> {
         all.push(crate::shader!("neighbors/starts.wgsl"));
         all.extend(self.files(files.to_vec()));
         let shader = Shader::join(&all)?;
-        let uniforms = block(name, &shader, "extent", extent)?;
+        let uniforms = shader.block(name, "extent", extent)?;
         let mut constants = self.grid.of_those_ahead().constants(&shader);
         constants.extend(shader.reflection().known(&self.medium.constants()));
         let pass = Pass { constants, uniforms, ..Pass::new(shader.clone(), threads) };
@@ -199,7 +199,7 @@ impl<'a> Dfsph<'a> {
     /// The same with the fields of the grid, and the sizes of what does not have one element for each particle.
     fn bound(&self, mut kernel: Kernel) -> Kernel {
         let sorted = [STARTS, SORTED_ID, SORTED_POSITION, SORTED_VELOCITY];
-        let own = [RESPONSES, UNKNOWNS, PUSHES, ERRORS];
+        let own = [UNKNOWNS, PUSHES, ERRORS];
         let fields: Vec<_> = sorted.iter().chain(&own).map(|name| self.grid.field(name)).collect();
         for pass in &mut kernel.passes {
             let bound = |name: &str| pass.fields.iter().any(|(inside, _)| *inside == name);

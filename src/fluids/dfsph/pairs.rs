@@ -3,9 +3,9 @@
 use super::{Dfsph, PAIRS};
 use crate::error::Error;
 use crate::fluids::Medium;
-use crate::kernel::{Kernel, Pass, Problem, Shader, Source, Twin};
+use crate::kernel::{Kernel, Pass, Problem, Shader, Source, Table};
 use crate::neighbors::Grid;
-use crate::visit::{Candidate, Sweep};
+use crate::visit::{Candidate, Law, Search};
 
 /// How many more neighbours there is room for than a fluid at rest has: somebody with more is told, and ends the run.
 const ROOM: u32 = 2;
@@ -40,49 +40,49 @@ impl Pairs {
     fn constants(self) -> [(&'static str, f64); 2] {
         [("STRIDE", f64::from(self.stride)), ("ROOM", f64::from(self.rows))]
     }
-    /// The kernel that finds them, and meets everybody once.
-    pub fn find(
-        self,
-        of: &Dfsph<'_>,
-        name: &str,
-        candidate: Candidate,
-        files: Vec<Source>,
-        twin: Twin,
-    ) -> Result<Kernel, Error> {
+    /// The kernel that finds them, and in which a law meets each once.
+    pub fn find(self, of: &Dfsph<'_>, law: &Law) -> Result<Kernel, Error> {
         let slots = Candidate {
-            particle: crate::shader!("fluids/dfsph/neighbors.wgsl"),
-            broadcast: crate::shader!("fluids/dfsph/neighbors_broadcast.wgsl"),
+            particle: crate::shader!("fluids/dfsph/slots.wgsl"),
+            broadcast: crate::shader!("fluids/dfsph/slots_broadcast.wgsl"),
         };
-        let (params, constants, own) = (Vec::new(), Vec::new(), Vec::new());
-        let (name, grid) = (name.to_owned(), of.grid.clone());
-        let search = Sweep { name, grid, candidate: slots, files: own, params, constants, twin };
-        let mut kernel = search.kernel(of.problem)?;
-        let mut all = files;
-        all.extend([candidate.particle, crate::shader!("fluids/dfsph/listed.wgsl")]);
-        kernel.passes.push(self.pass(of, &all)?);
+        let search = Search { files: Vec::new(), constants: Vec::new(), ..of.searching(slots, &[]) };
+        let wgsl = crate::shader!("fluids/dfsph/neighbors.wgsl");
+        let lists = Law { wgsl, into: Vec::new(), search: Some(search), ..law.clone() };
+        let mut kernel = lists.kernel(of.problem)?;
+        let (pass, tables) = self.pass(of, law, crate::shader!("fluids/dfsph/listed.wgsl"))?;
+        kernel.passes.push(pass);
+        kernel.tables = tables;
         kernel.scratch.push(of.name(PAIRS));
         Ok(self.bound(of, kernel))
     }
-    /// A kernel of everybody who meets whom it is paired with.
-    pub fn sweep(self, of: &Dfsph<'_>, name: String, files: Vec<Source>, twin: Twin) -> Result<Kernel, Error> {
-        let mut all = files;
-        all.push(crate::shader!("fluids/dfsph/paired.wgsl"));
-        let passes = vec![self.pass(of, &all)?];
-        let (sizes, scratch, tables) = (Vec::new(), Vec::new(), Vec::new());
-        Ok(self.bound(of, Kernel { name, passes, twin: Some(twin), sizes, scratch, tables }))
+    /// The kernel of a law that meets what a particle is paired with.
+    pub fn sweep(self, of: &Dfsph<'_>, law: &Law) -> Result<Kernel, Error> {
+        let (pass, tables) = self.pass(of, law, crate::shader!("fluids/dfsph/paired.wgsl"))?;
+        let (name, passes, twin) = (law.name.clone(), vec![pass], law.twin.clone());
+        Ok(self.bound(of, Kernel { name, passes, twin, sizes: Vec::new(), scratch: Vec::new(), tables }))
     }
-    fn pass(self, of: &Dfsph<'_>, files: &[Source]) -> Result<Pass, Error> {
-        let mut all =
-            vec![crate::shader!("world.wgsl"), crate::shader!("fields.wgsl"), crate::shader!("neighbors/cell.wgsl")];
-        all.push(crate::shader!("neighbors/starts.wgsl"));
-        all.extend_from_slice(files);
+    /// A law joined with what visits pairs.
+    fn pass(self, of: &Dfsph<'_>, law: &Law, visit: Source) -> Result<(Pass, Vec<Table>), Error> {
+        let mut all = vec![
+            crate::shader!("world.wgsl"),
+            crate::shader!("fields.wgsl"),
+            crate::shader!("neighbors/cell.wgsl"),
+            crate::shader!("neighbors/starts.wgsl"),
+            visit,
+            law.wgsl.clone(),
+        ];
+        if let Some(search) = &law.search {
+            all.push(search.candidate.particle.clone());
+            all.extend_from_slice(&search.files);
+        }
+        let tables = of.problem.hold(&mut all);
         let shader = Shader::join(&all)?;
         let mut constants = of.problem.constants(&shader);
         constants.extend(of.grid.of_those_ahead().constants(&shader));
-        constants.extend(shader.reflection().known(&of.medium.constants()));
-        let pass = Pass { constants, ..Pass::new(shader, self.stride) };
+        constants.extend(law.search.iter().flat_map(|search| shader.reflection().known(&search.constants)));
         let work = self.elements() / u64::from(ROOM);
-        Ok(Pass { work, ..pass })
+        Ok((Pass { constants, work, ..Pass::new(shader, self.stride) }, tables))
     }
     fn bound(self, of: &Dfsph<'_>, kernel: Kernel) -> Kernel {
         let mut kernel = super::with(kernel, &self.constants());

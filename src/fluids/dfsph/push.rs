@@ -1,48 +1,33 @@
 //! The two halves of an iteration: accelerations by pressure, and pressure by what these would compress.
 
-use std::sync::Arc;
+use glam::{DVec3, DVec4};
 
-use glam::{DVec3, Vec4};
-
-use super::{Dfsph, ERRORS, PUSHES, STATE, STATES, Solve, UNKNOWN, UNKNOWNS, WALL, with};
+use super::{Dfsph, ERRORS, PUSHES, STATE, STATES, Solve, UNKNOWNS};
 use crate::error::Error;
 use crate::fluids::Medium;
-use crate::kernel::{Host, Kernel, Name};
-use crate::visit::{Candidate, gathered};
+use crate::kernel::{Kernel, World};
+use crate::visit::{Candidate, Law, Outcome, Particle};
 
 /// Accelerations by pressure.
 pub fn push(of: &Dfsph<'_>, solve: Solve) -> Result<Kernel, Error> {
-    let (medium, slots) = (of.medium, of.slots());
-    let [unknowns, pushes] = [UNKNOWNS, PUSHES].map(|name| of.name(name));
-    let twin = move |host: &Host| {
-        let (ids, unknowns) = (slots(host)?, host.reading::<f32>(&unknowns)?);
-        let count = host.world().count as usize;
-        let (mut kappa, mut solved) = (vec![WALL; count], vec![false; count]);
-        let all = || ids.iter().zip(unknowns.chunks_exact(UNKNOWN)).filter(|(_, unknown)| unknown[0] >= 0.0);
-        all().for_each(|(id, unknown)| (kappa[*id], solved[*id]) = (unknown[0], true));
-        let sums = gathered(
-            host,
-            medium.range(),
-            |me| solved[me.index],
-            |me, you, r, sum: &mut DVec3| {
-                let yours = if kappa[you.index] < 0.0 { kappa[me.index] } else { kappa[you.index] };
-                *sum += you.mass / medium.density * (kappa[me.index] + yours) * medium.gradient(r) * r;
-            },
-        )?;
-        let mut pushes = host.writing::<Vec4>(&pushes)?;
-        for ((push, id), unknown) in pushes.iter_mut().zip(&ids).zip(unknowns.chunks_exact(UNKNOWN)) {
-            if let Some(sum) = sums[*id].filter(|_| unknown[0] >= 0.0) {
-                *push = sum.extend(1.0);
-            }
+    let (medium, stiffness) = (of.medium, |one: &Particle| one.numbers(UNKNOWNS)[0]);
+    let gather = move |me: &Particle, you: &Particle, r, _: &World, sum: &mut DVec3| {
+        let [mine, yours] = [me, you].map(stiffness);
+        let yours = if yours < 0.0 { mine } else { yours };
+        *sum += you.mass / medium.density * (mine + yours) * medium.gradient(r) * r;
+    };
+    let finish = move |me: &Particle, sum: &DVec3, _: &World, outcome: &mut Outcome| {
+        if stiffness(me) >= 0.0 {
+            outcome.set(PUSHES, sum.extend(1.0));
         }
-        Ok(())
     };
     let candidate = Candidate {
         particle: crate::shader!("fluids/dfsph/stiff.wgsl"),
         broadcast: crate::shader!("fluids/dfsph/stiff_broadcast.wgsl"),
     };
-    let (name, files) = (format!("fluid {} push", solve.name()), vec![crate::shader!("fluids/dfsph/push.wgsl")]);
-    of.sweep(name, candidate, files, Arc::new(twin))
+    let (name, search) = (format!("fluid {} push", solve.name()), of.searching(candidate, &[UNKNOWNS, PUSHES]));
+    let wgsl = crate::shader!("fluids/dfsph/push.wgsl");
+    of.sweep(Law::searching(&name, search, wgsl, Vec::new(), &[PUSHES], gather, finish))
 }
 
 /// What a search of accelerations loads of a neighbour.
@@ -51,54 +36,39 @@ pub const PUSHED: Candidate = Candidate {
     broadcast: crate::shader!("fluids/dfsph/pushed_broadcast.wgsl"),
 };
 
-/// How fast accelerations make the density grow, as a part of that at rest, by slot; of those that are solved for.
-pub fn changes(host: &Host, medium: &Medium, ids: &[usize], pushes: &Name) -> Result<Vec<Option<f64>>, Error> {
-    let mut felt = vec![glam::DVec4::ZERO; host.world().count as usize];
-    let pushes = host.reading::<Vec4>(pushes)?;
-    for (id, push) in ids.iter().zip(pushes.iter()) {
-        // Who stands nowhere any more says nothing of who stands elsewhere.
-        if push.w > 0.0 || felt[*id].w <= 0.0 {
-            felt[*id] = *push;
-        }
+/// How a particle is accelerated, and whether that is solved for.
+pub fn pushed(of: &Particle) -> DVec4 {
+    of.vector(PUSHES).unwrap_or(DVec4::NAN)
+}
+
+/// How fast accelerations make the density grow, as a part of that at rest.
+pub fn change(medium: Medium) -> impl Fn(&Particle, &Particle, DVec3, &World, &mut f64) + Send + Sync + 'static {
+    move |me, you, r, _, sum| {
+        let way = (pushed(you) - pushed(me)).truncate();
+        *sum += you.mass / medium.density * medium.gradient(r) * way.dot(r);
     }
-    let changes = gathered(
-        host,
-        medium.range(),
-        |me| felt[me.index].w > 0.0,
-        |me, you, r, sum: &mut f64| {
-            let way = (felt[you.index] - felt[me.index]).truncate();
-            *sum += you.mass / medium.density * medium.gradient(r) * way.dot(r);
-        },
-    )?;
-    Ok(ids.iter().zip(pushes.iter()).map(|(id, push)| changes[*id].filter(|_| push.w > 0.0)).collect())
 }
 
 /// Pressure by what they compress.
 pub fn correct(of: &Dfsph<'_>, solve: Solve) -> Result<Kernel, Error> {
-    let (medium, slots) = (of.medium, of.slots());
-    let [unknowns, pushes, errors] = [UNKNOWNS, PUSHES, ERRORS].map(|name| of.name(name));
-    let twin = move |host: &Host| {
-        let (ids, dt) = (slots(host)?, host.world().dt);
-        let turn = host.reading::<f32>(STATES)?[STATE * solve as usize];
-        let onward = turn / (turn + 3.0);
-        let changes = changes(host, &medium, &ids, &pushes)?;
-        let (mut unknowns, mut errors) = (host.writing::<f32>(&unknowns)?, host.writing::<f32>(&errors)?);
-        for ((unknown, error), change) in unknowns.chunks_exact_mut(UNKNOWN).zip(errors.iter_mut()).zip(changes) {
-            if let Some(change) = change {
-                let [before, reached, relaxation, source] = [0, 1, 2, 3].map(|member| unknown[member]);
-                let residual = source - dt * dt * change;
-                let next = (before - relaxation * residual).max(0.0);
-                unknown[0] = (next + onward * (next - reached)).max(0.0);
-                unknown[1] = next;
-                *error = match relaxation {
-                    0.0 => (-residual).max(0.0),
-                    _ => (next - before).abs() / relaxation,
-                };
-            }
+    let finish = move |me: &Particle, change: &f64, world: &World, outcome: &mut Outcome| {
+        if pushed(me).w <= 0.0 {
+            return;
         }
-        Ok(())
+        let turn = me.all(STATES)[STATE * solve as usize];
+        let unknown = me.numbers(UNKNOWNS);
+        let [before, reached, relaxation, source] = [0, 1, 2, 3].map(|member| unknown[member]);
+        let residual = source - world.dt * world.dt * change;
+        let next = (before - relaxation * residual).max(0.0);
+        let onward = (next + turn / (turn + 3.0) * (next - reached)).max(0.0);
+        outcome.set(UNKNOWNS, DVec4::new(onward, next, relaxation, source));
+        let error = if relaxation == 0.0 { (-residual).max(0.0) } else { (next - before).abs() / relaxation };
+        outcome.set(ERRORS, error);
     };
-    let files = vec![crate::shader!("fluids/dfsph/change.wgsl"), crate::shader!("fluids/dfsph/correct.wgsl")];
-    let kernel = of.sweep(format!("fluid {} correct", solve.name()), PUSHED, files, Arc::new(twin))?;
-    Ok(with(kernel, &[("SOLVE", f64::from(solve as u32))]))
+    let mut search = of.searching(PUSHED, &[UNKNOWNS, PUSHES, ERRORS]);
+    search.files.push(crate::shader!("fluids/dfsph/change.wgsl"));
+    search.constants.push(("SOLVE", f64::from(solve as u32)));
+    let (name, wgsl) = (format!("fluid {} correct", solve.name()), crate::shader!("fluids/dfsph/correct.wgsl"));
+    let gather = change(of.medium);
+    of.sweep(Law::searching(&name, search, wgsl, Vec::new(), &[UNKNOWNS, ERRORS], gather, finish))
 }

@@ -1,0 +1,95 @@
+//! What a law says of its search where it is one of a method that keeps fields of its own, some of them in the order of the grid.
+
+use glam::DVec3;
+
+use super::{Candidate, Law, Outcome, Over, Particle, twin};
+use crate::error::Error;
+use crate::kernel::{Array, Host, Kernel, Name, Problem, Scalar, Source, World};
+use crate::neighbors::{Grid, SORTED_ID};
+
+/// How a law over `near` searches, beside its range.
+#[derive(Clone)]
+pub struct Search {
+    /// The grid, which holds all particles.
+    pub grid: Grid,
+    /// What it loads of a neighbour.
+    pub candidate: Candidate,
+    /// Fields in the order of the grid, by their names in WGSL. A law's reference reads and writes them by particle.
+    pub sorted: Vec<&'static str>,
+    /// Files beside the law's own.
+    pub files: Vec<Source>,
+    /// Values for `override`s, of which its files may leave some out.
+    pub constants: Vec<(&'static str, f64)>,
+    /// Whether fixed particles, where the grid keeps them behind all others, search too.
+    pub fixed: bool,
+}
+
+impl Law {
+    /// A law of a method that searches a grid of its own; the rest as [`Law::computing`] has it. It may write fields of the method
+    /// that are no columns.
+    pub fn searching<S: Default>(
+        name: &str,
+        search: Search,
+        wgsl: Source,
+        params: Vec<(&'static str, Scalar)>,
+        into: &[&'static str],
+        gather: impl Fn(&Particle, &Particle, DVec3, &World, &mut S) + Send + Sync + 'static,
+        finish: impl Fn(&Particle, &S, &World, &mut Outcome) + Send + Sync + 'static,
+    ) -> Self {
+        let over = Over::Near { range: search.grid.range, of: None };
+        let params = params.into_iter().map(|(name, value)| (name.to_owned(), value)).collect();
+        let into = into.iter().map(|name| Name::from(*name)).collect();
+        let reference = twin::searching(over, search.clone(), gather, finish);
+        Self { into, search: Some(search), ..Self::plain(name, over, wgsl, params, reference) }
+    }
+    /// Whether its WGSL, or a file beside it, holds these words in a row.
+    pub(super) fn says(&self, words: &[&str]) -> bool {
+        let beside = self.search.iter().flat_map(|search| &search.files);
+        std::iter::once(&self.wgsl).chain(beside).any(|file| file.says(words))
+    }
+}
+
+impl Search {
+    /// Particles that search: the first so many of those in the grid.
+    pub(super) fn targets(&self, problem: &Problem) -> u32 {
+        if self.fixed { problem.count } else { self.grid.ahead(problem) }
+    }
+    /// Binds the fields of the grid, and ends a search where particles do that are not fixed.
+    pub(super) fn bind(&self, kernel: &mut Kernel) {
+        let cells = f64::from(self.grid.count());
+        for pass in &mut kernel.passes {
+            pass.fields.extend(self.sorted.iter().map(|name| self.grid.field(name)));
+            let ends = pass.constants.iter_mut().filter(|(name, _)| *name == "CELLS" && !self.fixed);
+            ends.for_each(|(_, end)| *end = cells);
+        }
+    }
+    /// The field of the grid of that name, if it is one.
+    pub(super) fn field(&self, name: &str) -> Option<Name> {
+        self.sorted.iter().find(|sorted| **sorted == name).map(|sorted| self.grid.field(sorted).1)
+    }
+    /// Of each particle the slot where it is in the grid.
+    pub(super) fn slots(&self, host: &Host) -> Result<Vec<Option<usize>>, Error> {
+        let mut slots = vec![None; host.world().count as usize];
+        for (slot, id) in self.grid.occupants(host)?.into_iter().enumerate() {
+            // Behind the last stands what is left of an earlier build.
+            if let Some(place) = slots.get_mut(id as usize).filter(|place| place.is_none()) {
+                *place = Some(slot);
+            }
+        }
+        Ok(slots)
+    }
+    /// The fields in the order of the grid, by particle; zeros of what is not in it.
+    pub(super) fn by_particle(&self, host: &Host) -> Result<Vec<(&'static str, Array)>, Error> {
+        let (slots, length) = (self.slots(host)?, host.reading::<u32>(&self.grid.field(SORTED_ID).1)?.len().max(1));
+        let ordered = |name: &&'static str| {
+            let field = self.grid.field(name).1;
+            let mut values =
+                host.get(&field).ok_or_else(|| Error::Device(format!("no field `{field}` on the host")))?;
+            let width = values.len() / length;
+            values.resize(width * (length + 1), [0.0; 4]);
+            let order: Vec<usize> = slots.iter().map(|slot| slot.unwrap_or(length)).collect();
+            Ok((*name, values.picked(&order, width)))
+        };
+        self.sorted.iter().map(ordered).collect()
+    }
+}
