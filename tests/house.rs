@@ -309,11 +309,11 @@ const PERSONS: [[&str; 2]; 8] = [
 const PERSONS_LEFT: [(&str, usize); 12] = [
     ("docs/pages/methods/equations.md", 9),
     ("shaders/fluids", 10),
-    ("src/fluids", 46),
+    ("src/fluids", 14),
     ("src/neighbors", 3),
     ("src/simulation", 20),
     ("src/state", 1),
-    ("src/visit", 27),
+    ("src/visit", 20),
     ("tests/births", 1),
     ("tests/fluids", 8),
     ("tests/neighbors", 12),

@@ -45,10 +45,10 @@ pub fn rate(medium: &Medium, continuity: Continuity, problem: &Problem) -> Resul
     let search = medium.search(candidate, &[], problem)?;
     let diffusion = 2.0 * continuity.diffusion * 0.5 * medium.range() * medium.sound;
     let params = vec![("diffusion", Scalar::Float(diffusion)), ("weight", Scalar::Vector(continuity.weight))];
-    let (medium, who, free) = (*medium, problem.clone(), problem.clone());
+    let (medium, walls, fixed) = (*medium, problem.clone(), problem.clone());
     let gather = move |me: &Particle, you: &Particle, r: DVec3, _: &World, rate: &mut f64| {
         *rate += you.mass * medium.gradient(r) * r.dot(you.velocity - me.velocity);
-        if !who.is_held(you.index) {
+        if !walls.is_held(you.index) {
             let [mine, yours] = [me, you].map(|one| one.scalar(DENSITY.name).unwrap_or(f64::NAN));
             let denser = 0.5 * (mine + yours) - medium.density;
             let give = medium.density - f64::from(medium.exponent - 2) * denser;
@@ -59,7 +59,7 @@ pub fn rate(medium: &Medium, continuity: Continuity, problem: &Problem) -> Resul
         }
     };
     let finish = move |me: &Particle, rate: &f64, _: &World, outcome: &mut Outcome| {
-        if !free.is_held(me.index) {
+        if !fixed.is_held(me.index) {
             outcome.set(DENSITY_RATE.name, *rate);
         }
     };

@@ -66,13 +66,13 @@ pub fn limits(medium: &Medium, limits: Limits, plan: &mut Plan, problem: &Proble
 
 fn closing(medium: &Medium, problem: &Problem) -> Result<Law, Error> {
     let search = medium.search(Candidate::STILL, &[], problem)?;
-    let (length, who) = (0.5 * medium.range(), problem.clone());
+    let (length, fixed) = (0.5 * medium.range(), problem.clone());
     let gather = move |me: &Particle, you: &Particle, r: DVec3, _: &World, most: &mut f64| {
         let near = r.length_squared() + 0.01 * length * length;
         *most = most.max((you.velocity - me.velocity).dot(r).abs() * length / near);
     };
     let finish = move |me: &Particle, most: &f64, _: &World, outcome: &mut Outcome| {
-        if !who.is_held(me.index) {
+        if !fixed.is_held(me.index) {
             outcome.set(CLOSING.name, *most);
         }
     };

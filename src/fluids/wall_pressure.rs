@@ -22,7 +22,7 @@ const WALL_PRESSURE: &str = "wall_pressure";
 /// When the range is none, or a shader does not compile.
 pub fn wall_pressure(medium: &Medium, weight: DVec3, problem: &Problem) -> Result<[Kernel; 2], Error> {
     let search = Search { fixed: true, ..medium.search(FLOWING, &[FLOW, WALL_PRESSURE], problem)? };
-    let (medium, who, grid) = (*medium, problem.clone(), search.grid.clone());
+    let (medium, fixed, grid) = (*medium, problem.clone(), search.grid.clone());
     let gather = move |_: &Particle, you: &Particle, r: DVec3, _: &World, sum: &mut [f64; 2]| {
         let state = flow(you);
         if state.x > 0.0 {
@@ -31,7 +31,7 @@ pub fn wall_pressure(medium: &Medium, weight: DVec3, problem: &Problem) -> Resul
         }
     };
     let finish = move |me: &Particle, [sum, number]: &[f64; 2], _: &World, outcome: &mut Outcome| {
-        if who.is_held(me.index) {
+        if fixed.is_held(me.index) {
             let p = if *number > 0.0 { sum / number } else { 0.0 };
             let p = if medium.negative { p } else { p.max(0.0) };
             outcome.set(WALL_PRESSURE, p / (medium.density * medium.density));

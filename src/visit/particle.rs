@@ -97,7 +97,7 @@ impl Particle<'_> {
         let width = all.len() / self.view.count.max(1);
         all.get(width * self.index..width * (self.index + 1)).unwrap_or_default()
     }
-    /// All numbers of a field, whoever they are of; nothing where the host has none.
+    /// All numbers of a field, such as one of the system; nothing where the host has none.
     #[must_use]
     pub fn all(&self, field: &str) -> &[f64] {
         self.view.slice::<f32>(field)

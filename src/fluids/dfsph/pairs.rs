@@ -1,4 +1,4 @@
-//! Who is in range of whom, kept for all sweeps of a step, where there is room for it: one search serves some twenty of them.
+//! Which particles are in range of which, kept for all laws of a step, where there is room for it: one search serves some twenty of them.
 
 use super::{Dfsph, PAIRS};
 use crate::error::Error;

@@ -23,7 +23,7 @@ struct Sum {
 
 /// The kernel: density, α, how fast the density grows, and how many are in range.
 pub fn kernel(of: &Dfsph<'_>) -> Result<Kernel, Error> {
-    let (medium, who, free) = (of.medium, of.problem.clone(), of.problem.clone());
+    let (medium, walls, fixed) = (of.medium, of.problem.clone(), of.problem.clone());
     let volume = move |mass: f64| mass / medium.density;
     let gather = move |me: &Particle, you: &Particle, r: DVec3, _: &World, sum: &mut Sum| {
         let (mine, yours) = (volume(me.mass), volume(you.mass));
@@ -31,7 +31,7 @@ pub fn kernel(of: &Dfsph<'_>) -> Result<Kernel, Error> {
         sum.number += yours * medium.kernel(r);
         sum.change += yours * (you.velocity - me.velocity).dot(slope);
         sum.gradient += yours * slope;
-        if who.is_held(you.index) {
+        if walls.is_held(you.index) {
             sum.walls += yours * slope;
         } else {
             sum.squares += mine * yours * slope.length_squared();
@@ -39,7 +39,7 @@ pub fn kernel(of: &Dfsph<'_>) -> Result<Kernel, Error> {
         sum.neighbors += 1.0;
     };
     let finish = move |me: &Particle, sum: &Sum, _: &World, outcome: &mut Outcome| {
-        if free.is_held(me.index) {
+        if fixed.is_held(me.index) {
             return;
         }
         let number = sum.number + volume(me.mass) * medium.kernel(DVec3::ZERO);
