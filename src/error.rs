@@ -100,6 +100,22 @@ pub enum Error {
         /// The law and its file.
         law: String,
     },
+    /// A list of neighbours has no room for those of a particle. Mended by a smaller skin, or by a search that keeps no list.
+    #[error(
+        "particle {particle} has more neighbours within range + skin = {reach:.6} than its list holds: there is room for {capacity}, and \
+         the most that any particle had is {longest}; choose a smaller skin, or over = \"near\", which has no limit, or look for what \
+         drives particles to one place"
+    )]
+    ListFull {
+        /// The lowest id of such a particle.
+        particle: u32,
+        /// The most neighbours that any particle had.
+        longest: u32,
+        /// How many there is room for.
+        capacity: u32,
+        /// The range and the skin \[length\].
+        reach: f64,
+    },
     /// The device is gone (driver reset, watchdog, unplugged). Mended by starting again, with less work per submission.
     #[error("the device was lost: {0}; start again, on another adapter if it happens twice")]
     Lost(String),
@@ -148,7 +164,8 @@ impl Error {
             | Self::Crowded { .. }
             | Self::TooShort { .. }
             | Self::CutShort { .. }
-            | Self::Endless { .. } => 6,
+            | Self::Endless { .. }
+            | Self::ListFull { .. } => 6,
             Self::Lost(_) | Self::OutOfMemory(_) | Self::Timeout { .. } | Self::Threads(_) | Self::Device(_) => 7,
             Self::Output { .. } => 8,
         }

@@ -3,6 +3,7 @@
 mod alarm;
 mod columns;
 mod keepers;
+mod lists;
 mod mortals;
 mod pace;
 mod pictures;
@@ -25,7 +26,7 @@ use crate::error::Error;
 use crate::fluids::DFSPH_REPORT;
 use crate::gpu::Gpu;
 use crate::integrators::SOLVE_REPORT;
-use crate::kernel::{Backend, Element, Field, HOME, POSITION, Pace, VELOCITY};
+use crate::kernel::{ALARM, Array, Backend, Element, Field, HOME, ListShape, POSITION, Pace, QUIET, VELOCITY, World};
 use crate::state::State;
 use columns::Store;
 use glam::DVec3;
@@ -57,6 +58,8 @@ pub struct Simulation<B: Backend> {
     dt: f64,
     /// How long steps are, where they are not all alike.
     pace: Option<Pace>,
+    /// The list of neighbours that laws share, if any.
+    list: Option<ListShape>,
     steps: u64,
     /// What a step leaves for the next one beside columns, and a number that tells this step from others.
     carried: Vec<Carried>,
@@ -81,6 +84,7 @@ impl<B: Backend> Simulation<B> {
         let (plan, marks) = (plans.step.to_string(), alarm::marks(&plans));
         let reports =
             [SOLVE_REPORT, DFSPH_REPORT].map(|name| plans.step.kernels.iter().any(|kernel| kernel.names(name)));
+        let list = plans.list;
         let start = backend.compile(&plans.start)?;
         let step = backend.compile(&plans.step)?;
         let measure = (backend.compile(&plans.measure.0)?, backend.compile(&plans.measure.1)?);
@@ -113,6 +117,7 @@ impl<B: Backend> Simulation<B> {
             mortals: if mortal { count } else { 0 },
             dt,
             pace,
+            list,
             steps,
             carried,
             print,
@@ -198,6 +203,7 @@ impl<B: Backend> Simulation<B> {
         // Laws were asked once more.
         let alarm = self.alarm().await?;
         self.backend.run(&self.measure.1, 1)?;
+        self.check_list().await?;
         self.sound(&alarm)?;
         let mut state = state?;
         self.ties.give(&mut state);

@@ -110,7 +110,7 @@ fn symmetries() {
         other.push(x, turn * cloud.velocity()[from], cloud.mass()[from], 0.01);
         other.species_mut()[i] = cloud.species()[from];
     }
-    for over in ["near", "within", "nearest"] {
+    for over in ["near", "list", "within", "nearest"] {
         let settings =
             [("over", word(over)), ("vision", NUMBER(120.0)), ("species", NUMBER(1.0)), ("max_force", NUMBER(2.0))];
         let flock = boids([1.5, 1.0, 0.8], &settings);

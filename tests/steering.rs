@@ -108,7 +108,7 @@ fn hunt() -> State {
 
 #[test]
 fn prey_flee_and_predators_chase() {
-    for over in ["near", "within"] {
+    for over in ["near", "list", "within"] {
         let settings =
             [("range", NUMBER(2.0)), ("strength", NUMBER(5.0)), ("species", NUMBER(4.0)), ("predators", NUMBER(7.0))];
         let flee = force("flee", &[&settings[..], &[("over", word(over))]].concat());

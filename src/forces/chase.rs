@@ -2,7 +2,7 @@
 
 use glam::{DVec3, DVec4};
 
-use super::{Component, Law, SEE_NEAR, params, species};
+use super::{Component, Law, SEE_NEAR, SKIN, params, species};
 use crate::kernel::World;
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::visit::Particle;
@@ -15,6 +15,7 @@ pub const KEYS: &[Key] = &[
     Key::new("species", Kind::Species, Value::Number(1.0), "the species that chases"),
     Key::new("prey", Kind::Species, Value::Number(0.0), "the species that is chased"),
     SEE_NEAR,
+    SKIN,
 ];
 
 /// `chase`: predators steer to the middle of all prey in range. It does not act on prey: see `flee`.

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{Component, Law, SEE_NEAR, params, species};
+use super::{Component, Law, SEE_NEAR, SKIN, params, species};
 use crate::kernel::World;
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::visit::Particle;
@@ -14,6 +14,7 @@ pub const KEYS: &[Key] = &[
     Key::new("species", Kind::Species, Value::Number(0.0), "the species that flees"),
     Key::new("predators", Kind::Species, Value::Number(1.0), "the species that it flees"),
     SEE_NEAR,
+    SKIN,
 ];
 
 /// `flee`: away from every predator in range, the more the nearer it is. It does not act on predators.

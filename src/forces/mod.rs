@@ -79,14 +79,26 @@ fn params(settings: &Settings, names: &[&str]) -> Vec<(String, Scalar)> {
 /// Which pairs are evaluated, where a force has a cut-off radius; `of` is the species of the neighbours.
 fn over(settings: &Settings, of: Option<u32>) -> Over {
     let range = settings.number("range");
-    if settings.text("over") == "within" { Over::Within { range } } else { Over::Near { range, of } }
+    let skin = Some(settings.number("skin")).filter(|skin| *skin > 0.0);
+    match settings.text("over") {
+        "within" => Over::Within { range },
+        "list" => Over::List { range, skin, slots: 0 },
+        _ => Over::Near { range, of },
+    }
 }
 
 const SEE_NEAR: Key = Key::new(
     "over",
-    crate::settings::Kind::Choice(&["near", "within"]),
+    crate::settings::Kind::Choice(&["near", "list", "within"]),
     Value::Text(std::borrow::Cow::Borrowed("near")),
-    "which neighbours: all in range, by a cell list or by brute force",
+    "which neighbours: all in range, by a cell list, by a list that is kept over steps, or by brute force",
+);
+
+const SKIN: Key = Key::new(
+    "skin",
+    crate::settings::Kind::NotNegative,
+    Value::Number(0.0),
+    "over = \"list\": how much farther than the range the list reaches; 0: a fifth of the range [length]",
 );
 
 const SEED: Key = Key::new(

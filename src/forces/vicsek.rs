@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use glam::{DVec2, DVec3};
 
-use super::{Component, Law, Properties, SEED, SEE_NEAR};
+use super::{Component, Law, Properties, SEED, SEE_NEAR, SKIN};
 use crate::kernel::{Scalar, World};
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::visit::Particle;
@@ -19,6 +19,7 @@ pub const KEYS: &[Key] = &[
     Key::new("noise_kind", Kind::Choice(KINDS), Value::Text(Cow::Borrowed("angular")), "whether the noise turns the mean heading, or adds to the headings"),
     SEED,
     SEE_NEAR,
+    SKIN,
 ];
 
 const KINDS: &[&str] = &["angular", "vectorial"];

@@ -6,6 +6,7 @@ mod column;
 mod columns;
 mod field;
 mod host;
+mod list_shape;
 mod message;
 mod op;
 mod own;
@@ -32,6 +33,7 @@ pub use field::{
     VELOCITY,
 };
 pub use host::{Host, Reading, Writing};
+pub use list_shape::ListShape;
 pub use op::{Flag, Next, Op, Walk};
 pub use own::claims;
 pub use pace::{PACE, PACE_WORDS, Pace, Reason, STOP, TICKS, URGENT, URGES, split, ticks, time};

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{Bounds, Columns, Machine, Pace, Shader, Side, Solver, Source, Table};
+use super::{Bounds, Columns, ListShape, Machine, Pace, Shader, Side, Solver, Source, Table};
 use crate::life::{Birth, Drain};
 use crate::links::{Links, Network};
 use crate::motion::{self, Held, Motion};
@@ -49,6 +49,8 @@ pub struct Problem {
     pub pace: Option<Pace>,
     /// The columns of the simulation.
     pub columns: Arc<Columns>,
+    /// The list of neighbours that laws share, if any is over one.
+    pub list: Option<ListShape>,
 }
 
 /// The lowest and the highest corner of some places \[length\].
@@ -83,7 +85,13 @@ impl Problem {
             solver: Solver::default(),
             pace: None,
             columns: Arc::default(),
+            list: None,
         }
+    }
+    /// The same with this list of neighbours.
+    #[must_use]
+    pub fn listed(self, list: Option<ListShape>) -> Self {
+        Self { list, ..self }
     }
     /// The same with these columns.
     #[must_use]

@@ -1,6 +1,7 @@
 //! A grid that is filled on the host: what the twin of the device's is, and what measurements search.
 
 use glam::{DVec3, Vec3};
+use rayon::prelude::*;
 
 use super::Grid;
 use crate::error::Error;
@@ -65,6 +66,16 @@ impl Cells {
             self.rows(self.homes[i], |ids| total += ids.len() as u64);
         }
         total as f64 / self.homes.len().max(1) as f64 - 1.0
+    }
+    /// The most others that any particle has within the range.
+    #[must_use]
+    pub fn most(&self) -> u32 {
+        let number = |i: usize| {
+            let mut number = 0_u32;
+            self.around(i, |_| number += 1);
+            number
+        };
+        (0..self.homes.len()).into_par_iter().map(number).max().unwrap_or(0)
     }
     /// Calls with the id of everybody else that is within the range of a particle.
     pub fn around(&self, i: usize, mut call: impl FnMut(usize)) {

@@ -3,9 +3,12 @@
 mod build;
 mod cells;
 mod grid;
+mod list;
 
 pub use cells::Cells;
 pub use grid::{Grid, checked};
+pub(crate) use list::NONE;
+pub use list::{HISTORY, LIST, LIST_STATE, LIST_STATE_WORDS, List};
 
 use crate::kernel::{Field, Name};
 

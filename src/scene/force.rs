@@ -18,7 +18,7 @@ use super::value;
 use super::walk::{self, Table};
 
 pub(super) const OWN: &[&str] =
-    &["kind", "wgsl", "over", "range", "neighbors", "theta", "params", "pairs", "tables", "into"];
+    &["kind", "wgsl", "over", "range", "skin", "slots", "neighbors", "theta", "params", "pairs", "tables", "into"];
 
 /// A force as the scene gives it.
 pub(super) enum Chosen {
@@ -87,13 +87,14 @@ fn over(table: &Table<'_>, report: &mut Report) -> Option<Over> {
     };
     let word = walk::choice(entry, "over", Over::NAMES, report)?;
     let wanted = match word {
-        "within" | "near" => Some("range"),
+        "within" | "near" | "list" => Some("range"),
         "nearest" => Some("neighbors"),
         "tree" | "auto" => Some("theta"),
         _ => None,
     };
-    for given in ["range", "neighbors", "theta"].into_iter().filter_map(|key| table.get(key)) {
-        if wanted != Some(given.key.as_str()) {
+    for given in ["range", "skin", "slots", "neighbors", "theta"].into_iter().filter_map(|key| table.get(key)) {
+        let kept = word == "list" && ["skin", "slots"].contains(&given.key.as_str());
+        if wanted != Some(given.key.as_str()) && !kept {
             let fault = Fault::at(&given.place, format!("a law over \"{word}\" has no use for `{}`", given.key));
             report.push(fault.label("remove it, or change `over`"));
         }
@@ -125,11 +126,26 @@ fn over(table: &Table<'_>, report: &mut Report) -> Option<Over> {
     match word {
         "within" => Some(Over::Within { range: number }),
         "near" => Some(Over::Near { range: number, of: None }),
+        "list" => {
+            let skin = optional(table, "skin", Kind::NotNegative, report)?;
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count fits 32 bits")]
+            let slots = optional(table, "slots", Kind::Count, report)?.map_or(0, |slots| slots as u32);
+            Some(Over::List { range: number, skin, slots })
+        }
         "tree" | "auto" => {
             Some(Over::Tree { opening: Opening::Geometric { theta: number }, core: 0.0, auto: word == "auto" })
         }
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count fits 32 bits")]
         _ => Some(Over::Nearest { count: number as u32 }),
+    }
+}
+
+/// A number that may be left out; nothing where it is none.
+#[expect(clippy::option_option, reason = "a number that is wrong is not one that is left out")]
+fn optional(table: &Table<'_>, key: &str, kind: Kind, report: &mut Report) -> Option<Option<f64>> {
+    match table.get(key) {
+        Some(given) => value::number(&given.node, key, kind, &value::wanted(kind), report).map(Some),
+        None => Some(None),
     }
 }
 
@@ -237,6 +253,13 @@ impl Chosen {
                 out.text("over", law.over.name());
                 match law.over {
                     Over::Within { range } | Over::Near { range, .. } => out.number("range", range),
+                    Over::List { range, skin, slots } => {
+                        out.number("range", range);
+                        skin.into_iter().for_each(|skin| out.number("skin", skin));
+                        if slots > 0 {
+                            out.line("slots", &slots.to_string());
+                        }
+                    }
                     Over::Tree { opening, .. } => out.number("theta", opening.theta()),
                     Over::Nearest { count } => out.line("neighbors", &count.to_string()),
                     _ => {}

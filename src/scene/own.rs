@@ -64,8 +64,14 @@ pub(super) const LINKS: &[Own] = &[
 pub(super) const FORCE: &[Own] = &[
     own("kind", "or wgsl", "a force of the README's list, with its keys"),
     own("wgsl", "or kind", "a file of your own law in WGSL"),
-    own("over", "must be given", "wgsl: each, pairs, within, near, nearest, tree, auto, links, joints or triangles"),
-    own("range", "must be given", "wgsl over within and near: the cut-off radius [length]"),
+    own(
+        "over",
+        "must be given",
+        "wgsl: each, pairs, within, near, list, nearest, tree, auto, links, joints or triangles",
+    ),
+    own("range", "must be given", "wgsl over within, near and list: the cut-off radius [length]"),
+    own("skin", "a fifth of the range", "wgsl over list: how much farther than the range its list reaches [length]"),
+    own("slots", "0", "wgsl over list: numbers that each pair keeps from step to step"),
     own("neighbors", "must be given", "wgsl over nearest: how many neighbours"),
     own("theta", "must be given", "wgsl over tree and auto: the opening angle, at most 1"),
     own("params", "{}", "wgsl: the members of its Params, as in { strength = 2.0, axis = [0, 0, 1] }"),

@@ -38,6 +38,10 @@ impl<B: Backend> Simulation<B> {
         let [done, .., fast, particle] = [alarm[0], alarm[1], alarm[3], alarm[4]];
         // Who runs away is lost in the end: what came first is told.
         let [.., cut, endless] = alarm;
+        // Sums that lack neighbours make numbers that are none, and speeds that run away.
+        if cut == u32::MAX && endless == u32::MAX {
+            self.check_list().await?;
+        }
         if fast != u32::MAX && fast <= done && cut == u32::MAX && endless == u32::MAX {
             return Err(Error::Runaway { particle, step: u64::from(fast.saturating_sub(1)) });
         }

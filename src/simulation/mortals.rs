@@ -27,6 +27,7 @@ pub fn serves(particles: &State, forces: &[Box<dyn Component>], integrator: &dyn
                 Over::Each
                 | Over::Near { .. }
                 | Over::Nearest { .. }
+                | Over::List { .. }
                 | Over::Links
                 | Over::Joints
                 | Over::Triangles => {}

@@ -2,13 +2,13 @@
 
 use glam::DVec3;
 
-use super::{columns, keepers, mortals, unwritten};
+use super::{columns, keepers, lists, mortals, unwritten};
 use crate::boundary;
 use crate::error::Error;
 use crate::fluids::{Start, Still};
 use crate::forces::{Component, Problem, Stage};
 use crate::integrators::{Integrator, Step};
-use crate::kernel::{Array, Bounds, Column, Columns, Machine, Plan, Solver, claims};
+use crate::kernel::{Array, Bounds, Column, Columns, ListShape, Machine, Plan, Solver, claims};
 use crate::life;
 use crate::motion::{self, Hold};
 use crate::state::State;
@@ -39,6 +39,8 @@ pub struct Plans {
     pub measure: (Plan, Plan),
     /// Where a run goes on: what time it is.
     pub time: Plan,
+    /// The list of neighbours that they share, if any.
+    pub list: Option<ListShape>,
 }
 
 impl Plans {
@@ -65,6 +67,7 @@ impl Setup {
     pub fn plans(&self, machine: Machine) -> Result<Plans, Error> {
         let problem = self.problem(machine)?;
         self.weigh(&problem)?;
+        let list = problem.list;
         let mut start = Step::new(&self.forces, problem.clone());
         start.enclose();
         start.lead();
@@ -78,7 +81,7 @@ impl Setup {
         let columns = problem.columns.clone();
         let time = Step::time(&problem)?;
         let measure = Step::measurement(&self.forces, problem)?;
-        let plans = Plans { start: start.begun()?, step: step.done()?, measure, time };
+        let plans = Plans { start: start.begun()?, step: step.done()?, measure, time, list };
         claims(&plans.all(), &columns)?;
         unwritten::check(&plans, &columns)?;
         Ok(plans)
@@ -125,7 +128,8 @@ impl Setup {
             .breaking(self.breaks())
             .solved(self.solver)
             .paced(self.integrator.pace())
-            .of_columns(self.columns()?))
+            .of_columns(self.columns()?);
+        lists::counted(self, problem)
     }
     /// The columns that all simulations have, those that components declare, and those that the state brings along.
     ///

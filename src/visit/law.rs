@@ -6,8 +6,8 @@ use glam::{DVec3, DVec4};
 
 use super::twin::{ByTables, Sample};
 use super::{
-    Group, Jacobian, Outcome, Over, PAIR_TABLE, PairTable, Particle, Search, Tables, each, links, near, pairs, tree,
-    twin, walk,
+    Group, Jacobian, Memory, Outcome, Over, PAIR_TABLE, PairTable, Particle, Search, Tables, each, links, list, near,
+    pairs, tree, twin, walk,
 };
 use crate::error::Error;
 use crate::kernel::{
@@ -25,7 +25,8 @@ pub struct Law {
     /// Who meets whom.
     pub over: Over,
     /// Its WGSL. Over `each` it has `fn force(me: Particle) -> vec4f`; over all others it has `fn gather` and `fn finish`,
-    /// see `shaders/visit/span.wgsl`, and may have `fn acts_on(me: Particle) -> bool` to be left out of a search.
+    /// see `shaders/visit/span.wgsl`, and may have `fn acts_on(me: Particle) -> bool` to be left out of a search. Over `list` with slots
+    /// it may call `recall` and `remember`, see [`Law::remembering`].
     pub wgsl: Source,
     /// The members of its `Params`, by name.
     pub params: Vec<(String, Scalar)>,
@@ -190,6 +191,25 @@ impl Law {
         let into = into.iter().map(|name| Name::from(*name)).collect();
         Self { into, ..Self::plain(name, Over::Each, wgsl, params, twin::updating(rule)) }
     }
+    /// A law over [`Over::List`] that keeps history of pairs, as friction at a contact does; `gather(me, you, r, world, memory, sum)` takes
+    /// a neighbour in, and `finish(me, sum, world, outcome)` is that of [`Law::computing`]. Its WGSL has, beside what all laws have,
+    /// `fn recall(you: Particle, word: u32) -> f32`, what the last step left, and `fn remember(you: Particle, word: u32, value: f32)`,
+    /// what this step leaves. A pair that is out of range, or for which a step leaves nothing, begins with zeros. Each of the two has
+    /// words of its own.
+    pub fn remembering<S: Default>(
+        name: &str,
+        over: (f64, Option<f64>, u32),
+        wgsl: Source,
+        params: Vec<(String, Scalar)>,
+        into: &[&'static str],
+        gather: impl Fn(&Particle, &Particle, DVec3, &World, &mut Memory<'_>, &mut S) + Send + Sync + 'static,
+        finish: impl Fn(&Particle, &S, &World, &mut Outcome) + Send + Sync + 'static,
+    ) -> Self {
+        let (range, skin, slots) = over;
+        let twin = list::remembering(range, slots as usize, gather, finish);
+        let into = into.iter().map(|name| Name::from(*name)).collect();
+        Self { into, ..Self::plain(name, Over::List { range, skin, slots }, wgsl, params, twin) }
+    }
     /// A law of springs; `gather(me, you, r, link, sum)` takes one in, with r from me to you, and `finish(me, sum)` gives
     /// acceleration and potential per unit mass, of which each end holds half.
     pub fn links<S: Default>(
@@ -230,6 +250,7 @@ impl Law {
             Over::Each => each::kernel(self, problem),
             Over::Pairs | Over::Within { .. } => pairs::kernel(self, problem),
             Over::Near { .. } | Over::Nearest { .. } => near::kernel(self, problem),
+            Over::List { range, slots, .. } => list::kernel(self, range, slots, problem),
             Over::Tree { opening, core, .. } => tree::kernel(self, &Tree::new(opening, core, problem), problem),
             Over::Links | Over::Joints | Over::Triangles => links::kernel(self, problem),
         }

@@ -22,6 +22,15 @@ pub enum Over {
         /// says that it is no use to look at them.
         of: Option<u32>,
     },
+    /// The same, found on a list of the neighbours within range + skin that is kept over steps.
+    List {
+        /// The range \[length\].
+        range: f64,
+        /// How much farther the list reaches \[length\]; `None`: a part of the range.
+        skin: Option<f64>,
+        /// Words of history that the law keeps for each pair.
+        slots: u32,
+    },
     /// Everybody meets the so many that are nearest to it, the lower id first where two are equally near.
     Nearest {
         /// How many.
@@ -47,7 +56,7 @@ pub enum Over {
 impl Over {
     /// The scene's words for the visits.
     pub const NAMES: &'static [&'static str] =
-        &["each", "pairs", "within", "near", "nearest", "tree", "auto", "links", "joints", "triangles"];
+        &["each", "pairs", "within", "near", "list", "nearest", "tree", "auto", "links", "joints", "triangles"];
 
     /// The scene's word for it.
     #[must_use]
@@ -57,6 +66,7 @@ impl Over {
             Self::Pairs => "pairs",
             Self::Within { .. } => "within",
             Self::Near { .. } => "near",
+            Self::List { .. } => "list",
             Self::Nearest { .. } => "nearest",
             Self::Tree { auto: false, .. } => "tree",
             Self::Tree { auto: true, .. } => "auto",
@@ -69,7 +79,7 @@ impl Over {
     #[must_use]
     pub fn range(self) -> Option<f64> {
         match self {
-            Self::Within { range } | Self::Near { range, .. } => Some(range),
+            Self::Within { range } | Self::Near { range, .. } | Self::List { range, .. } => Some(range),
             _ => None,
         }
     }

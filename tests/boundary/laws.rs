@@ -45,6 +45,7 @@ fn every_law_in_a_periodic_box() {
                         far.position().iter().zip(far.mass()).map(|(x, m)| x.extend(*m).as_vec4()).collect();
                     simulation.write(motes::POSITION, &far).expect("places");
                     let problem = Problem::new(333, machine)
+                        .listed(start.problem(machine).expect("a problem").list)
                         .tied(&support::links(333), &[])
                         .at(start.state.position(), bounds)
                         .of_species(start.state.species());

@@ -29,7 +29,9 @@ pub fn all(device: &Device, stages: &mut Vec<Stage>) {
             for settings in all {
                 let force = (entry.build)(&settings);
                 // A search wants its cell list, its list or its tree, and has stages of its own; brute force finds the same.
-                let searches = |over| matches!(over, Over::Near { .. } | Over::Nearest { .. } | Over::Tree { .. });
+                let searches = |over| {
+                    matches!(over, Over::Near { .. } | Over::List { .. } | Over::Nearest { .. } | Over::Tree { .. })
+                };
                 if force.laws().iter().any(|law| searches(law.over)) {
                     continue;
                 }

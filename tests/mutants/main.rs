@@ -15,6 +15,7 @@ mod fluids;
 mod held;
 mod implicit;
 mod laws;
+mod lists;
 mod memory;
 mod neighbors;
 mod paced;
@@ -133,6 +134,7 @@ fn every_mutant_is_noticed() {
         equivalent_neighbors::EQUIVALENT,
         equivalent_dfsph::EQUIVALENT,
         births::EQUIVALENT,
+        lists::EQUIVALENT,
         trees::EQUIVALENT,
         walks::EQUIVALENT,
         paces::EQUIVALENT,

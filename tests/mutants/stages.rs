@@ -218,6 +218,7 @@ pub fn all(shared: &Shared) -> Vec<Stage> {
     crate::fluids::all(shared, &device, &mut stages);
     pairs(shared, &device, &mut stages);
     crate::neighbors::all(shared, &device, &mut stages);
+    crate::lists::all(shared, &mut stages);
     primitives::all(&device, &mut stages);
     crate::trees::all(shared, &mut stages);
     crate::walks::all(shared, &mut stages);

@@ -11,6 +11,8 @@ mod support;
 
 mod exact;
 mod far;
+mod history;
+mod list;
 mod places;
 mod properties;
 mod refusals;

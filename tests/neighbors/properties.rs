@@ -99,6 +99,11 @@ fn near_is_within_to_the_bit() {
         for (name, machine) in variants(&shared) {
             let near = found(&shared, Some(machine), &positions, bounds, Over::Near { range, of: None });
             same(&near, &want, &format!("{case:?}, near, {name}"));
+            for skin in [None, Some(0.0)] {
+                let list = Over::List { range, skin, slots: 0 };
+                let list = found(&shared, Some(machine), &positions, bounds, list);
+                same(&list, &want, &format!("{case:?}, list with a skin of {skin:?}, {name}"));
+            }
         }
         same(&found(&shared, None, &positions, bounds, Over::Within { range }), &want, &format!("{case:?}, within"));
     });

@@ -193,6 +193,8 @@ fn a_law_of_ones_own_is_read_from_its_file() {
     for (over, more, want) in [
         ("near", "range = 0.1", Over::Near { range: 0.1, of: None }),
         ("within", "range = 2", Over::Within { range: 2.0 }),
+        ("list", "range = 0.1", Over::List { range: 0.1, skin: None, slots: 0 }),
+        ("list", "range = 0.1\nskin = 0.03\nslots = 3", Over::List { range: 0.1, skin: Some(0.03), slots: 3 }),
         ("nearest", "neighbors = 7", Over::Nearest { count: 7 }),
         ("pairs", "", Over::Pairs),
         ("tree", "theta = 0.25", Over::Tree { opening: Opening::Geometric { theta: 0.25 }, core: 0.0, auto: false }),
@@ -223,7 +225,7 @@ error: unknown over "all_of_it"
    |
  8 | over = "all_of_it"
    |        ^^^^^^^^^^^
-   = known: `each`, `pairs`, `within`, `near`, `nearest`, `tree`, `auto`, `links`, `joints`, `triangles`
+   = known: `each`, `pairs`, `within`, `near`, `list`, `nearest`, `tree`, `auto`, `links`, `joints`, `triangles`
 
 error: `strength` must be a number, three numbers, or true or false, not the text "2"
   --> scene.toml:9:23

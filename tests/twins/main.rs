@@ -20,17 +20,20 @@ const SIZES: [usize; 6] = [1, 2, 63, 64, 65, 1000];
 /// Large, so that what is wrong in a step shows.
 const DT: f64 = 0.37;
 
-/// A cloud a few steps on its way, so that the clock and all fields hold something.
-fn moving(gpu: Gpu, count: usize, forces: Vec<Box<dyn forces::Component>>, name: &str) -> Simulation<Gpu> {
-    let setup = Setup {
+fn setup(count: usize, forces: Vec<Box<dyn forces::Component>>, name: &str) -> Setup {
+    Setup {
         state: support::cloud(count, 7),
         forces,
         integrator: integrator(name),
         dt: DT,
         bounds: motes::Bounds::default(),
         solver: motes::Solver::default(),
-    };
-    let mut simulation = Simulation::on(gpu, &setup).expect("a simulation");
+    }
+}
+
+/// A cloud a few steps on its way, so that the clock and all fields hold something.
+fn moving(gpu: Gpu, count: usize, forces: Vec<Box<dyn forces::Component>>, name: &str) -> Simulation<Gpu> {
+    let mut simulation = Simulation::on(gpu, &setup(count, forces, name)).expect("a simulation");
     simulation.step(3).expect("three steps");
     simulation
 }
@@ -81,7 +84,11 @@ fn every_law_alone() {
                     let mut simulation = moving(gpu, count, vec![law], "symplectic_euler");
                     let law = [pick().1];
                     let cloud = support::cloud(count, 7);
+                    // A list has as much room as that of the simulation.
+                    let list =
+                        setup(count, vec![pick().1], "symplectic_euler").problem(machine).expect("a problem").list;
                     let problem = forces::Problem::new(simulation.count(), machine)
+                        .listed(list)
                         .at(cloud.position(), motes::Bounds::default())
                         .of_species(cloud.species())
                         .tied(&cloud.links, &cloud.held);

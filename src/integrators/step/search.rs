@@ -1,10 +1,32 @@
 //! What forces are searched with.
 
 use super::Step;
-use crate::neighbors::Grid;
+use crate::error::Error;
+use crate::forces::{Law, Over};
+use crate::neighbors::{Grid, List};
 use crate::tree::Tree;
+use crate::visit;
 
 impl Step<'_> {
+    /// Keeps the list of neighbours up to date, where laws of chosen forces are over it.
+    fn list(&mut self, chosen: &impl Fn(usize) -> bool) -> Result<(), Error> {
+        let places = self.forces.iter().enumerate();
+        let laws: Vec<(usize, Law)> =
+            places.flat_map(|(place, force)| force.laws().into_iter().map(move |law| (place, law))).collect();
+        let over_list = |(place, law): &(usize, Law)| chosen(*place) && matches!(law.over, Over::List { .. });
+        if !laws.iter().any(over_list) {
+            return Ok(());
+        }
+        if self.problem.list.is_none() {
+            let laws: Vec<Law> = laws.into_iter().map(|(_, law)| law).collect();
+            self.problem.list = visit::shared_list(&laws, &self.problem)?;
+        }
+        if let Some(shape) = self.problem.list {
+            let kernel = List::new(shape, &self.problem).and_then(|list| visit::list_kernel(list, &self.problem));
+            self.add(kernel);
+        }
+        Ok(())
+    }
     /// The grids that forces search and the trees that they walk: each once, however many do.
     pub(super) fn neighbors(&mut self, chosen: impl Fn(usize) -> bool) {
         let mut grids: Vec<(Grid, bool)> = Vec::new();
@@ -27,6 +49,9 @@ impl Step<'_> {
                     self.error.get_or_insert(error);
                 }
             }
+        }
+        if let Err(error) = self.list(&chosen) {
+            self.error.get_or_insert(error);
         }
         for (grid, moving) in grids {
             self.add(grid.kernel(&self.problem, moving));

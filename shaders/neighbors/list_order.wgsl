@@ -1,0 +1,50 @@
+// From the order of the walk to that of ids: four neighbours count which ids are lower than theirs. Sums over neighbours have
+// one order then, whenever the list was built.
+@group(2) @binding(8) var<storage, read_write> list: array<vec4u>;
+@group(2) @binding(11) var<storage, read> list_found: array<vec4u>;
+@group(2) @binding(12) var<storage, read_write> list_origin: array<vec4f>;
+
+override ROOM: u32 = 4u;
+const WORKGROUP: u32 = 64u;
+const NONE: u32 = 0xffffffffu;
+
+fn lower(id: u32, than: vec4u) -> vec4u { return select(vec4u(0u), vec4u(1u), vec4u(id) < than); }
+
+fn put(k: u32, place: u32, id: u32) {
+    if id != NONE { list[(1u + place / 4u) * world.count + k][place % 4u] = id; }
+}
+
+// A row without room for all is empty: the run ends with an error that names its particle.
+fn length(found: vec4u) -> u32 { return select(0u, found.x, found.x <= ROOM); }
+
+// The head of a row, and where the particle of that id is, not slot, as the list is built.
+fn head(k: u32, found: vec4u) {
+    list[k] = vec4u(length(found), found.yzw);
+    list_origin[k] = vec4f(position[k].xyz, f32(lives(k)));
+    if found.x > atomicLoad(&list_state[0].longest) { atomicMax(&list_state[0].longest, found.x); }
+    if found.x > ROOM { atomicMax(&list_state[0].full, ~found.y); }
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn order(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
+    // Layer n of the dispatch has the n-th four of each row.
+    let k = folded(group, groups) * WORKGROUP + lane;
+    if k < world.count {
+        var found = vec4u(0u, NONE, 0u, 0u);
+        if k < present() { found = list_found[k]; }
+        if group.z == 0u { head(k, found); }
+        let end = length(found);
+        if 4u * group.z < end {
+            let mine = list_found[(1u + group.z) * world.count + k];
+            var place = vec4u(0u);
+            for (var n = 0u; n < end; n += 4u) {
+                let others = list_found[(1u + n / 4u) * world.count + k];
+                place += lower(others.x, mine) + lower(others.y, mine) + lower(others.z, mine) + lower(others.w, mine);
+            }
+            put(k, place.x, mine.x);
+            put(k, place.y, mine.y);
+            put(k, place.z, mine.z);
+            put(k, place.w, mine.w);
+        }
+    }
+}

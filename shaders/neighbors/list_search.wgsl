@@ -1,0 +1,30 @@
+// Neighbours within range + skin, in the order in which cells are walked. Row 0 of the list has a head for each slot of the
+// grid: how many neighbours there are, and of which particle. Each further row has four of them, so that invocations side by
+// side read side by side.
+struct Sum { number: u32 }
+
+@group(2) @binding(11) var<storage, read_write> list_found: array<vec4u>;
+
+// Range + skin, and how many neighbours there is room for: a multiple of four.
+override REACH: f32 = 1.0;
+override ROOM: u32 = 4u;
+const NONE: u32 = 0xffffffffu;
+
+fn acts_on(me: Particle) -> bool { return true; }
+
+fn put(slot: u32, n: u32, id: u32) { list_found[(1u + n / 4u) * world.count + slot][n % 4u] = id; }
+
+fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
+    // The grid looks a little farther than the reach. Positions as they are decide, and not their images in the box.
+    let way = shortest(position[you.index].xyz - position[me.index].xyz);
+    if way.x * way.x + way.y * way.y + way.z * way.z < REACH * REACH {
+        if (*sum).number < ROOM { put(me.slot, (*sum).number, you.index); }
+        (*sum).number += 1u;
+    }
+}
+
+fn deliver(k: u32, me: Particle, sum: Sum) {
+    list_found[k] = vec4u(sum.number, me.index, 0u, 0u);
+    // What is left of the last four is larger than any id.
+    for (var n = min(sum.number, ROOM); n % 4u != 0u; n += 1u) { put(k, n, NONE); }
+}

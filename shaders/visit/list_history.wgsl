@@ -1,0 +1,15 @@
+// A law that keeps history of pairs: words that it leaves for the next step, in slots that outlive the list.
+@group(2) @binding(9) var<storage, read_write> history: array<f32>;
+
+const REMEMBERS: bool = true;
+
+// What the last step left; 0 where the pair was not in range then, or nothing was left.
+fn recall(you: Particle, word: u32) -> f32 { return history[word_of(you.pair, world.step, word)]; }
+
+// What this step leaves.
+fn remember(you: Particle, word: u32, value: f32) { history[word_of(you.pair, world.step + 1u, word)] = value; }
+
+// This step leaves nothing, until the law says so.
+fn forget(pair: u32) {
+    for (var word = 0u; word < SLOTS; word += 1u) { history[word_of(pair, world.step + 1u, word)] = 0.0; }
+}

@@ -1,0 +1,5 @@
+// A law that keeps no history of pairs.
+const REMEMBERS: bool = false;
+
+fn pair_at(k: u32, n: u32) -> u32 { return 0u; }
+fn forget(pair: u32) {}

@@ -1,0 +1,186 @@
+//! The list of neighbours within range + skin: its fields, and its f64 reference.
+
+use std::collections::BTreeMap;
+
+use glam::{DVec3, Vec4};
+use rayon::prelude::*;
+
+use super::{Cells, Grid, checked};
+use crate::error::Error;
+use crate::kernel::{Bounds, Host, ListShape, POSITION, Problem, Side, World};
+
+/// Rows of neighbours, four to an element: see `shaders/neighbors/list_search.wgsl`.
+pub const LIST: &str = "list";
+/// Whether it must be built again, how often it has been, the most neighbours of a particle, and the complement of the id of
+/// one that had more than there is room for: see `shaders/neighbors/list_state.wgsl`.
+pub const LIST_STATE: &str = "list_state";
+/// The words of that.
+pub const LIST_STATE_WORDS: usize = 4;
+/// Where particles were when it was built.
+pub(crate) const LIST_ORIGIN: &str = "list_origin";
+/// History of pairs, word by word: see `shaders/neighbors/history.wgsl`.
+pub const HISTORY: &str = "history";
+/// No particle.
+pub(crate) const NONE: u32 = u32::MAX;
+
+/// A cell is wider than the reach by this part: then the search for neighbours misses none that the reach, measured
+/// between positions as they are, has within.
+const WIDER: f64 = 1.0 / 256.0;
+/// Of the largest coordinate in a periodic box, what its rounding may add to a distance: sixteen units in the last place.
+const ROUNDING: f64 = 1.0 / 1_048_576.0;
+/// Of a range, what rounding may add to it: its square is a sum of three, each rounded thrice.
+const SQUARE: f64 = 1.0 / 65_536.0;
+
+/// A list of neighbours in a problem.
+pub struct List {
+    /// How far it reaches, and how many neighbours it has room for.
+    pub shape: ListShape,
+    /// What it is built with.
+    pub grid: Grid,
+}
+
+impl List {
+    /// The list of such a shape.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] when the range or the skin is none.
+    pub fn new(shape: ListShape, problem: &Problem) -> Result<Self, Error> {
+        checked(shape.range)?;
+        if !(shape.skin >= 0.0 && shape.skin.is_finite()) {
+            return Err(Error::Scene(format!(
+                "a list of neighbours has a skin of {}: it must be 0 or above",
+                shape.skin
+            )));
+        }
+        checked(shape.reach())?;
+        let rounding = ROUNDING * coordinate(&problem.bounds);
+        let grid = Grid::new(shape.reach() * (1.0 + WIDER) + rounding, None, problem)?;
+        Ok(Self { shape, grid: Grid { name: format!("the list {:?}", shape.reach()), ..grid } })
+    }
+    /// What it is called in a plan.
+    #[must_use]
+    pub fn title(&self) -> String {
+        let ListShape { range, skin, words, capacity } = self.shape;
+        // As the device holds it: a difference of two has more digits than were written.
+        #[expect(clippy::cast_possible_truncation, reason = "rounded to be read")]
+        let skin = skin as f32;
+        let words = if words > 0 { format!(" WORDS={words}") } else { String::new() };
+        format!("list RANGE={range:?} SKIN={skin:?} CAPACITY={capacity}{words}")
+    }
+    /// How far a particle may move before the list must be built again \[length\].
+    #[must_use]
+    pub fn limit(&self) -> f64 {
+        (0.5 * self.shape.skin - SQUARE * self.shape.reach()).max(0.0)
+    }
+    /// Elements of four words for so many particles: a head for each, and its neighbours.
+    #[must_use]
+    pub fn elements(&self, count: u32) -> u64 {
+        u64::from(count) * (1 + u64::from(self.shape.capacity) / 4)
+    }
+    /// The place of the n-th neighbour in row k, in words.
+    pub(crate) fn place(row: usize, n: usize, count: usize) -> usize {
+        4 * ((1 + n / 4) * count + row) + n % 4
+    }
+
+    /// The place of a word of history: of the n-th neighbour in row k, in one of two halves.
+    pub(crate) fn word([row, n, half, word]: [usize; 4], slots: usize, count: usize) -> usize {
+        ((2 * n + half) * slots + word) * count + row
+    }
+    /// Words of history for so many particles.
+    #[must_use]
+    pub fn words(&self, count: u32) -> u64 {
+        2 * u64::from(count) * u64::from(self.shape.capacity) * u64::from(self.shape.words)
+    }
+    /// What pairs remember, by both ids, as this step finds it.
+    fn remembered(&self, list: &[u32], history: &[f64], world: &World) -> BTreeMap<[u32; 2], Vec<f64>> {
+        let (count, slots, half) = (world.count as usize, self.shape.words as usize, (world.step & 1) as usize);
+        let mut pairs = BTreeMap::new();
+        for (k, head) in list.chunks_exact(4).take(count).enumerate() {
+            for n in 0..head[0].min(self.shape.capacity) as usize {
+                let word = |w: usize| history.get(Self::word([k, n, half, w], slots, count)).copied().unwrap_or(0.0);
+                if let Some(other) = list.get(Self::place(k, n, count)) {
+                    pairs.insert([head[1], *other], (0..slots).map(word).collect());
+                }
+            }
+        }
+        pairs
+    }
+
+    /// The reference: looks whether a particle has moved, and if so, finds the neighbours of each by brute force.
+    ///
+    /// # Errors
+    /// When a field is missing.
+    pub fn update(&self, host: &Host) -> Result<bool, Error> {
+        let (position, lives, bounds) = (host.read(POSITION)?, host.lives()?, host.world().bounds);
+        let count = (host.world().count as usize).min(position.len());
+        let places: Vec<DVec3> = position[..count].iter().map(|x| x.truncate()).collect();
+        let mut origin = host.writing::<Vec4>(LIST_ORIGIN)?;
+        let mut state = host.writing::<u32>(LIST_STATE)?;
+        let [_, builds, longest, full] = &mut state[..] else { return Ok(false) };
+        let moved = |i: usize| {
+            let from = origin[i];
+            lives(i) != (from.w > 0.0) || lives(i) && self.has_moved(places[i], from.truncate(), &bounds)
+        };
+        if *builds > 0 && !(0..count).any(moved) {
+            return Ok(false);
+        }
+        *builds = builds.wrapping_add(1);
+        let order = Cells::sort(&self.grid, bounds, places.iter().copied(), &lives, |_| false).ids;
+        let reach = self.shape.reach();
+        let around = |id: &u32| -> Vec<u32> {
+            let i = *id as usize;
+            let near = |j: &u32| {
+                let other = *j as usize;
+                other != i && lives(other) && bounds.within(places[other] - places[i], reach)
+            };
+            (0..u32::try_from(count).unwrap_or(u32::MAX)).filter(near).collect()
+        };
+        let rows: Vec<Vec<u32>> = order.par_iter().map(around).collect();
+        let mut list = host.writing::<u32>(LIST)?;
+        let slots = self.shape.words as usize;
+        let mut history = (slots > 0).then(|| host.writing::<f32>(HISTORY)).transpose()?;
+        // The first list has none before it.
+        let before = history.as_ref().filter(|_| *builds > 1);
+        let known = before.map(|history| self.remembered(&list, history, &host.world())).unwrap_or_default();
+        let half = (host.world().step & 1) as usize;
+        for k in 0..count {
+            let (id, row) = order.get(k).zip(rows.get(k)).map_or((NONE, &[][..]), |(id, row)| (*id, row));
+            // A row without room for all is empty: the run ends with an error that names its particle.
+            let kept = if row.len() > self.shape.capacity as usize { 0 } else { row.len() };
+            let number = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
+            list[4 * k..4 * k + 4].copy_from_slice(&[number(kept), id, 0, 0]);
+            for (n, other) in row[..kept].iter().enumerate() {
+                list[Self::place(k, n, count)] = *other;
+                let pair = known.get(&[id, *other]);
+                for w in 0..slots {
+                    let value = pair.map_or(0.0, |words| words[w]);
+                    history.iter_mut().for_each(|all| all[Self::word([k, n, half, w], slots, count)] = value);
+                }
+            }
+            *longest = number(row.len()).max(*longest);
+            if row.len() > kept {
+                *full = (!id).max(*full);
+            }
+            origin[k] = places[k].extend(f64::from(u8::from(lives(k))));
+        }
+        Ok(true)
+    }
+    /// Whether a displacement is more than the list bears, by the device's own arithmetic.
+    #[expect(clippy::cast_possible_truncation, reason = "as the device holds it")]
+    fn has_moved(&self, x: DVec3, from: DVec3, bounds: &Bounds) -> bool {
+        let mut limit = self.limit() as f32;
+        if bounds.has(Side::Periodic) {
+            limit -= ROUNDING as f32 * x.as_vec3().abs().max(from.as_vec3().abs()).max_element();
+        }
+        let limit = limit.max(0.0);
+        let way = bounds.shortest_single(x - from);
+        let square = way.x * way.x + way.y * way.y + way.z * way.z;
+        !(x.as_vec3() == from.as_vec3() || square < limit * limit)
+    }
+}
+
+/// The largest coordinate along a periodic axis; 0 where there is none.
+fn coordinate(bounds: &Bounds) -> f64 {
+    let size = bounds.low.abs().max(bounds.high.abs()).max(bounds.period());
+    (size * bounds.axes(Side::Periodic)).max_element()
+}

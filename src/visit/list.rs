@@ -1,0 +1,102 @@
+//! Each particle and its neighbours on the list, which is kept over steps.
+
+mod build;
+mod reference;
+
+pub use build::kernel as build;
+pub use reference::{Memory, remembering};
+
+use super::{Law, Over};
+use crate::error::Error;
+use crate::kernel::{Kernel, ListShape, Pass, Problem, Shader, Threads};
+use crate::neighbors::{HISTORY, LIST, List};
+
+/// Rows of one dispatch, at most. It is a whole number of workgroups.
+const ROWS: u32 = 1 << 20;
+/// The skin where none is given, as a part of the range.
+const SKIN: f64 = 0.2;
+/// Neighbours that there is room for where they have not been counted.
+pub const UNCOUNTED: u32 = 128;
+
+/// The list that laws share, if any is over one: it reaches as far as the longest range and skin.
+///
+/// # Errors
+/// [`Error::Scene`] when a range or a skin is none.
+pub fn shared(laws: &[Law], problem: &Problem) -> Result<Option<ListShape>, Error> {
+    let mut shape: Option<ListShape> = None;
+    let mut reach = 0.0_f64;
+    for law in laws {
+        let Over::List { range, skin, slots } = law.over else { continue };
+        let own = ListShape { range, skin: skin.unwrap_or(SKIN * range), words: slots, capacity: 4 };
+        // What is wrong with it is said of it alone.
+        let own = List::new(own, problem)?.shape;
+        reach = reach.max(own.reach());
+        let known = shape.unwrap_or(own);
+        if shape.is_some() && known.words > 0 && slots > 0 {
+            return Err(Error::Scene(format!(
+                "two laws keep history of pairs, `{}` the second of them, and a list has slots for one: leave one of them, or make one \
+                 law of both",
+                law.name
+            )));
+        }
+        shape = Some(ListShape { range: known.range.max(range), words: known.words.max(slots), ..known });
+    }
+    let shape = shape.map(|shape| ListShape { skin: reach - shape.range, ..shape });
+    Ok(shape.map(|shape| shape.with_room(UNCOUNTED, problem.count)))
+}
+
+/// The kernel of a law over the list, with so many words of history.
+pub fn kernel(law: Law, range: f64, slots: u32, problem: &Problem) -> Result<Kernel, Error> {
+    law.requires_meetings()?;
+    let asks = ["recall", "remember"].into_iter().find(|function| law.wgsl.says(&[function, "("]));
+    if let Some(function) = asks.filter(|_| slots == 0) {
+        return Err(Error::Scene(format!(
+            "{}: `{function}` is for a law that keeps history: say how many words each pair has, as in slots = 3",
+            law.wgsl.file
+        )));
+    }
+    let list = match problem.list {
+        Some(shape) => List::new(shape, problem)?,
+        None => match shared(std::slice::from_ref(&law), problem)? {
+            Some(shape) => List::new(shape, problem)?,
+            None => return Err(Error::Scene(format!("`{}` is over no list", law.name))),
+        },
+    };
+    let mut sources = vec![
+        crate::shader!("world.wgsl"),
+        crate::shader!("fields.wgsl"),
+        crate::shader!("visit/list.wgsl"),
+        crate::shader!("visit/near_conclude.wgsl"),
+        law.result(),
+    ];
+    sources.extend(law.choice());
+    sources.extend(law.alarm_file());
+    match slots {
+        0 => sources.push(crate::shader!("visit/list_plain.wgsl")),
+        _ => sources.extend([crate::shader!("neighbors/history.wgsl"), crate::shader!("visit/list_history.wgsl")]),
+    }
+    sources.extend(law.files());
+    let shader = Shader::join(&sources)?;
+    let (uniforms, mut constants) = (law.uniforms(&shader)?, problem.constants(&shader));
+    constants.extend(law.mark());
+    constants.push(("RANGE", range));
+    if slots > 0 {
+        constants.push(("SLOTS", f64::from(slots)));
+    }
+    let mut passes = Vec::new();
+    let mut first = 0;
+    while first < problem.count {
+        let rows = ROWS.min(problem.count - first);
+        let mut pass =
+            Pass { constants: constants.clone(), uniforms: uniforms.clone(), ..Pass::new(shader.clone(), 0) };
+        if first > 0 {
+            pass.constants.push(("FIRST_ROW", f64::from(first)));
+        }
+        let work = u64::from(rows) * u64::from(list.shape.capacity);
+        passes.push(Pass { threads: Threads::new(rows), work, ..pass });
+        first += rows;
+    }
+    let mut sizes = law.alarm();
+    sizes.extend([(LIST.into(), list.elements(problem.count)), (HISTORY.into(), list.words(problem.count))]);
+    Ok(Kernel { name: law.name, passes, twin: law.twin, sizes, scratch: Vec::new(), tables: Vec::new() })
+}

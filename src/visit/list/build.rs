@@ -1,0 +1,148 @@
+//! Builds the list anew where a particle has moved too far; else none of its dispatches has a workgroup.
+
+use std::sync::Arc;
+
+use crate::error::Error;
+use crate::kernel::{ALARM, ALARM_WORDS, Host, Indirect, Kernel, Name, Pass, Problem, Shader, Source, Threads, Twin};
+use crate::neighbors::{HISTORY, LIST, LIST_STATE, List, SORTED_ID, SORTED_POSITION, STARTS};
+use crate::visit::Sweep;
+use crate::visit::near::Candidate;
+
+/// Neighbours as the cells are walked.
+const FOUND: &str = "list_found";
+/// Indirect arguments of the dispatches that build it: as they are, and as they are when it is built.
+const GO: &str = "arguments of the list";
+const ALL: &str = "list_all";
+/// The list and the history of its pairs before it is built anew, and the row of each particle.
+const BEFORE: &str = "list_before";
+const ROW_BEFORE: &str = "row_before";
+const HISTORY_BEFORE: &str = "history_before";
+/// Words of the arguments of a dispatch.
+const EACH: u32 = 3;
+/// How often it is looked whether it must be built for each time that it is, about.
+const SELDOM: u64 = 8;
+
+/// The kernel that keeps the list up to date.
+///
+/// # Errors
+/// When a shader does not compile, or a field does not fit.
+pub fn kernel(list: List, problem: &Problem) -> Result<Kernel, Error> {
+    let grid = list.grid.kernel(problem, false)?;
+    let (count, capacity) = (problem.count, list.shape.capacity);
+    let nothing: Twin = Arc::new(|_: &Host| Ok(()));
+    let search = Sweep {
+        name: list.title(),
+        grid: list.grid.clone(),
+        candidate: Candidate {
+            particle: crate::shader!("neighbors/list_candidate.wgsl"),
+            broadcast: crate::shader!("neighbors/list_broadcast.wgsl"),
+        },
+        files: vec![crate::shader!("neighbors/list_search.wgsl")],
+        params: Vec::new(),
+        constants: vec![("REACH", list.shape.reach()), ("ROOM", f64::from(capacity))],
+        twin: nothing,
+    };
+    let search = search.kernel_of_all(problem)?;
+    let order = order(&list, problem)?;
+    let mut builds: Vec<Pass> = grid.passes.into_iter().chain(search.passes).collect();
+    if list.shape.words > 0 {
+        let [save, fit] = history(&list, problem)?;
+        builds.extend([save, order, fit]);
+    } else {
+        builds.push(order);
+    }
+    let mut all = Vec::new();
+    for (pass, word) in builds.iter_mut().zip((0..).step_by(EACH as usize)) {
+        all.extend(pass.workgroups(problem.machine.workgroups)?);
+        pass.indirect = Some(Indirect { field: GO.into(), word });
+        pass.work /= SELDOM;
+    }
+    let words = u64::try_from(all.len()).unwrap_or(u64::MAX);
+    let decide = [crate::shader!("world.wgsl"), state(), crate::shader!("neighbors/list_decide.wgsl")];
+    let decide = Pass { constants: vec![("WORDS", words as f64)], ..Pass::new(Shader::join(&decide)?, 1) };
+    let decide = decide.on(&[("list_go", GO.into())]);
+    let passes = [moved(&list, problem)?, decide].into_iter().chain(builds).collect();
+
+    let [(_, starts), (_, ids), (_, places)] = [STARTS, SORTED_ID, SORTED_POSITION].map(|name| list.grid.field(name));
+    let elements = list.elements(count);
+    let mut sizes: Vec<(Name, u64)> = grid.sizes;
+    sizes.extend([
+        (LIST.into(), elements),
+        (FOUND.into(), elements),
+        (LIST_STATE.into(), 1),
+        (GO.into(), words),
+        (ALL.into(), words),
+        (ALARM.name.into(), ALARM_WORDS as u64),
+        (BEFORE.into(), elements),
+        (HISTORY.into(), list.words(count)),
+        (HISTORY_BEFORE.into(), list.words(count) / 2),
+    ]);
+    let mut scratch = grid.scratch;
+    scratch.extend([starts, ids, places]);
+    scratch.extend([FOUND, GO, BEFORE, ROW_BEFORE, HISTORY_BEFORE].map(Name::from));
+    Ok(Kernel {
+        name: list.title(),
+        passes,
+        twin: Some(Arc::new(move |host: &Host| list.update(host).map(|_| ()))),
+        sizes,
+        scratch,
+        tables: vec![(ALL.into(), Arc::new(all))],
+    })
+}
+
+fn state() -> Source {
+    crate::shader!("neighbors/list_state.wgsl")
+}
+
+/// Looks whether a particle has moved too far.
+fn moved(list: &List, problem: &Problem) -> Result<Pass, Error> {
+    let shader = Shader::join(&[
+        crate::shader!("world.wgsl"),
+        crate::shader!("fields.wgsl"),
+        problem.living(),
+        state(),
+        crate::shader!("neighbors/list_moved.wgsl"),
+    ])?;
+    let mut constants = problem.constants(&shader);
+    constants.push(("LIMIT", list.limit()));
+    Ok(Pass { constants, ..Pass::new(shader, problem.count) })
+}
+
+/// Keeps the history of pairs, and gives it to them again.
+fn history(list: &List, problem: &Problem) -> Result<[Pass; 2], Error> {
+    let pass = |file: Source, layers: u32| -> Result<Pass, Error> {
+        let ground = [
+            crate::shader!("world.wgsl"),
+            crate::shader!("fields.wgsl"),
+            state(),
+            crate::shader!("neighbors/history.wgsl"),
+        ];
+        let shader = Shader::join(&[&ground[..], &[file]].concat())?;
+        let constants = vec![("SLOTS", f64::from(list.shape.words))];
+        let threads = Threads { count: problem.count, layers };
+        let work = u64::from(problem.count) * u64::from(list.shape.capacity);
+        Ok(Pass { constants, threads, work, ..Pass::new(shader, problem.count) })
+    };
+    let save = pass(crate::shader!("neighbors/list_save.wgsl"), list.shape.capacity / 4)?;
+    Ok([save, pass(crate::shader!("neighbors/list_match.wgsl"), 1)?])
+}
+
+/// Sorts the neighbours of each row by their ids.
+fn order(list: &List, problem: &Problem) -> Result<Pass, Error> {
+    let shader = Shader::join(&[
+        crate::shader!("world.wgsl"),
+        crate::shader!("fields.wgsl"),
+        crate::shader!("neighbors/starts.wgsl"),
+        list.grid.present(problem),
+        problem.living(),
+        state(),
+        crate::shader!("neighbors/list_order.wgsl"),
+    ])?;
+    let mut constants = problem.constants(&shader);
+    constants.extend(list.grid.constants(&shader));
+    constants.push(("ROOM", f64::from(list.shape.capacity)));
+    let threads = Threads { count: problem.count, layers: list.shape.capacity / 4 };
+    let work = u64::from(problem.count) * u64::from(list.shape.capacity);
+    let pass = Pass { constants, threads, work, ..Pass::new(shader, problem.count) };
+    Ok(pass.on(&[list.grid.field(STARTS)]))
+}

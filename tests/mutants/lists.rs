@@ -1,0 +1,183 @@
+//! Stages of the list of neighbours: built for the first time, kept, and built again because of one particle.
+
+#![allow(clippy::cast_possible_truncation, reason = "numbers are rounded to what f32 holds")]
+
+use glam::{DVec3, DVec4, Vec4};
+use motes::forces::{Law, Over, Problem};
+use motes::kernel::{ALARM, Backend, LIFE, ListShape, Machine, Plan, Source, World};
+use motes::neighbors::{LIST_STATE, List};
+use motes::{Bounds, Gpu, POSITION, Side, Simulation};
+
+use crate::curious::{MOVING, law};
+use crate::stages::{Device, FEW, Stage, fill, moving};
+use crate::support::equivalents::{Equivalent, same};
+use crate::support::machines::subgroups_of_eight;
+use crate::support::{Random, Shared};
+
+const LANES: Machine = Machine { software: false, subgroup: 0, invocations: 1 << 18, ..Machine::HOST };
+const EIGHT: Machine = Machine { software: true, subgroup: 8, invocations: 256, ..Machine::HOST };
+const RANGE: f64 = 0.4;
+const SKIN: f64 = 0.25;
+
+const ALWAYS_SET: &str = "the host sets every override";
+
+pub const EQUIVALENT: &[Equivalent] = &[
+    same("list_search", "override REACH: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
+    same("list_search", "override ROOM: u32 = 4u;", "4u", "5u", ALWAYS_SET),
+    same("list_order", "override ROOM: u32 = 4u;", "4u", "5u", ALWAYS_SET),
+    same("list_moved", "override LIMIT: f32 = 0.0;", "0.0", "1.0", ALWAYS_SET),
+    same("list_decide", "override WORDS: u32 = 0u;", "0u", "1u", ALWAYS_SET),
+    same("neighbors/history", "override SLOTS: u32 = 1u;", "1u", "2u", ALWAYS_SET),
+    same("visit/list", "override RANGE: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
+];
+
+struct Place<'a> {
+    device: &'a Device,
+    machine: Machine,
+    bounds: Bounds,
+    mortal: bool,
+    capacity: u32,
+    slots: u32,
+}
+
+/// What happens to particles after the list has been built.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Since {
+    /// It has not been.
+    Never,
+    /// All have moved by less than is borne, two of them in opposite directions by almost so much.
+    Little,
+    /// The last has moved by more.
+    Much,
+    /// One has been spawned.
+    Spawned,
+    /// One has been removed.
+    Removed,
+    /// It is to be the first again: pairs begin without history.
+    First,
+}
+
+impl Place<'_> {
+    fn plan(&self, problem: &Problem) -> Plan {
+        let list = List::new(problem.list.expect("a list"), problem).expect("a list");
+        let list = motes::visit::list_kernel(list, problem).expect("a kernel");
+        let law = match self.slots {
+            0 => law(MOVING, Over::List { range: RANGE, skin: Some(SKIN), slots: 0 }),
+            slots => winding(slots),
+        };
+        let mut plan = Plan::default();
+        plan.add(list);
+        plan.add(law.kernel(problem).expect("a kernel"));
+        plan
+    }
+    fn stage(&self, since: Since) -> Stage {
+        let count = FEW;
+        let mut random = Random::new(5);
+        let side = self.bounds.high - self.bounds.low;
+        let place = |x: DVec3| (self.bounds.low + side * (0.5 + 0.5 * x)).as_vec3().as_dvec3();
+        let places: Vec<DVec3> = (0..count).map(|_| place(random.vector())).collect();
+        let shape = ListShape { range: RANGE, skin: SKIN, words: self.slots, capacity: self.capacity };
+        let problem = Problem::new(count as u32, self.machine).at(&places, self.bounds);
+        let problem = problem.mortal(&[], &[], self.mortal).listed(Some(shape));
+        let plan = self.plan(&problem);
+        let mut simulation = moving(self.device, count, Some(self.machine));
+        let clock = pollster::block_on(simulation.backend().world()).expect("a clock");
+        let clock = World { bounds: self.bounds, step: clock.step + self.slots % 2, ..clock };
+        simulation.backend().set_world(clock).expect("a world");
+        fill(&mut simulation, &plan);
+        let mass = |i: usize| 0.2 + 0.1 * (i % 3) as f64;
+        let mut now: Vec<Vec4> = places.iter().enumerate().map(|(i, x)| x.extend(mass(i)).as_vec4()).collect();
+        simulation.write(POSITION, &now).expect("places");
+        simulation.write(ALARM, &[u32::MAX; 3]).expect("an alarm");
+        self.write(&mut simulation, LIST_STATE, &[0; 4]);
+        let mut life: Vec<u32> = (0..count as u32).map(|i| if i % 5 == 3 { i % 2 * 2 } else { 1 }).collect();
+        if self.mortal {
+            simulation.write(LIFE, &life).expect("lives");
+        }
+        if since != Since::Never {
+            let program = simulation.backend().compile(&plan).expect("a good plan");
+            simulation.backend().run(&program, 1).expect("a run");
+            let limit = (0.5 * SKIN) as f32;
+            for (i, x) in now.iter_mut().enumerate() {
+                let way = (random.vector() * 0.07).as_vec3();
+                // Along one axis each, by all but a hundredth of what is borne.
+                let axis = [glam::Vec3::X, glam::Vec3::NEG_Y, glam::Vec3::Z][i % 3];
+                *x += (if i % 50 < 3 { 0.99 * limit * axis } else { way }).extend(0.0);
+            }
+            let last = now.last_mut().expect("some");
+            match since {
+                Since::Much => *last += Vec4::new(0.0, 0.0, 1.1 * limit, 0.0),
+                Since::Spawned => life[count - 2] = 1,
+                Since::Removed => life[count - 1] = 2,
+                _ => {}
+            }
+            simulation.write(POSITION, &now).expect("places");
+            if self.mortal {
+                simulation.write(LIFE, &life).expect("lives");
+            }
+            if since == Since::First {
+                self.write(&mut simulation, LIST_STATE, &[0; 4]);
+            }
+        }
+        Stage::of(&format!("list, {since:?}"), simulation, plan)
+    }
+    fn write(&self, simulation: &mut Simulation<Gpu>, field: &str, words: &[u32]) {
+        simulation.backend().write_bytes(field, 0, bytemuck::cast_slice(words)).expect("a field");
+    }
+}
+
+/// A law that leaves another number in each slot, where it leaves one.
+fn winding(slots: u32) -> Law {
+    let wgsl = "fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
+        if (me.index + you.index) % 3u != 1u {
+            for (var word = 0u; word < SLOTS; word += 1u) { remember(you, word, recall(you, word) + f32(word + 1u) * r.x); }
+        }
+        (*sum).acceleration += recall(you, 0u) * r;
+        (*sum).potential += recall(you, SLOTS - 1u);
+    }
+    fn acts_on(me: Particle) -> bool { return me.index % 5u != 2u; }
+    fn finish(me: Particle, sum: Sum) -> vec4f { return vec4f(sum.acceleration, sum.potential); }";
+    let last = slots as usize - 1;
+    let over = (RANGE, Some(SKIN), slots);
+    Law::remembering(
+        "winding",
+        over,
+        Source::ours("winding", wgsl),
+        Vec::new(),
+        &["acceleration"],
+        move |me, you, r, _, memory, sum: &mut DVec4| {
+            if me.index % 5 == 2 {
+                return;
+            }
+            if (me.index + you.index) % 3 != 1 {
+                (0..=last).for_each(|word| memory.remember(word, memory.recall(word) + (word + 1) as f64 * r.x));
+            }
+            *sum += (memory.recall(0) * r).extend(memory.recall(last));
+        },
+        |_, sum, _, outcome| outcome.accelerate(*sum),
+    )
+}
+
+pub fn all(shared: &Shared, stages: &mut Vec<Stage>) {
+    // With as many layers as there are fours of neighbours.
+    let device = &(shared.found.device.clone(), shared.found.queue.clone());
+    let periodic = Bounds::new(DVec3::new(0.125, 3.0, -2.5), DVec3::new(2.125, 5.5, -0.5), Side::Periodic);
+    let open = Bounds { sides: [Side::Open; 3], ..periodic };
+    let place = |machine, bounds, mortal, capacity| Place { device, machine, bounds, mortal, capacity, slots: 0 };
+    let lanes = place(LANES, periodic, false, 64);
+    stages.extend([Since::Never, Since::Little, Since::Much].map(|since| lanes.stage(since)));
+    stages.push(place(LANES, open, false, 64).stage(Since::Little));
+    let mortal = place(LANES, open, true, 64);
+    stages.extend([Since::Never, Since::Spawned, Since::Removed, Since::Little].map(|since| mortal.stage(since)));
+    // Some have more neighbours than there is room for.
+    stages.push(place(LANES, periodic, false, 24).stage(Since::Never));
+    // Of an odd step and of an even one.
+    let steps = |slots: u32| Place { slots, ..place(LANES, open, true, 64) };
+    let all = [Since::Never, Since::Little, Since::Much, Since::Spawned, Since::First];
+    stages.extend(all.map(|since| steps(2).stage(since)));
+    stages.extend([Since::Much, Since::Removed].map(|since| steps(3).stage(since)));
+    if subgroups_of_eight(shared) {
+        stages.push(place(EIGHT, periodic, false, 64).stage(Since::Never));
+        stages.push(place(EIGHT, periodic, false, 24).stage(Since::Never));
+    }
+}
