@@ -97,7 +97,7 @@ impl Place<'_> {
         let mut now: Vec<Vec4> = places.iter().enumerate().map(|(i, x)| x.extend(mass(i)).as_vec4()).collect();
         simulation.write(POSITION, &now).expect("places");
         simulation.write(ALARM, &[u32::MAX; 3]).expect("an alarm");
-        self.write(&mut simulation, LIST_STATE, &[0; 4]);
+        begin(&mut simulation);
         let mut life: Vec<u32> = (0..count as u32).map(|i| if i % 5 == 3 { i % 2 * 2 } else { 1 }).collect();
         if self.mortal {
             simulation.write(LIFE, &life).expect("lives");
@@ -124,14 +124,16 @@ impl Place<'_> {
                 simulation.write(LIFE, &life).expect("lives");
             }
             if since == Since::First {
-                self.write(&mut simulation, LIST_STATE, &[0; 4]);
+                begin(&mut simulation);
             }
         }
         Stage::of(&format!("list, {since:?}"), simulation, plan)
     }
-    fn write(&self, simulation: &mut Simulation<Gpu>, field: &str, words: &[u32]) {
-        simulation.backend().write_bytes(field, 0, bytemuck::cast_slice(words)).expect("a field");
-    }
+}
+
+/// The list is to be built, for the first time.
+fn begin(simulation: &mut Simulation<Gpu>) {
+    simulation.backend().write_bytes(LIST_STATE, 0, &[0; 16]).expect("a state");
 }
 
 /// A law that leaves another number in each slot, where it leaves one.

@@ -68,7 +68,7 @@ fn remembered(known: &Map, places: &[DVec3], bounds: &Bounds) -> (Map, Vec<Vec4>
             felt[i] += PART * DVec4::new(steps + 1.0, ids, 1.0, 0.0);
         }
     }
-    (map, felt.into_iter().map(|a| a.as_vec4()).collect())
+    (map, felt.into_iter().map(DVec4::as_vec4).collect())
 }
 
 fn flock() -> State {

@@ -104,22 +104,21 @@ fn the_list_and_the_law_agree_with_brute_force() {
     for (place, Place { name, particles, bounds, range }) in places::all().into_iter().enumerate() {
         for (turn, (variant, machine)) in variants(&shared).into_iter().enumerate() {
             // Every pipeline takes its time: half of them with a skin.
-            for skin in [[0.0, 0.2][(place + turn) % 2]] {
-                let of = format!("{name}, {variant}, skin {skin}");
-                let setup = setup(&particles, bounds, Box::new(Curious(list(range, skin * range))), 1e-3);
-                let mut simulation = on(&shared, machine, &setup);
-                let plan = evaluation(&setup, machine);
-                assert!(agree(&mut simulation, &plan, &of), "{of}: not built at first");
-                assert!(!agree(&mut simulation, &plan, &of), "{of}: built for nothing");
-                // One of them moves by too much, another out of its cell.
-                let mut places = positions(&mut simulation);
-                let step = range as f32 * Vec4::new(0.3, -0.35, 0.2, 0.0);
-                places[0] += step;
-                simulation.write(POSITION, &places[..1]).expect("places");
-                let way = bounds.shortest(step.truncate().as_dvec3()).length();
-                let felt = places[0] != places[0] - step && way > 0.5 * skin * range;
-                assert_eq!(agree(&mut simulation, &plan, &of), felt, "{of}: a particle moved");
-            }
+            let skin = [0.0, 0.2][(place + turn) % 2];
+            let of = format!("{name}, {variant}, skin {skin}");
+            let setup = setup(&particles, bounds, Box::new(Curious(list(range, skin * range))), 1e-3);
+            let mut simulation = on(&shared, machine, &setup);
+            let plan = evaluation(&setup, machine);
+            assert!(agree(&mut simulation, &plan, &of), "{of}: not built at first");
+            assert!(!agree(&mut simulation, &plan, &of), "{of}: built for nothing");
+            // One of them moves by too much, another out of its cell.
+            let mut places = positions(&mut simulation);
+            let step = range as f32 * Vec4::new(0.3, -0.35, 0.2, 0.0);
+            places[0] += step;
+            simulation.write(POSITION, &places[..1]).expect("places");
+            let way = bounds.shortest(step.truncate().as_dvec3()).length();
+            let felt = places[0] != places[0] - step && way > 0.5 * skin * range;
+            assert_eq!(agree(&mut simulation, &plan, &of), felt, "{of}: a particle moved");
         }
     }
 }

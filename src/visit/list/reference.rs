@@ -53,9 +53,7 @@ pub fn remembering<S: Default>(
         let was = history.to_vec();
         let half = (world.step & 1) as usize;
         let row = |k: usize| -> Result<Option<Made>, Error> {
-            let [Some(end), Some(id)] = [list.get(4 * k), list.get(4 * k + 1)].map(|word| word.copied()) else {
-                return Ok(None);
-            };
+            let Some(&[end, id]) = list.get(4 * k..4 * k + 2) else { return Ok(None) };
             let Some(me) = bodies.get(id as usize).filter(|_| id != NONE) else { return Ok(None) };
             let mut sum = S::default();
             let mut words = Vec::new();
