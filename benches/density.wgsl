@@ -1,5 +1,5 @@
 // A sum over neighbours as weakly compressible fluids have it: a density and its gradient (Monaghan 1992), by Wendland's kernel of
-// radius 2, weakly felt as a pressure.
+// radius 2, with a weak pressure.
 fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
     let q = 1.0 - 0.5 * length(r);
     let q3 = q * q * q;
