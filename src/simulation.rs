@@ -26,7 +26,7 @@ use crate::error::Error;
 use crate::fluids::DFSPH_REPORT;
 use crate::gpu::Gpu;
 use crate::integrators::SOLVE_REPORT;
-use crate::kernel::{ALARM, Array, Backend, Element, Field, HOME, ListShape, POSITION, Pace, QUIET, VELOCITY, World};
+use crate::kernel::{Backend, Element, Field, HOME, ListShape, POSITION, Pace, VELOCITY};
 use crate::state::State;
 use columns::Store;
 use glam::DVec3;

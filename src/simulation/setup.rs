@@ -120,7 +120,7 @@ impl Setup {
     /// When the setup makes no sense.
     pub fn problem(&self, machine: Machine) -> Result<Problem, Error> {
         let problem = Problem::new(self.check()?, machine).at(self.state.position(), self.bounds);
-        Ok(Problem { extent: self.extent(), ..problem }
+        let problem = Problem { extent: self.extent(), ..problem }
             .of_species(self.state.species())
             .tied(&self.state.all_links(), &self.state.held)
             .moved(&self.state.motions, self.dt)

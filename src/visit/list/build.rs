@@ -3,10 +3,9 @@
 use std::sync::Arc;
 
 use crate::error::Error;
-use crate::kernel::{ALARM, ALARM_WORDS, Host, Indirect, Kernel, Name, Pass, Problem, Shader, Source, Threads, Twin};
+use crate::kernel::{ALARM, ALARM_WORDS, Host, Indirect, Kernel, Name, Pass, Problem, Shader, Source, Threads};
 use crate::neighbors::{HISTORY, LIST, LIST_STATE, List, SORTED_ID, SORTED_POSITION, STARTS};
-use crate::visit::Sweep;
-use crate::visit::near::Candidate;
+use crate::visit::near::{self, Candidate};
 
 /// Neighbours as the cells are walked.
 const FOUND: &str = "list_found";
@@ -28,23 +27,10 @@ const SELDOM: u64 = 8;
 /// When a shader does not compile, or a field does not fit.
 pub fn kernel(list: List, problem: &Problem) -> Result<Kernel, Error> {
     let grid = list.grid.kernel(problem, false)?;
-    let (count, capacity) = (problem.count, list.shape.capacity);
-    let nothing: Twin = Arc::new(|_: &Host| Ok(()));
-    let search = Sweep {
-        name: list.title(),
-        grid: list.grid.clone(),
-        candidate: Candidate {
-            particle: crate::shader!("neighbors/list_candidate.wgsl"),
-            broadcast: crate::shader!("neighbors/list_broadcast.wgsl"),
-        },
-        files: vec![crate::shader!("neighbors/list_search.wgsl")],
-        params: Vec::new(),
-        constants: vec![("REACH", list.shape.reach()), ("ROOM", f64::from(capacity))],
-        twin: nothing,
-    };
-    let search = search.kernel_of_all(problem)?;
+    let count = problem.count;
+    let search = search(&list, problem)?;
     let order = order(&list, problem)?;
-    let mut builds: Vec<Pass> = grid.passes.into_iter().chain(search.passes).collect();
+    let mut builds: Vec<Pass> = grid.passes.into_iter().chain(search).collect();
     if list.shape.words > 0 {
         let [save, fit] = history(&list, problem)?;
         builds.extend([save, order, fit]);
@@ -88,6 +74,22 @@ pub fn kernel(list: List, problem: &Problem) -> Result<Kernel, Error> {
         scratch,
         tables: vec![(ALL.into(), Arc::new(all))],
     })
+}
+
+/// Finds the neighbours of all particles, fixed ones too, as the cells are walked.
+fn search(list: &List, problem: &Problem) -> Result<Vec<Pass>, Error> {
+    let candidate = Candidate {
+        particle: crate::shader!("neighbors/list_candidate.wgsl"),
+        broadcast: crate::shader!("neighbors/list_broadcast.wgsl"),
+    };
+    let mut sources = near::ground();
+    sources.push(list.grid.present(problem));
+    sources.extend(near::search(&list.grid, &problem.machine, candidate));
+    sources.extend([crate::shader!("own/no_turns.wgsl"), crate::shader!("neighbors/list_search.wgsl")]);
+    let shader = Shader::join(&sources)?;
+    let mut constants = problem.constants(&shader);
+    constants.extend([("REACH", list.shape.reach()), ("ROOM", f64::from(list.shape.capacity))]);
+    near::passes(&list.grid, &Pass { constants, ..Pass::new(shader, 0) }, problem.count, problem)
 }
 
 fn state() -> Source {

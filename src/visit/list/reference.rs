@@ -95,6 +95,6 @@ pub fn remembering<S: Default>(
         }
         drop((list, history));
         // Each of a pair holds half of its potential energy.
-        result::write(host, 0.5, outcomes)
+        result::write(host, 0.5, None, outcomes)
     })
 }
