@@ -8,7 +8,7 @@ struct Sum { number: u32 }
 // Range + skin, and how many neighbours there is room for: a multiple of four.
 override REACH: f32 = 1.0;
 override ROOM: u32 = 4u;
-const NONE: u32 = 0xffffffffu;
+const EMPTY: u32 = 0xffffffffu;
 
 fn acts_on(me: Particle) -> bool { return true; }
 
@@ -26,5 +26,5 @@ fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
 fn deliver(k: u32, me: Particle, sum: Sum) {
     list_found[k] = vec4u(sum.number, me.index, 0u, 0u);
     // What is left of the last four is larger than any id.
-    for (var n = min(sum.number, ROOM); n % 4u != 0u; n += 1u) { put(k, n, NONE); }
+    for (var n = min(sum.number, ROOM); n % 4u != 0u; n += 1u) { put(k, n, EMPTY); }
 }
