@@ -60,6 +60,8 @@ fn filed(scene: State, state: &State, precision: Precision) -> State {
     let path = folder.path().join("state.npz");
     npz::write_npz(std::fs::File::create(&path).expect("a file"), state, precision).expect("written");
     let mut own = scene;
+    // What components declare and no file holds, a simulation knows anyway.
+    state.declared().for_each(|column| own.declare(column).expect("the same columns"));
     own.go_on_from(&npz::read(&path, &columns(state)).expect("read")).expect("the same particles");
     own
 }
