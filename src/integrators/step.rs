@@ -1,6 +1,6 @@
 //! A step as it is being written: each verb adds kernels to a plan.
 
-mod paces;
+mod length;
 mod pairs;
 mod plans;
 mod search;
@@ -9,7 +9,7 @@ mod solve;
 pub use pairs::kept_rates;
 pub use solve::{Explicit, Form, Implicit, implicit};
 
-use super::verbs::{at, clear, drift, held, kick, kick_drift, life, pace, runge_kutta};
+use super::verbs::{adaptive, at, clear, drift, held, kick, kick_drift, life, runge_kutta};
 use crate::boundary;
 use crate::error::Error;
 use crate::forces::{Component, Problem, Stage};
@@ -170,7 +170,7 @@ impl<'a> Step<'a> {
     /// Forces are evaluated at t + c dt from here on, until the end of the step.
     pub fn at(&mut self, factor: f64) {
         let kernel = match self.problem.pace {
-            Some(_) => pace::at(factor, &self.problem),
+            Some(_) => adaptive::at(factor, &self.problem),
             None => at::kernel(factor),
         };
         self.add(kernel);

@@ -158,7 +158,7 @@ impl Problem {
     /// The file that says to motions how late it is.
     #[must_use]
     pub fn clock(&self) -> Source {
-        if self.pace.is_some() { crate::shader!("motion/paced.wgsl") } else { crate::shader!("motion/even.wgsl") }
+        if self.pace.is_some() { crate::shader!("motion/adaptive.wgsl") } else { crate::shader!("motion/even.wgsl") }
     }
     /// What goes with it.
     #[must_use]

@@ -1,5 +1,7 @@
 //! Mutation: every operator and literal of every shader is changed once, and the lockstep with the references must notice.
 
+mod adaptive;
+mod adaptive_stages;
 mod alarms;
 mod births;
 mod boundary;
@@ -18,8 +20,6 @@ mod laws;
 mod lists;
 mod memory;
 mod neighbors;
-mod paced;
-mod paces;
 mod pairs;
 mod primitives;
 mod repeat;
@@ -137,7 +137,7 @@ fn every_mutant_is_noticed() {
         lists::EQUIVALENT,
         trees::EQUIVALENT,
         walks::EQUIVALENT,
-        paces::EQUIVALENT,
+        adaptive::EQUIVALENT,
         fluids::EQUIVALENT,
         pairs::EQUIVALENT,
         repeat::EQUIVALENT,

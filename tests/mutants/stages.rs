@@ -208,8 +208,8 @@ pub fn all(shared: &Shared) -> Vec<Stage> {
     laws::planes(&device, &mut stages);
     crate::held::all(&device, &mut stages);
     crate::pairs::all(&device, &mut stages);
-    crate::paces::all(&device, &mut stages);
-    crate::paced::all(shared, &device, &mut stages);
+    crate::adaptive::all(&device, &mut stages);
+    crate::adaptive_stages::all(shared, &device, &mut stages);
     crate::births::all(shared, &device, &mut stages);
     crate::rods::rods(&device, &mut stages);
     crate::strained::all(&device, &mut stages);

@@ -3,7 +3,7 @@
 use super::Step;
 use crate::error::Error;
 use crate::forces::{Component, Problem, Stage};
-use crate::integrators::verbs::{at, keep, life, pace, tick, watch};
+use crate::integrators::verbs::{adaptive, at, keep, life, tick, watch};
 use crate::kernel::{Kernel, Plan};
 use crate::tree::Opening;
 
@@ -21,7 +21,7 @@ impl<'a> Step<'a> {
         if self.looks_back() {
             self.evaluate();
         }
-        self.urge();
+        self.dt_criteria();
         self.add(watch::kernel(self.problem.count));
         self.watch_pairs();
         self.finished()
@@ -37,10 +37,10 @@ impl<'a> Step<'a> {
     /// The first thing that went wrong while the step was written.
     pub fn done(mut self) -> Result<Plan, Error> {
         self.each(Stage::EndOfStep);
-        self.add(if self.problem.pace.is_some() { pace::tick(&self.problem) } else { tick::kernel() });
+        self.add(if self.problem.pace.is_some() { adaptive::tick(&self.problem) } else { tick::kernel() });
         self.populate();
         // Particles just spawned take part in the criterion for their first step.
-        self.urge();
+        self.dt_criteria();
         self.add(watch::kernel(self.problem.count));
         self.watch_pairs();
         self.finished()

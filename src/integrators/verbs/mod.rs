@@ -1,6 +1,7 @@
 //! The verbs in which integrators are written, one file for each shader; a Runge–Kutta step's three go together, and
 //! those of an implicit solve and those of declared columns have a folder each.
 
+pub mod adaptive;
 pub mod at;
 pub mod clear;
 pub mod drift;
@@ -9,7 +10,6 @@ pub mod keep;
 pub mod kick;
 pub mod kick_drift;
 pub mod life;
-pub mod pace;
 pub mod pairs;
 pub mod runge_kutta;
 pub mod solve;

@@ -18,16 +18,16 @@ const ALWAYS_SET: &str = "the host sets every override";
 const FAR: &str = "what is farther than two longest steps shortens none";
 
 pub const EQUIVALENT: &[Equivalent] = &[
-    same("paced.wgsl", "override UNIT: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
-    same("integrators/pace.wgsl", "override UNIT: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
-    same("integrators/pace.wgsl", "override LEAST: u32 = 1u;", "1u", "2u", ALWAYS_SET),
-    same("integrators/pace.wgsl", "override VISCOUS: f32 = 0.0;", "0.0", "1.0", ALWAYS_SET),
-    same("at_paced.wgsl", "override FACTOR: f32 = 0.0;", "0.0", "1.0", ALWAYS_SET),
-    same("blame.wgsl", "if i < world.count {", "<", "<=", "behind the last particle there is no criterion"),
-    same("integrators/pace.wgsl", "for (var k = 0u; k < 4u;", "<", "<=", "the last one is looked at twice"),
-    same("integrators/pace.wgsl", "for (var k = 0u; k < 4u;", "4u", "5u", "the last one is looked at twice"),
-    same("integrators/pace.wgsl", "} else if whole < 3u {", "<", "<=", FAR),
-    same("integrators/pace.wgsl", "} else if whole < 3u {", "3u", "4u", FAR),
+    same("adaptive.wgsl", "override UNIT: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
+    same("adaptive_dt.wgsl", "override UNIT: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
+    same("adaptive_dt.wgsl", "override LEAST: u32 = 1u;", "1u", "2u", ALWAYS_SET),
+    same("adaptive_dt.wgsl", "override VISCOUS: f32 = 0.0;", "0.0", "1.0", ALWAYS_SET),
+    same("at_adaptive.wgsl", "override FACTOR: f32 = 0.0;", "0.0", "1.0", ALWAYS_SET),
+    same("limiting_particle.wgsl", "if i < world.count {", "<", "<=", "behind the last particle there is no criterion"),
+    same("adaptive_dt.wgsl", "for (var k = 0u; k < 4u;", "<", "<=", "the last one is looked at twice"),
+    same("adaptive_dt.wgsl", "for (var k = 0u; k < 4u;", "4u", "5u", "the last one is looked at twice"),
+    same("adaptive_dt.wgsl", "} else if whole < 3u {", "<", "<=", FAR),
+    same("adaptive_dt.wgsl", "} else if whole < 3u {", "3u", "4u", FAR),
 ];
 
 pub const MACHINE: Machine = Machine::HOST;
@@ -91,7 +91,7 @@ pub fn staged(
 }
 
 /// What is wanted, the clock, the stop, and what viscosity wants; the shortest step is a 64th.
-fn paces(device: &Device, stages: &mut Vec<Stage>) {
+fn steps(device: &Device, stages: &mut Vec<Stage>) {
     let far = [NONE, 0];
     let free = TICKS;
     let usual = words([5, 3_000_001, 11, free], NONE, [9_000_000, 100]);
@@ -143,8 +143,8 @@ fn paces(device: &Device, stages: &mut Vec<Stage>) {
         cases.push((low, 0.1, at(rest), stop));
     }
     for (case, (wants, viscous, clock, stop)) in cases.into_iter().enumerate() {
-        let kernel = kernel(&setup(Box::new(Thick(viscous)), DT / 64.0), "pace");
-        staged(stages, &format!("pace {case}"), moving(device, FEW, None), kernel, &clock, |simulation| {
+        let kernel = kernel(&setup(Box::new(Thick(viscous)), DT / 64.0), "adaptive dt");
+        staged(stages, &format!("adaptive dt {case}"), moving(device, FEW, None), kernel, &clock, |simulation| {
             let most = Vec4::new(wants[0], wants[1], wants[2], 0.0);
             simulation.write(URGENT, &[most]).expect("urgent");
             simulation.write(STOP, &stop).expect("a stop");
@@ -152,16 +152,23 @@ fn paces(device: &Device, stages: &mut Vec<Stage>) {
     }
     // Fewer ticks than digits, about as many, and none.
     for (case, ticks) in [1500.3f32, 2047.2, 2049.7, 4095.3, 4099.6, 0.3].into_iter().enumerate() {
-        let kernel = kernel(&setup(Box::new(Thick(0.1)), 1e-6 * DT), "pace");
-        staged(stages, &format!("pace of few ticks {case}"), moving(device, FEW, None), kernel, &usual, |simulation| {
-            simulation.write(URGENT, &[Vec4::new(TICKS as f32 / ticks, 0.2, 0.3, 0.0)]).expect("urgent");
-            simulation.write(STOP, &far).expect("a stop");
-        });
+        let kernel = kernel(&setup(Box::new(Thick(0.1)), 1e-6 * DT), "adaptive dt");
+        staged(
+            stages,
+            &format!("adaptive dt of few ticks {case}"),
+            moving(device, FEW, None),
+            kernel,
+            &usual,
+            |simulation| {
+                simulation.write(URGENT, &[Vec4::new(TICKS as f32 / ticks, 0.2, 0.3, 0.0)]).expect("urgent");
+                simulation.write(STOP, &far).expect("a stop");
+            },
+        );
     }
 }
 
 /// The limiting particle: of each reason, of none, with an alarm of now and of before.
-fn blames(device: &Device, stages: &mut Vec<Stage>) {
+fn limiting(device: &Device, stages: &mut Vec<Stage>) {
     let mut random = Random::new(5);
     let mut urges: Vec<Vec4> = (0..FEW).map(|_| random.vector().as_vec3().abs().extend(0.0)).collect();
     // Each is the most of some: two, two of which one is the last, the last alone.
@@ -178,10 +185,10 @@ fn blames(device: &Device, stages: &mut Vec<Stage>) {
             let mut state = words([5, 3, 11, 12], alarm, [1, 2]);
             (state[4], state[5], state[7]) = (reason, NONE, field);
             state[8] = if case % 2 == 0 { NONE } else { 25 };
-            let kernel = kernel(&setup(Box::new(Thick(0.1)), DT / 64.0), "blame");
+            let kernel = kernel(&setup(Box::new(Thick(0.1)), DT / 64.0), "limiting particle");
             staged(
                 stages,
-                &format!("blame {reason} {case}"),
+                &format!("limiting particle {reason} {case}"),
                 moving(device, FEW, None),
                 kernel,
                 &state,
@@ -205,7 +212,7 @@ fn clocks(device: &Device, stages: &mut Vec<Stage>) {
     };
     for clock in [[3, 5_000_003, 7_000_001, 9], [0, 16_000_000, 16_777_216, 9]] {
         let state = words(clock, NONE, [1, 2]);
-        staged(stages, "at, paced", moving(device, FEW, None), kernel(&setup(), "at"), &state, |_| ());
+        staged(stages, "at, adaptive", moving(device, FEW, None), kernel(&setup(), "at"), &state, |_| ());
         for (case, [now, before]) in [[3.1f32, 1.3], [2.6, 1.3], [1.2, 1.3]].into_iter().enumerate() {
             for step in [14, 15, 16] {
                 let mut simulation = moving(device, FEW, None);
@@ -214,7 +221,7 @@ fn clocks(device: &Device, stages: &mut Vec<Stage>) {
                 let alarm = [NONE, NONE, NONE, 5, 6, now.to_bits(), before.to_bits(), 4];
                 staged(
                     stages,
-                    &format!("tick, paced, {case} {step}"),
+                    &format!("tick, adaptive, {case} {step}"),
                     simulation,
                     kernel(&setup(), "tick"),
                     &state,
@@ -227,12 +234,19 @@ fn clocks(device: &Device, stages: &mut Vec<Stage>) {
     }
     for ticks in [0, 1] {
         let state = words([3, 5_000_003, ticks, 9], NONE, [1, 2]);
-        staged(stages, "tick, paced, of nothing", moving(device, FEW, None), kernel(&setup(), "tick"), &state, |_| ());
+        staged(
+            stages,
+            "tick, adaptive, of nothing",
+            moving(device, FEW, None),
+            kernel(&setup(), "tick"),
+            &state,
+            |_| (),
+        );
     }
 }
 
 pub fn all(device: &Device, stages: &mut Vec<Stage>) {
-    paces(device, stages);
-    blames(device, stages);
+    steps(device, stages);
+    limiting(device, stages);
     clocks(device, stages);
 }

@@ -3,7 +3,7 @@
 use super::Step;
 use crate::error::Error;
 use crate::forces::Stage;
-use crate::integrators::verbs::pace;
+use crate::integrators::verbs::adaptive;
 use crate::kernel::Plan;
 
 impl Step<'_> {
@@ -11,11 +11,11 @@ impl Step<'_> {
     pub fn pace(&mut self) {
         let Some(how) = self.problem.pace else { return };
         let viscous = self.limits().map(|(_, viscous)| viscous);
-        self.add(viscous.and_then(|viscous| pace::pace(&how, viscous, &self.problem)));
-        self.add(pace::blame(&how, &self.problem));
+        self.add(viscous.and_then(|viscous| adaptive::next_dt(&how, viscous, &self.problem)));
+        self.add(adaptive::limiting_particle(&how, &self.problem));
     }
     /// What forces say of the length of the step to come.
-    pub(super) fn urge(&mut self) {
+    pub(super) fn dt_criteria(&mut self) {
         if self.problem.pace.is_none() {
             return;
         }
@@ -28,7 +28,7 @@ impl Step<'_> {
                 self.error.get_or_insert(error);
             }
         }
-        self.add(pace::measure(&self.problem));
+        self.add(adaptive::measure(&self.problem));
     }
     /// The kernels that find limits, and how many steps viscosity wants in a longest one.
     fn limits(&self) -> Result<(Plan, f64), Error> {

@@ -18,7 +18,7 @@ const STOP: u32 = 6u;
 const REASONS: u32 = 12u;
 
 @compute @workgroup_size(1)
-fn pace_step() {
+fn adaptive_dt() {
     var wants = array<f32, 4>(urgent[0].x, urgent[0].y, VISCOUS, urgent[0].z);
     var rate = 1.0;
     var reason = 0u;

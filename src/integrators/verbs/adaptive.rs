@@ -35,8 +35,8 @@ fn sizes() -> Vec<(crate::kernel::Name, u64)> {
 
 /// How long the step is; `viscous` is how many of it viscosity wants in a longest one.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "as the device does it")]
-pub fn pace(pace: &Pace, viscous: f64, problem: &Problem) -> Result<Kernel, Error> {
-    let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("integrators/pace.wgsl")])?;
+pub fn next_dt(pace: &Pace, viscous: f64, problem: &Problem) -> Result<Kernel, Error> {
+    let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("integrators/adaptive_dt.wgsl")])?;
     let (unit, least, viscous) = (problem.dt, ticks(pace.least, problem.dt).max(1), viscous as f32);
     let twin = move |host: &Host| {
         let (world, urgent, stop) = (host.world(), host.read(URGENT)?, host.read(STOP)?);
@@ -84,7 +84,7 @@ pub fn pace(pace: &Pace, viscous: f64, problem: &Problem) -> Result<Kernel, Erro
     let constants = vec![("UNIT", unit), ("LEAST", f64::from(least)), ("VISCOUS", f64::from(viscous))];
     let pass = Pass { constants, ..Pass::new(shader, 1) };
     Ok(Kernel {
-        name: "pace".to_owned(),
+        name: "adaptive dt".to_owned(),
         passes: vec![pass],
         twin: Some(Arc::new(twin)),
         sizes: sizes(),
@@ -94,8 +94,8 @@ pub fn pace(pace: &Pace, viscous: f64, problem: &Problem) -> Result<Kernel, Erro
 }
 
 /// The limiting particle.
-pub fn blame(pace: &Pace, problem: &Problem) -> Result<Kernel, Error> {
-    let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("integrators/blame.wgsl")])?;
+pub fn limiting_particle(pace: &Pace, problem: &Problem) -> Result<Kernel, Error> {
+    let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("integrators/limiting_particle.wgsl")])?;
     let twin = |host: &Host| {
         let (world, urges, urgent) = (host.world(), host.read(URGES)?, host.read(URGENT)?);
         let most = urgent.first().copied().unwrap_or_default();
@@ -116,6 +116,6 @@ pub fn blame(pace: &Pace, problem: &Problem) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    let kernel = Kernel::new("blame", shader, Vec::new(), problem.count, Arc::new(twin));
+    let kernel = Kernel::new("limiting particle", shader, Vec::new(), problem.count, Arc::new(twin));
     Ok(Kernel { sizes: sizes(), tables: tables(pace, problem.dt), ..kernel })
 }

@@ -8,7 +8,7 @@ use crate::kernel::{ALARM, ALARM_WORDS, Host, Kernel, PACE, PACE_WORDS, Problem,
 
 /// The time after a part of the step.
 pub fn at(factor: f64, problem: &Problem) -> Result<Kernel, Error> {
-    let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("integrators/at_paced.wgsl")])?;
+    let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("integrators/at_adaptive.wgsl")])?;
     let all = problem.clone();
     let twin = move |host: &Host| {
         let time = time(host, &all, factor)?;
@@ -21,7 +21,7 @@ pub fn at(factor: f64, problem: &Problem) -> Result<Kernel, Error> {
 
 /// A step is done.
 pub fn tick(problem: &Problem) -> Result<Kernel, Error> {
-    let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("integrators/tick_paced.wgsl")])?;
+    let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("integrators/tick_adaptive.wgsl")])?;
     let unit = problem.dt;
     let twin = move |host: &Host| {
         let (clock, mut words) = (host.world(), host.write(PACE)?);

@@ -6,16 +6,16 @@
 
 const WORKGROUP: u32 = 64u;
 
-fn asks(i: u32, reason: u32) -> bool {
+fn limits(i: u32, reason: u32) -> bool {
     return reason == 1u && urges[i].x == urgent[0].x || reason == 2u && urges[i].y == urgent[0].y
         || reason == 4u && urges[i].z == urgent[0].z;
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn blame(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
+fn limiting_particle(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let i = folded(group, groups) * WORKGROUP + lane;
     if i < world.count {
-        if asks(i, atomicLoad(&pace[4])) { atomicMin(&pace[5], i); }
-        if atomicLoad(&pace[6]) == world.step && asks(i, atomicLoad(&pace[7])) { atomicMin(&pace[8], i); }
+        if limits(i, atomicLoad(&pace[4])) { atomicMin(&pace[5], i); }
+        if atomicLoad(&pace[6]) == world.step && limits(i, atomicLoad(&pace[7])) { atomicMin(&pace[8], i); }
     }
 }

@@ -10,8 +10,8 @@ use motes::motion::{Held, Hold};
 use motes::settings::Value;
 use motes::{Bounds, Gpu, Setup, Side, Simulation, Solver};
 
+use crate::adaptive::{DT, MACHINE, NONE, staged, words};
 use crate::laws::resting;
-use crate::paces::{DT, MACHINE, NONE, staged, words};
 use crate::stages::{Device, FEW, Stage};
 use crate::support::fluids::{SPACING, bounds, cloud, fluid};
 use crate::support::machines::{alone, subgroups_of_eight};
@@ -67,7 +67,7 @@ fn motions(device: &Device, stages: &mut Vec<Stage>) {
     let mut step = Step::new(&[], problem);
     step.lead();
     for kernel in step.finished().expect("a plan").kernels {
-        staged(stages, "lead, paced", resting(device, MACHINE, periodic), kernel, &clock, places);
+        staged(stages, "lead, adaptive", resting(device, MACHINE, periodic), kernel, &clock, places);
     }
     for (case, motion) in held::motions().into_iter().enumerate() {
         let problem = Problem { reached: [0.3, 1.0][case % 2], ..held::problem(&[], Bounds::default()).paced(pace) };
@@ -83,7 +83,7 @@ fn motions(device: &Device, stages: &mut Vec<Stage>) {
             .stage(motes::component::Stage::AfterDrift { factor: 0.7 }, &mut plan, &problem)
             .expect("a kernel");
         for kernel in plan.kernels {
-            staged(stages, "solid, paced", resting(device, MACHINE, Bounds::default()), kernel, &clock, |_| ());
+            staged(stages, "solid, adaptive", resting(device, MACHINE, Bounds::default()), kernel, &clock, |_| ());
             // The time is rounded to a tick, which moves the fastest by a place in the last digit.
             let last = stages.pop().map(|stage| stage.slack(2.0));
             stages.extend(last);
