@@ -143,7 +143,7 @@ fn steps(device: &Device, stages: &mut Vec<Stage>) {
         cases.push((low, 0.1, at(rest), stop));
     }
     for (case, (wants, viscous, clock, stop)) in cases.into_iter().enumerate() {
-        let kernel = kernel(&setup(Box::new(Thick(viscous)), DT / 64.0), "adaptive dt");
+        let kernel = kernel(&setup(Box::new(Thick(viscous)), DT / 64.0), "adaptive");
         staged(stages, &format!("adaptive dt {case}"), moving(device, FEW, None), kernel, &clock, |simulation| {
             let most = Vec4::new(wants[0], wants[1], wants[2], 0.0);
             simulation.write(URGENT, &[most]).expect("urgent");
@@ -152,7 +152,7 @@ fn steps(device: &Device, stages: &mut Vec<Stage>) {
     }
     // Fewer ticks than digits, about as many, and none.
     for (case, ticks) in [1500.3f32, 2047.2, 2049.7, 4095.3, 4099.6, 0.3].into_iter().enumerate() {
-        let kernel = kernel(&setup(Box::new(Thick(0.1)), 1e-6 * DT), "adaptive dt");
+        let kernel = kernel(&setup(Box::new(Thick(0.1)), 1e-6 * DT), "adaptive");
         staged(
             stages,
             &format!("adaptive dt of few ticks {case}"),
@@ -185,7 +185,7 @@ fn limiting(device: &Device, stages: &mut Vec<Stage>) {
             let mut state = words([5, 3, 11, 12], alarm, [1, 2]);
             (state[4], state[5], state[7]) = (reason, NONE, field);
             state[8] = if case % 2 == 0 { NONE } else { 25 };
-            let kernel = kernel(&setup(Box::new(Thick(0.1)), DT / 64.0), "limiting particle");
+            let kernel = kernel(&setup(Box::new(Thick(0.1)), DT / 64.0), "limiting");
             staged(
                 stages,
                 &format!("limiting particle {reason} {case}"),
