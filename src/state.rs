@@ -116,7 +116,7 @@ impl State {
     pub fn whole(&self, name: &str) -> Option<&[u32]> {
         if let Some(Array::Uint(values)) = self.get(name) { Some(values) } else { None }
     }
-    /// Makes a column known. It gets values by [`State::set`]; a simulation starts with its initial value where nobody gives any.
+    /// Makes a column known. It gets values by [`State::set`]; a simulation starts with its initial value where none is given.
     ///
     /// # Errors
     /// [`Error::Scene`] when a column of that name is known, of another kind or shape.

@@ -189,7 +189,7 @@ impl<B: Backend> Simulation<B> {
             } else {
                 Some(self.read_column(&column.name).await?)
             };
-            // Nobody speaks of life where all are active.
+            // There is no such column where all are active.
             if values.is_some() || column.name != LIFE.name {
                 state.put(column, values);
             }

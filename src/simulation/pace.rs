@@ -1,4 +1,4 @@
-//! The clock of a run whose steps are not all alike.
+//! The clock of adaptive steps.
 
 use super::Simulation;
 use crate::error::Error;
@@ -15,7 +15,7 @@ pub struct Clock {
     pub dt: f64,
     /// Why it is no longer.
     pub reason: Reason,
-    /// The lowest id of those who asked for it, where somebody did.
+    /// The limiting particle: the lowest id of those whose criterion gave it, where there is one.
     pub particle: Option<u32>,
     /// The shortest and the longest step so far \[time\].
     pub between: [f64; 2],
@@ -37,7 +37,7 @@ impl Clock {
         reasons.copy_from_slice(&words[12..]);
         Self {
             steps: reasons.iter().map(|n| u64::from(*n)).sum(),
-            time: told(words, longest),
+            time: time_of(words, longest),
             dt: length(words[2]),
             reason: Reason::of(words[4]),
             particle: Some(words[5]).filter(|id| *id < u32::MAX),
@@ -67,7 +67,7 @@ impl Clock {
 }
 
 /// The time of a clock.
-fn told(words: &[u32], longest: f64) -> f64 {
+fn time_of(words: &[u32], longest: f64) -> f64 {
     let part = |place: usize| words.get(place).copied().map_or(0.0, f64::from);
     (part(0) + part(1) / f64::from(TICKS)) * longest
 }
@@ -83,8 +83,8 @@ impl<B: Backend> Simulation<B> {
         self.steps = clock.steps;
         Ok(Some(clock))
     }
-    /// Where the run stops: the last step before is shortened, and steps after it move nobody until it stops elsewhere (forces
-    /// are felt anew in them, and what depends on velocities is another with those at rest: to leave no trace, run none). It is met
+    /// Where the run stops: the last step before is shortened, and steps after it move no particle until it stops elsewhere (forces
+    /// are evaluated anew in them, and what depends on velocities is another with those at rest: to leave no trace, run none). It is met
     /// to 2⁻²⁵ of the longest step; this is the time that it gives.
     ///
     /// # Errors
@@ -104,7 +104,7 @@ impl<B: Backend> Simulation<B> {
             )));
         }
         self.backend.write(STOP.name, &Array::Uint(words.to_vec()))?;
-        Ok(told(&words, self.dt))
+        Ok(time_of(&words, self.dt))
     }
     async fn words(&mut self) -> Result<Option<[u32; PACE_WORDS]>, Error> {
         if self.pace.is_none() {
@@ -128,7 +128,7 @@ impl<B: Backend> Simulation<B> {
         if words[6] == u32::MAX {
             return Ok(());
         }
-        let particle = if words[8] == u32::MAX { "everybody".to_owned() } else { format!("particle {}", words[8]) };
+        let particle = if words[8] == u32::MAX { "all particles".to_owned() } else { format!("particle {}", words[8]) };
         Err(Error::TooShort {
             step: u64::from(words[6]),
             wanted: self.dt / f64::from(f32::from_bits(words[9])),

@@ -36,7 +36,7 @@ fn moved<B: Backend>(mut simulation: Simulation<B>) -> f32 {
 }
 
 #[test]
-fn a_step_after_a_write_begins_with_the_forces_that_are_felt_there() {
+fn a_step_after_a_write_begins_with_the_forces_there() {
     let shared = support::device();
     let on_gpu = Simulation::new(&shared.found.device, &shared.found.queue, &pair()).expect("a simulation");
     let on_cpu = Simulation::on(Cpu::new(2).expect("two"), &pair()).expect("a simulation");

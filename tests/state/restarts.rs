@@ -269,7 +269,7 @@ fn springs_that_broke_count_as_before() {
 }
 
 #[test]
-fn a_caller_who_writes_between_is_not_overruled() {
+fn a_caller_that_writes_between_is_not_overruled() {
     let run = |stop: bool| {
         let mut simulation = on_host(&mixed("leapfrog")).expect("a simulation");
         simulation.step(FIRST).expect("steps");
