@@ -68,7 +68,7 @@ impl<'a> Step<'a> {
     /// # Errors
     /// When a shader does not compile.
     pub fn time(problem: &Problem) -> Result<Plan, Error> {
-        let kernel = if problem.pace.is_some() { pace::at(0.0, problem) } else { at::kernel(0.0) };
+        let kernel = if problem.pace.is_some() { adaptive::at(0.0, problem) } else { at::kernel(0.0) };
         Ok(Plan::of(vec![kernel?]))
     }
     /// The two plans around a measurement: the first keeps the forces that the next step is going to use and evaluates
