@@ -21,7 +21,7 @@ pub struct Clock {
     pub between: [f64; 2],
     /// How many steps had each reason, in the order of [`Reason::ALL`].
     pub reasons: [u32; Reason::ALL.len()],
-    /// The length of a step that goes on from here, if it is given to [`Pace::before`] \[time\].
+    /// The length of a step that goes on from here, if it is given to [`Pace::before`](crate::kernel::Pace::before) \[time\].
     pub free: f64,
 }
 
