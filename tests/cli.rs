@@ -210,8 +210,10 @@ fn ctrl_c_ends_the_batch_and_writes() {
     let Output { status, stdout, .. } = child.wait_with_output().expect("it ends");
     assert_eq!(status.code(), Some(75));
     assert!(String::from_utf8_lossy(&stdout).contains("stopped at step"));
-    assert_eq!(text(&out, "energy.csv").lines().count(), 3, "the first state and the last");
-    assert!(names(&out).iter().filter(|n| n.starts_with("snapshot_")).count() == 2);
+    // Before the first step is done, the first state is the last.
+    let states = if String::from_utf8_lossy(&stdout).contains("stopped at step 0 ") { 1 } else { 2 };
+    assert_eq!(text(&out, "energy.csv").lines().count(), 1 + states, "the first state and the last");
+    assert!(names(&out).iter().filter(|n| n.starts_with("snapshot_")).count() == states);
 }
 
 #[test]

@@ -2,7 +2,7 @@
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read_write> velocity: array<vec4f>;             // xyz, radius
 @group(1) @binding(1) var<storage, read> acceleration: array<vec4f>;               // xyz, potential
-@group(1) @binding(2) var<storage, read_write> earlier_acceleration: array<vec4f>; // xyz
+@group(1) @binding(2) var<storage, read_write> earlier_acceleration: array<vec4f>; // xyz, 1 where there is one
 
 const WORKGROUP: u32 = 64u;
 
@@ -12,11 +12,9 @@ fn beeman_first(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gr
     if i < world.count {
         let v = velocity[i];
         let a = acceleration[i].xyz;
-        var earlier = earlier_acceleration[i].xyz;
-        if all(earlier == vec3f(0.0)) {
-            earlier = a;
-        }
+        let kept = earlier_acceleration[i];
+        let earlier = select(a, kept.xyz, kept.w == 1.0);
         velocity[i] = vec4f(v.xyz + (world.dt / 6.0) * (4.0 * a - earlier), v.w);
-        earlier_acceleration[i] = vec4f(a, 0.0);
+        earlier_acceleration[i] = vec4f(a, 1.0);
     }
 }

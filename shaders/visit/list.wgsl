@@ -29,7 +29,7 @@ fn listed(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: 
     let k = FIRST_ROW + folded(group, groups) * WORKGROUP + lane;
     if k < world.count {
         let head = list[k];
-        let me = neighbor(head.y, 0u);
+        let me = neighbor(head.y, NONE);
         if head.y != NONE && acts_on(me) {
             var sum = Sum();
             for (var n = 0u; n < head.x; n += 4u) {

@@ -4,10 +4,15 @@
 const REMEMBERS: bool = true;
 
 // What the last step left; 0 where the pair was not in range then, or nothing was left.
-fn recall(you: Particle, word: u32) -> f32 { return history[word_of(you.pair, world.step, word)]; }
+fn recall(you: Particle, word: u32) -> f32 {
+    if you.pair == NONE || word >= SLOTS { return 0.0; }
+    return history[word_of(you.pair, world.step, word)];
+}
 
-// What this step leaves.
-fn remember(you: Particle, word: u32, value: f32) { history[word_of(you.pair, world.step + 1u, word)] = value; }
+// What this step leaves. A particle is no pair with itself, and there are no more words than slots.
+fn remember(you: Particle, word: u32, value: f32) {
+    if you.pair != NONE && word < SLOTS { history[word_of(you.pair, world.step + 1u, word)] = value; }
+}
 
 // This step leaves nothing, until the law says so.
 fn forget(pair: u32) {

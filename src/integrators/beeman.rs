@@ -4,8 +4,6 @@
 
 use std::sync::Arc;
 
-use glam::DVec3;
-
 use super::{Integrator, Step};
 use crate::error::Error;
 use crate::kernel::{ACCELERATION, Column, Field, Host, Kernel, Kind, Shader, VELOCITY};
@@ -20,9 +18,16 @@ impl Integrator for Beeman {
     fn order(&self) -> u32 {
         2
     }
+    fn fixed_step(&self) -> Option<&'static str> {
+        Some("beeman takes the accelerations of three times that are equally far apart")
+    }
     fn columns(&self) -> Vec<Column> {
         let about = "the acceleration at the start of the step before: Beeman's method goes on with it";
-        vec![Column::new(EARLIER.name, Kind::Vector, "length / time²", about)]
+        let has = "1 where there is such an acceleration, 0 before a particle's first step";
+        vec![
+            Column::new(EARLIER.name, Kind::Vector, "length / time²", about),
+            Column::new("earlier_is_known", Kind::Scalar, "", has).within(EARLIER.name, 3),
+        ]
     }
     fn start(&self, s: &mut Step) {
         s.evaluate();
@@ -45,9 +50,9 @@ fn first(count: u32) -> Result<Kernel, Error> {
         let mut earlier = host.write(EARLIER)?;
         for ((v, a), before) in velocity.iter_mut().zip(acceleration.iter()).zip(earlier.iter_mut()) {
             let a = a.truncate();
-            let a_before = if before.truncate() == DVec3::ZERO { a } else { before.truncate() };
+            let a_before = if before.w == 1.0 { before.truncate() } else { a };
             *v += ((4.0 * a - a_before) * (dt / 6.0)).extend(0.0);
-            *before = a.extend(0.0);
+            *before = a.extend(1.0);
         }
         Ok(())
     };

@@ -29,6 +29,10 @@ pub trait Integrator: Send + Sync {
     fn damps_at_any_step(&self) -> bool {
         false
     }
+    /// Why it requires a fixed time step, if it does.
+    fn fixed_step(&self) -> Option<&'static str> {
+        self.is_implicit().then_some("their limits are those of explicit methods, and the integrator is implicit")
+    }
     /// How long its steps are, where they are not all alike.
     fn pace(&self) -> Option<Pace> {
         None

@@ -25,6 +25,9 @@ impl Integrator for Paced {
     fn pace(&self) -> Option<Pace> {
         Some(self.pace)
     }
+    fn fixed_step(&self) -> Option<&'static str> {
+        self.integrator.fixed_step()
+    }
     fn columns(&self) -> Vec<Column> {
         self.integrator.columns()
     }

@@ -39,9 +39,10 @@ const ELEMENTS: &str = "X H He Li Be B C N O F Ne Na Mg Al Si P S Cl Ar K Ca Sc 
 /// What a plain XYZ file holds, which says nothing of it.
 const PLAIN: &str = "species:S:1:pos:R:3";
 
-/// The column of a property, and whether it is named as the format has it.
-fn column_of(property: &str) -> &str {
+/// The column of a property: that of its name, or what other programs call it so.
+fn column_of<'a>(property: &'a str, columns: &Columns) -> &'a str {
     match property {
+        name if columns.get(name).is_some() => name,
         "pos" | "positions" => "position",
         "velo" | "vel" | "velocities" => "velocity",
         "masses" => "mass",
@@ -50,14 +51,15 @@ fn column_of(property: &str) -> &str {
     }
 }
 
-/// The property of a column.
-fn property_of(column: &Column) -> &str {
-    match column.name.as_ref() {
+/// The property of a column: as other programs call it, if no other column of these has that name.
+fn property_of<'a>(column: &'a Column, columns: &[&Column]) -> &'a str {
+    let usual = match column.name.as_ref() {
         "position" => "pos",
         "velocity" => "velo",
         "size" => "radius",
-        name => name,
-    }
+        name => return name,
+    };
+    if columns.iter().any(|other| other.name == usual) { &column.name } else { usual }
 }
 
 /// Writes a state: species, positions, and all that a CSV file has, one line for each particle in the order of the ids.
@@ -77,7 +79,7 @@ pub fn write_xyz(mut out: impl Write, state: &State, precision: Precision) -> io
     let mut properties = "species:S:1:id:I:1".to_owned();
     for column in &columns {
         let letter = if column.kind == Kind::Whole { 'I' } else { 'R' };
-        let _ = write!(properties, ":{}:{letter}:{}", property_of(column), titles::titles(column).len());
+        let _ = write!(properties, ":{}:{letter}:{}", property_of(column, &columns), titles::titles(column).len());
     }
     writeln!(out, "{}", state.len())?;
     writeln!(out, "Properties={properties} pbc=\"F F F\" Time={:?} Step={}", state.time, state.step)?;
@@ -133,6 +135,9 @@ pub fn read(path: &Path, columns: &Columns) -> Result<State, Error> {
             }
         }
     }
+    if properties.iter().filter(|property| property.name == "id").count() > 1 {
+        problems.note(|| "line 2: `id` is there twice".to_owned());
+    }
     if !known.iter().zip(&given).any(|(title, list)| title.column.name == "position" && list.is_some()) {
         problems.note(|| "line 2: Properties has no `pos:R:3`: positions are missing".to_owned());
     }
@@ -157,6 +162,9 @@ pub fn read(path: &Path, columns: &Columns) -> Result<State, Error> {
                 let fault = match (number, place) {
                     (None, _) => Some("is no number".into()),
                     (Some(number), Some(place)) => known[place + k].fault(number),
+                    (Some(number), None) if number.fract() != 0.0 || !(0.0..=f64::from(u32::MAX)).contains(&number) => {
+                        Some("is no id: ids are whole numbers from 0".into())
+                    }
                     (Some(_), None) => None,
                 };
                 if let Some(fault) = fault {
@@ -244,14 +252,15 @@ fn properties(text: &str, problems: &mut Problems) -> Vec<Property> {
 
 /// The place of the first title of a property's column; none for ids.
 fn place(property: &Property, columns: &Columns, known: &[titles::Title<'_>], problems: &mut Problems) -> Option<usize> {
-    let (name, width) = (column_of(&property.name), property.width);
+    let (name, width) = (column_of(&property.name, columns), property.width);
     if name == "id" && width == 1 {
         return None;
     }
     let first = known.iter().position(|title| title.column.name == name);
     let Some((first, column)) = first.zip(columns.get(name)) else {
         problems.note(|| {
-            let names: Vec<&str> = columns.iter().map(property_of).collect();
+            let all: Vec<&Column> = columns.iter().collect();
+            let names: Vec<&str> = all.iter().map(|column| property_of(column, &all)).collect();
             format!("line 2: unknown property `{}`; known are id, {}", super::shortened(&property.name), names.join(", "))
         });
         return None;

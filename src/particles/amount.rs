@@ -31,6 +31,9 @@ const ROD: f64 = 290.0;
 const JOINT: f64 = 290.0;
 const TRIANGLE: f64 = 120.0;
 
+/// Less than this is never refused: what is free is known to no better.
+const SMALL: f64 = 6.7e7;
+
 impl Amount {
     /// So many particles, tied to nothing.
     #[must_use]
@@ -63,6 +66,9 @@ impl Amount {
     /// Those words, where there is not.
     pub fn fits(&self) -> Result<(), String> {
         let bytes = self.bytes();
+        if bytes < SMALL {
+            return Ok(());
+        }
         let free = free();
         let granted = || {
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "beyond 2^64 it saturates")]
@@ -123,9 +129,11 @@ fn free() -> Option<f64> {
     // What `ulimit -v` leaves.
     let used = row("/proc/self/status", "VmSize:").map_or(0.0, |kib| 1024.0 * kib);
     let process = row("/proc/self/limits", "Max address space").map(|most| (most - used).max(0.0));
-    // What a container leaves.
+    // What a container leaves; files that the system has read ahead or not yet written make room.
     let group = |name: &str| text(&format!("/sys/fs/cgroup/{name}")).and_then(|text| first(&text));
-    let contained = group("memory.max").zip(group("memory.current")).map(|(most, used)| (most - used).max(0.0));
+    let files = row("/sys/fs/cgroup/memory.stat", "file ").unwrap_or(0.0);
+    let contained = group("memory.max").zip(group("memory.current"));
+    let contained = contained.map(|(most, used)| (most - (used - files).max(0.0)).max(0.0));
     [system, process, contained].into_iter().flatten().reduce(f64::min)
 }
 

@@ -135,9 +135,8 @@ fn pace(table: &Table<'_>, settings: &Settings, of: &Simulation, report: &mut Re
     if let Err(error) = pace.check(of.dt) {
         report.push(Fault::at(&entry.place, "steps cannot be adaptive like that").label(error.to_string()));
     }
-    if of.made().is_implicit() {
-        let fault =
-            format!("steps are adaptive by the limits of explicit methods, and {} is implicit", of.integrator.name);
+    if let Some(why) = of.made().fixed_step() {
+        let fault = format!("steps cannot be adaptive: {why}");
         report.push(Fault::at(&entry.place, fault).label("choose integrator = \"leapfrog\", or leave this out"));
     }
     Some((pace, entry.place.clone()))

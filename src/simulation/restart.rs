@@ -14,7 +14,8 @@ use crate::error::Error;
 use crate::fluids::{DFSPH_ERRORS, DFSPH_REPORT};
 use crate::integrators::{SOLVE_REPORT, kept_rates};
 use crate::kernel::{
-    ALARM, Array, Backend, Columns, HOME, PACE, PACE_WORDS, Plan, QUIET, TICKS, URGENT, URGES, World, extent, split,
+    ALARM, Array, Backend, Column, Columns, HOME, LIFE, PACE, PACE_WORDS, Plan, QUIET, Role, TICKS, URGENT, URGES,
+    World, extent, split,
 };
 use crate::links::Links;
 use crate::motion;
@@ -128,12 +129,32 @@ fn mark(step: u64, state: &State) -> Vec<f64> {
     let mut print = Print(step);
     print.add(&state.step.to_le_bytes());
     print.add(&state.time.to_bits().to_le_bytes());
+    print.add(&of_columns(state).to_le_bytes());
     for link in &state.links.springs {
         print.add(&[link.ends[0].to_le_bytes(), link.ends[1].to_le_bytes()].concat());
         [link.rest, link.stiffness, link.damping].iter().for_each(|x| print.add(&x.to_bits().to_le_bytes()));
         print.add(&[u8::from(link.rope)]);
     }
     [print.0 >> 32, print.0 & 0xffff_ffff].map(|word| word as f64).to_vec()
+}
+
+/// A number that tells the columns of a state from others, in whatever order they stand, by the values that a device holds. What
+/// files leave out counts for nothing: sizes and species that are all 0, and life where all are active.
+fn of_columns(state: &State) -> u64 {
+    let counts = |column: &Column| match column.name.as_ref() {
+        "size" => state.size().iter().any(|size| *size != 0.0),
+        "species" => state.species().iter().any(|species| *species != 0),
+        name if name == LIFE.name => (0..state.len()).any(|id| !state.lives(id)),
+        _ => column.role == Role::State,
+    };
+    let one = |(column, values): (&Column, &Array)| {
+        let mut print = Print::new();
+        print.add(column.name.as_bytes());
+        #[expect(clippy::cast_possible_truncation, reason = "as the device holds it")]
+        numbers(values).iter().for_each(|x| print.add(&(*x as f32).to_bits().to_le_bytes()));
+        print.0
+    };
+    state.columns().filter(|(column, _)| counts(column)).map(one).fold(0, u64::wrapping_add)
 }
 
 /// Whether a state is that which this step has made, and nothing of it has changed since.
@@ -220,6 +241,13 @@ impl<B: Backend> Simulation<B> {
     /// Fills what a step keeps for the next one.
     pub(super) fn resume(&mut self, setup: &Setup, plans: &Plans) -> Result<(), Error> {
         let state = &setup.state;
+        if self.list.is_some_and(|list| list.words > 0) && state.step > 0 {
+            return Err(Error::Scene(format!(
+                "the state is at step {}, and a law keeps history of pairs (slots), which a state does not hold: run it in one go, or \
+                 take `state.begin_anew()`, with which all pairs are new",
+                state.step
+            )));
+        }
         let whole = is_whole(self.print, state);
         let mut arrays = Vec::new();
         for one in &self.carried {

@@ -88,12 +88,8 @@ impl Setup {
     }
     /// Refuses what does not go with steps of different lengths.
     fn bear(&self) -> Result<(), Error> {
-        if self.integrator.is_implicit() {
-            return Err(Error::Scene(
-                "steps are adaptive by the limits of explicit methods, and the integrator is implicit: it has no use for them; \
-                 choose leapfrog, or a fixed dt"
-                    .to_owned(),
-            ));
+        if let Some(why) = self.integrator.fixed_step() {
+            return Err(Error::Scene(format!("steps cannot be adaptive: {why}; choose leapfrog, or a fixed dt")));
         }
         match self.forces.iter().find_map(|force| force.properties().fixed_step) {
             Some(why) => Err(Error::Scene(format!("steps cannot be adaptive: {why}; choose a fixed dt"))),

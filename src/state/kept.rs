@@ -62,7 +62,8 @@ impl Kept {
 
 impl State {
     /// The same particles at time 0 and step 0, from which a simulation begins anew: kinematic particles, births, random numbers and
-    /// forces that depend on time begin again, and nothing is left of what the last step kept for the next one.
+    /// forces that depend on time begin again, and nothing is left of what the last step kept for the next one. Columns stay as they are,
+    /// those of an integrator or a solver too.
     #[must_use]
     pub fn begin_anew(mut self) -> Self {
         (self.time, self.step) = (0.0, 0);

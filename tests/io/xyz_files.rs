@@ -32,20 +32,27 @@ fn columns_go_there_and_back() {
         Column::new("charge", Kind::Scalar, "", "a charge"),
         Column::new("spin", Kind::Vector, "", "a spin"),
         Column::new("bonds", Kind::Whole, "", "a count"),
+        Column::new("radius", Kind::Scalar, "length", "what other programs call the size"),
+        Column::new("pos", Kind::Scalar, "", "what they call positions"),
     ])
     .expect("columns");
     let mut state = some(3);
-    for column in columns.iter().filter(|column| ["charge", "spin", "bonds"].contains(&column.name.as_ref())) {
+    for column in
+        columns.iter().filter(|column| ["charge", "spin", "bonds", "radius", "pos"].contains(&column.name.as_ref()))
+    {
         state.declare(column).expect("a column");
     }
     let spins = vec![DVec3::new(1.0, -2.0, 0.1), DVec3::ZERO, DVec3::new(1e-40, 3.0, 4.0)];
     state.set("charge", Array::Float(vec![0.1, -1.0, 7e300])).expect("charges");
     state.set("spin", Array::Vec3(spins)).expect("spins");
     state.set("bonds", Array::Uint(vec![0, 4_294_967_295, 7])).expect("counts");
+    state.set("radius", Array::Float(vec![0.5, 0.25, 0.125])).expect("radii");
+    state.set("pos", Array::Float(vec![3.0, 2.0, 1.0])).expect("numbers");
+    state.size_mut().fill(7.0);
     let folder = folder();
     let path = put(&folder, "a.xyz", xyz_bytes(&state, Precision::Double));
     let back = read_state(&path, &columns).expect("the same columns");
-    for name in ["charge", "spin", "bonds"] {
+    for name in ["charge", "spin", "bonds", "radius", "pos", "size", "position"] {
         assert_eq!(back.get(name), state.get(name), "{name}");
     }
     let unknown = read(&path).expect_err("columns that nothing declares").to_string();
@@ -69,6 +76,8 @@ fn faults_are_reported_with_their_lines() {
         ("1\nProperties=pos:R:3\n0 nan 0\n", "line 3, pos: `nan` is not finite"),
         ("1\nProperties=pos:R:3:mass:R:1\n0 0 0 -1\n", "line 3, mass: `-1` is below 0"),
         ("2\nProperties=id:I:1:pos:R:3\n0 0 0 0\n0 1 1 1\n", "id 0 again"),
+        ("1\nProperties=id:I:1:pos:R:3\n-3 0 0 0\n", "line 3, id: `-3` is no id"),
+        ("1\nProperties=id:I:1:id:I:1:pos:R:3\n0 0 0 0 0\n", "line 2: `id` is there twice"),
         ("1\nProperties=pos:R:3\n0 0 0\n1\nProperties=pos:R:3\n0 0 0\n", "line 4: a second frame begins"),
     ];
     for (text, want) in cases {

@@ -144,6 +144,10 @@ fn winding(slots: u32) -> Law {
         }
         (*sum).acceleration += recall(you, 0u) * r;
         (*sum).potential += recall(you, SLOTS - 1u);
+        // There is no such word, and no such pair.
+        remember(you, SLOTS, 7.5);
+        remember(me, 0u, 2.5);
+        (*sum).potential += recall(you, SLOTS) + recall(me, 0u);
     }
     fn acts_on(me: Particle) -> bool { return me.index % 5u != 2u; }
     fn finish(me: Particle, sum: Sum) -> vec4f { return vec4f(sum.acceleration, sum.potential); }";
