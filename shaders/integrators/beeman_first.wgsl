@@ -13,7 +13,7 @@ fn beeman_first(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gr
         let v = velocity[i];
         let a = acceleration[i].xyz;
         let kept = earlier_acceleration[i];
-        let earlier = select(a, kept.xyz, kept.w == 1.0);
+        let earlier = select(a, kept.xyz, kept.w > 0.5);
         velocity[i] = vec4f(v.xyz + (world.dt / 6.0) * (4.0 * a - earlier), v.w);
         earlier_acceleration[i] = vec4f(a, 1.0);
     }

@@ -50,7 +50,7 @@ fn first(count: u32) -> Result<Kernel, Error> {
         let mut earlier = host.write(EARLIER)?;
         for ((v, a), before) in velocity.iter_mut().zip(acceleration.iter()).zip(earlier.iter_mut()) {
             let a = a.truncate();
-            let a_before = if before.w == 1.0 { before.truncate() } else { a };
+            let a_before = if before.w > 0.5 { before.truncate() } else { a };
             *v += ((4.0 * a - a_before) * (dt / 6.0)).extend(0.0);
             *before = a.extend(1.0);
         }

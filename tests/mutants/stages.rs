@@ -254,13 +254,14 @@ fn integrators(device: &Device, stages: &mut Vec<Stage>) {
     }
 }
 
-/// A kernel of a method that goes on with accelerations of a step before, where there was none.
+/// A kernel of a method that goes on with accelerations of a step before, where some particles have none.
 fn first_step(device: &Device, kernel: &Kernel) -> Stage {
     let (mut simulation, plan) = (moving(device, FEW, None), alone(kernel.clone()));
     fill(&mut simulation, &plan);
     let gpu = simulation.backend();
-    let none = vec![0; usize::try_from(gpu.size("earlier_acceleration")).expect("few")];
-    gpu.write_bytes("earlier_acceleration", 0, &none).expect("a field");
+    let known = [0.0, 0.5, 0.6, 1.0];
+    let earlier: Vec<f32> = (0..FEW).flat_map(|i| [0.3, -0.7, 1.1 + i as f32, known[i % known.len()]]).collect();
+    gpu.write_bytes("earlier_acceleration", 0, bytemuck::cast_slice(&earlier)).expect("a field");
     Stage::of(&format!("{}, in a first step", kernel.name), simulation, plan)
 }
 
