@@ -37,7 +37,7 @@ fn every_mutant_of_the_self_test_is_a_finding() {
     let right = Questions::default();
     let plain = asked(&mut gpu, &right).expect("answers");
     assert!(plain.iter().all(|f| f.outcome != Outcome::Fail), "{plain:?}");
-    let mut ledger = Ledger::new(EQUIVALENT);
+    let mut ledger = Ledger::new(EQUIVALENT, &[]);
     let wrong_loop = |long_loop| Questions { long_loop, ..right.clone() };
     let wrong_sum = |arithmetic| Questions { arithmetic, ..right.clone() };
     let files: [(&Source, &dyn Fn(Source) -> Questions); 2] =

@@ -135,7 +135,10 @@ fn the_picture_of_all_integrators() {
                 ["stability", "--backend", backend, "--omega-step", y, "--decay-step", z, "--steps", "12", "-o", path];
             let (code, words) = motes(&args);
             assert_eq!(code, 0, "{words}");
-            for entry in motes::integrators::INTEGRATORS {
+            // A method with a column of its own is no map of x and v alone: there is no theory of one step to hold it to.
+            let maps = motes::integrators::INTEGRATORS.iter().filter(|entry| entry.by_default().columns().is_empty());
+            assert!(maps.clone().count() >= 14);
+            for entry in maps {
                 let row = words.lines().find(|line| line.split_whitespace().next() == Some(entry.name));
                 let row: Vec<&str> =
                     row.unwrap_or_else(|| panic!("no {} in\n{words}", entry.name)).split_whitespace().collect();

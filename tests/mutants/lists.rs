@@ -32,6 +32,7 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("list_moved", "override LIMIT: f32 = 0.0;", "0.0", "1.0", ALWAYS_SET),
     same("list_decide", "override WORDS: u32 = 0u;", "0u", "1u", ALWAYS_SET),
     same("neighbors/history", "override SLOTS: u32 = 1u;", "1u", "2u", ALWAYS_SET),
+    same("list_history", "history[word_of(", "+", "-", "the half is that of even or of odd steps"),
     same("visit/list", "override RANGE: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
 ];
 
@@ -105,6 +106,9 @@ impl Place<'_> {
         if since != Since::Never {
             let program = simulation.backend().compile(&plan).expect("a good plan");
             simulation.backend().run(&program, 1).expect("a run");
+            // What it left is read in the next step.
+            let next = World { step: clock.step + u32::from(self.slots > 0), ..clock };
+            simulation.backend().set_world(next).expect("a world");
             let limit = (0.5 * SKIN) as f32;
             for (i, x) in now.iter_mut().enumerate() {
                 let way = (random.vector() * 0.07).as_vec3();

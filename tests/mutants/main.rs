@@ -20,6 +20,7 @@ mod laws;
 mod lists;
 mod memory;
 mod neighbors;
+mod open;
 mod pairs;
 mod primitives;
 mod repeat;
@@ -37,6 +38,7 @@ use std::sync::Mutex;
 use std::time::Instant;
 
 use equivalents::{EQUIVALENT, SOLVES};
+use open::OPEN;
 use stages::Stage;
 use support::Shared;
 use support::equivalents::{Equivalent, Ledger};
@@ -144,7 +146,7 @@ fn every_mutant_is_noticed() {
         columns::EQUIVALENT,
     ]
     .concat();
-    let ledger = Mutex::new(Ledger::new(&equivalents));
+    let ledger = Mutex::new(Ledger::new(&equivalents, OPEN));
     // `MUTANTS=near,order cargo test --test mutants -- --nocapture` looks at files of such names alone.
     let only = std::env::var("MUTANTS").unwrap_or_default();
     let wanted = |file: &str| only.split(',').any(|part| file.contains(part));

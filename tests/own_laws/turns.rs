@@ -278,7 +278,7 @@ fn every_mutant_of_what_looks_at_turns_is_noticed() {
     let few = |text: &str| [63, 64, 1000].map(|n| with(&shared, text, n));
     let many = |text: &str| [63, 100_000].map(|n| with(&shared, text, n));
     let right = (few(&short), many(TURNS));
-    let mut ledger = Ledger::new(EQUIVALENT);
+    let mut ledger = Ledger::new(EQUIVALENT, &[]);
     for mutant in mutants(clock) {
         ledger.enter("turns.wgsl", &mutant, few(&format!("{}{rest}", mutant.text)) != right.0);
     }

@@ -182,7 +182,7 @@ fn bad_settings_are_errors() {
         ("clusters", "children", Value::Number(1.0), "children is 1; it must be 2 or above"),
         ("clusters", "dimension", Value::Number(3.1), "dimension is 3.1; it must be above 0 and at most 3"),
         ("sphere", "virial", Value::Number(-0.1), "virial is -0.1; it must be 0 or above"),
-        ("sphere", "radius", Value::Text(Cow::Borrowed("big")), "radius is 0"),
+        ("sphere", "radius", Value::Text(Cow::Borrowed("big")), "has a key `radius` of another kind"),
         ("disk", "halo_fraction", Value::Number(1.0), "halo_fraction is 1; it must be 0 or above and below 1"),
         ("disk", "halo_fraction", Value::Number(0.0), "no particle is left for the halo"),
         ("disk", "halo_fraction", Value::Number(0.999), "no particle is left for the disk"),

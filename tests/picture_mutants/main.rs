@@ -112,7 +112,7 @@ fn work(
 #[test]
 fn every_mutant_of_a_picture_is_noticed() {
     let devices: Vec<Shared> = (0..TURNS).map(|_| support::open()).collect();
-    let ledger = Mutex::new(Ledger::new(EQUIVALENT));
+    let ledger = Mutex::new(Ledger::new(EQUIVALENT, &[]));
     let chosen = std::env::var("MUTANTS").unwrap_or_default();
     let chosen: Vec<&str> = chosen.split(',').filter(|name| !name.is_empty()).collect();
     let is_chosen = |file: &str| chosen.is_empty() || chosen.iter().any(|name| file.ends_with(&format!("/{name}")));

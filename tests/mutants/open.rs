@@ -1,0 +1,27 @@
+//! Mutants that no stage notices yet. Numbers may only fall: a stage that shows what such a line does takes them away.
+
+use crate::support::equivalents::Open;
+
+const fn open(file: &'static str, most: usize) -> Open {
+    Open { file, most }
+}
+
+pub const OPEN: &[Open] = &[
+    // The history of pairs through a rebuilt list is held by tests/neighbors/history.rs; no stage here has one that matters.
+    open("shaders/neighbors/list_match.wgsl", 43),
+    open("shaders/neighbors/list_save.wgsl", 20),
+    open("shaders/neighbors/list_moved.wgsl", 9),
+    open("shaders/neighbors/list_order.wgsl", 4),
+    open("shaders/neighbors/list_decide.wgsl", 3),
+    open("shaders/neighbors/list_search.wgsl", 2),
+    open("shaders/visit/list.wgsl", 4),
+    open("shaders/visit/list_history.wgsl", 2),
+    open("shaders/visit/list_plain.wgsl", 2),
+    // Walks that go on: what they keep is read again only where they stop late, and workgroups too many do nothing.
+    open("shaders/visit/tree_rest.wgsl", 14),
+    open("shaders/visit/tree_subgroup.wgsl", 10),
+    open("shaders/visit/tree_broadcast.wgsl", 1),
+    open("shaders/visit/tree_look.wgsl", 1),
+    open("shaders/tree/demand.wgsl", 3),
+    open("shaders/fluids/dfsph/listed.wgsl", 1),
+];
