@@ -4,6 +4,7 @@ use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
 
+use super::FORMATS;
 use crate::error::Error;
 
 /// The file that is locked while a run writes.
@@ -15,12 +16,13 @@ const SIGNATURE: &str = "# Run by motes ";
 /// What stands before the name of the scene in that line.
 const NAMED: &str = ", as ";
 
-/// Files that a run writes under one name.
-const NAMES: &[&str] =
-    &["scene.toml", "energy.csv", "energy.svg", "flock.csv", "flow.csv", "fluid.csv", "last_good.csv", "last_good.npz"];
-/// Files of which it writes many, with the number of a step or a picture between these.
-const NUMBERED: &[(&str, &str)] =
-    &[("snapshot_", ".csv"), ("snapshot_", ".npz"), ("links_", ".csv"), ("picture_", ".png"), ("frame_", ".png")];
+/// Files that a run writes under one name, beside the last good state.
+const NAMES: &[&str] = &["scene.toml", "energy.csv", "energy.svg", "flock.csv", "flow.csv", "fluid.csv"];
+/// Files of which it writes many, with the number of a step or a picture between these, beside states.
+const NUMBERED: &[(&str, &str)] = &[("links_", "csv"), ("picture_", "png"), ("frame_", "png")];
+/// States, and the last good one, in any format.
+const STATE: &str = "snapshot_";
+const LAST_GOOD: &str = "last_good";
 /// Files that begin with the name of the scene.
 const ENDINGS: &[&str] = &[".png", "_film.png", "_film.mp4", "_film.part.mp4"];
 
@@ -241,15 +243,19 @@ fn is_result(name: &str, scenes: &[Option<&str>]) -> bool {
         Some(_) => return false,
         None => (name, false),
     };
-    let numbered = |(before, after): &(&str, &str)| {
-        let digits = name.strip_prefix(before).and_then(|rest| rest.strip_suffix(after));
-        (*before == "frame_") == framed
+    let stem = |ending: &str| name.strip_suffix(ending).and_then(|stem| stem.strip_suffix('.'));
+    let numbered = |(before, ending): (&str, &str)| {
+        let digits = stem(ending).and_then(|stem| stem.strip_prefix(before));
+        (before == "frame_") == framed
             && digits.is_some_and(|digits| !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit()))
     };
+    let states = || FORMATS.iter().filter(|format| format.write.is_some()).map(|format| format.name);
     let of_scene =
         |scene: &str| !scene.is_empty() && name.strip_prefix(scene).is_some_and(|end| ENDINGS.contains(&end));
-    let own = || NAMES.contains(&name) || scenes.iter().flatten().any(|scene| of_scene(scene));
-    NUMBERED.iter().any(numbered) || !framed && own()
+    let last = || states().any(|ending| stem(ending) == Some(LAST_GOOD));
+    let own = || NAMES.contains(&name) || last() || scenes.iter().flatten().any(|scene| of_scene(scene));
+    let kinds = NUMBERED.iter().copied().chain(states().map(|ending| (STATE, ending)));
+    kinds.into_iter().any(numbered) || !framed && own()
 }
 
 fn failed(path: &Path, why: &io::Error) -> Error {

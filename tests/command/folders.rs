@@ -198,3 +198,23 @@ fn a_pipe_with_a_name_is_no_scene() {
     let (code, _, stderr) = crate::output(command.args(["-c", &shell, env!("CARGO_BIN_EXE_motes")]));
     assert_eq!(code, 0, "{stderr}");
 }
+
+/// Every format of the register is written by a run, replaced by the next, and read as where another run begins.
+#[test]
+fn every_format_is_written_replaced_and_read() {
+    for format in motes::io::FORMATS.iter().filter(|format| format.write.is_some()) {
+        let scene = SCENE.replace("formats = [\"csv\"]", &format!("formats = [\"{}\"]", format.name));
+        assert_eq!(format.name == "csv", scene == SCENE, "the scene says which format");
+        let place = Place::with(&[("a.toml", &scene)]);
+        assert_eq!(place.run("a.toml", "out", &[]).0, 0, "{}", format.name);
+        let last = format!("out/snapshot_20.{}", format.name);
+        assert!(Path::new(&place.at(&last)).exists(), "{last}");
+        let (code, _, stderr) = place.run("a.toml", "out", &["--overwrite"]);
+        assert_eq!(code, 0, "{stderr}");
+        let next =
+            format!("[simulation]\ndt = 0.1\nsteps = 1\n[[particles]]\nfile = \"{last}\"\n[output]\nformats = []\n");
+        place.put("b.toml", &next);
+        let (code, _, stderr) = place.run("b.toml", "next", &[]);
+        assert_eq!(code, 0, "{}: {stderr}", format.name);
+    }
+}
