@@ -54,7 +54,8 @@ fn refusals_show_the_place() {
     let dry = REST.replace("[[force]]\nkind = \"fluid\"\nspacing = 0.1\nsound_speed = 8\n", "");
     for (more, rest, says) in [
         ("adaptive = true\n", dry.as_str(), "no force says how long a step may be"),
-        ("adaptive = true\nintegrator = \"trapezoid\"\n", REST, "trapezoid is implicit"),
+        ("adaptive = true\nintegrator = \"trapezoid\"\n", REST, "the integrator is implicit"),
+        ("adaptive = true\nintegrator = \"beeman\"\n", REST, "three times that are equally far apart"),
         ("adaptive = true\ndt_min = 0.02\n", REST, "the shortest step is 2e-2, and the longest 1e-2"),
         ("cfl = 0.3\n", REST, "`cfl` is for adaptive steps"),
         ("dt_min = 0.003\n", REST, "`dt_min` is for adaptive steps"),
