@@ -21,7 +21,10 @@ fn fit(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec
             var old = 0u;
             for (var n = 0u; n < head.x; n += 1u) {
                 let id = list[(1u + n / 4u) * world.count + k][n % 4u];
-                while old < end && list_before[(1u + old / 4u) * world.count + row][old % 4u] < id { old += 1u; }
+                while old < end {
+                    if list_before[(1u + old / 4u) * world.count + row][old % 4u] >= id { break; }
+                    old += 1u;
+                }
                 let known = old < end && list_before[(1u + old / 4u) * world.count + row][old % 4u] == id;
                 for (var word = 0u; word < SLOTS; word += 1u) {
                     var value = 0.0;

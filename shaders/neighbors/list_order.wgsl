@@ -22,7 +22,7 @@ fn head(k: u32, found: vec4u) {
     list[k] = vec4u(length(found), found.yzw);
     list_origin[k] = vec4f(position[k].xyz, f32(lives(k)));
     if found.x > atomicLoad(&list_state[0].longest) { atomicMax(&list_state[0].longest, found.x); }
-    if found.x > ROOM { atomicMax(&list_state[0].full, ~found.y); }
+    if length(found) < found.x { atomicMax(&list_state[0].full, ~found.y); }
 }
 
 @compute @workgroup_size(WORKGROUP)

@@ -21,8 +21,9 @@ fn save(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
             // Which particle of that id, not row, had none.
             if list_origin[k].w == 0.0 { row_before[k] = NONE; }
         }
-        if 4u * group.z < head.x { list_before[(1u + group.z) * world.count + k] = list[(1u + group.z) * world.count + k]; }
-        for (var n = 4u * group.z; n < min(4u * group.z + 4u, head.x); n += 1u) {
+        let first = 4u * group.z;
+        if first < head.x { list_before[(1u + group.z) * world.count + k] = list[(1u + group.z) * world.count + k]; }
+        for (var n = first; n < min(first + 4u, head.x); n += 1u) {
             for (var word = 0u; word < SLOTS; word += 1u) {
                 history_before[(n * SLOTS + word) * world.count + k] = history[word_of(pair_at(k, n), world.step, word)];
             }

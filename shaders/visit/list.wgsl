@@ -21,7 +21,8 @@ fn consider(k: u32, id: u32, n: u32, end: u32, me: Particle, sum: ptr<function, 
     let you = neighbor(id, pair_at(k, n));
     let r = shortest(you.position - me.position);
     if REMEMBERS && n < end { forget(you.pair); }
-    if n < end && r.x * r.x + r.y * r.y + r.z * r.z < RANGE * RANGE { gather(me, you, r, sum); }
+    let near = r.x * r.x + r.y * r.y + r.z * r.z < RANGE * RANGE;
+    if n < end && near { gather(me, you, r, sum); }
 }
 
 @compute @workgroup_size(WORKGROUP)

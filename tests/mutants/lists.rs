@@ -24,6 +24,11 @@ const ROOM: u32 = 96;
 const TIGHT: u32 = 56;
 
 const ALWAYS_SET: &str = "the host sets every override";
+const EDGE: &str = "no pair lies exactly at the edge";
+const LAST_DIGITS: &str = "a millionth of a coordinate, for what a wrap rounds away";
+const ALL_KNOW: &str = "all layers and lanes hold the same value, so any of them may write it";
+const NOT_ASKED: &str = "it is not asked for";
+const MORE: &str = "it does more than is asked for, and the same";
 
 pub const EQUIVALENT: &[Equivalent] = &[
     same("list_search", "override REACH: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
@@ -34,6 +39,37 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("neighbors/history", "override SLOTS: u32 = 1u;", "1u", "2u", ALWAYS_SET),
     same("list_history", "history[word_of(", "+", "-", "the half is that of even or of odd steps"),
     same("visit/list", "override RANGE: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
+    same("visit/list.wgsl", "let near = r.x", "<", "<=", EDGE),
+    same("visit/list.wgsl", "let me = neighbor(head.y, 0u);", "0u", "1u", NOT_ASKED),
+    same("visit/list.wgsl", "for (var n = 0u; n < head.x; n += 4u)", "<", "<=", MORE),
+    same(
+        "visit/list.wgsl",
+        "} else if REMEMBERS && head.y != NONE {",
+        "&&",
+        "||",
+        "without history nothing is forgotten",
+    ),
+    same("visit/list_plain", "const REMEMBERS: bool = false;", "false", "true", "without history nothing is forgotten"),
+    same("visit/list_plain", "fn pair_at", "0u", "1u", NOT_ASKED),
+    same("list_order", "if found.x > atomicLoad", ">", ">=", MORE),
+    same("list_order", "if group.z == 0u", "==", "!=", ALL_KNOW),
+    same("list_order", "if group.z == 0u", "0u", "1u", ALL_KNOW),
+    same("list_save", "if group.z == 0u", "==", "!=", ALL_KNOW),
+    same("list_save", "if group.z == 0u", "0u", "1u", ALL_KNOW),
+    same("list_save", "if first < head.x", "<", "<=", MORE),
+    same("list_match", "while old < end", "<", "<=", "behind the last neighbour none is known"),
+    same("list_moved", "const ROUNDING: f32", "9.5367431640625e-7", "1.430511474609375e-6", LAST_DIGITS),
+    same("list_moved", "let size = max(", "max", "min", LAST_DIGITS),
+    same("list_moved", "limit -= ROUNDING", "max", "min", LAST_DIGITS),
+    same("list_moved", "limit -= ROUNDING", "-=", "+=", LAST_DIGITS),
+    same("list_moved", "limit -= ROUNDING", "*", "/", LAST_DIGITS),
+    same("list_moved", "square < limit * limit", "<", "<=", EDGE),
+    same("list_moved", "atomicStore(&list_state[0].moved, 1u)", "1u", "2u", "it is set or not"),
+    same("list_search", "< REACH * REACH", "<", "<=", EDGE),
+    same("list_search", "if (*sum).number < ROOM", "<", "<=", "a row without room for all is empty"),
+    same("list_decide", "n += WORKGROUP", "+=", "-=", "there are fewer arguments than lanes"),
+    same("list_decide", "if lane == 0u", "==", "!=", ALL_KNOW),
+    same("list_decide", "if lane == 0u", "0u", "1u", ALL_KNOW),
 ];
 
 struct Place<'a> {
@@ -110,6 +146,7 @@ impl Place<'_> {
             let next = World { step: clock.step + u32::from(self.slots > 0), ..clock };
             simulation.backend().set_world(next).expect("a world");
             let limit = (0.5 * SKIN) as f32;
+            let origin = now[count - 1];
             for (i, x) in now.iter_mut().enumerate() {
                 let way = (random.vector() * 0.07).as_vec3();
                 // Along one axis each, by all but a hundredth of what is borne.
@@ -118,7 +155,7 @@ impl Place<'_> {
             }
             let last = now.last_mut().expect("some");
             match since {
-                Since::Much => *last += Vec4::new(0.0, 0.0, 1.1 * limit, 0.0),
+                Since::Much => *last = origin + limit * Vec4::new(0.0, 0.8, 0.8, 0.0),
                 Since::Spawned => life[count - 2] = 1,
                 Since::Removed => life[count - 1] = 2,
                 _ => {}
@@ -194,6 +231,7 @@ pub fn all(shared: &Shared, stages: &mut Vec<Stage>) {
     let all = [Since::Never, Since::Little, Since::Much, Since::Spawned, Since::First];
     stages.extend(all.map(|since| steps(2).stage(since)));
     stages.extend([Since::Much, Since::Removed].map(|since| steps(3).stage(since)));
+    stages.push(Place { slots: 2, ..place(LANES, periodic, false, ROOM) }.stage(Since::Much));
     if subgroups_of_eight(shared) {
         stages.push(place(EIGHT, periodic, false, ROOM).stage(Since::Never));
         stages.push(place(EIGHT, periodic, false, TIGHT).stage(Since::Never));

@@ -8,14 +8,6 @@ const fn open(file: &'static str, most: usize) -> Open {
 
 pub const OPEN: &[Open] = &[
     // Lists of neighbours, which tests/neighbors holds to brute force: margins of rounding, and what only many workgroups show.
-    open("shaders/neighbors/list_match.wgsl", 2),
-    open("shaders/neighbors/list_save.wgsl", 6),
-    open("shaders/neighbors/list_moved.wgsl", 9),
-    open("shaders/neighbors/list_order.wgsl", 4),
-    open("shaders/neighbors/list_decide.wgsl", 3),
-    open("shaders/neighbors/list_search.wgsl", 2),
-    open("shaders/visit/list.wgsl", 3),
-    open("shaders/visit/list_plain.wgsl", 2),
     // Walks that go on: what they keep is read again only where they stop late, and workgroups too many do nothing.
     open("shaders/visit/tree_rest.wgsl", 14),
     open("shaders/visit/tree_subgroup.wgsl", 10),
