@@ -155,7 +155,7 @@ impl Place<'_> {
             }
             let last = now.last_mut().expect("some");
             match since {
-                Since::Much => *last = origin + limit * Vec4::new(0.0, 0.8, 0.8, 0.0),
+                Since::Much => *last = origin + limit * Vec4::new(0.05, 0.8, 0.8, 0.0),
                 Since::Spawned => life[count - 2] = 1,
                 Since::Removed => life[count - 1] = 2,
                 _ => {}

@@ -7,7 +7,6 @@ const fn open(file: &'static str, most: usize) -> Open {
 }
 
 pub const OPEN: &[Open] = &[
-    // Lists of neighbours, which tests/neighbors holds to brute force: margins of rounding, and what only many workgroups show.
     // Walks that go on: what they keep is read again only where they stop late, and workgroups too many do nothing.
     open("shaders/visit/tree_rest.wgsl", 14),
     open("shaders/visit/tree_subgroup.wgsl", 10),
