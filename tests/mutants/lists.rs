@@ -40,7 +40,6 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("list_history", "history[word_of(", "+", "-", "the half is that of even or of odd steps"),
     same("visit/list", "override RANGE: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
     same("visit/list.wgsl", "let near = r.x", "<", "<=", EDGE),
-    same("visit/list.wgsl", "let me = neighbor(head.y, 0u);", "0u", "1u", NOT_ASKED),
     same("visit/list.wgsl", "for (var n = 0u; n < head.x; n += 4u)", "<", "<=", MORE),
     same(
         "visit/list.wgsl",
