@@ -5,13 +5,9 @@ use std::collections::BTreeMap;
 use glam::{DVec3, DVec4, Vec4};
 use motes::forces::{Component, Law, Over};
 use motes::kernel::{Machine, Source};
-use motes::life::Drain;
-use motes::particles::emitter;
-use motes::settings::{Settings, Value};
-use motes::solids::Solid;
 use motes::{Bounds, Error, Side, State};
 
-use crate::list::{accelerations, agree, builds, evaluation, on, positions, setup};
+use crate::list::{accelerations, agree, builds, evaluation, jet, on, positions, setup};
 use crate::support;
 use crate::variants;
 
@@ -77,30 +73,12 @@ fn flock() -> State {
     state
 }
 
-/// Some are spawned, and some are removed.
-fn jet() -> State {
-    let text = |word: &'static str| Value::Text(word.into());
-    let known = Settings::defaults(emitter::KEYS)
-        .with("shape", text("rectangle"))
-        .with("size", Value::Vector(DVec3::new(0.5, 0.4, 0.0)))
-        .with("direction", Value::Vector(DVec3::new(2.0, -1.0, 2.0)))
-        .with("speed", Value::Number(1.3))
-        .with("spacing", Value::Number(0.15));
-    let mut state = emitter::build(&known, 3, 0.6, 10_000).expect("an emitter");
-    state.births.iter_mut().for_each(|birth| birth.guided = 0.0);
-    state.drains = vec![Drain { solid: Solid::Sphere(0.7), position: DVec3::ZERO, outside: true, species: None }];
-    let mut cloud = support::cloud(100, 3);
-    cloud.links = motes::links::Links::default();
-    state.append(&cloud).expect("one form of columns");
-    state
-}
-
 #[test]
 fn a_map_by_ids_remembers_the_same() {
     let shared = support::device();
     let side = |half: f64| Bounds::new(DVec3::splat(-half), DVec3::splat(half), Side::Periodic);
     for (state, bounds, skin) in
-        [(flock(), side(1.0), 0.1), (flock(), Bounds::default(), 0.0), (jet(), side(0.8), 0.15)]
+        [(flock(), side(1.0), 0.1), (flock(), Bounds::default(), 0.0), (jet(0.15, 0.6, 0.7), side(0.8), 0.15)]
     {
         for (variant, machine) in variants(&shared) {
             let setup = setup(&state, bounds, Box::new(Steps { skin }), 7e-3);

@@ -154,23 +154,29 @@ fn runs_are_brute_force_to_the_bit() {
     }
 }
 
-#[test]
-fn births_and_deaths_are_brute_force_to_the_bit() {
-    let shared = support::device();
+/// A cloud, and particles so far apart that an emitter spawns until a time; outside of a sphere they are removed. Forces act on
+/// spawned particles at once.
+pub fn jet(spacing: f64, until: f64, radius: f64) -> State {
     let text = |word: &'static str| Value::Text(word.into());
     let known = Settings::defaults(emitter::KEYS)
         .with("shape", text("rectangle"))
         .with("size", Value::Vector(DVec3::new(0.5, 0.4, 0.0)))
         .with("direction", Value::Vector(DVec3::new(2.0, -1.0, 2.0)))
         .with("speed", Value::Number(1.3))
-        .with("spacing", Value::Number(0.1));
-    let mut particles = emitter::build(&known, 3, 1.0, 10_000).expect("an emitter");
-    // Forces act on spawned particles at once.
-    particles.births.iter_mut().for_each(|birth| birth.guided = 0.0);
-    let solid = Solid::Sphere(0.6);
-    particles.drains = vec![Drain { solid, position: DVec3::ZERO, outside: true, species: None }];
-    particles.append(&support::cloud(100, 3)).expect("one form of columns");
-    particles.links = motes::links::Links::default();
+        .with("spacing", Value::Number(spacing));
+    let mut state = emitter::build(&known, 3, until, 10_000).expect("an emitter");
+    state.births.iter_mut().for_each(|birth| birth.guided = 0.0);
+    let solid = Solid::Sphere(radius);
+    state.drains = vec![Drain { solid, position: DVec3::ZERO, outside: true, species: None }];
+    state.append(&support::cloud(100, 3)).expect("one form of columns");
+    state.links = motes::links::Links::default();
+    state
+}
+
+#[test]
+fn births_and_deaths_are_brute_force_to_the_bit() {
+    let shared = support::device();
+    let particles = jet(0.1, 1.0, 0.6);
     let bounds = Bounds::new(DVec3::splat(-0.7), DVec3::splat(0.7), Side::Periodic);
     for (variant, machine) in variants(&shared) {
         let setup = setup(&particles, bounds, Box::new(Weak(list(0.23, 0.2))), 7e-3);

@@ -26,11 +26,15 @@ pub struct Shared {
 /// A device of its own, which no other test has, for shaders that may write anything: indirect arguments beyond what a device
 /// takes are none. No adapter is a failure, never a skip.
 pub fn open() -> Shared {
+    let flags = gpu::flags() | motes::wgpu::InstanceFlags::VALIDATION_INDIRECT_CALL;
+    let default = motes::wgpu::InstanceDescriptor::new_without_display_handle();
+    opened(&motes::wgpu::Instance::new(motes::wgpu::InstanceDescriptor { flags, ..default }.with_env()))
+}
+
+/// The best device of an instance.
+fn opened(instance: &motes::wgpu::Instance) -> Shared {
     let found = pollster::block_on(async {
-        let flags = gpu::flags() | motes::wgpu::InstanceFlags::VALIDATION_INDIRECT_CALL;
-        let default = motes::wgpu::InstanceDescriptor::new_without_display_handle();
-        let instance = motes::wgpu::Instance::new(motes::wgpu::InstanceDescriptor { flags, ..default }.with_env());
-        let adapter = gpu::choose(gpu::adapters(&instance).await, &gpu::Choice::Best)?;
+        let adapter = gpu::choose(gpu::adapters(instance).await, &gpu::Choice::Best)?;
         gpu::open(adapter).await
     });
     Shared { found: found.expect("tests need an adapter; tests/run installs one") }
@@ -39,14 +43,7 @@ pub fn open() -> Shared {
 /// The device. No adapter is a failure, never a skip.
 pub fn device() -> MutexGuard<'static, Shared> {
     static DEVICE: OnceLock<Mutex<Shared>> = OnceLock::new();
-    let shared = DEVICE.get_or_init(|| {
-        let found = pollster::block_on(async {
-            let instance = gpu::instance();
-            let adapter = gpu::choose(gpu::adapters(&instance).await, &gpu::Choice::Best)?;
-            gpu::open(adapter).await
-        });
-        Mutex::new(Shared { found: found.expect("tests need an adapter; tests/run installs one") })
-    });
+    let shared = DEVICE.get_or_init(|| Mutex::new(opened(&gpu::instance())));
     shared.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
 }
 
