@@ -1,4 +1,4 @@
-"""Fits the polynomial P of shaders/forces/gravity_ewald.wgsl, and says how good it is.
+"""Fits the polynomial P of shaders/interactions/gravity_ewald.wgsl, and says how good it is.
 
 The law between two is h(r) = 1 / r - (2 / L) P(1 - (2 r / L)^2) up to half a side, and nothing beyond. With t = 2 r / L, the
 part t P(1 - t^2) of a mass is smeared over what is nearer than t; its derivative is a window w(t), even, of the integral 1

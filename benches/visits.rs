@@ -10,8 +10,8 @@ use motes::forces::{self, Component, Law, Over, Problem};
 use motes::gpu::{self, Gpu};
 use motes::kernel::Source;
 use motes::neighbors::{Cells, LIST_STATE};
-use motes::particles::random::Random;
 use motes::settings::{Settings, Value};
+use motes::shapes::random::Random;
 use motes::{Bounds, Setup, Side, Simulation, State, integrators};
 
 /// Skins, as parts of the range.

@@ -13,7 +13,7 @@ use glam::Vec3;
 use glam::camera::rh::{proj, view};
 use motes::gpu::{self, Found};
 use motes::settings::{Settings, Value};
-use motes::{Bounds, Error, Gpu, POSITION, Setup, Simulation, forces, integrators, particles, wgpu};
+use motes::{Bounds, Error, Gpu, POSITION, Setup, Simulation, forces, integrators, shapes, wgpu};
 use winit::application::ApplicationHandler;
 use winit::event::{ElementState, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, EventLoop};
@@ -217,7 +217,7 @@ impl State {
 
 fn setup(count: u32) -> Result<Setup, Error> {
     let absent = || Error::Scene("a part of the register is missing".to_owned());
-    let disk = particles::shape("disk").ok_or_else(absent)?;
+    let disk = shapes::shape("disk").ok_or_else(absent)?;
     let settings = Settings::defaults(disk.keys)
         .with("count", Value::Number(f64::from(count)))
         .with("halo_fraction", Value::Number(HALO));

@@ -61,7 +61,7 @@ impl Backend for Cpu {
     }
     fn compile(&mut self, plan: &Plan) -> Result<Plan, Error> {
         for kernel in &plan.kernels {
-            if kernel.twin.is_none() {
+            if kernel.reference.is_none() {
                 let text = format!(
                     "`{}` is a WGSL file without an f64 reference: it needs a GPU or a software driver, not --backend cpu",
                     kernel.name
@@ -85,7 +85,7 @@ impl Backend for Cpu {
             let mut walk = program.walk();
             while let Some(next) = walk.next() {
                 match next {
-                    Next::Run(kernel) => kernel.twin.as_ref().map_or(Ok(()), |twin| twin(&self.host))?,
+                    Next::Run(kernel) => kernel.reference.as_ref().map_or(Ok(()), |reference| reference(&self.host))?,
                     Next::Ask(flag) if self.host.is_set(flag)? => walk.leave(),
                     Next::Ask(_) => {}
                 }

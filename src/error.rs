@@ -76,7 +76,7 @@ pub enum Error {
          shorter range or a greater theta, for a fluid a shorter dt or the spacing that its particles have, or look for what \
          drives all particles to one place"
     )]
-    Crowded {
+    TooManyNeighbors {
         /// The lowest id of such a particle.
         particle: u32,
     },
@@ -161,7 +161,7 @@ impl Error {
             Self::NoAdapter(_) | Self::Limit(_) => 5,
             Self::NotFinite { .. }
             | Self::Runaway { .. }
-            | Self::Crowded { .. }
+            | Self::TooManyNeighbors { .. }
             | Self::TooShort { .. }
             | Self::CutShort { .. }
             | Self::Endless { .. }

@@ -1,15 +1,16 @@
-//! Particles moved by forces, on any GPU, checked against a second opinion in f64.
+//! Particles moved by forces, on any GPU, verified against an f64 reference.
 
 pub mod boundary;
 pub mod component;
+pub mod constraints;
 pub mod cpu;
 pub mod error;
-pub mod fluids;
 pub mod forces;
+#[cfg(feature = "scene")]
+pub mod formats;
 pub mod gpu;
 pub mod integrators;
-#[cfg(feature = "scene")]
-pub mod io;
+pub mod interactions;
 pub mod kernel;
 pub mod life;
 pub mod links;
@@ -17,7 +18,6 @@ pub mod lockstep;
 pub mod measure;
 pub mod motion;
 pub mod neighbors;
-pub mod particles;
 pub mod primitives;
 pub mod render;
 pub mod rotation;
@@ -25,11 +25,14 @@ pub mod rotation;
 pub mod scene;
 pub mod selftest;
 pub mod settings;
+pub mod shapes;
 pub mod simulation;
 pub mod solids;
+pub mod sph;
 pub mod stability;
 pub mod state;
 pub mod tree;
+pub mod updaters;
 pub mod visit;
 
 pub use cpu::Cpu;

@@ -95,7 +95,7 @@ pub async fn compare_while(
         };
         let single = Plan::of([kernel.clone()]);
         let program = gpu.compile(&single)?;
-        let Some(twin) = &kernel.twin else {
+        let Some(reference) = &kernel.reference else {
             gpu.run(&program, 1)?;
             continue;
         };
@@ -126,7 +126,7 @@ pub async fn compare_while(
         host.set_world(world);
         gpu.run(&program, 1)?;
         let before: Vec<_> = fields.iter().map(|(name, ..)| host.get(name)).collect();
-        twin(&host)?;
+        reference(&host)?;
         if kernel.writes().iter().any(|name| name == "world") {
             verdicts.push(worlds(&kernel.name, world, gpu.world().await?, host.world()));
         }
@@ -166,7 +166,7 @@ pub async fn compare_while(
             if !verdict.good() {
                 if others.is_none() {
                     let inputs = fields.iter().zip(&before).map(|((name, ..), array)| (name.as_str(), array.as_ref()));
-                    others = Some(nudged(twin, &inputs.collect::<Vec<_>>(), world)?);
+                    others = Some(nudged(reference, &inputs.collect::<Vec<_>>(), world)?);
                 }
                 let (sway, aside) = others.as_ref().map(|others| others.of(name)).unwrap_or_default();
                 verdict.conditioned = judge((start, &want, &kind.like(data)), *parts, sway.as_ref(), &aside).worst;

@@ -89,8 +89,14 @@ fn question(source: Source) -> Result<Plan, Error> {
     let name = source.file.to_string();
     let shader = Shader::join(&[source])?;
     let sizes = vec![(PROBE.into(), WORDS as u64), (ANSWER.name.into(), WORDS as u64)];
-    let kernel =
-        Kernel { name, passes: vec![Pass::new(shader, 1)], twin: None, sizes, scratch: Vec::new(), tables: Vec::new() };
+    let kernel = Kernel {
+        name,
+        passes: vec![Pass::new(shader, 1)],
+        reference: None,
+        sizes,
+        scratch: Vec::new(),
+        tables: Vec::new(),
+    };
     Ok(Plan::of([kernel]))
 }
 

@@ -1,11 +1,11 @@
 //! A simulation: particles, forces and an integrator on a backend.
 
+mod adaptive_step;
 mod alarm;
 mod columns;
-mod keepers;
+mod inactive;
+mod initial_projection;
 mod lists;
-mod mortals;
-mod pace;
 mod pictures;
 mod population;
 mod pressures;
@@ -15,18 +15,18 @@ mod solves;
 mod ties;
 mod unwritten;
 
-pub use mortals::serves;
-pub use pace::Clock;
+pub use adaptive_step::Clock;
+pub use inactive::serves;
 pub use pressures::PressureSolves;
 pub use setup::{Plans, Setup};
 pub use solves::{Outcome, Solves};
 
 use crate::cpu::threads;
 use crate::error::Error;
-use crate::fluids::DFSPH_REPORT;
 use crate::gpu::Gpu;
 use crate::integrators::SOLVE_REPORT;
-use crate::kernel::{Backend, Element, Field, HOME, ListShape, POSITION, Pace, VELOCITY};
+use crate::kernel::{AdaptiveStep, Backend, Element, Field, HOME, ListShape, POSITION, VELOCITY};
+use crate::sph::DFSPH_REPORT;
 use crate::state::State;
 use columns::Store;
 use glam::DVec3;
@@ -54,10 +54,10 @@ pub struct Simulation<B: Backend> {
     ties: Ties,
     breaks: bool,
     /// How many may be born or die: everybody, or nobody.
-    mortals: u32,
+    inactive: u32,
     dt: f64,
     /// How long steps are, where they are not all alike.
-    pace: Option<Pace>,
+    adaptive_step: Option<AdaptiveStep>,
     /// The list of neighbours that laws share, if any.
     list: Option<ListShape>,
     steps: u64,
@@ -97,9 +97,9 @@ impl<B: Backend> Simulation<B> {
         let carried = restart::carried(&plans, store.columns(), count);
         let extent = setup.extent();
         let ties = Ties::of(state);
-        let (mortal, breaks) = (state.is_mortal(), setup.breaks());
+        let (has_inactive, breaks) = (state.has_inactive(), setup.breaks());
         let (begun, begins) = (false, setup.begins(backend.machine())?);
-        let (dt, steps, pace) = (setup.dt, state.step, setup.integrator.pace());
+        let (dt, steps, adaptive_step) = (setup.dt, state.step, setup.integrator.adaptive_step());
         let mut made = Self {
             backend,
             start,
@@ -114,9 +114,9 @@ impl<B: Backend> Simulation<B> {
             store,
             ties,
             breaks,
-            mortals: if mortal { count } else { 0 },
+            inactive: if has_inactive { count } else { 0 },
             dt,
-            pace,
+            adaptive_step,
             list,
             steps,
             carried,
@@ -183,7 +183,7 @@ impl<B: Backend> Simulation<B> {
     /// [`State::begin_anew`] puts it back to time 0.
     ///
     /// # Errors
-    /// [`Error::NotFinite`], [`Error::Crowded`], or what reading says. Speeds that run away are no error here.
+    /// [`Error::NotFinite`], [`Error::TooManyNeighbors`], or what reading says. Speeds that run away are no error here.
     pub async fn snapshot(&mut self) -> Result<State, Error> {
         self.snapshot_of(&[]).await
     }

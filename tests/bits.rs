@@ -93,7 +93,7 @@ fn the_same_in_many_submissions() {
         let want = bytes(&mut whole);
 
         let mut cut = simulation(&shared, entry.name);
-        cut.backend().pace(Duration::from_nanos(1), Duration::from_mins(1));
+        cut.backend().adaptive_step(Duration::from_nanos(1), Duration::from_mins(1));
         // The first submissions teach the queue how little fits.
         for _ in 0..5 {
             cut.step(1).expect("a step");
@@ -152,7 +152,7 @@ fn a_measurement_leaves_no_trace() {
 }
 
 #[test]
-fn the_twins_likewise() {
+fn the_references_likewise() {
     for entry in INTEGRATORS {
         let fresh = || Simulation::on(Cpu::new(COUNT).expect("some"), &setup(entry.name)).expect("a simulation");
         let (mut whole, mut again, mut measured) = (fresh(), fresh(), fresh());

@@ -20,8 +20,8 @@ fn table<'a>(title: &str, first: &str, rows: impl Iterator<Item = (&'a str, Stri
 }
 
 fn forces() -> String {
-    let mut page = table("Forces", "force", motes::forces::FORCES.iter().map(|e| (e.name, e.about.to_owned())));
-    for entry in motes::forces::FORCES {
+    let mut page = table("Forces", "force", motes::forces::entries().map(|e| (e.name, e.about.to_owned())));
+    for entry in motes::forces::entries() {
         let _ = write!(page, "\n## `{}`\n\n{}.\n\n| key | default | |\n|---|---|---|\n", entry.name, entry.about);
         for key in entry.keys {
             let default = key.default.as_ref().map_or_else(|| "required".to_owned(), shown);
@@ -71,9 +71,11 @@ fn methods() -> String {
         "# Equations and sources\n\n{GENERATED}\nEach shader opens with what it computes and where that was published.\n"
     );
     for (title, folder) in [
-        ("Forces", "forces"),
-        ("Fluids", "fluids"),
-        ("DFSPH", "fluids/dfsph"),
+        ("Interactions", "interactions"),
+        ("Constraints", "constraints"),
+        ("Updaters", "updaters"),
+        ("Fluids", "sph"),
+        ("DFSPH", "sph/dfsph"),
         ("Integrators", "integrators"),
         ("Columns that are advanced", "integrators/pairs"),
         ("Rigid bodies", "rotation"),
@@ -88,7 +90,7 @@ fn methods() -> String {
 #[test]
 fn generated_pages_are_those_of_the_registers() {
     let integrators = motes::integrators::INTEGRATORS.iter().map(|e| (e.name, e.about.to_owned()));
-    let shapes = motes::particles::SHAPES.iter().map(|e| (e.name, e.about.to_owned()));
+    let shapes = motes::shapes::SHAPES.iter().map(|e| (e.name, e.about.to_owned()));
     let scenes = motes::scene::SCENES.iter().map(|s| (s.name, first(&s.about())));
     let all = [
         ("reference/forces.md", forces()),

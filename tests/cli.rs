@@ -133,7 +133,7 @@ fn exit_codes_are_those_of_the_help() {
 }
 
 #[test]
-fn without_a_driver_the_twins_run_and_say_so() {
+fn without_a_driver_the_references_run_and_say_so() {
     let folder = tempfile::tempdir().expect("a folder");
     let out = path(&folder, "out");
     let blind = |args: &[&str]| {

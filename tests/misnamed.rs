@@ -1,7 +1,7 @@
 //! Keys that a program gives and nothing has: a slip of the pen is an error, as in a scene.
 
 use motes::settings::{Settings, Value};
-use motes::{Bounds, Cpu, Error, Setup, Simulation, Solver, State, forces, integrators, particles};
+use motes::{Bounds, Cpu, Error, Setup, Simulation, Solver, State, forces, integrators, shapes};
 
 fn built(force: Box<dyn forces::Component>) -> Result<(), Error> {
     let mut some = State::default();
@@ -14,7 +14,7 @@ fn built(force: Box<dyn forces::Component>) -> Result<(), Error> {
 
 #[test]
 fn a_key_that_no_force_has_is_an_error_of_the_simulation() {
-    for entry in forces::FORCES {
+    for entry in forces::entries() {
         let settings = Settings::defaults(entry.keys).with("softning", Value::Number(0.1));
         let Err(Error::Scene(why)) = built((entry.build)(&settings)) else { panic!("{} takes it", entry.name) };
         assert!(why.contains(&format!("the force `{}` has no key `softning`", entry.name)), "{why}");
@@ -28,7 +28,7 @@ fn a_key_that_no_force_has_is_an_error_of_the_simulation() {
 }
 
 /// What each shape must be given.
-fn needs(shape: &particles::Shape) -> Settings {
+fn needs(shape: &shapes::Shape) -> Settings {
     use motes::settings::Kind;
     let mut settings = Settings::defaults(shape.keys);
     for key in shape.keys.iter().filter(|key| key.default.is_none()) {
@@ -45,7 +45,7 @@ fn needs(shape: &particles::Shape) -> Settings {
 #[test]
 fn a_key_that_no_shape_has_is_an_error() {
     let mut asked = 0;
-    for shape in particles::SHAPES {
+    for shape in shapes::SHAPES {
         let good = needs(shape);
         if (shape.build)(&good).is_err() {
             continue;

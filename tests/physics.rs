@@ -76,9 +76,9 @@ fn the_figure_eight_comes_back() {
     let away = |i: usize, x: DVec3| x.distance(start.position()[i]);
     for (name, steps, want) in ERRORS {
         let dt = PERIOD / f64::from(steps);
-        let mut twins = cpu(&start, gravity(0.0), name, dt);
-        twins.step(steps).expect("steps");
-        let (x, _) = phase(&mut twins);
+        let mut references = cpu(&start, gravity(0.0), name, dt);
+        references.step(steps).expect("steps");
+        let (x, _) = phase(&mut references);
         let error = (0..3).map(|i| away(i, x[i].truncate())).fold(0.0, f64::max);
         // As many digits as are given.
         assert!((error / want - 1.0).abs() < 5e-3, "{name}, {steps} steps: {error:e}, not {want:e}");

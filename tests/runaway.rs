@@ -48,11 +48,11 @@ fn too_long_a_step_is_noticed() {
     for (name, y) in
         [("leapfrog", 2.02), ("symplectic_euler", 2.02), ("forward_euler", 0.4), ("rk4", 2.9), ("pefrl", 2.995)]
     {
-        let mut twins = cpu(&particles, spring(1.0), name, y);
+        let mut references = cpu(&particles, spring(1.0), name, y);
         let mut seen = None;
         for step in 0..400 {
-            twins.step(1).expect("a step");
-            if let Some(found) = runaway(block_on(twins.check())) {
+            references.step(1).expect("a step");
+            if let Some(found) = runaway(block_on(references.check())) {
                 assert_eq!(found.1, step, "{name}: it is reported in the step in which it is seen");
                 seen = Some(found);
                 break;
@@ -76,7 +76,7 @@ fn too_long_a_step_is_noticed() {
             assert_eq!(found, Some((1, step)), "{name} in batches of {batch}");
         }
         // The snapshot is what is there: a user may want it.
-        assert!(block_on(twins.snapshot()).is_ok());
+        assert!(block_on(references.snapshot()).is_ok());
     }
 }
 
@@ -86,10 +86,10 @@ fn what_stays_is_left_alone() {
     for (name, y) in
         [("leapfrog", 1.99), ("symplectic_euler", 1.99), ("rk4", 2.8), ("pefrl", 2.98), ("forward_euler", 0.05)]
     {
-        let mut twins = cpu(&one(DVec3::new(1.0, 0.3, -0.2), DVec3::ZERO), spring(1.0), name, y);
+        let mut references = cpu(&one(DVec3::new(1.0, 0.3, -0.2), DVec3::ZERO), spring(1.0), name, y);
         for _ in 0..20 {
-            twins.step(100).expect("steps");
-            assert_eq!(runaway(block_on(twins.check())), None, "{name}");
+            references.step(100).expect("steps");
+            assert_eq!(runaway(block_on(references.check())), None, "{name}");
         }
     }
 }
@@ -120,10 +120,10 @@ fn what_grows_for_a_reason_is_left_alone() {
         ("collapse", &ball, gravity, 2e-3),
         ("hill", &top, hill, 0.02),
     ] {
-        let mut twins = cpu(particles, forces, "leapfrog", dt);
+        let mut references = cpu(particles, forces, "leapfrog", dt);
         for _ in 0..20 {
-            twins.step(100).expect("steps");
-            assert_eq!(runaway(block_on(twins.check())), None, "{what}");
+            references.step(100).expect("steps");
+            assert_eq!(runaway(block_on(references.check())), None, "{what}");
         }
     }
 }
@@ -155,8 +155,8 @@ fn scenes_do_not_run_away() {
             bounds: scene.bounds,
             solver: motes::Solver::default(),
         };
-        let mut twins = Simulation::on(Cpu::new(count).expect("some"), &setup).expect("a simulation");
-        twins.step(steps).expect("steps");
-        assert_eq!(runaway(block_on(twins.check())), None, "{name}");
+        let mut references = Simulation::on(Cpu::new(count).expect("some"), &setup).expect("a simulation");
+        references.step(steps).expect("steps");
+        assert_eq!(runaway(block_on(references.check())), None, "{name}");
     }
 }

@@ -87,9 +87,9 @@ fn growth_is_the_same_on_the_device() {
     for entry in motes::integrators::INTEGRATORS {
         let gpu = Gpu::new(&shared.found.device, &shared.found.queue, 1).expect("a device");
         let mut device = Oscillator::on(gpu, entry.by_default(), OMEGA, 0.2).expect("an oscillator");
-        let mut twins = Oscillator::new(entry.by_default(), OMEGA, 0.2).expect("an oscillator");
+        let mut references = Oscillator::new(entry.by_default(), OMEGA, 0.2).expect("an oscillator");
         for dt in [0.1, 0.7, 2.0] {
-            let (got, want) = block_on(async { (device.step(dt).await, twins.step(dt).await) });
+            let (got, want) = block_on(async { (device.step(dt).await, references.step(dt).await) });
             let (got, want) = (got.expect("a step"), want.expect("a step"));
             let apart = (got - want).to_cols_array().iter().fold(0.0, |most: f64, x| most.max(x.abs()));
             let size = want.to_cols_array().iter().fold(0.0, |most: f64, x| most.max(x.abs()));

@@ -23,7 +23,7 @@ fn thrown_back(x: f32, low: f32, high: f32, side: u32) -> vec2f {
 @compute @workgroup_size(WORKGROUP)
 fn reflecting(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let i = folded(group, groups) * WORKGROUP + lane;
-    if i < world.count && !is_held(i) && lives(i) {
+    if i < world.count && !is_held(i) && is_active(i) {
         let x = position[i];
         // What is broken stays so: the watch names the particle.
         if !broken(x) {

@@ -3,9 +3,9 @@
 @group(0) @binding(0) var<storage, read_write> world: World;
 // 0 and 1 the time in longest steps and ticks; 2 the ticks of this step, 3 those that only limits shorten, 4 reason, 5 particle;
 // 6 to 9 the alarm: the step, reason, particle, how many; 10 and 11 the shortest and the longest; from 12 on steps by their reasons
-@group(1) @binding(0) var<storage, read_write> pace: array<u32>;
-@group(1) @binding(1) var<storage, read> urgent: array<vec4f>; // how many steps acceleration, signal and speed want
-@group(1) @binding(2) var<storage, read> pace_stop: array<u32>;
+@group(1) @binding(0) var<storage, read_write> step_clock: array<u32>;
+@group(1) @binding(1) var<storage, read> largest_criterion: array<vec4f>; // how many steps acceleration, signal and speed want
+@group(1) @binding(2) var<storage, read> step_clock_stop: array<u32>;
 
 override UNIT: f32 = 1.0;        // the longest step
 override LEAST: u32 = 1u;        // the ticks of the shortest
@@ -19,7 +19,7 @@ const REASONS: u32 = 12u;
 
 @compute @workgroup_size(1)
 fn adaptive_dt() {
-    var wants = array<f32, 4>(urgent[0].x, urgent[0].y, VISCOUS, urgent[0].z);
+    var wants = array<f32, 4>(largest_criterion[0].x, largest_criterion[0].y, VISCOUS, largest_criterion[0].z);
     var rate = 1.0;
     var reason = 0u;
     for (var k = 0u; k < 4u; k += 1u) {
@@ -33,27 +33,27 @@ fn adaptive_dt() {
     let spare = max(firstLeadingBit(ticks), DIGITS) - DIGITS;
     ticks = (ticks >> spare) << spare;
     if ticks < LEAST {
-        if pace[6] == NONE {
-            pace[6] = world.step;
-            pace[7] = reason;
-            pace[9] = bitcast<u32>(rate);
+        if step_clock[6] == NONE {
+            step_clock[6] = world.step;
+            step_clock[7] = reason;
+            step_clock[9] = bitcast<u32>(rate);
         }
         ticks = LEAST;
     }
-    let most = pace[3] + pace[3] / 5u;
+    let most = step_clock[3] + step_clock[3] / 5u;
     if ticks > most {
         ticks = most;
         reason = GROWTH;
     }
     let free = ticks;
     // Below three longest steps the distance fits.
-    let whole = pace_stop[0] - pace[0];
-    if pace_stop[0] < pace[0] {
+    let whole = step_clock_stop[0] - step_clock[0];
+    if step_clock_stop[0] < step_clock[0] {
         ticks = 0u;
         reason = STOP;
     } else if whole < 3u {
-        let there = (whole << 24u) + pace_stop[1];
-        let left = max(there, pace[1]) - pace[1];
+        let there = (whole << 24u) + step_clock_stop[1];
+        let left = max(there, step_clock[1]) - step_clock[1];
         if left < ticks { reason = STOP; }
         if left <= ticks {
             ticks = left;
@@ -62,15 +62,15 @@ fn adaptive_dt() {
             reason = STOP;
         }
     }
-    pace[2] = ticks;
-    pace[4] = reason;
-    pace[5] = NONE;
+    step_clock[2] = ticks;
+    step_clock[4] = reason;
+    step_clock[5] = NONE;
     world.dt = (f32(ticks) / TICKS) * UNIT;
     // A step of no length leaves no trace in these.
     if ticks > 0u {
-        pace[3] = free;
-        pace[10] = min(pace[10], ticks);
-        pace[11] = max(pace[11], ticks);
-        pace[REASONS + reason] += 1u;
+        step_clock[3] = free;
+        step_clock[10] = min(step_clock[10], ticks);
+        step_clock[11] = max(step_clock[11], ticks);
+        step_clock[REASONS + reason] += 1u;
     }
 }

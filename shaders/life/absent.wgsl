@@ -8,5 +8,5 @@ const HIDDEN: vec4f = vec4f(0.0, 0.0, 0.0, -1.0);
 @compute @workgroup_size(WORKGROUP)
 fn absent(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let i = folded(group, groups) * WORKGROUP + lane;
-    if i < world.count && !lives(i) { projected[i] = HIDDEN; }
+    if i < world.count && !is_active(i) { projected[i] = HIDDEN; }
 }

@@ -6,7 +6,7 @@ struct Params { unused_word: u32, position: vec3f, radius: f32, size: vec3f, sha
 @group(1) @binding(1) var<storage, read_write> velocity: array<vec4f>;     // xyz, radius
 @group(1) @binding(2) var<storage, read_write> acceleration: array<vec4f>; // xyz, potential
 @group(1) @binding(3) var<storage, read> species: array<u32>;
-@group(1) @binding(8) var<storage, read_write> life: array<u32>;           // 0 waits, 1 lives, 2 is dead
+@group(1) @binding(8) var<storage, read_write> life: array<u32>;           // 0 pending, 1 active, 2 removed
 @group(3) @binding(0) var<uniform> params: Params;
 
 const WORKGROUP: u32 = 64u;

@@ -10,6 +10,6 @@ fn guide(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: v
     let i = folded(group, groups) * WORKGROUP + lane;
     if i < END {
         let id = births[i].id;
-        if lives(id) && world.time < births[i].free { acceleration[id] = vec4f(vec3f(), acceleration[id].w); }
+        if is_active(id) && world.time < births[i].free { acceleration[id] = vec4f(vec3f(), acceleration[id].w); }
     }
 }

@@ -7,5 +7,5 @@ const WORKGROUP: u32 = 64u;
 @compute @workgroup_size(WORKGROUP)
 fn rest(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let i = folded(group, groups) * WORKGROUP + lane;
-    if i < world.count && !lives(i) { acceleration[i] = vec4f(); }
+    if i < world.count && !is_active(i) { acceleration[i] = vec4f(); }
 }

@@ -1,5 +1,5 @@
 // A rigid motion by keyframes:  x = c + s + R (x₀ − c).  Between two keys s goes straight, and R turns about one axis
-// (Shoemake 1985), at one pace or by u² (3 − 2 u). Times are whole steps and a rest, so that late ones are as exact as early
+// (Shoemake 1985), at constant speed or by u² (3 − 2 u). Times are whole steps and a rest, so that late ones are as exact as early
 // ones; half angles are reduced to ±π/2 and their sine and cosine come from polynomials (Abramowitz & Stegun 1964, 4.3.97 and
 // 4.3.99, to 2e-9), because what a device takes for a sine may be wrong by 5e-4.
 struct Motion { about: vec3f, start: u32, rest: f32, first: u32, keys: u32, eased: u32, period: u32, period_rest: f32 }

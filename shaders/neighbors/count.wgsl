@@ -11,7 +11,7 @@ fn count(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: v
     let i = folded(group, groups) * WORKGROUP + lane;
     if i < world.count {
         var k = NOWHERE;
-        if chosen(i) && lives(i) {
+        if chosen(i) && is_active(i) {
             k = key(cell(home(position[i].xyz)));
             // Held particles stand behind all others, where the grid keeps them apart.
             if is_held(i) { k += grid.cells.x * grid.cells.y * grid.cells.z; }

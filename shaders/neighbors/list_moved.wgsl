@@ -11,7 +11,7 @@ const WORKGROUP: u32 = 64u;
 fn has_moved(i: u32) -> bool {
     let origin = list_origin[i];
     let x = position[i].xyz;
-    let present = lives(i);
+    let present = is_active(i);
     if present != (origin.w > 0.0) { return true; }
     var limit = LIMIT;
     if PERIODIC {

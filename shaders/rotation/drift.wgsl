@@ -24,7 +24,7 @@ fn about(axis: vec3f, rate: f32, body: Turning) -> Turning {
 @compute @workgroup_size(WORKGROUP)
 fn drift_rotation(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let i = folded(group, groups) * WORKGROUP + lane;
-    if i < world.count && !is_held(i) && lives(i) {
+    if i < world.count && !is_held(i) && is_active(i) {
         let rates = (FACTOR * world.dt) * lightness(i);
         let q = orientation[i];
         let x = vec3f(1.0, 0.0, 0.0);

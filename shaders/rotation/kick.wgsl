@@ -10,7 +10,7 @@ const WORKGROUP: u32 = 64u;
 @compute @workgroup_size(WORKGROUP)
 fn kick_rotation(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let i = folded(group, groups) * WORKGROUP + lane;
-    if i < world.count && !is_held(i) && lives(i) {
+    if i < world.count && !is_held(i) && is_active(i) {
         let q = orientation[i];
         let change = outward(q, lightness(i) * inward(q, torque[i].xyz));
         angular_velocity[i] += vec4f((FACTOR * world.dt) * change, 0.0);

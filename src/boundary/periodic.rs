@@ -14,14 +14,14 @@ pub fn kernel(count: u32) -> Result<Kernel, Error> {
         crate::shader!("broken.wgsl"),
         crate::shader!("boundary/periodic.wgsl"),
     ])?;
-    let twin = |host: &Host| {
+    let reference = |host: &Host| {
         let bounds = host.world().bounds;
         for x in host.write(POSITION)?.iter_mut().filter(|x| x.is_finite()) {
             *x = wrapped(&bounds, x.truncate()).extend(x.w);
         }
         Ok(())
     };
-    Ok(Kernel::new("periodic", shader, Vec::new(), count, Arc::new(twin)))
+    Ok(Kernel::new("periodic", shader, Vec::new(), count, Arc::new(reference)))
 }
 
 /// The image that is in the box: low ≤ x < high along its periodic axes, also when the result is rounded to single

@@ -10,18 +10,21 @@ pub fn kernel(problem: &Problem) -> Result<Kernel, Error> {
     let (holding, tables) = problem.holding();
     let shader = Shader::join(&[
         holding,
-        problem.living(),
+        problem.active(),
         crate::shader!("world.wgsl"),
         crate::shader!("broken.wgsl"),
         crate::shader!("boundary/reflecting.wgsl"),
     ])?;
     let all = problem.clone();
-    let twin = move |host: &Host| {
+    let reference = move |host: &Host| {
         let bounds = host.world().bounds;
         let (mut position, mut velocity) = (host.write(POSITION)?, host.write(VELOCITY)?);
-        let lives = host.lives()?;
-        let free =
-            position.iter_mut().zip(velocity.iter_mut()).enumerate().filter(|(id, _)| !all.is_held(*id) && lives(*id));
+        let is_active = host.is_active()?;
+        let free = position
+            .iter_mut()
+            .zip(velocity.iter_mut())
+            .enumerate()
+            .filter(|(id, _)| !all.is_held(*id) && is_active(*id));
         for (_, (x, v)) in free.filter(|(_, (x, _))| x.is_finite()) {
             for axis in (0..3).filter(|axis| bounds.sides[*axis] == Side::Reflecting) {
                 let (place, thrown_back) = folded(x[axis], bounds.low[axis], bounds.high[axis]);
@@ -33,7 +36,7 @@ pub fn kernel(problem: &Problem) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    Ok(Kernel { tables, ..Kernel::new("reflecting", shader, Vec::new(), problem.count, Arc::new(twin)) })
+    Ok(Kernel { tables, ..Kernel::new("reflecting", shader, Vec::new(), problem.count, Arc::new(reference)) })
 }
 
 /// The way of a particle to and fro between two sides, unrolled, is a straight line: where on it x is, and whether the

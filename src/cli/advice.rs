@@ -2,7 +2,7 @@
 
 use glam::{DVec3, DVec4};
 use motes::forces::{Law, Over};
-use motes::kernel::{ACCELERATION, Array, Host, Machine, POSITION, SPECIES, Twin, VELOCITY, World};
+use motes::kernel::{ACCELERATION, Array, Host, Machine, POSITION, Reference, SPECIES, VELOCITY, World};
 use motes::links::Links;
 use motes::motion::Hold;
 use motes::scene::Scene;
@@ -11,28 +11,33 @@ use motes::{Bounds, Error, Setup, Side};
 use super::{births, jumps, rounding, solves};
 
 /// What a law's reference says to a particle at rest somewhere.
-pub fn acceleration_at(twin: &Twin, (time, step): (f64, u32), position: DVec3, bounds: Bounds) -> Result<DVec4, Error> {
+pub fn acceleration_at(
+    reference: &Reference,
+    (time, step): (f64, u32),
+    position: DVec3,
+    bounds: Bounds,
+) -> Result<DVec4, Error> {
     let mut host = Host::default();
     host.insert(POSITION.name, Array::Vec4(vec![position.extend(1.3)]));
     host.insert(VELOCITY.name, Array::Vec4(vec![DVec4::ZERO]));
     host.insert(ACCELERATION.name, Array::Vec4(vec![DVec4::ZERO]));
     host.set_world(World { time, dt: 1.0, step, count: 1, bounds });
-    twin(&host)?;
+    reference(&host)?;
     Ok(host.read(ACCELERATION)?.first().copied().unwrap_or_default())
 }
 
 /// Whether a law does the same at another time, and to the particle's images in a periodic box.
-fn keeps_energy(twin: &Twin, bounds: &Bounds) -> Result<bool, Error> {
+fn keeps_energy(reference: &Reference, bounds: &Bounds) -> Result<bool, Error> {
     let x = DVec3::new(0.31, -0.23, 0.17);
-    let here = acceleration_at(twin, (0.0, 0), x, *bounds)?;
-    let image = acceleration_at(twin, (0.0, 0), x + bounds.period(), *bounds)?;
+    let here = acceleration_at(reference, (0.0, 0), x, *bounds)?;
+    let image = acceleration_at(reference, (0.0, 0), x + bounds.period(), *bounds)?;
     // Images are where they are up to rounding; time takes part or does not.
     let alike = (here - image).abs().max_element() <= 1e-9 * here.abs().max_element();
-    Ok(alike && here == acceleration_at(twin, (0.7, 3), x, *bounds)?)
+    Ok(alike && here == acceleration_at(reference, (0.7, 3), x, *bounds)?)
 }
 
 /// Whether a law leaves the first particles of a flat world in their plane.
-fn in_the_plane(name: &str, twin: &Twin, setup: &Setup) -> Result<(), Error> {
+fn in_the_plane(name: &str, reference: &Reference, setup: &Setup) -> Result<(), Error> {
     let particles = &setup.state;
     let some = particles.len().min(64);
     let mut host = Host::default();
@@ -44,7 +49,7 @@ fn in_the_plane(name: &str, twin: &Twin, setup: &Setup) -> Result<(), Error> {
     host.insert(ACCELERATION.name, Array::Vec4(vec![DVec4::ZERO; some]));
     let count = u32::try_from(some).unwrap_or(0);
     host.set_world(World { time: 0.0, dt: setup.dt, step: 0, count, bounds: setup.bounds });
-    twin(&host)?;
+    reference(&host)?;
     let across = host.read(ACCELERATION)?.iter().map(|a| a.z).find(|z| z.abs() > 0.0);
     across.map_or(Ok(()), |z| {
         Err(Error::Scene(format!(
@@ -106,8 +111,8 @@ pub fn conserved(setup: &Setup) -> Result<Conserved, Error> {
             conserved.energy &= law.over != Over::Links || !damped(&setup.state.links);
             continue;
         }
-        conserved.energy &= match &law.twin {
-            Some(twin) => keeps_energy(twin, &setup.bounds)?,
+        conserved.energy &= match &law.reference {
+            Some(reference) => keeps_energy(reference, &setup.bounds)?,
             None => false,
         };
         conserved.energy &= !law.depends_on_velocity(&problem)?;
@@ -120,7 +125,7 @@ pub fn conserved(setup: &Setup) -> Result<Conserved, Error> {
     conserved.angular_momentum &= held.is_empty();
     conserved.energy &= held.iter().all(|one| one.by == Hold::Fixed);
     // What projects velocities or positions conserves neither energy nor momentum; nor do births and deaths.
-    let mut constrained = setup.state.is_mortal();
+    let mut constrained = setup.state.has_inactive();
     for properties in setup.forces.iter().map(|force| force.properties()) {
         conserved.angular_momentum &= !properties.turns;
         conserved.takers.extend(properties.dissipates);
@@ -179,15 +184,15 @@ pub fn advice(scene: &Scene, setup: &Setup) -> Result<Vec<String>, Error> {
     }
     for law in laws {
         let name = law.name.clone();
-        let (untwinned, over, offered) = (law.twin.is_none(), law.over, law.jacobian.is_some());
+        let (without_reference, over, offered) = (law.reference.is_none(), law.over, law.jacobian.is_some());
         let all_images = law.distant.images;
-        if let Some(twin) = law.twin.as_ref().filter(|_| setup.bounds.dimensions == 2) {
-            in_the_plane(&name, twin, setup)?;
+        if let Some(reference) = law.reference.as_ref().filter(|_| setup.bounds.dimensions == 2) {
+            in_the_plane(&name, reference, setup)?;
         }
         let reads_velocity = law.depends_on_velocity(&problem)?;
         let solved = implicit && offered;
         // Velocities count in the springs of the house where they are damped, and nowhere else.
-        let calm = over == Over::Links && !untwinned && !damped(&setup.state.links);
+        let calm = over == Over::Links && !without_reference && !damped(&setup.state.links);
         if reads_velocity && !calm && !solved && loses {
             remarks.push(depends(&name));
         }
@@ -207,7 +212,7 @@ pub fn advice(scene: &Scene, setup: &Setup) -> Result<Vec<String>, Error> {
         {
             remarks.push(format!("`{name}` acts on species {kind}, and no particle is of that species"));
         }
-        if untwinned {
+        if without_reference {
             remarks.push(format!("`{name}` has no f64 reference: nothing checks it, and it needs a device"));
         }
     }

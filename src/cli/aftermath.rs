@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use motes::io::{Format, Precision};
+use motes::formats::{Format, Precision};
 use motes::{Error, Setup, State};
 
 use super::failure::Failure;
@@ -70,7 +70,7 @@ fn neighbors(setup: &Setup, particle: u32) -> String {
 }
 
 fn keep(last: &State, folder: &Path, formats: &[&Format], precision: Precision) -> Result<String, Error> {
-    let arrays = motes::io::format("npz");
+    let arrays = motes::formats::format("npz");
     let chosen: Vec<&Format> = if formats.is_empty() { arrays.into_iter().collect() } else { formats.to_vec() };
     let mut files = Vec::new();
     for format in chosen {

@@ -62,7 +62,7 @@ pub async fn check(args: &SceneArgs) -> Result<(), Failure> {
     };
     let total = per_step.mul_f64(scene.steps as f64);
     out!("\ntime: {} per step, about {} in all, without writing files", duration(per_step), duration(total));
-    let hurry = start.and_then(|start| flow::hurry(&start.medium, scene.pace.map_or(setup.dt, |_| 0.0), most));
+    let hurry = start.and_then(|start| flow::hurry(&start.medium, scene.adaptive_step.map_or(setup.dt, |_| 0.0), most));
     for remark in engine.remarks(&setup)?.into_iter().chain(advice(&scene, &setup)?).chain(hurry) {
         out!("note: {remark}");
     }

@@ -108,7 +108,7 @@ async fn kernels(found: &gpu::Found, setup: &Setup) -> Result<Vec<Verdict>, Fail
             }
         }
     }
-    for kernel in plan.kernels.iter().filter(|k| k.twin.is_none()) {
+    for kernel in plan.kernels.iter().filter(|k| k.reference.is_none()) {
         note!("note: `{}` has no reference: its errors are not measured", kernel.name);
     }
     Ok(worst)

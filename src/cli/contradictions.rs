@@ -1,8 +1,8 @@
 //! Where the parts of a scene of a fluid say different things.
 
 use glam::DVec3;
-use motes::fluids::{Medium, Start};
 use motes::kernel::Machine;
+use motes::sph::{Medium, Start};
 use motes::{Error, Setup};
 
 use super::fluid::Weight;
@@ -48,7 +48,7 @@ fn mouths(setup: &Setup, medium: &Medium) -> Option<String> {
     let near = 0.9 * medium.spacing;
     let low = sites.iter().map(|(_, id)| place(*id)).reduce(DVec3::min)? - near;
     let high = sites.iter().map(|(_, id)| place(*id)).reduce(DVec3::max)? + near;
-    let around = |id: &usize| particles.lives(*id) && place(*id).cmpge(low).all() && place(*id).cmple(high).all();
+    let around = |id: &usize| particles.is_active(*id) && place(*id).cmpge(low).all() && place(*id).cmple(high).all();
     let others: Vec<usize> = (0..particles.len()).filter(around).collect();
     let meets = |(_, site): &&(u32, usize)| {
         others.iter().any(|other| setup.bounds.shortest(place(*other) - place(*site)).length() < near)
@@ -96,7 +96,7 @@ fn outside(setup: &Setup) -> Option<String> {
     let out = |id: &usize| {
         let x = particles.position()[*id];
         let beyond = |axis: &usize| x[*axis] < bounds.low[*axis] || x[*axis] > bounds.high[*axis];
-        particles.lives(*id) && !held.contains(id) && extent.iter().any(beyond)
+        particles.is_active(*id) && !held.contains(id) && extent.iter().any(beyond)
     };
     let mut all = (0..particles.len()).filter(out);
     let first = all.next()?;

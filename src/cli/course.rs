@@ -10,9 +10,9 @@ use serde_json::{Value, json};
 
 /// `1000 steps of 0.001`, for people.
 pub fn words(scene: &Scene) -> String {
-    match scene.pace {
-        Some(pace) => {
-            format!("{} of time in steps of {} to {}", plain(scene.until), plain(pace.least), plain(scene.dt))
+    match scene.adaptive_step {
+        Some(adaptive_step) => {
+            format!("{} of time in steps of {} to {}", plain(scene.until), plain(adaptive_step.least), plain(scene.dt))
         }
         None => format!("{} of {}", steps(scene.steps), plain(scene.dt)),
     }
@@ -31,7 +31,7 @@ fn whole(time: f64, dt: f64) -> u64 {
 
 /// Steps of dt after which a run of a scene begins, from this state.
 pub fn begun(scene: &Scene, state: &State) -> u64 {
-    if scene.pace.is_some() { whole(state.time, scene.dt) } else { state.step }
+    if scene.adaptive_step.is_some() { whole(state.time, scene.dt) } else { state.step }
 }
 
 /// The way to the end.

@@ -1,7 +1,7 @@
 //! Where a scene runs: an adapter of this machine, or the references when there is none.
 
 use motes::gpu::{self, Choice, Found};
-use motes::integrators::Paced;
+use motes::integrators::Adaptive;
 use motes::kernel::{Backend, Machine};
 use motes::scene::{Options, Scene, Source};
 use motes::{Cpu, Error, Gpu, Setup};
@@ -96,8 +96,8 @@ pub fn setup(scene: &mut Scene) -> Setup {
     Setup {
         state: std::mem::take(&mut scene.particles),
         forces: std::mem::take(&mut scene.forces),
-        integrator: match scene.pace {
-            Some(pace) => Box::new(Paced { integrator: scene.integrator(), pace }),
+        integrator: match scene.adaptive_step {
+            Some(adaptive_step) => Box::new(Adaptive { integrator: scene.integrator(), adaptive_step }),
             None => scene.integrator(),
         },
         dt: scene.dt,

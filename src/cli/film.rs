@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use glam::Vec4;
-use motes::io::apng;
+use motes::formats::apng;
 use motes::kernel::Backend;
 use motes::render::{self, Trail};
 use motes::scene::Scene;

@@ -1,9 +1,9 @@
 //! Steps at which a fluid is stable: remarks on them, and the refusal of those that would end in an explosion.
 
 use motes::Error;
-use motes::fluids::Medium;
 use motes::forces::Component;
 use motes::scene::Scene;
+use motes::sph::Medium;
 use motes::stability::{Asks, Flow};
 
 use super::substeps::digits;

@@ -1,9 +1,9 @@
 //! What `check` says of a fluid before it runs.
 
 use glam::DVec3;
-use motes::fluids::{COURANT, Start};
 use motes::forces::Over;
 use motes::kernel::Machine;
+use motes::sph::{COURANT, Start};
 use motes::{Error, Setup, Side};
 
 use super::advice::acceleration_at;
@@ -130,10 +130,10 @@ fn weight(setup: &Setup) -> Result<Weight, Error> {
     let problem = setup.problem(Machine::HOST)?;
     let mut weight = Weight::default();
     for law in setup.forces.iter().flat_map(|force| force.laws()).filter(|law| law.over == Over::Each) {
-        if let (Some(twin), false) = (&law.twin, law.depends_on_velocity(&problem)?) {
+        if let (Some(reference), false) = (&law.reference, law.depends_on_velocity(&problem)?) {
             let places = setup.state.position();
             let middle = places.iter().sum::<DVec3>() / places.len() as f64;
-            let pull = |x: DVec3| Ok::<_, Error>(acceleration_at(twin, (0.0, 0), x, setup.bounds)?.truncate());
+            let pull = |x: DVec3| Ok::<_, Error>(acceleration_at(reference, (0.0, 0), x, setup.bounds)?.truncate());
             let (here, aside) = (pull(middle)?, pull(places.first().copied().unwrap_or(middle))?);
             weight.pull += here;
             weight.largest = weight.largest.max(here.length()).max(aside.length());

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use motes::io;
+use motes::formats;
 use motes::scene::Scene;
 use motes::{Error, Setup};
 
@@ -10,17 +10,17 @@ use super::progress::plain;
 
 /// Puts the state of a file in the place of the scene's own.
 pub fn go_on(setup: &mut Setup, scene: &Scene, path: &Path) -> Result<(), Error> {
-    let mut state = io::read(path, &setup.columns()?)?;
+    let mut state = formats::read(path, &setup.columns()?)?;
     let refuse = |message: String| Err(Error::Input { file: path.to_owned(), message });
     if (state.step, state.time) == (0, 0.0)
         && let Some(step) = numbered(path)
     {
-        if scene.pace.is_some() {
+        if scene.adaptive_step.is_some() {
             return refuse("is a table, which holds no clock, and steps are adaptive: give the NPZ file".to_owned());
         }
         (state.step, state.time) = (step, step as f64 * scene.dt);
     }
-    if state.step == 0 && state.time > 0.0 && scene.pace.is_none() {
+    if state.step == 0 && state.time > 0.0 && scene.adaptive_step.is_none() {
         // Formats that hold a time, and no step.
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "above 0, or saturated")]
         let steps = (state.time / scene.dt).round() as u64;
@@ -33,7 +33,7 @@ pub fn go_on(setup: &mut Setup, scene: &Scene, path: &Path) -> Result<(), Error>
         );
     }
     // In adaptive steps time alone says how far it is.
-    let over = if scene.pace.is_some() { state.time >= scene.until } else { state.step >= scene.steps };
+    let over = if scene.adaptive_step.is_some() { state.time >= scene.until } else { state.step >= scene.steps };
     if over {
         return refuse(format!(
             "is at step {} and time {}, where the run ends: `steps` and `until` count from the start of the first run; give later \

@@ -1,10 +1,10 @@
 //! `fluid.csv`: the ledger of a fluid.
 
-use motes::fluids::{DENSITY, Medium};
-use motes::io::Folder;
+use motes::formats::Folder;
 use motes::kernel::{Backend, Machine, Reason};
 use motes::measure::Ledger;
 use motes::simulation::Clock;
+use motes::sph::{DENSITY, Medium};
 use motes::{Bounds, Error, Setup, Simulation, State};
 
 use super::progress::plain;

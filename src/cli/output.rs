@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
-use motes::io::{Folder, Format, Precision, atomically};
+use motes::formats::{Folder, Format, Precision, atomically};
 use motes::life::Population;
 use motes::links::Links;
 use motes::measure::Flock;
@@ -18,7 +18,7 @@ use super::table::Table;
 
 const HEADER: &str = "step,time,kinetic,potential,total,momentum_x,momentum_y,momentum_z,angular_momentum_x,\
                       angular_momentum_y,angular_momentum_z";
-const FLOW: &str = "step,time,waiting,living,dead,born,mass";
+const FLOW: &str = "step,time,pending,active,removed,spawned,mass";
 const FLOCK: &str = "step,time,order,speed,neighbors,most_neighbors,clusters,largest_cluster";
 
 /// The folder, and what is in it so far.
@@ -35,7 +35,7 @@ pub struct Output {
     rows: Vec<Measure>,
     /// Of a flock: its table, the statistics radius, and the box.
     flock: Option<(Table, (f64, Option<u32>), Bounds)>,
-    company: Vec<Flock>,
+    flock_statistics: Vec<Flock>,
     /// Where particles are born or die: how many.
     flow: Option<Table>,
     population: Option<Population>,
@@ -52,14 +52,14 @@ impl Output {
         folder: Rc<Folder>,
         scene: &Scene,
         count: usize,
-        company: Option<(f64, Option<u32>)>,
+        flock_statistics: Option<(f64, Option<u32>)>,
         precision: Precision,
         device: &str,
     ) -> Result<Self, Error> {
         let resolved = format!("{}\n{}", scene.resolved_in(folder.path()), folder.signature(device));
         atomically(&folder.file("scene.toml")?, |out| out.write_all(resolved.as_bytes()))?;
         let energy = Table::new(folder.file("energy.csv")?, HEADER)?;
-        let flock = company.map(|of| Ok((Table::new(folder.file("flock.csv")?, FLOCK)?, of, scene.bounds)));
+        let flock = flock_statistics.map(|of| Ok((Table::new(folder.file("flock.csv")?, FLOCK)?, of, scene.bounds)));
         let flock = flock.transpose()?;
         Ok(Self {
             folder,
@@ -73,7 +73,7 @@ impl Output {
             energy,
             rows: Vec::new(),
             flock,
-            company: Vec::new(),
+            flock_statistics: Vec::new(),
             flow: None,
             population: None,
             scenery: Scenery::default(),
@@ -90,18 +90,19 @@ impl Output {
         self.rows.push(row);
         if let Some((table, (range, species), bounds)) = &mut self.flock {
             let f = Flock::of(snapshot, *bounds, Some(*range), *species)?;
-            let numbers = [f.time, f.order, f.speed, f.neighbors, f64::from(f.crowd), f64::from(f.clusters), f.largest];
+            let numbers =
+                [f.time, f.order, f.speed, f.neighbors, f64::from(f.most_neighbors), f64::from(f.clusters), f.largest];
             table.row(f.step, &numbers)?;
-            self.company.push(f);
+            self.flock_statistics.push(f);
         }
         if self.flow.is_none() && !snapshot.life().is_empty() {
             self.flow = Some(Table::new(self.folder.file("flow.csv")?, FLOW)?);
         }
         if let Some(table) = &mut self.flow {
             let of = snapshot.population();
-            let born = (of.living + of.dead) as f64;
+            let born = (of.active + of.removed) as f64;
             let mass = snapshot.mass().iter().sum::<f64>();
-            table.row(row.step, &[row.time, of.waiting as f64, of.living as f64, of.dead as f64, born, mass])?;
+            table.row(row.step, &[row.time, of.pending as f64, of.active as f64, of.removed as f64, born, mass])?;
             self.population = Some(of);
         }
         Ok(())
@@ -115,8 +116,8 @@ impl Output {
         self.rows.first().copied().unwrap_or_default()
     }
     /// The first and the last row of the table of order and clusters, if there is one.
-    pub fn company(&self) -> Option<(&Flock, &Flock)> {
-        Some((self.company.first()?, self.company.last()?))
+    pub fn flock_statistics(&self) -> Option<(&Flock, &Flock)> {
+        Some((self.flock_statistics.first()?, self.flock_statistics.last()?))
     }
     /// All rows.
     pub fn rows(&self) -> &[Measure] {
@@ -139,7 +140,7 @@ impl Output {
     pub fn links(&self, step: u64, links: &Links) -> Result<(), Error> {
         if !self.formats.is_empty() {
             let path = self.folder.file(&format!("links_{step:0width$}.csv", width = self.digits))?;
-            atomically(&path, |out| motes::io::links::write(out, links))?;
+            atomically(&path, |out| motes::formats::links::write(out, links))?;
         }
         Ok(())
     }

@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::path::Path;
 
-use motes::io::atomically;
+use motes::formats::atomically;
 use motes::{Error, Measure};
 use plotters::coord::Shift;
 use plotters::prelude::*;

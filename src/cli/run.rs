@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use std::rc::Rc;
 use std::time::{Duration, Instant};
 
-use motes::io::{Folder, Precision};
+use motes::formats::{Folder, Precision};
 use motes::kernel::Backend;
 use motes::render::{Image, Picture, Scenery, Trail};
 use motes::scene::Scene;
@@ -86,7 +86,7 @@ struct Run {
     film: Option<Film>,
     count: usize,
     /// The statistics radius, if there is one.
-    company: Option<(f64, Option<u32>)>,
+    flock_statistics: Option<(f64, Option<u32>)>,
     /// What pictures show beside particles.
     scenery: Scenery,
     /// What should stay as it is.
@@ -134,17 +134,17 @@ impl Run {
         for remark in engine.remarks(setup)?.into_iter().chain(advice(&scene, setup)?) {
             progress.remark(&remark);
         }
-        let company = setup.forces.iter().find_map(|force| force.properties().statistics_radius);
+        let flock_statistics = setup.forces.iter().find_map(|force| force.properties().statistics_radius);
         let (conserved, stop) = (conserved(setup)?, Stop::listen());
         let (springs, last, torn) = (setup.state.links.springs.len(), None, None);
-        let (steps, adaptive) = (scene.steps, scene.pace.is_some());
+        let (steps, adaptive) = (scene.steps, scene.adaptive_step.is_some());
         Ok(Self {
             scene,
             device,
             folder,
             film,
             count,
-            company,
+            flock_statistics,
             scenery,
             conserved,
             progress,
@@ -167,7 +167,7 @@ impl Run {
         if let Some(text) = folder.remark() {
             self.progress.remark(text);
         }
-        let mut output = Output::new(folder, &self.scene, self.count, self.company, precision, &self.device)?;
+        let mut output = Output::new(folder, &self.scene, self.count, self.flock_statistics, precision, &self.device)?;
         output.scenery = self.scenery.clone();
         if let Some(book) = &mut self.book {
             book.open(output.folder())?;

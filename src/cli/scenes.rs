@@ -36,8 +36,8 @@ pub fn scenes(args: &ScenesArgs) -> Result<(), Failure> {
 
 /// Every key that a scene may give, or those of one thing.
 fn keys(wanted: Option<&str>) -> Result<(), Failure> {
-    let forces = motes::forces::FORCES.iter().map(|e| ("[[force]] kind", e.name, e.about, e.keys));
-    let shapes = motes::particles::SHAPES.iter().map(|e| ("[[particles]] shape", e.name, e.about, e.keys));
+    let forces = motes::forces::entries().map(|e| ("[[force]] kind", e.name, e.about, e.keys));
+    let shapes = motes::shapes::SHAPES.iter().map(|e| ("[[particles]] shape", e.name, e.about, e.keys));
     let entries = forces.chain(shapes).filter(|entry| wanted.is_none_or(|name| name == entry.1));
     let sections = || SECTIONS.iter().filter(|section| wanted.is_none_or(|name| name == section.name));
     let all: Vec<_> = entries.collect();

@@ -82,7 +82,7 @@ pub fn remark(setup: &Setup, integrator: &str) -> Result<String, Error> {
 
 /// Whether a law is the same everywhere, at any velocity: no step is too long for it.
 fn is_constant(law: &Law, setup: &Setup) -> Result<bool, Error> {
-    let (Over::Each, Some(reference)) = (law.over, &law.twin) else { return Ok(false) };
+    let (Over::Each, Some(reference)) = (law.over, &law.reference) else { return Ok(false) };
     if law.depends_on_velocity(&setup.problem(Machine::HOST)?)? {
         return Ok(false);
     }

@@ -1,8 +1,8 @@
 //! Steps that springs bear: a warning before a run, and the division of steps that are too long.
 
-use motes::fluids::Start;
 use motes::integrators::{Entry, INTEGRATORS};
 use motes::scene::Scene;
+use motes::sph::Start;
 use motes::stability::{Flow, Verdict};
 use motes::{Error, Setup};
 

@@ -42,7 +42,7 @@ pub fn momentum(rows: &[Measure], conserved: &Conserved) -> Option<String> {
 }
 
 /// How a flock went.
-pub fn company(first: &Flock, last: &Flock) -> String {
+pub fn flock_statistics(first: &Flock, last: &Flock) -> String {
     format!(
         "order {:.3} → {:.3}, {:.1} → {:.1} neighbours each, {} → {} clusters, the largest {:.0} % of all",
         first.order,
@@ -70,7 +70,7 @@ pub fn speed(steps: u64, count: usize, stepping: Duration, took: Duration) -> St
 
 /// How many live, and what became of the others.
 pub fn population(of: Population) -> String {
-    format!("{} live, {} are dead, {} wait to be born", of.living, of.dead, of.waiting)
+    format!("{} active, {} removed, {} pending", of.active, of.removed, of.pending)
 }
 
 /// How many springs tore.

@@ -45,7 +45,7 @@ impl Component for Custom {
             pairs: self.pairs.clone(),
             tables: self.tables.clone(),
             into: self.into.clone(),
-            twin: None,
+            reference: None,
             reciprocal: false,
             jacobian: None,
             distant: Distant::default(),

@@ -44,7 +44,7 @@ impl Integrator for Beeman {
 /// v ← v + (4 a − a') dt / 6, a' ← a
 fn first(count: u32) -> Result<Kernel, Error> {
     let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("integrators/beeman_first.wgsl")])?;
-    let twin = move |host: &Host| {
+    let reference = move |host: &Host| {
         let dt = host.world().dt;
         let (mut velocity, acceleration) = (host.write(VELOCITY)?, host.read(ACCELERATION)?);
         let mut earlier = host.write(EARLIER)?;
@@ -56,13 +56,13 @@ fn first(count: u32) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    Ok(Kernel::new("kick, Beeman's first", shader, Vec::new(), count, Arc::new(twin)))
+    Ok(Kernel::new("kick, Beeman's first", shader, Vec::new(), count, Arc::new(reference)))
 }
 
 /// v ← v + (2 a + a') dt / 6
 fn last(count: u32) -> Result<Kernel, Error> {
     let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("integrators/beeman_last.wgsl")])?;
-    let twin = move |host: &Host| {
+    let reference = move |host: &Host| {
         let dt = host.world().dt;
         let (mut velocity, acceleration) = (host.write(VELOCITY)?, host.read(ACCELERATION)?);
         let earlier = host.read(EARLIER)?;
@@ -71,5 +71,5 @@ fn last(count: u32) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    Ok(Kernel::new("kick, Beeman's last", shader, Vec::new(), count, Arc::new(twin)))
+    Ok(Kernel::new("kick, Beeman's last", shader, Vec::new(), count, Arc::new(reference)))
 }

@@ -1,16 +1,16 @@
 //! Integrators: how forces become motion. Each is written in verbs and reads like its line in the textbook.
 
-mod paced;
+mod adaptive;
 mod step;
 mod verbs;
 
-pub use paced::Paced;
+pub use adaptive::Adaptive;
 pub(crate) use step::kept_rates;
 pub use step::{Explicit, Form, Implicit, Step, implicit};
 pub use verbs::solve::STATE as SOLVE_STATE;
 pub use verbs::solve::report::{NAME as SOLVE_REPORT, WORDS as SOLVE_REPORT_WORDS};
 
-use crate::kernel::{Column, Pace};
+use crate::kernel::{AdaptiveStep, Column};
 use crate::settings::{Key, Settings};
 
 /// How particles are advanced by one step.
@@ -34,7 +34,7 @@ pub trait Integrator: Send + Sync {
         self.is_implicit().then_some("their limits are those of explicit methods, and the integrator is implicit")
     }
     /// How long its steps are, where they are not all alike.
-    fn pace(&self) -> Option<Pace> {
+    fn adaptive_step(&self) -> Option<AdaptiveStep> {
         None
     }
     /// The columns that it keeps beside those of all simulations: what a step leaves to the next.

@@ -110,7 +110,7 @@ impl<'a> Step<'a> {
         if !self.problem.held.is_empty() {
             self.add(held::hold(&self.problem));
         }
-        if self.problem.mortal {
+        if self.problem.has_inactive {
             self.add_all(life::still(&self.problem));
         }
     }
@@ -120,7 +120,7 @@ impl<'a> Step<'a> {
     }
     /// Particles that are due are spawned, and particles in a drain are removed.
     pub fn populate(&mut self) {
-        self.moved |= self.problem.mortal;
+        self.moved |= self.problem.has_inactive;
         self.add_all(life::kernels(&self.problem));
     }
     /// What forces do once, before the first step.
@@ -169,7 +169,7 @@ impl<'a> Step<'a> {
     }
     /// Forces are evaluated at t + c dt from here on, until the end of the step.
     pub fn at(&mut self, factor: f64) {
-        let kernel = match self.problem.pace {
+        let kernel = match self.problem.adaptive_step {
             Some(_) => adaptive::at(factor, &self.problem),
             None => at::kernel(factor),
         };

@@ -167,36 +167,36 @@ fn words<T: bytemuck::AnyBitPattern>(bytes: &[u8]) -> Vec<T> {
 /// What a field may hold, and what the reference of that is.
 pub trait Element: bytemuck::Pod + Send + Sync {
     /// The same in f64.
-    type Twin: Copy + Send + Sync;
+    type Reference: Copy + Send + Sync;
     /// Without loss.
-    fn widen(self) -> Self::Twin;
+    fn widen(self) -> Self::Reference;
     /// Rounded to what the device holds.
-    fn narrow(twin: Self::Twin) -> Self;
+    fn narrow(reference: Self::Reference) -> Self;
     /// Wraps a vector of references.
-    fn array(values: Vec<Self::Twin>) -> Array;
+    fn array(values: Vec<Self::Reference>) -> Array;
     /// The vector inside, if the array is of this kind.
-    fn view(array: &Array) -> Option<&Vec<Self::Twin>>;
+    fn view(array: &Array) -> Option<&Vec<Self::Reference>>;
     /// The same, to write.
-    fn view_mut(array: &mut Array) -> Option<&mut Vec<Self::Twin>>;
+    fn view_mut(array: &mut Array) -> Option<&mut Vec<Self::Reference>>;
 }
 
 macro_rules! element {
-    ($device:ty, $twin:ty, $variant:ident, $widen:expr, $narrow:expr) => {
+    ($device:ty, $reference:ty, $variant:ident, $widen:expr, $narrow:expr) => {
         impl Element for $device {
-            type Twin = $twin;
-            fn widen(self) -> $twin {
+            type Reference = $reference;
+            fn widen(self) -> $reference {
                 $widen(self)
             }
-            fn narrow(twin: $twin) -> Self {
-                $narrow(twin)
+            fn narrow(reference: $reference) -> Self {
+                $narrow(reference)
             }
-            fn array(values: Vec<$twin>) -> Array {
+            fn array(values: Vec<$reference>) -> Array {
                 Array::$variant(values)
             }
-            fn view(array: &Array) -> Option<&Vec<$twin>> {
+            fn view(array: &Array) -> Option<&Vec<$reference>> {
                 if let Array::$variant(values) = array { Some(values) } else { None }
             }
-            fn view_mut(array: &mut Array) -> Option<&mut Vec<$twin>> {
+            fn view_mut(array: &mut Array) -> Option<&mut Vec<$reference>> {
                 if let Array::$variant(values) = array { Some(values) } else { None }
             }
         }

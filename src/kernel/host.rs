@@ -22,19 +22,19 @@ pub struct Reading<'a, T>(RwLockReadGuard<'a, Arc<Array>>, PhantomData<T>);
 pub struct Writing<'a, T>(RwLockWriteGuard<'a, Arc<Array>>, PhantomData<T>);
 
 impl<T: Element> std::ops::Deref for Reading<'_, T> {
-    type Target = [T::Twin];
-    fn deref(&self) -> &[T::Twin] {
+    type Target = [T::Reference];
+    fn deref(&self) -> &[T::Reference] {
         T::view(&self.0).map_or(&[], Vec::as_slice)
     }
 }
 impl<T: Element> std::ops::Deref for Writing<'_, T> {
-    type Target = [T::Twin];
-    fn deref(&self) -> &[T::Twin] {
+    type Target = [T::Reference];
+    fn deref(&self) -> &[T::Reference] {
         T::view(&self.0).map_or(&[], Vec::as_slice)
     }
 }
 impl<T: Element> std::ops::DerefMut for Writing<'_, T> {
-    fn deref_mut(&mut self) -> &mut [T::Twin] {
+    fn deref_mut(&mut self) -> &mut [T::Reference] {
         T::view_mut(Arc::make_mut(&mut self.0)).map_or(&mut [], Vec::as_mut_slice)
     }
 }
@@ -165,9 +165,9 @@ impl Host {
     ///
     /// # Errors
     /// When that is being written.
-    pub fn lives(&self) -> Result<impl Fn(usize) -> bool + Sync + use<>, Error> {
+    pub fn is_active(&self) -> Result<impl Fn(usize) -> bool + Sync + use<>, Error> {
         let life = if self.contains(LIFE.name) { self.read(LIFE)?.to_vec() } else { Vec::new() };
-        Ok(move |id: usize| life.get(id).is_none_or(|word| *word == Life::Living.word()))
+        Ok(move |id: usize| life.get(id).is_none_or(|word| *word == Life::Active.word()))
     }
     /// What every kernel knows.
     #[must_use]

@@ -1,5 +1,6 @@
 //! What runs, as data only: fields, shaders as naga sees them, kernels with their references, plans. No device here.
 
+mod adaptive_step;
 mod backend;
 mod bounds;
 mod column;
@@ -10,7 +11,6 @@ mod list_shape;
 mod message;
 mod op;
 mod own;
-mod pace;
 mod pack;
 mod packing;
 mod pair;
@@ -24,6 +24,10 @@ mod solver;
 mod unused_word;
 mod world;
 
+pub use adaptive_step::{
+    AdaptiveStep, LARGEST_CRITERION, Reason, STEP_CLOCK, STEP_CLOCK_WORDS, STEP_CRITERIA, STOP, TICKS, split, ticks,
+    time,
+};
 pub use backend::{Backend, Machine};
 pub use bounds::{Bounds, Side};
 pub use column::{Advance, Column, Kind, Place, Role, Shape};
@@ -36,12 +40,11 @@ pub use host::{Host, Reading, Writing};
 pub use list_shape::ListShape;
 pub use op::{Flag, Next, Op, Walk};
 pub use own::claims;
-pub use pace::{PACE, PACE_WORDS, Pace, Reason, STOP, TICKS, URGENT, URGES, split, ticks, time};
 pub use pack::{Member, Packed, Scalar};
 pub use packing::insert;
 pub use pair::{Pair, Way};
 pub use pass::{Indirect, Pass, Threads};
-pub use plan::{Kernel, Name, Plan, Table, Twin, short};
+pub use plan::{Kernel, Name, Plan, Reference, Table, short};
 pub use problem::{Problem, extent};
 pub use reflect::{Access, Binding, Reflection};
 pub use shader::{Shader, Source};

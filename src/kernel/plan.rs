@@ -9,7 +9,7 @@ use super::{Access, Binding, Flag, Host, Indirect, Op, Pass, Shader, Walk};
 use crate::error::Error;
 
 /// The second opinion: the same operation in f64 on the host's arrays.
-pub type Twin = Arc<dyn Fn(&Host) -> Result<(), Error> + Send + Sync>;
+pub type Reference = Arc<dyn Fn(&Host) -> Result<(), Error> + Send + Sync>;
 
 /// The name of a field.
 pub type Name = Cow<'static, str>;
@@ -25,7 +25,7 @@ pub struct Kernel {
     /// The dispatches.
     pub passes: Vec<Pass>,
     /// The same in f64. `None` only for a user's shader.
-    pub twin: Option<Twin>,
+    pub reference: Option<Reference>,
     /// Elements of fields that do not have one element per particle.
     pub sizes: Vec<(Name, u64)>,
     /// Fields that hold nothing of worth after the last dispatch; the reference does without them.
@@ -37,7 +37,13 @@ pub struct Kernel {
 impl Kernel {
     /// A kernel of one dispatch, named after its constants.
     #[must_use]
-    pub fn new(name: &str, shader: Arc<Shader>, constants: Vec<(&'static str, f64)>, count: u32, twin: Twin) -> Self {
+    pub fn new(
+        name: &str,
+        shader: Arc<Shader>,
+        constants: Vec<(&'static str, f64)>,
+        count: u32,
+        reference: Reference,
+    ) -> Self {
         let mut label = name.to_owned();
         let default = |key: &str| shader.reflection().overrides.get(key).copied().flatten();
         for (key, value) in constants.iter().filter(|(key, value)| default(key) != Some(*value)) {
@@ -47,7 +53,7 @@ impl Kernel {
         Self {
             name: label,
             passes: vec![pass],
-            twin: Some(twin),
+            reference: Some(reference),
             sizes: Vec::new(),
             scratch: Vec::new(),
             tables: Vec::new(),

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{Bounds, Columns, ListShape, Machine, Pace, Shader, Side, Solver, Source, Table};
+use super::{AdaptiveStep, Bounds, Columns, ListShape, Machine, Shader, Side, Solver, Source, Table};
 use crate::life::{Birth, Drain};
 use crate::links::{Links, Network};
 use crate::motion::{self, Held, Motion};
@@ -38,7 +38,7 @@ pub struct Problem {
     /// Where particles die.
     pub drains: Arc<Vec<Drain>>,
     /// Whether some particles are not active all the time.
-    pub mortal: bool,
+    pub has_inactive: bool,
     /// The step size \[time\]: motions are given in steps.
     pub dt: f64,
     /// How much of the step positions have been advanced by, where a plan is being written: when a drift ends.
@@ -46,7 +46,7 @@ pub struct Problem {
     /// How well implicit integrators solve.
     pub solver: Solver,
     /// How long steps are, where they are not all alike.
-    pub pace: Option<Pace>,
+    pub adaptive_step: Option<AdaptiveStep>,
     /// The columns of the simulation.
     pub columns: Arc<Columns>,
     /// The list of neighbours that laws share, if any is over one.
@@ -79,11 +79,11 @@ impl Problem {
             motions: Arc::default(),
             births: Arc::default(),
             drains: Arc::default(),
-            mortal: false,
+            has_inactive: false,
             dt: 1.0,
             reached: 1.0,
             solver: Solver::default(),
-            pace: None,
+            adaptive_step: None,
             columns: Arc::default(),
             list: None,
         }
@@ -124,16 +124,16 @@ impl Problem {
     pub fn moved(self, motions: &[Motion], dt: f64) -> Self {
         Self { motions: Arc::new(motions.to_vec()), dt, ..self }
     }
-    /// The same with these births and drains; `mortal` where some particles may not be active without them too.
+    /// The same with these births and drains; `has_inactive` where some particles may not be active without them too.
     #[must_use]
-    pub fn mortal(self, births: &[Birth], drains: &[Drain], mortal: bool) -> Self {
-        let mortal = mortal || !births.is_empty() || !drains.is_empty();
-        Self { births: Arc::new(births.to_vec()), drains: Arc::new(drains.to_vec()), mortal, ..self }
+    pub fn with_life(self, births: &[Birth], drains: &[Drain], has_inactive: bool) -> Self {
+        let has_inactive = has_inactive || !births.is_empty() || !drains.is_empty();
+        Self { births: Arc::new(births.to_vec()), drains: Arc::new(drains.to_vec()), has_inactive, ..self }
     }
-    /// The file with `fn lives(id: u32) -> bool`.
+    /// The file with `fn is_active(id: u32) -> bool`.
     #[must_use]
-    pub fn living(&self) -> Source {
-        if self.mortal { crate::shader!("life/living.wgsl") } else { crate::shader!("life/all.wgsl") }
+    pub fn active(&self) -> Source {
+        if self.has_inactive { crate::shader!("life/active.wgsl") } else { crate::shader!("life/all_active.wgsl") }
     }
     /// The file with `fn is_held(id: u32) -> bool`, and the table that it reads.
     #[must_use]

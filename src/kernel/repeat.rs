@@ -26,7 +26,7 @@ pub const EVEN: &str = "even";
 /// When the shader does not compile.
 pub fn proceed(flag: &Flag, words: u32, slots: u32) -> Result<Kernel, Error> {
     let own = flag.clone();
-    let twin = move |host: &Host| {
+    let reference = move |host: &Host| {
         let mut iterations = host.writing::<u32>(ITERATIONS)?;
         let first = (iterations[0] / 2 * words) as usize;
         iterations[0] += 1;
@@ -39,7 +39,7 @@ pub fn proceed(flag: &Flag, words: u32, slots: u32) -> Result<Kernel, Error> {
     };
     let shader = Shader::join(&[crate::shader!("repeat/proceed.wgsl")])?;
     let constants = vec![("WORD", f64::from(flag.word)), ("WORDS", f64::from(words))];
-    let mut kernel = Kernel::new("proceed", shader, constants, 1, Arc::new(twin));
+    let mut kernel = Kernel::new("proceed", shader, constants, 1, Arc::new(reference));
     kernel.passes[0].fields.push(("flag", flag.field.clone()));
     let words = u64::from(words);
     kernel.sizes = vec![
@@ -56,7 +56,7 @@ pub fn proceed(flag: &Flag, words: u32, slots: u32) -> Result<Kernel, Error> {
 /// # Errors
 /// When the shader does not compile.
 pub fn reset(words: u32) -> Result<Kernel, Error> {
-    let twin = |host: &Host| {
+    let reference = |host: &Host| {
         host.writing::<u32>(ODD)?.fill(0);
         host.writing::<u32>(EVEN)?.fill(0);
         host.writing::<u32>(ITERATIONS)?.fill(0);
@@ -64,7 +64,7 @@ pub fn reset(words: u32) -> Result<Kernel, Error> {
     };
     let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("repeat/reset.wgsl")])?;
     let constants = vec![("WORDS", f64::from(words))];
-    let mut kernel = Kernel::new("reset", shader, constants, words, Arc::new(twin));
+    let mut kernel = Kernel::new("reset", shader, constants, words, Arc::new(reference));
     kernel.sizes = vec![(ODD.into(), words.into()), (EVEN.into(), words.into()), (ITERATIONS.into(), 1)];
     Ok(kernel)
 }

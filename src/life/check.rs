@@ -61,5 +61,5 @@ pub fn check(
 }
 
 fn idle(life: &[Life], id: u32) -> bool {
-    life.get(id as usize).is_some_and(|life| *life != Life::Living)
+    life.get(id as usize).is_some_and(|life| *life != Life::Active)
 }

@@ -15,12 +15,12 @@ use crate::solids::Solid;
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Life {
     /// It is yet to be born, and stands where that will be.
-    Waiting,
+    Pending,
     /// It takes part.
     #[default]
-    Living,
+    Active,
     /// It has been drained, and stays where that was.
-    Dead,
+    Removed,
 }
 
 impl Life {
@@ -32,7 +32,7 @@ impl Life {
     /// What a word stands for, if for anything.
     #[must_use]
     pub fn of(word: u32) -> Option<Self> {
-        [Self::Waiting, Self::Living, Self::Dead].into_iter().find(|life| life.word() == word)
+        [Self::Pending, Self::Active, Self::Removed].into_iter().find(|life| life.word() == word)
     }
 }
 
@@ -67,7 +67,7 @@ pub struct Drain {
     pub species: Option<u32>,
 }
 
-/// Words of a birth in the table that `shaders/life/bear.wgsl` reads.
+/// Words of a birth in the table that `shaders/life/spawn.wgsl` reads.
 const WORDS: usize = 8;
 
 /// That table, one `Birth` of the shader behind another.

@@ -2,15 +2,15 @@
 
 use super::{Birth, Life};
 
-/// How many wait, live and are dead. Together they are all particles that there are.
+/// How many wait, live and are removed. Together they are all particles that there are.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Population {
     /// Those yet to be spawned.
-    pub waiting: u64,
+    pub pending: u64,
     /// Those that take part.
-    pub living: u64,
+    pub active: u64,
     /// Those removed.
-    pub dead: u64,
+    pub removed: u64,
 }
 
 impl Population {
@@ -18,8 +18,8 @@ impl Population {
     #[must_use]
     pub fn of(life: &[Life], count: usize) -> Self {
         let number = |wanted: Life| life.iter().take(count).filter(|life| **life == wanted).count() as u64;
-        let (waiting, dead) = (number(Life::Waiting), number(Life::Dead));
-        Self { waiting, living: (count as u64).saturating_sub(waiting + dead), dead }
+        let (pending, removed) = (number(Life::Pending), number(Life::Removed));
+        Self { pending, active: (count as u64).saturating_sub(pending + removed), removed }
     }
 }
 
@@ -41,9 +41,9 @@ mod tests {
 
     #[test]
     fn each_is_counted_once() {
-        let life = [Life::Waiting, Life::Dead, Life::Living, Life::Waiting, Life::Waiting];
-        assert_eq!(Population::of(&life, 9), Population { waiting: 3, living: 5, dead: 1 });
-        assert_eq!(Population::of(&life, 2), Population { waiting: 1, living: 0, dead: 1 });
+        let life = [Life::Pending, Life::Removed, Life::Active, Life::Pending, Life::Pending];
+        assert_eq!(Population::of(&life, 9), Population { pending: 3, active: 5, removed: 1 });
+        assert_eq!(Population::of(&life, 2), Population { pending: 1, active: 0, removed: 1 });
         assert!([0, 1, 2].into_iter().all(|word| Life::of(word).is_some_and(|life| life.word() == word)));
         assert_eq!(Life::of(3), None);
     }

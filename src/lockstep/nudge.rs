@@ -3,7 +3,7 @@
 use glam::{DVec3, DVec4};
 
 use crate::error::Error;
-use crate::kernel::{Array, Host, POSITION, Twin, World};
+use crate::kernel::{Array, Host, POSITION, Reference, World};
 
 /// What it says of inputs that are off by what they are rounded by, at random, and of places to all sides.
 pub struct Nudged {
@@ -23,11 +23,11 @@ impl Nudged {
 const ASIDE: f64 = 2.0;
 
 /// Asks a reference.
-pub fn nudged(twin: &Twin, inputs: &[(&str, Option<&Array>)], world: World) -> Result<Nudged, Error> {
+pub fn nudged(reference: &Reference, inputs: &[(&str, Option<&Array>)], world: World) -> Result<Nudged, Error> {
     let sides =
         (0..8u32).map(|octant| DVec3::from_array([0, 1, 2].map(|axis| f64::from(octant >> axis & 1) * 2.0 - 1.0)));
-    let aside = sides.map(|side| ask(twin, inputs, world, |name, array| shifted(name, array, side)));
-    Ok(Nudged { sway: sway(twin, inputs, world)?, aside: aside.collect::<Result<_, Error>>()? })
+    let aside = sides.map(|side| ask(reference, inputs, world, |name, array| shifted(name, array, side)));
+    Ok(Nudged { sway: sway(reference, inputs, world)?, aside: aside.collect::<Result<_, Error>>()? })
 }
 
 /// Places a little to one side, all else as it is.
@@ -43,7 +43,7 @@ fn shifted(name: &str, array: &Array, side: DVec3) -> Array {
 }
 
 fn ask(
-    twin: &Twin,
+    reference: &Reference,
     inputs: &[(&str, Option<&Array>)],
     world: World,
     mut change: impl FnMut(&str, &Array) -> Array,
@@ -55,12 +55,12 @@ fn ask(
         }
     }
     host.set_world(world);
-    twin(&host)?;
+    reference(&host)?;
     Ok(host)
 }
 
 /// What a reference makes of inputs that are off by half a unit in the last place of single precision.
-fn sway(twin: &Twin, inputs: &[(&str, Option<&Array>)], world: World) -> Result<Host, Error> {
+fn sway(reference: &Reference, inputs: &[(&str, Option<&Array>)], world: World) -> Result<Host, Error> {
     // A multiplier of Knuth's: signs without a pattern.
     let mut state = 1u64;
     let mut off = |x: f64| {
@@ -73,5 +73,5 @@ fn sway(twin: &Twin, inputs: &[(&str, Option<&Array>)], world: World) -> Result<
         Array::Vec3(all) => Array::Vec3(all.iter().map(|v| v.to_array().map(&mut off).into()).collect()),
         Array::Uint(all) => Array::Uint(all.clone()),
     };
-    ask(twin, inputs, world, nudged)
+    ask(reference, inputs, world, nudged)
 }

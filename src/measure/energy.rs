@@ -64,7 +64,7 @@ impl Measure {
             total.center += part.center;
             weight += m;
         }
-        let living = || (0..count).filter(|id| snapshot.lives(*id));
+        let living = || (0..count).filter(|id| snapshot.is_active(*id));
         let mean = living().map(|id| position[id]).sum::<DVec3>() / living().count().max(1) as f64;
         total.center = if weight > 0.0 { total.center / weight } else { mean };
         Ok(total)

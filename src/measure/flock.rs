@@ -23,7 +23,7 @@ pub struct Flock {
     /// How many others are within range of a particle, on average.
     pub neighbors: f64,
     /// The most that are within range of one.
-    pub crowd: u32,
+    pub most_neighbors: u32,
     /// Sets of particles that are joined by chains of neighbours (friends of friends; Davis et al. 1985).
     pub clusters: u32,
     /// The part of all particles that is in the largest of them.
@@ -41,7 +41,8 @@ impl Flock {
     pub fn of(snapshot: &State, bounds: Bounds, range: Option<f64>, species: Option<u32>) -> Result<Self, Error> {
         let all = snapshot;
         let of = |list: &[DVec3]| -> Vec<DVec3> {
-            let chosen = |i: &usize| all.lives(*i) && species.is_none_or(|kind| all.species().get(*i) == Some(&kind));
+            let chosen =
+                |i: &usize| all.is_active(*i) && species.is_none_or(|kind| all.species().get(*i) == Some(&kind));
             (0..list.len()).filter(chosen).map(|i| list[i]).collect()
         };
         let (positions, velocities) = (of(all.position()), of(all.velocity()));
@@ -58,13 +59,13 @@ impl Flock {
         let Some(range) = range else { return Ok(flock) };
         let cells = Cells::new(&positions, bounds, range)?;
         let mut sets = Sets::new(velocities.len());
-        let (mut pairs, mut crowd) = (0, 0);
+        let (mut pairs, mut most_neighbors) = (0, 0);
         for first in (0..velocities.len()).step_by(CHUNK) {
             let last = velocities.len().min(first + CHUNK);
             let near: Vec<Vec<u32>> = (first..last).into_par_iter().map(|i| friends(&cells, i)).collect();
             for (i, friends) in (first..).zip(near) {
                 pairs += friends.len();
-                crowd = crowd.max(friends.len());
+                most_neighbors = most_neighbors.max(friends.len());
                 friends.into_iter().filter(|j| (*j as usize) < i).for_each(|j| sets.join(i, j as usize));
             }
         }
@@ -72,7 +73,7 @@ impl Flock {
         let whole = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
         Ok(Self {
             neighbors: pairs as f64 / count,
-            crowd: whole(crowd),
+            most_neighbors: whole(most_neighbors),
             clusters: whole(sizes.len()),
             largest: f64::from(sizes.iter().copied().max().unwrap_or(0)) / count,
             ..flock
@@ -145,13 +146,13 @@ mod tests {
         let x = [0.1, 9.9, 3.0, 3.8, 4.6, 7.0].map(|x| DVec3::new(x, 5.0, 0.0));
         let bounds = Bounds::new(DVec3::ZERO, DVec3::new(10.0, 10.0, 0.0), Side::Periodic);
         let flock = Flock::of(&snapshot(&x, &[DVec3::X; 6]), bounds, Some(1.0), None).expect("a measurement");
-        assert_eq!((flock.clusters, flock.crowd), (3, 2));
+        assert_eq!((flock.clusters, flock.most_neighbors), (3, 2));
         assert!((flock.largest - 0.5).abs() < 1e-12 && (flock.neighbors - 1.0).abs() < 1e-12, "{flock:?}");
         let open = Flock::of(&snapshot(&x, &[DVec3::X; 6]), Bounds::default(), Some(1.0), None).expect("a measurement");
         assert_eq!(open.clusters, 4);
         let mut two = snapshot(&x, &[DVec3::X; 6]);
         two.species_mut().copy_from_slice(&[0, 0, 5, 5, 0, 5]);
         let some = Flock::of(&two, bounds, Some(1.0), Some(5)).expect("a measurement");
-        assert_eq!((some.clusters, some.crowd), (2, 1));
+        assert_eq!((some.clusters, some.most_neighbors), (2, 1));
     }
 }

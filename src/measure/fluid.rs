@@ -3,8 +3,8 @@
 use glam::DVec3;
 
 use crate::error::Error;
-use crate::fluids::Medium;
 use crate::kernel::Bounds;
+use crate::sph::Medium;
 use crate::state::State;
 
 /// What a fluid has at a time, without held particles, which are its walls. A row of `fluid.csv`.
@@ -57,7 +57,7 @@ impl Ledger {
         // Single precision may put a particle at a side just behind it.
         let slack = f64::from(f32::EPSILON) * bounds.low.abs().max(bounds.high.abs());
         let sounds = medium.sound > 0.0;
-        for i in (0..particles.len()).filter(|i| !held(*i) && particles.lives(*i)) {
+        for i in (0..particles.len()).filter(|i| !held(*i) && particles.is_active(*i)) {
             let (x, v, m) = (particles.position()[i], particles.velocity()[i], particles.mass()[i]);
             let rho = density.get(i).copied().map_or(medium.density, f64::from);
             ledger.count += 1;

@@ -52,7 +52,7 @@ pub struct Motion {
     pub about: DVec3,
     /// At least one, in the order of their times.
     pub keys: Vec<Keyframe>,
-    /// Whether it sets off gently from each key, and arrives gently, by u² (3 − 2 u); else it goes at one pace.
+    /// Whether it sets off gently from each key, and arrives gently, by u² (3 − 2 u); else it goes at constant speed.
     pub smooth: bool,
     /// Whether it begins again at the first key when it is at the last. The two must be the same pose.
     pub repeat: bool,

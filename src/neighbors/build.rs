@@ -28,7 +28,7 @@ impl Grid {
         let chosen = if self.of.is_some() {
             crate::shader!("neighbors/species.wgsl")
         } else {
-            crate::shader!("neighbors/anybody.wgsl")
+            crate::shader!("neighbors/all_chosen.wgsl")
         };
         let carry = if moving {
             crate::shader!("neighbors/carry_moving.wgsl")
@@ -38,17 +38,17 @@ impl Grid {
         let mut passes = fill::passes(&starts, bins, 0)?;
         let (holding, tables) =
             if self.apart { problem.holding() } else { (crate::shader!("motion/free.wgsl"), Vec::new()) };
-        passes.push(self.pass(problem, &[chosen, problem.living(), holding, crate::shader!("neighbors/count.wgsl")])?);
+        passes.push(self.pass(problem, &[chosen, problem.active(), holding, crate::shader!("neighbors/count.wgsl")])?);
         passes.extend(scan::passes(&starts, &sums, bins, machine)?);
         passes.push(self.pass(problem, &[crate::shader!("neighbors/scatter.wgsl")])?);
         passes.push(self.pass(problem, &[carry, crate::shader!("neighbors/order.wgsl")])?);
         let (grid, all) = (self.clone(), problem.clone());
-        let twin = move |host: &Host| grid.sort(host, &all, moving);
+        let reference = move |host: &Host| grid.sort(host, &all, moving);
         let scratch: Vec<Name> = vec![KEYS.name.into(), ARRIVALS.name.into(), SLOTS.name.into(), sums.clone()];
         Ok(Kernel {
             name: self.title(),
             passes,
-            twin: Some(Arc::new(twin)),
+            reference: Some(Arc::new(reference)),
             sizes: vec![(starts, u64::from(bins)), (sums, scan::blocks(bins, machine))],
             scratch,
             tables,
@@ -73,7 +73,7 @@ impl Grid {
     #[must_use]
     pub fn present(&self, problem: &Problem) -> Source {
         // Where only one species is in it, every particle looks around by id.
-        if problem.mortal && self.of.is_none() {
+        if problem.has_inactive && self.of.is_none() {
             return crate::shader!("neighbors/present_living.wgsl");
         }
         crate::shader!("neighbors/present.wgsl")
@@ -100,13 +100,13 @@ impl Grid {
             if host.contains(&starts) { host.reading::<u32>(&starts)?.last().map_or(0, |n| *n as usize) } else { all };
         Ok(ids[..end.min(all)].to_vec())
     }
-    /// The twin.
+    /// The reference.
     fn sort(&self, host: &Host, problem: &Problem, moving: bool) -> Result<(), Error> {
         let position = host.read(POSITION)?;
         let count = (host.world().count as usize).min(position.len());
         let species = if self.of.is_some() { host.read(SPECIES)?.to_vec() } else { Vec::new() };
-        let lives = host.lives()?;
-        let chosen = |i: usize| lives(i) && self.of.is_none_or(|of| species.get(i) == Some(&of));
+        let is_active = host.is_active()?;
+        let chosen = |i: usize| is_active(i) && self.of.is_none_or(|of| species.get(i) == Some(&of));
         let places = position[..count].iter().map(|x| x.truncate());
         let cells = Cells::sort(self, host.world().bounds, places, chosen, |i| self.apart && problem.is_held(i));
 

@@ -1,4 +1,4 @@
-//! A grid that is filled on the host: what the twin of the device's is, and what measurements search.
+//! A grid that is filled on the host: what the reference of the device's is, and what measurements search.
 
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;

@@ -18,7 +18,7 @@ const FINE: [[u32; 3]; 6] = [[32, 8, 8], [16, 4, 4], [8, 2, 2], [4, 1, 1], [2, 1
 /// So few of one species need no cells.
 const FEW: u32 = 32;
 /// Particles of a cell from which on it is worth while to cut y and z too.
-const CROWD: f64 = 4.0;
+const DENSE: f64 = 4.0;
 /// Cells for each particle, about, at most: more are all but empty, and cost memory and time to clear.
 const CELLS_PER_PARTICLE: f64 = 2.0;
 /// Cells, at most: 64 MiB, half of what every device binds.
@@ -82,7 +82,7 @@ impl Grid {
     fn finest(name: &str, range: f64, of: Option<u32>, times: f64, problem: &Problem) -> Self {
         let width = range * (1.0 + SLACK);
         let make = |fine: [u32; 3]| Self::of_cells(name.to_owned(), range, of, (width, fine, times), problem);
-        let mut grids = FINE.iter().map(|fine| make(*fine)).filter(|grid| grid.fine[1] == 1 || grid.is_crowded());
+        let mut grids = FINE.iter().map(|fine| make(*fine)).filter(|grid| grid.fine[1] == 1 || grid.is_dense());
         grids.find(|grid| grid.fitted.is_empty()).unwrap_or_else(|| make([1; 3]))
     }
 
@@ -160,8 +160,8 @@ impl Grid {
     }
 
     /// Whether cells that are so much finer still hold several particles each, when these are spread evenly.
-    fn is_crowded(&self) -> bool {
-        self.occupancy > CROWD
+    fn is_dense(&self) -> bool {
+        self.occupancy > DENSE
     }
     /// How many cells there are.
     #[must_use]

@@ -111,7 +111,7 @@ impl List {
     /// # Errors
     /// When a field is missing.
     pub fn update(&self, host: &Host) -> Result<bool, Error> {
-        let (position, lives, bounds) = (host.read(POSITION)?, host.lives()?, host.world().bounds);
+        let (position, is_active, bounds) = (host.read(POSITION)?, host.is_active()?, host.world().bounds);
         let count = (host.world().count as usize).min(position.len());
         let places: Vec<DVec3> = position[..count].iter().map(|x| x.truncate()).collect();
         let mut origin = host.writing::<Vec4>(LIST_ORIGIN)?;
@@ -119,19 +119,19 @@ impl List {
         let [_, builds, longest, full] = &mut state[..] else { return Ok(false) };
         let moved = |i: usize| {
             let from = origin[i];
-            lives(i) != (from.w > 0.0) || lives(i) && self.has_moved(places[i], from.truncate(), &bounds)
+            is_active(i) != (from.w > 0.0) || is_active(i) && self.has_moved(places[i], from.truncate(), &bounds)
         };
         if *builds > 0 && !(0..count).any(moved) {
             return Ok(false);
         }
         *builds = builds.wrapping_add(1);
-        let order = Cells::sort(&self.grid, bounds, places.iter().copied(), &lives, |_| false).ids;
+        let order = Cells::sort(&self.grid, bounds, places.iter().copied(), &is_active, |_| false).ids;
         let reach = self.shape.reach();
         let around = |id: &u32| -> Vec<u32> {
             let i = *id as usize;
             let near = |j: &u32| {
                 let other = *j as usize;
-                other != i && lives(other) && bounds.within(places[other] - places[i], reach)
+                other != i && is_active(other) && bounds.within(places[other] - places[i], reach)
             };
             (0..u32::try_from(count).unwrap_or(u32::MAX)).filter(near).collect()
         };
@@ -161,7 +161,7 @@ impl List {
             if row.len() > kept {
                 *full = (!id).max(*full);
             }
-            origin[k] = places[k].extend(f64::from(u8::from(lives(k))));
+            origin[k] = places[k].extend(f64::from(u8::from(is_active(k))));
         }
         Ok(true)
     }

@@ -55,7 +55,7 @@ pub fn counting_sort(fields: &Fields, elements: u32, bins: u32, machine: &Machin
     Ok(Kernel {
         name: format!("sort {keys}"),
         passes,
-        twin: Some(twin(fields, elements, bins)),
+        reference: Some(reference(fields, elements, bins)),
         sizes: vec![
             (keys.clone(), n),
             (starts.clone(), u64::from(bins) + 1),
@@ -70,7 +70,7 @@ pub fn counting_sort(fields: &Fields, elements: u32, bins: u32, machine: &Machin
     })
 }
 
-fn twin(fields: &Fields, elements: u32, bins: u32) -> crate::kernel::Twin {
+fn reference(fields: &Fields, elements: u32, bins: u32) -> crate::kernel::Reference {
     let fields = fields.clone();
     Arc::new(move |host: &Host| {
         let keys = host.reading::<u32>(&fields.keys)?;

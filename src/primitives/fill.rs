@@ -12,14 +12,14 @@ use crate::kernel::{Host, Kernel, Name, Pass};
 /// [`Error::Limit`] when there are more than [`MOST`](super::MOST) elements.
 pub fn fill(field: &Name, elements: u32, value: u32) -> Result<Kernel, Error> {
     let name = field.clone();
-    let twin = move |host: &Host| {
+    let reference = move |host: &Host| {
         host.writing::<u32>(&name)?.iter_mut().take(elements as usize).for_each(|item| *item = value);
         Ok(())
     };
     Ok(Kernel {
         name: format!("fill {field}"),
         passes: passes(field, elements, value)?,
-        twin: Some(Arc::new(twin)),
+        reference: Some(Arc::new(reference)),
         sizes: vec![(field.clone(), u64::from(elements))],
         scratch: Vec::new(),
         tables: Vec::new(),

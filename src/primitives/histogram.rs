@@ -28,7 +28,7 @@ pub fn histogram(keys: &Name, counts: &Name, elements: u32, bins: u32, machine: 
     let mut passes = fill::passes(counts, bins + 1, 0)?;
     passes.push(count);
     let (from, to) = (keys.clone(), counts.clone());
-    let twin = move |host: &Host| {
+    let reference = move |host: &Host| {
         let keys = host.reading::<u32>(&from)?;
         let mut counts = host.writing::<u32>(&to)?;
         counts.iter_mut().take(bins as usize + 1).for_each(|count| *count = 0);
@@ -40,7 +40,7 @@ pub fn histogram(keys: &Name, counts: &Name, elements: u32, bins: u32, machine: 
     Ok(Kernel {
         name: format!("histogram {keys}"),
         passes,
-        twin: Some(Arc::new(twin)),
+        reference: Some(Arc::new(reference)),
         sizes: vec![(keys.clone(), elements.into()), (counts.clone(), u64::from(bins) + 1)],
         scratch: Vec::new(),
         tables: Vec::new(),

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use super::{bounded, pass, scan, workgroups};
 use crate::error::Error;
-use crate::kernel::{Host, Kernel, Machine, Name, Pass, Twin};
+use crate::kernel::{Host, Kernel, Machine, Name, Pass, Reference};
 
 /// Bits of a digit.
 const DIGIT: u32 = 8;
@@ -70,7 +70,7 @@ pub fn radix_sort(keys: &Name, values: &Name, elements: u32, bits: u32, machine:
     Ok(Kernel {
         name: format!("sort {keys}"),
         passes,
-        twin: Some(twin(keys, values, elements, bits)),
+        reference: Some(reference(keys, values, elements, bits)),
         sizes: vec![
             (keys.clone(), n),
             (values.clone(), n),
@@ -123,7 +123,7 @@ fn scatter(
     Ok(workgroups(pass(&sources, 1, elements, fields, extent)?, blocks))
 }
 
-fn twin(keys: &Name, values: &Name, elements: u32, bits: u32) -> Twin {
+fn reference(keys: &Name, values: &Name, elements: u32, bits: u32) -> Reference {
     let (keys, values) = (keys.clone(), values.clone());
     Arc::new(move |host: &Host| {
         let (mut keys, mut values) = (host.writing::<u32>(&keys)?, host.writing::<u32>(&values)?);

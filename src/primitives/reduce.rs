@@ -6,7 +6,7 @@ use glam::DVec4;
 
 use super::{bounded, pass, workgroups};
 use crate::error::Error;
-use crate::kernel::{Host, Kernel, Machine, Name, Source, Twin};
+use crate::kernel::{Host, Kernel, Machine, Name, Reference, Source};
 
 /// What becomes of two elements.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -91,14 +91,14 @@ pub fn reduce(
     Ok(Kernel {
         name: format!("{} {field}", operation.name()),
         passes,
-        twin: Some(twin(operation, items, field, into, elements)),
+        reference: Some(reference(operation, items, field, into, elements)),
         sizes: vec![(field.clone(), elements.into()), (into.clone(), 1), (parts.clone(), blocks.max(1).into())],
         scratch: vec![parts],
         tables: Vec::new(),
     })
 }
 
-fn twin(operation: Operation, items: Items, field: &Name, into: &Name, elements: u32) -> Twin {
+fn reference(operation: Operation, items: Items, field: &Name, into: &Name, elements: u32) -> Reference {
     let (field, into, elements) = (field.clone(), into.clone(), elements as usize);
     Arc::new(move |host: &Host| {
         match items {

@@ -26,14 +26,14 @@ const CHUNK: u32 = 1024;
 pub fn scan(field: &Name, elements: u32, machine: &Machine) -> Result<Kernel, Error> {
     let sums = scratch(field);
     let name = field.clone();
-    let twin = move |host: &Host| {
+    let reference = move |host: &Host| {
         exclusive(&mut host.writing::<u32>(&name)?, elements as usize);
         Ok(())
     };
     Ok(Kernel {
         name: format!("scan {field}"),
         passes: passes(field, &sums, elements, machine)?,
-        twin: Some(Arc::new(twin)),
+        reference: Some(Arc::new(reference)),
         sizes: vec![(field.clone(), u64::from(elements)), (sums.clone(), blocks(elements, machine))],
         scratch: vec![sums],
         tables: Vec::new(),

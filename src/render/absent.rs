@@ -15,15 +15,15 @@ use crate::kernel::{Host, Kernel, Shader};
 pub fn absent(count: u32) -> Result<Kernel, Error> {
     let shader = Shader::join(&[
         crate::shader!("world.wgsl"),
-        crate::shader!("life/living.wgsl"),
+        crate::shader!("life/active.wgsl"),
         crate::shader!("life/absent.wgsl"),
     ])?;
-    let twin = |host: &Host| {
-        let lives = host.lives()?;
+    let reference = |host: &Host| {
+        let is_active = host.is_active()?;
         let mut projected = host.write(PROJECTED)?;
-        let hidden = projected.iter_mut().enumerate().filter(|(id, _)| !lives(*id));
+        let hidden = projected.iter_mut().enumerate().filter(|(id, _)| !is_active(*id));
         hidden.for_each(|(_, p)| *p = DVec4::new(0.0, 0.0, 0.0, -1.0));
         Ok(())
     };
-    Ok(Kernel::new("absent", shader, Vec::new(), count, Arc::new(twin)))
+    Ok(Kernel::new("absent", shader, Vec::new(), count, Arc::new(reference)))
 }

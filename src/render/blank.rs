@@ -9,7 +9,7 @@ pub fn kernel(frame: &Frame) -> Result<Kernel, Error> {
     let threads = Threads::new(frame.area().max(256));
     let pass = frame.pass(&[crate::shader!("render/blank.wgsl")], threads, 1)?;
     debug_assert!(threads.count as usize >= BINS);
-    let twin = |host: &Host| {
+    let reference = |host: &Host| {
         for field in [CANVAS, STREAK, HISTOGRAM, MISSED] {
             host.write(field)?.fill(0);
         }
@@ -17,5 +17,5 @@ pub fn kernel(frame: &Frame) -> Result<Kernel, Error> {
         host.write(OWNER)?.fill(NONE);
         Ok(())
     };
-    Ok(frame.kernel("blank", vec![pass], twin))
+    Ok(frame.kernel("blank", vec![pass], reference))
 }

@@ -69,9 +69,10 @@ impl Camera {
         let stride = particles.len().div_ceil(SAMPLE).max(1);
         let mut shapes: Vec<(DVec3, f64)> =
             particles.position().iter().copied().zip(particles.size().iter().copied()).step_by(stride).collect();
-        if particles.population().living > 0 {
-            let lives = (0..particles.len()).step_by(stride).map(|id| particles.lives(id));
-            shapes = shapes.into_iter().zip(lives).filter_map(|(shape, lives)| lives.then_some(shape)).collect();
+        if particles.population().active > 0 {
+            let is_active = (0..particles.len()).step_by(stride).map(|id| particles.is_active(id));
+            shapes =
+                shapes.into_iter().zip(is_active).filter_map(|(shape, is_active)| is_active.then_some(shape)).collect();
         }
         shapes.extend(trail.points().map(|x| (x, 0.0)));
         shapes.retain(|(x, radius)| x.is_finite() && radius.is_finite());

@@ -17,7 +17,7 @@ pub fn kernel(frame: &Frame) -> Result<Kernel, Error> {
         passes.push(pass);
     }
     let frame = *frame;
-    let twin = move |host: &Host| {
+    let reference = move |host: &Host| {
         let projected = host.read(PROJECTED)?;
         let (mut front, mut owner) = (host.write(FRONT)?, host.write(OWNER)?);
         for (id, p) in projected.iter().enumerate().filter(|(_, p)| p.w > 0.0) {
@@ -34,7 +34,7 @@ pub fn kernel(frame: &Frame) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    Ok(frame.kernel("cover", passes, twin))
+    Ok(frame.kernel("cover", passes, reference))
 }
 
 /// A dispatch over all discs, in layers of so many rows.

@@ -27,7 +27,7 @@ pub fn kernel(frame: &Frame) -> Result<Kernel, Error> {
         passes.push(pass);
     }
     let frame = *frame;
-    let twin = move |host: &Host| {
+    let reference = move |host: &Host| {
         let (projected, front) = (host.read(PROJECTED)?, host.read(FRONT)?);
         let (mut crest, mut volume) = (host.write(CREST)?, host.write(VOLUME)?);
         let (mut rim, mut source) = (host.write(RIM)?, host.write(SOURCE)?);
@@ -57,7 +57,7 @@ pub fn kernel(frame: &Frame) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    Ok(frame.kernel("drops", passes, twin))
+    Ok(frame.kernel("drops", passes, reference))
 }
 
 /// The pixels that a drop touches.
@@ -83,7 +83,7 @@ fn front_at(frame: &Frame, p: DVec4, pixel: DVec2) -> (f64, u32) {
 pub fn level(frame: &Frame) -> Result<Kernel, Error> {
     let pass = frame.pass(&[crate::shader!("render/level.wgsl")], Threads::new(frame.area()), 1)?;
     let frame = *frame;
-    let twin = move |host: &Host| {
+    let reference = move |host: &Host| {
         let (crest, volume) = (host.read(CREST)?, host.read(VOLUME)?);
         let (source, color) = (host.read(SOURCE)?, host.read(COLOR)?);
         let (mut level, mut thickness, mut dye) = (host.write(LEVEL)?, host.write(THICKNESS)?, host.write(DYE)?);
@@ -95,7 +95,7 @@ pub fn level(frame: &Frame) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    Ok(frame.kernel("level", vec![pass], twin))
+    Ok(frame.kernel("level", vec![pass], reference))
 }
 
 /// The depth of a key.

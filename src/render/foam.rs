@@ -10,7 +10,7 @@ use crate::kernel::{Host, Kernel, Threads, VELOCITY};
 pub fn kernel(frame: &Frame) -> Result<Kernel, Error> {
     let pass = frame.pass(&[crate::shader!("render/foam.wgsl")], Threads::new(frame.count), 1)?;
     let full = frame.water.foam;
-    let twin = move |host: &Host| {
+    let reference = move |host: &Host| {
         let velocity = host.read(VELOCITY)?;
         host.write(COLOR)?.par_iter_mut().zip(&velocity[..]).for_each(|(color, v)| {
             let speed = v.truncate().length();
@@ -19,5 +19,5 @@ pub fn kernel(frame: &Frame) -> Result<Kernel, Error> {
         });
         Ok(())
     };
-    Ok(frame.kernel("foam", vec![pass], twin))
+    Ok(frame.kernel("foam", vec![pass], reference))
 }

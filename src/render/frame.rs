@@ -233,13 +233,13 @@ impl Frame {
         &self,
         name: &str,
         passes: Vec<Pass>,
-        twin: impl Fn(&Host) -> Result<(), Error> + Send + Sync + 'static,
+        reference: impl Fn(&Host) -> Result<(), Error> + Send + Sync + 'static,
     ) -> Kernel {
         let sizes = self.sizes().into_iter().map(|(name, elements)| (name.into(), elements)).collect();
         Kernel {
             name: name.to_owned(),
             passes,
-            twin: Some(Arc::new(twin)),
+            reference: Some(Arc::new(reference)),
             sizes,
             scratch: Vec::new(),
             tables: Vec::new(),

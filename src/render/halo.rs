@@ -20,7 +20,7 @@ pub fn kernel(frame: &Frame, exposure: Exposure) -> Result<Kernel, Error> {
     let mut down = across.clone();
     down.constants = vec![("DOWN", 1.0)];
     let frame = *frame;
-    let twin = move |host: &Host| {
+    let reference = move |host: &Host| {
         let small = Look::at(host, &frame, exposure, |look| shrunk(&frame, look))?;
         let spread = blur(&small, frame.reach, columns as usize, 1, |at| at % columns as usize);
         let both = blur(&spread, frame.reach, rows as usize, columns as usize, |at| at / columns as usize);
@@ -29,7 +29,7 @@ pub fn kernel(frame: &Frame, exposure: Exposure) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    let kernel = frame.kernel("halo", vec![shrink, across, down], twin);
+    let kernel = frame.kernel("halo", vec![shrink, across, down], reference);
     Ok(Kernel { scratch: vec![SPREAD.name.into()], ..kernel })
 }
 

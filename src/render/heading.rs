@@ -16,12 +16,12 @@ const SLOWEST: f64 = 1e-30;
 /// The kernel.
 pub fn kernel(frame: &Frame) -> Result<Kernel, Error> {
     let pass = frame.pass(&[crate::shader!("render/heading.wgsl")], Threads::new(frame.count), 4)?;
-    let twin = |host: &Host| {
+    let reference = |host: &Host| {
         let velocity = host.read(VELOCITY)?;
         host.write(COLOR)?.par_iter_mut().zip(&velocity[..]).for_each(|(color, v)| *color = rounded(tint(*v)));
         Ok(())
     };
-    Ok(frame.kernel("heading", vec![pass], twin))
+    Ok(frame.kernel("heading", vec![pass], reference))
 }
 
 /// The colour of a velocity, in sRGB.

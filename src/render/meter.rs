@@ -7,7 +7,7 @@ use crate::kernel::{Host, Kernel, Threads};
 /// The kernel.
 pub fn kernel(frame: &Frame) -> Result<Kernel, Error> {
     let pass = frame.pass(&[crate::shader!("render/meter.wgsl")], Threads::new(frame.area()), 1)?;
-    let twin = |host: &Host| {
+    let reference = |host: &Host| {
         let canvas = host.read(CANVAS)?;
         let mut histogram = host.write(HISTOGRAM)?;
         for light in canvas.chunks_exact(3).map(|rgb| rgb[0].max(rgb[1]).max(rgb[2])).filter(|light| *light > 0) {
@@ -15,7 +15,7 @@ pub fn kernel(frame: &Frame) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    Ok(frame.kernel("meter", vec![pass], twin))
+    Ok(frame.kernel("meter", vec![pass], reference))
 }
 
 /// Eight bins for each doubling.

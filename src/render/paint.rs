@@ -12,7 +12,7 @@ use crate::kernel::{Host, Kernel, Threads, VELOCITY};
 pub fn kernel(frame: &Frame) -> Result<Kernel, Error> {
     let pass = frame.pass(&[crate::shader!("render/paint.wgsl")], Threads::new(frame.count), 1)?;
     let (slow, fast) = frame.speeds;
-    let twin = move |host: &Host| {
+    let reference = move |host: &Host| {
         let velocity = host.read(VELOCITY)?;
         host.write(COLOR)?.par_iter_mut().zip(&velocity[..]).for_each(|(color, v)| {
             let part = ((v.truncate().length() - slow) / (fast - slow)).clamp(0.0, 1.0);
@@ -20,7 +20,7 @@ pub fn kernel(frame: &Frame) -> Result<Kernel, Error> {
         });
         Ok(())
     };
-    Ok(frame.kernel("paint", vec![pass], twin))
+    Ok(frame.kernel("paint", vec![pass], reference))
 }
 
 /// The nearest of all colours of three bytes.

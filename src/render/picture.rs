@@ -33,7 +33,7 @@ pub struct Picture {
     pub exposure: f64,
     facets: Facets,
     /// Whether some may not be active, which are not drawn.
-    mortal: bool,
+    has_inactive: bool,
 }
 
 /// Pixels from side to side, at most: one invocation draws a whole line.
@@ -152,7 +152,7 @@ impl Picture {
             trail,
             exposure: settings.number("exposure"),
             facets,
-            mortal: !particles.life().is_empty(),
+            has_inactive: !particles.life().is_empty(),
         })
     }
     /// The same picture with other trails.
@@ -178,7 +178,7 @@ impl Picture {
         let mut plan = Plan::default();
         plan.add(blank::kernel(&self.frame)?);
         plan.add(project::kernel(&self.frame)?);
-        if self.mortal {
+        if self.has_inactive {
             plan.add(absent(self.frame.count)?);
         }
         match self.color {

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use super::Image;
 use crate::error::Error;
-use crate::io::atomically;
+use crate::formats::atomically;
 
 impl Image {
     /// Writes a PNG. The file is there whole or not at all.

@@ -15,7 +15,7 @@ const LIGHTEST: f64 = 0.5;
 pub fn kernel(frame: &Frame) -> Result<Kernel, Error> {
     let pass = frame.pass(&[crate::shader!("render/project.wgsl")], Threads::new(frame.count), 1)?;
     let frame = *frame;
-    let twin = move |host: &Host| {
+    let reference = move |host: &Host| {
         let (position, velocity) = (host.read(POSITION)?, host.read(VELOCITY)?);
         let mut projected = host.write(PROJECTED)?;
         let mut missed = host.write(MISSED)?;
@@ -30,7 +30,7 @@ pub fn kernel(frame: &Frame) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    Ok(frame.kernel("project", vec![pass], twin))
+    Ok(frame.kernel("project", vec![pass], reference))
 }
 
 fn project(frame: &Frame, x: DVec4, v: DVec4) -> DVec4 {

@@ -73,7 +73,7 @@ pub fn kernel(name: &str, frame: &Frame, facets: &Facets, fields: Fields) -> Res
         passes.extend(sweep(frame, crate::shader!("render/facet_claim.wgsl"), fields)?);
     }
     let on = *frame;
-    let twin = move |host: &Host| {
+    let reference = move |host: &Host| {
         let mut nearest = host.write(fields.nearest)?;
         nearest.fill(NONE);
         let mut holder = fields.holder.map(|holder| host.write(holder)).transpose()?;
@@ -103,7 +103,7 @@ pub fn kernel(name: &str, frame: &Frame, facets: &Facets, fields: Fields) -> Res
         }
         Ok(())
     };
-    Ok(facets.bind(frame.kernel(name, passes, twin), frame))
+    Ok(facets.bind(frame.kernel(name, passes, reference), frame))
 }
 
 /// A dispatch over triangles and one over lines, in as many layers as the largest that there may be needs.

@@ -33,7 +33,7 @@ pub fn kernel(frame: &Frame) -> Result<Kernel, Error> {
     down.constants = vec![("DOWN", 1.0)];
     let passes = (0..ROUNDS).flat_map(|_| [across.clone(), down.clone()]).collect();
     let frame = *frame;
-    let twin = move |host: &Host| {
+    let reference = move |host: &Host| {
         let (mut level, mut thickness, mut dye) = (host.write(LEVEL)?, host.write(THICKNESS)?, host.write(DYE)?);
         let mut surface = Surface { level: level.to_vec(), thickness: thickness.to_vec(), dye: dye.to_vec() };
         for _ in 0..ROUNDS {
@@ -46,7 +46,7 @@ pub fn kernel(frame: &Frame) -> Result<Kernel, Error> {
         dye.copy_from_slice(&surface.dye);
         Ok(())
     };
-    let kernel = frame.kernel("settle", passes, twin);
+    let kernel = frame.kernel("settle", passes, reference);
     let scratch = vec![NEXT_LEVEL.name.into(), NEXT_THICKNESS.name.into(), NEXT_DYE.name.into()];
     Ok(Kernel { scratch, ..kernel })
 }

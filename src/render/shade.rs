@@ -31,7 +31,7 @@ pub fn kernel(frame: &Frame, facets: &Facets) -> Result<Kernel, Error> {
     let each = u64::from(frame.fine * frame.fine) * u64::from(8 + 4 * frame.solids);
     let pass = frame.pass(&files, Threads::new(frame.area()), each)?;
     let on = *frame;
-    let twin = move |host: &Host| {
+    let reference = move |host: &Host| {
         let (facet, vertex, color) = (host.read(FACET)?, host.read(VERTEX)?, host.read(COLOR)?);
         let (holder, lit, solid) = (host.read(HOLDER)?, host.read(LIT)?, host.read(SOLID)?);
         let bodies: Vec<Body> = Body::all(&solid).into_iter().take(on.solids as usize).collect();
@@ -50,7 +50,7 @@ pub fn kernel(frame: &Frame, facets: &Facets) -> Result<Kernel, Error> {
         });
         Ok(())
     };
-    Ok(facets.bind(frame.kernel("shade", vec![pass], twin), frame))
+    Ok(facets.bind(frame.kernel("shade", vec![pass], reference), frame))
 }
 
 struct Stage<'a> {

@@ -9,7 +9,7 @@ pub fn kernel(frame: &Frame) -> Result<Kernel, Error> {
     let across = u64::from(whole(2.0 * frame.glow)) + 2;
     let pass = frame.pass(&[crate::shader!("render/splat.wgsl")], Threads::new(frame.count), across * across)?;
     let frame = *frame;
-    let twin = move |host: &Host| {
+    let reference = move |host: &Host| {
         let (projected, color, front) = (host.read(PROJECTED)?, host.read(COLOR)?, host.read(FRONT)?);
         let mut canvas = host.write(CANVAS)?;
         for (p, color) in projected.iter().zip(color.iter()).filter(|(p, _)| p.w == 0.0) {
@@ -28,5 +28,5 @@ pub fn kernel(frame: &Frame) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    Ok(frame.kernel("splat", vec![pass], twin))
+    Ok(frame.kernel("splat", vec![pass], reference))
 }

@@ -12,7 +12,7 @@ pub fn kernel(frame: &Frame) -> Result<Kernel, Error> {
     let mut pass = frame.pass(&[crate::shader!("render/streak.wgsl")], Threads::new(frame.points), 256)?;
     pass.threads.layers = frame.width.max(frame.height).div_ceil(pass.shader.reflection().constant("WALK"));
     let frame = *frame;
-    let twin = move |host: &Host| {
+    let reference = move |host: &Host| {
         let (position, trail, front) = (host.read(POSITION)?, host.read(TRAIL)?, host.read(FRONT)?);
         let mut streak = host.write(STREAK)?;
         let count = frame.count as usize;
@@ -33,7 +33,7 @@ pub fn kernel(frame: &Frame) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    Ok(frame.kernel("streak", vec![pass], twin))
+    Ok(frame.kernel("streak", vec![pass], reference))
 }
 
 /// Every pixel that a line may touch. The device walks along the line instead, and finds the same pixels.

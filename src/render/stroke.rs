@@ -20,7 +20,7 @@ pub fn kernel(frame: &Frame) -> Result<Kernel, Error> {
     let mut pass = frame.pass(&[crate::shader!("render/stroke.wgsl")], threads, u64::from(across * across))?;
     pass.constants = vec![("WALK", f64::from(walk))];
     let frame = *frame;
-    let twin = move |host: &Host| {
+    let reference = move |host: &Host| {
         let (position, velocity) = (host.read(POSITION)?, host.read(VELOCITY)?);
         let (color, front) = (host.read(COLOR)?, host.read(FRONT)?);
         let mut canvas = host.write(CANVAS)?;
@@ -41,7 +41,7 @@ pub fn kernel(frame: &Frame) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    Ok(frame.kernel("stroke", vec![pass], twin))
+    Ok(frame.kernel("stroke", vec![pass], reference))
 }
 
 /// Every pixel that a stroke may touch, with its depth and brightness. The device walks along the stroke instead, and

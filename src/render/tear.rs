@@ -9,7 +9,7 @@ use crate::links::{Half, WORDS};
 /// The kernel.
 pub fn kernel(frame: &Frame, facets: &Facets) -> Result<Kernel, Error> {
     let pass = frame.pass(&[crate::shader!("render/tear.wgsl")], Threads::new(frame.facets), 3)?;
-    let twin = |host: &Host| {
+    let reference = |host: &Host| {
         let (slot, link) = (host.read(SLOT)?, host.reading::<u32>(LINK)?);
         let broken = |slot: &u32| {
             let at = *slot as usize * WORDS;
@@ -20,5 +20,5 @@ pub fn kernel(frame: &Frame, facets: &Facets) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    Ok(facets.bind(frame.kernel("tear", vec![pass], twin), frame))
+    Ok(facets.bind(frame.kernel("tear", vec![pass], reference), frame))
 }

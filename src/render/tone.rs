@@ -22,7 +22,7 @@ pub fn kernel(frame: &Frame, exposure: Exposure) -> Result<Kernel, Error> {
         pass = pass.on(&[("scenery", WET.name.into())]);
     }
     let frame = *frame;
-    let twin = move |host: &Host| {
+    let reference = move |host: &Host| {
         let (halo, scenery, mut pixels) =
             (host.read(HALO)?, host.read(if frame.water.is_there() { WET } else { SCENERY })?, host.write(PIXELS)?);
         let (halo, scenery, pixels): (&[_], &[u32], &mut [_]) = (&halo, &scenery, &mut pixels);
@@ -38,7 +38,7 @@ pub fn kernel(frame: &Frame, exposure: Exposure) -> Result<Kernel, Error> {
             });
         })
     };
-    Ok(frame.kernel("tone", vec![pass], twin))
+    Ok(frame.kernel("tone", vec![pass], reference))
 }
 
 /// A number in [0, 1).

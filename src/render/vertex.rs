@@ -13,7 +13,7 @@ pub fn kernel(name: &str, frame: &Frame, facets: &Facets, to: Field<Vec4>) -> Re
     let files = [crate::shader!("render/flat.wgsl"), crate::shader!("render/vertex.wgsl")];
     let pass = frame.pass(&files, Threads::new(frame.count), 8)?.on(&[("vertex", to.name.into())]);
     let frame_of = *frame;
-    let twin = move |host: &Host| {
+    let reference = move |host: &Host| {
         let (position, facet, torn) = (host.read(POSITION)?, host.read(FACET)?, host.read(TORN)?);
         let (start, around) = (host.read(AROUND_START)?, host.read(AROUND)?);
         let (position, facet, torn): (&[DVec4], &[u32], &[u32]) = (&position, &facet, &torn);
@@ -36,7 +36,7 @@ pub fn kernel(name: &str, frame: &Frame, facets: &Facets, to: Field<Vec4>) -> Re
         });
         Ok(())
     };
-    Ok(facets.bind(frame.kernel(name, vec![pass], twin), frame))
+    Ok(facets.bind(frame.kernel(name, vec![pass], reference), frame))
 }
 
 /// Twice the area of a triangle along its normal, or the way along a line.

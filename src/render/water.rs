@@ -89,7 +89,7 @@ pub fn kernel(frame: &Frame, facets: &Facets) -> Result<Kernel, Error> {
     ];
     let pass = frame.pass(&files, Threads::new(frame.area()), 16 + 2 * u64::from(frame.water.edges))?;
     let on = *frame;
-    let twin = move |host: &Host| {
+    let reference = move |host: &Host| {
         let (front, scenery, rim) = (host.read(FRONT)?, host.read(SCENERY)?, host.read(RIM)?);
         let (level, thickness, dye) = (host.read(LEVEL)?, host.read(THICKNESS)?, host.read(DYE)?);
         let edge = host.read(EDGE)?;
@@ -119,7 +119,7 @@ pub fn kernel(frame: &Frame, facets: &Facets) -> Result<Kernel, Error> {
         });
         Ok(())
     };
-    Ok(facets.bind(frame.kernel("water", vec![pass], twin), frame))
+    Ok(facets.bind(frame.kernel("water", vec![pass], reference), frame))
 }
 
 /// What is looked at.

@@ -21,7 +21,7 @@ fn about(axis: DVec3, angle: f64, (q, momentum): (DQuat, DVec3)) -> (DQuat, DVec
 /// When a shader does not compile.
 pub fn drift(body: &Body, factor: f64, problem: &Problem) -> Result<Kernel, Error> {
     let (names, all) = (body.clone(), problem.clone());
-    let twin = move |host: &Host| {
+    let reference = move |host: &Host| {
         let (moving, dt) = (moving(&all, host)?, factor * host.world().dt);
         let inertia = host.reading::<Vec4>(&names.inertia)?;
         let mut orientation = host.writing::<Vec4>(&names.orientation)?;
@@ -43,5 +43,5 @@ pub fn drift(body: &Body, factor: f64, problem: &Problem) -> Result<Kernel, Erro
         }
         Ok(())
     };
-    kernel("drift", body, crate::shader!("rotation/drift.wgsl"), Some(factor), problem, Arc::new(twin))
+    kernel("drift", body, crate::shader!("rotation/drift.wgsl"), Some(factor), problem, Arc::new(reference))
 }

@@ -14,7 +14,7 @@ use crate::kernel::{Host, Kernel, Problem};
 /// When a shader does not compile.
 pub fn kick(body: &Body, factor: f64, problem: &Problem) -> Result<Kernel, Error> {
     let (names, all) = (body.clone(), problem.clone());
-    let twin = move |host: &Host| {
+    let reference = move |host: &Host| {
         let (moving, dt) = (moving(&all, host)?, factor * host.world().dt);
         let (inertia, torque) = (host.reading::<Vec4>(&names.inertia)?, host.reading::<Vec4>(&names.torque)?);
         let orientation = host.reading::<Vec4>(&names.orientation)?;
@@ -26,5 +26,5 @@ pub fn kick(body: &Body, factor: f64, problem: &Problem) -> Result<Kernel, Error
         }
         Ok(())
     };
-    kernel("kick", body, crate::shader!("rotation/kick.wgsl"), Some(factor), problem, Arc::new(twin))
+    kernel("kick", body, crate::shader!("rotation/kick.wgsl"), Some(factor), problem, Arc::new(reference))
 }

@@ -24,7 +24,7 @@ use std::sync::Arc;
 use glam::{DQuat, DVec3, DVec4};
 
 use crate::error::Error;
-use crate::kernel::{Column, Host, Kernel, Kind, Name, Pass, Problem, Shader, Source, Twin};
+use crate::kernel::{Column, Host, Kernel, Kind, Name, Pass, Problem, Reference, Shader, Source};
 
 /// The columns of rigid bodies, for a component to declare.
 #[must_use]
@@ -83,13 +83,13 @@ fn kernel(
     file: Source,
     factor: Option<f64>,
     problem: &Problem,
-    twin: Twin,
+    reference: Reference,
 ) -> Result<Kernel, Error> {
     let (holding, tables) = problem.holding();
     let shader = Shader::join(&[
         crate::shader!("world.wgsl"),
         holding,
-        problem.living(),
+        problem.active(),
         crate::shader!("motion/turned.wgsl"),
         crate::shader!("rotation/quaternion.wgsl"),
         crate::shader!("rotation/body.wgsl"),
@@ -111,7 +111,7 @@ fn kernel(
     Ok(Kernel {
         name: format!("{verb} {}{}", body.orientation, shown.unwrap_or_default()),
         passes: vec![pass],
-        twin: Some(twin),
+        reference: Some(reference),
         sizes: Vec::new(),
         scratch: Vec::new(),
         tables,
@@ -120,6 +120,6 @@ fn kernel(
 
 /// The reference of a kernel that changes free and active bodies alone.
 fn moving(problem: &Problem, host: &Host) -> Result<impl Fn(&usize) -> bool + use<>, Error> {
-    let (lives, mask): (_, Arc<Vec<u32>>) = (host.lives()?, problem.mask.clone());
-    Ok(move |id: &usize| lives(*id) && mask.get(*id).is_none_or(|word| *word == 0))
+    let (is_active, mask): (_, Arc<Vec<u32>>) = (host.is_active()?, problem.mask.clone());
+    Ok(move |id: &usize| is_active(*id) && mask.get(*id).is_none_or(|word| *word == 0))
 }

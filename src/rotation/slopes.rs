@@ -27,7 +27,7 @@ impl Body {
 /// When a shader does not compile.
 pub fn slopes(body: &Body, problem: &Problem) -> Result<Kernel, Error> {
     let names = body.clone();
-    let twin = move |host: &Host| {
+    let reference = move |host: &Host| {
         let (inertia, torque) = (host.reading::<Vec4>(&names.inertia)?, host.reading::<Vec4>(&names.torque)?);
         let (orientation, spin) =
             (host.reading::<Vec4>(&names.orientation)?, host.reading::<Vec4>(&names.angular_velocity)?);
@@ -43,7 +43,7 @@ pub fn slopes(body: &Body, problem: &Problem) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    let slopes = kernel("slopes", body, crate::shader!("rotation/slopes.wgsl"), None, problem, Arc::new(twin))?;
+    let slopes = kernel("slopes", body, crate::shader!("rotation/slopes.wgsl"), None, problem, Arc::new(reference))?;
     // They are made anew each time, whatever they were.
     let count = u64::from(problem.count);
     Ok(Kernel { sizes: vec![(body.rate(), count), (body.acceleration(), count)], ..slopes })
@@ -55,7 +55,7 @@ pub fn slopes(body: &Body, problem: &Problem) -> Result<Kernel, Error> {
 /// When a shader does not compile.
 pub fn unit(body: &Body, problem: &Problem) -> Result<Kernel, Error> {
     let (names, all) = (body.clone(), problem.clone());
-    let twin = move |host: &Host| {
+    let reference = move |host: &Host| {
         let moving = moving(&all, host)?;
         let mut orientation = host.writing::<Vec4>(&names.orientation)?;
         for i in (0..orientation.len()).filter(moving) {
@@ -63,5 +63,5 @@ pub fn unit(body: &Body, problem: &Problem) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    kernel("unit", body, crate::shader!("rotation/unit.wgsl"), None, problem, Arc::new(twin))
+    kernel("unit", body, crate::shader!("rotation/unit.wgsl"), None, problem, Arc::new(reference))
 }

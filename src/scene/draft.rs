@@ -1,7 +1,7 @@
 //! What is known of a scene before its particles are made: how much there will be, and faults that need none.
 
-use crate::particles::Amount;
 use crate::render;
+use crate::shapes::Amount;
 
 use super::files::Files;
 use super::report::{Fault, Report};

@@ -3,8 +3,8 @@
 use crate::error::Error;
 use crate::kernel::Columns;
 use crate::life::Birth;
-use crate::particles::emitter;
 use crate::settings::{Key, Kind, Settings, Value};
+use crate::shapes::emitter;
 use crate::state::State;
 
 use super::color;
@@ -20,7 +20,7 @@ pub(super) const OWN: &[&str] = &["color", "species", "first"];
 const SPECIES: Key = Key::new("species", Kind::Whole, Value::Number(0.0), "of which kind its particles are");
 
 /// What a scene may say of an emitter.
-pub use crate::particles::emitter::KEYS as EMITTER_KEYS;
+pub use crate::shapes::emitter::KEYS as EMITTER_KEYS;
 
 /// One entry, read: how many particles, and their colour.
 pub(super) struct Emitted {

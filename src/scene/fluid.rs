@@ -3,8 +3,8 @@
 use crate::error::Error;
 use crate::forces::{self, Component, Problem};
 use crate::kernel::{Bounds, Machine};
-use crate::particles::SHAPES;
 use crate::settings::{Key, Value};
+use crate::shapes::SHAPES;
 use crate::state::State;
 
 use super::emitter::EMITTER_KEYS;

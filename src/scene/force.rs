@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::forces::{self, Component, Custom, FORCES, Over};
+use crate::forces::{self, Component, Custom, Over};
 use crate::kernel::Scalar;
 use crate::motion::Motion;
 use crate::settings::{Kind, Settings, Value};
@@ -31,9 +31,9 @@ pub(super) fn read(table: &Table<'_>, (files, motions): (&Files, &[Motion]), rep
     if entry.key == "wgsl" {
         return read_own(&table.named(format!("{} wgsl", table.name)), entry, files, report);
     }
-    let names: Vec<_> = FORCES.iter().map(|f| f.name).collect();
+    let names: Vec<_> = forces::entries().map(|f| f.name).collect();
     let name = walk::choice(entry, "force", &names, report)?;
-    let force = FORCES.iter().find(|f| f.name == name)?;
+    let force = forces::entries().find(|f| f.name == name)?;
     let table = table.named(format!("{} {name}", table.name));
     let settings = table.settings(force.keys, &["kind"], report);
     if !settings.text("motion").is_empty() {
@@ -274,7 +274,7 @@ impl Chosen {
 }
 
 /// Refuses adaptive steps that no force limits, or that one does not bear.
-pub(super) fn paced(forces: &[Box<dyn Component>], place: &Place, report: &mut Report) {
+pub(super) fn adapted(forces: &[Box<dyn Component>], place: &Place, report: &mut Report) {
     if let Some(why) = forces.iter().find_map(|force| force.properties().fixed_step) {
         report.push(Fault::at(place, "steps cannot be adaptive").label(format!("{why}: leave this out")));
     }

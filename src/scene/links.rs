@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use glam::DVec3;
 
-use crate::io::links::{self, Tie, Usual};
+use crate::formats::links::{self, Tie, Usual};
 use crate::kernel::Bounds;
 use crate::links::Links;
 use crate::settings::{Key, Kind, Settings, Value};

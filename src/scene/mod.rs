@@ -45,7 +45,7 @@ use std::path::{Path, PathBuf};
 
 use crate::forces::Component;
 use crate::integrators;
-use crate::kernel::{Bounds, Pace, Solver};
+use crate::kernel::{AdaptiveStep, Bounds, Solver};
 use crate::render;
 use crate::settings::Settings;
 use crate::state::State;
@@ -76,7 +76,7 @@ pub struct Scene {
     /// When it ends \[time\].
     pub until: f64,
     /// How long steps are, where they are adaptive.
-    pub pace: Option<Pace>,
+    pub adaptive_step: Option<AdaptiveStep>,
     /// What makes a step.
     pub integrator: &'static integrators::Entry,
     /// What the scene says to the integrator.
@@ -271,8 +271,8 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
     {
         report.push(Fault::at(first.place, why.to_string()));
     }
-    if let Some((_, place)) = &simulation.pace {
-        force::paced(&forces, place, report);
+    if let Some((_, place)) = &simulation.adaptive_step {
+        force::adapted(&forces, place, report);
     }
     particles.motions = motions;
     let output = output::read(one("output"), simulation.steps, &columns, report);
@@ -290,7 +290,7 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
         dt: simulation.dt,
         steps: simulation.steps,
         until: simulation.until,
-        pace: simulation.pace.map(|(pace, _)| pace),
+        adaptive_step: simulation.adaptive_step.map(|(adaptive_step, _)| adaptive_step),
         integrator: simulation.integrator,
         integrator_settings: simulation.integrator_settings,
         solver,

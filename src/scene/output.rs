@@ -1,6 +1,6 @@
 //! `[output]`: how often the run is written down, and in which formats.
 
-use crate::io::{FORMATS, Format};
+use crate::formats::{FORMATS, Format};
 use crate::kernel::Columns;
 use crate::settings::{Key, Kind};
 

@@ -5,11 +5,11 @@ use std::fmt::Write;
 use glam::DVec3;
 
 use crate::error::Error;
-use crate::io;
+use crate::formats;
 use crate::kernel::{Column, Columns};
 use crate::motion::{Held, Hold, Motion};
-use crate::particles::{Amount, SHAPES, Shape};
 use crate::settings::{Key, Kind, Settings, Value};
+use crate::shapes::{Amount, SHAPES, Shape};
 use crate::state::State;
 
 use super::color;
@@ -136,7 +136,7 @@ fn from_file(
     let name = value::text(&entry.node, "file", "the name of a file", report)?;
     let place = &entry.node.place;
     let located = files.locate("file", name, place).and_then(|located| match &located {
-        Located::Disk { path, name } => match io::read(path, known) {
+        Located::Disk { path, name } => match formats::read(path, known) {
             Ok(particles) => Ok((particles, name.clone())),
             Err(why) => Err(Fault::at(place, why.to_string()).in_input()),
         },

@@ -1,11 +1,11 @@
 //! The sections of a scene and their keys, as data. A later section adds its line here, its file beside this one and
 //! its field in [`Scene`](super::Scene).
 
-use crate::forces::FORCES;
+use crate::forces;
 use crate::integrators::INTEGRATORS;
-use crate::particles::SHAPES;
 use crate::render;
 use crate::settings::Key;
+use crate::shapes::SHAPES;
 
 use super::own::{self, Own};
 use super::{bounds, column, drain, emitter, links, motion, particles, simulation, solver};
@@ -73,7 +73,7 @@ pub const SECTIONS: &[Section] = &[
     Section {
         about: "what moves particles: a force by its kind, or a law of your own",
         own: own::FORCE,
-        kinds: || FORCES.iter().map(|f| f.keys).collect(),
+        kinds: || forces::entries().map(|f| f.keys).collect(),
         ..Section::new("force", true, &[])
     },
     Section {

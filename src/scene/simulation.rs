@@ -1,7 +1,7 @@
 //! `[simulation]`: the step, how many of them, and by which integrator.
 
 use crate::integrators::{self, INTEGRATORS, Integrator};
-use crate::kernel::Pace;
+use crate::kernel::AdaptiveStep;
 use crate::settings::{Key, Kind, Settings, Value};
 
 use super::report::{Fault, Place, Report};
@@ -44,7 +44,7 @@ pub(super) struct Simulation {
     pub(super) integrator: &'static integrators::Entry,
     pub(super) integrator_settings: Settings,
     /// How long steps are, where they are adaptive, and where the scene says so.
-    pub(super) pace: Option<(Pace, Place)>,
+    pub(super) adaptive_step: Option<(AdaptiveStep, Place)>,
     /// When it ends.
     pub(super) until: f64,
     /// What the user may want to know.
@@ -54,8 +54,15 @@ pub(super) struct Simulation {
 pub(super) fn read(table: Option<&Table<'_>>, report: &mut Report) -> Simulation {
     let integrator = INTEGRATORS.iter().find(|i| i.name == "leapfrog").unwrap_or(&INTEGRATORS[0]);
     let integrator_settings = Settings::defaults(integrator.keys);
-    let mut simulation =
-        Simulation { dt: 1.0, steps: 1, integrator, integrator_settings, pace: None, until: 1.0, remark: None };
+    let mut simulation = Simulation {
+        dt: 1.0,
+        steps: 1,
+        integrator,
+        integrator_settings,
+        adaptive_step: None,
+        until: 1.0,
+        remark: None,
+    };
     let Some(table) = table else {
         let fault = Fault::missing(&Place::end(), "the section [simulation] is missing");
         report.push(fault.note("help: add\n\n         [simulation]\n         dt = 0.001\n         steps = 1000"));
@@ -102,8 +109,8 @@ pub(super) fn read(table: Option<&Table<'_>>, report: &mut Report) -> Simulation
             }
         }
     }
-    simulation.pace = pace(table, &settings, &simulation, report);
-    if simulation.pace.is_some() {
+    simulation.adaptive_step = adaptive_step(table, &settings, &simulation, report);
+    if simulation.adaptive_step.is_some() {
         let lost = ["symplectic_euler", "leapfrog", "forest_ruth", "pefrl"].contains(&simulation.integrator.name);
         simulation.remark = lost.then(|| {
             format!(
@@ -116,7 +123,12 @@ pub(super) fn read(table: Option<&Table<'_>>, report: &mut Report) -> Simulation
 }
 
 /// How long steps are, if they are adaptive.
-fn pace(table: &Table<'_>, settings: &Settings, of: &Simulation, report: &mut Report) -> Option<(Pace, Place)> {
+fn adaptive_step(
+    table: &Table<'_>,
+    settings: &Settings,
+    of: &Simulation,
+    report: &mut Report,
+) -> Option<(AdaptiveStep, Place)> {
     let entry = table.get("adaptive").filter(|_| settings.flag("adaptive"));
     let Some(entry) = entry else {
         for entry in ADAPTIVE.iter().filter_map(|key| table.get(key)) {
@@ -127,19 +139,19 @@ fn pace(table: &Table<'_>, settings: &Settings, of: &Simulation, report: &mut Re
         return None;
     };
     let some = |key| Some(settings.number(key)).filter(|x| *x > 0.0);
-    let pace = Pace {
+    let adaptive_step = AdaptiveStep {
         least: some("dt_min").unwrap_or(of.dt / 1000.0),
         courant: settings.number("cfl"),
         before: some("dt_before"),
     };
-    if let Err(error) = pace.check(of.dt) {
+    if let Err(error) = adaptive_step.check(of.dt) {
         report.push(Fault::at(&entry.place, "steps cannot be adaptive like that").label(error.to_string()));
     }
     if let Some(why) = of.made().fixed_step() {
         let fault = format!("steps cannot be adaptive: {why}");
         report.push(Fault::at(&entry.place, fault).label("choose integrator = \"leapfrog\", or leave this out"));
     }
-    Some((pace, entry.place.clone()))
+    Some((adaptive_step, entry.place.clone()))
 }
 
 /// The steps that reach `until`: the quotient, with its rounding forgiven, and the next whole number when it is none.
@@ -167,13 +179,13 @@ impl Simulation {
     pub(super) fn write(&self, out: &mut Writer) {
         out.header("[simulation]");
         out.number("dt", self.dt);
-        match &self.pace {
-            Some((pace, _)) => {
+        match &self.adaptive_step {
+            Some((adaptive_step, _)) => {
                 out.number("until", self.until);
                 out.line("adaptive", "true");
-                out.number("dt_min", pace.least);
-                pace.before.into_iter().for_each(|before| out.number("dt_before", before));
-                out.number("cfl", pace.courant);
+                out.number("dt_min", adaptive_step.least);
+                adaptive_step.before.into_iter().for_each(|before| out.number("dt_before", before));
+                out.number("cfl", adaptive_step.courant);
             }
             None => out.line("steps", &self.steps.to_string()),
         }

@@ -32,7 +32,7 @@ impl<B: Backend> Simulation<B> {
     ///
     /// # Errors
     /// [`Error::NotFinite`] with the first particle and step, [`Error::Runaway`] with one that is too fast and the step,
-    /// [`Error::Crowded`], [`Error::CutShort`], [`Error::Endless`], [`Error::TooShort`], or what reading says.
+    /// [`Error::TooManyNeighbors`], [`Error::CutShort`], [`Error::Endless`], [`Error::TooShort`], or what reading says.
     pub async fn check(&mut self) -> Result<(), Error> {
         let alarm = self.alarm().await?;
         let [done, .., fast, particle] = [alarm[0], alarm[1], alarm[3], alarm[4]];
@@ -46,7 +46,7 @@ impl<B: Backend> Simulation<B> {
             return Err(Error::Runaway { particle, step: u64::from(fast.saturating_sub(1)) });
         }
         self.sound(&alarm)?;
-        self.on_pace().await
+        self.on_step_clock().await
     }
     pub(super) async fn alarm(&mut self) -> Result<[u32; ALARM_WORDS], Error> {
         let alarm = self.backend.read(ALARM.name, &Array::Uint(Vec::new()), ALARM_WORDS).await?;
@@ -68,6 +68,6 @@ impl<B: Backend> Simulation<B> {
             // The first look comes before the first step, every other one after a step that is done.
             return Err(Error::NotFinite { particle, step: u64::from(done.saturating_sub(1)) });
         }
-        if crowded == u32::MAX { Ok(()) } else { Err(Error::Crowded { particle: crowded }) }
+        if crowded == u32::MAX { Ok(()) } else { Err(Error::TooManyNeighbors { particle: crowded }) }
     }
 }

@@ -96,10 +96,10 @@ fn started(setup: &Setup, buffer: &str, elements: &mut [DVec4], goes_on: bool) {
     if buffer == POSITION.name {
         elements.iter_mut().for_each(|x| *x = inside(*x));
         // Particles that are not active have no mass, and no velocity.
-        elements.iter_mut().enumerate().filter(|(id, _)| !state.lives(*id)).for_each(|(_, x)| x.w = 0.0);
+        elements.iter_mut().enumerate().filter(|(id, _)| !state.is_active(*id)).for_each(|(_, x)| x.w = 0.0);
     } else if buffer == VELOCITY.name && !goes_on {
         let rest = |v: &mut DVec4| *v = DVec4::ZERO.with_w(v.w);
-        elements.iter_mut().enumerate().filter(|(id, _)| !state.lives(*id)).for_each(|(_, v)| rest(v));
+        elements.iter_mut().enumerate().filter(|(id, _)| !state.is_active(*id)).for_each(|(_, v)| rest(v));
         state.held.iter().for_each(|one| rest(&mut elements[one.id as usize]));
     } else if buffer == TARGET.name && state.get(TARGET.name).is_none() {
         elements.iter_mut().zip(state.position()).for_each(|(to, x)| *to = inside(x.extend(0.0)));

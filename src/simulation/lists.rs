@@ -16,11 +16,11 @@ use crate::visit;
 pub(super) fn counted(setup: &Setup, problem: Problem) -> Result<Problem, Error> {
     let laws: Vec<Law> = setup.forces.iter().flat_map(|force| force.laws()).collect();
     let Some(shape) = visit::shared_list(&laws, &problem)? else { return Ok(problem) };
-    let active = setup.state.position().iter().enumerate().filter(|(id, _)| setup.state.lives(*id));
+    let active = setup.state.position().iter().enumerate().filter(|(id, _)| setup.state.is_active(*id));
     let places: Vec<DVec3> = active.map(|(_, x)| *x).collect();
     let most = Cells::new(&places, setup.bounds, shape.reach())?.most();
     // Pending particles are not counted: there is as much room as where nothing is known, at least.
-    let most = if problem.mortal { most.max(visit::UNCOUNTED) } else { most };
+    let most = if problem.has_inactive { most.max(visit::UNCOUNTED) } else { most };
     let count = problem.count;
     Ok(problem.listed(Some(shape.with_room(most, count))))
 }

@@ -2,8 +2,8 @@
 
 use super::Simulation;
 use crate::error::Error;
-use crate::fluids::{DFSPH_ERRORS, DFSPH_REPORT, DFSPH_WORDS};
 use crate::kernel::{Array, Backend};
+use crate::sph::{DFSPH_ERRORS, DFSPH_REPORT, DFSPH_WORDS};
 
 /// What became of one of the two solves for pressure that a step of a fluid takes.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -11,14 +11,14 @@ use glam::{DVec3, DVec4};
 use super::{Plans, Setup, Simulation};
 use crate::boundary;
 use crate::error::Error;
-use crate::fluids::{DFSPH_ERRORS, DFSPH_REPORT};
 use crate::integrators::{SOLVE_REPORT, kept_rates};
 use crate::kernel::{
-    ALARM, Array, Backend, Column, Columns, HOME, LIFE, PACE, PACE_WORDS, Plan, QUIET, Role, TICKS, URGENT, URGES,
-    World, extent, split,
+    ALARM, Array, Backend, Column, Columns, HOME, LARGEST_CRITERION, LIFE, Plan, QUIET, Role, STEP_CLOCK,
+    STEP_CLOCK_WORDS, STEP_CRITERIA, TICKS, World, extent, split,
 };
 use crate::links::Links;
 use crate::motion;
+use crate::sph::{DFSPH_ERRORS, DFSPH_REPORT};
 use crate::state::{KEPT, KEPT_EXTENT, KEPT_HOME, KEPT_STEP, State};
 
 /// How far time and step may disagree, as a part of a step: 2³² steps of a time in double precision.
@@ -48,10 +48,10 @@ pub(super) fn carried(plans: &Plans, columns: &Columns, count: u32) -> Vec<Carri
             all.push(Carried { len, ..one(&format!("{KEPT}{buffer}"), &like, true) });
         }
     }
-    let words = [ALARM.name, PACE.name, SOLVE_REPORT, DFSPH_REPORT];
+    let words = [ALARM.name, STEP_CLOCK.name, SOLVE_REPORT, DFSPH_REPORT];
     all.extend(words.map(|name| one(name, &whole, false)));
     all.push(one(DFSPH_ERRORS, &real, false));
-    all.extend([URGES.name, URGENT.name].map(|name| one(name, &four, true)));
+    all.extend([STEP_CRITERIA.name, LARGEST_CRITERION.name].map(|name| one(name, &four, true)));
     all.retain(|one| fields.contains_key(&one.field));
     for one in all.iter_mut().filter(|one| one.len == 0) {
         let bytes = one.like.zeros(1).to_bytes().len() as u64;
@@ -144,7 +144,7 @@ fn of_columns(state: &State) -> u64 {
     let counts = |column: &Column| match column.name.as_ref() {
         "size" => state.size().iter().any(|size| *size != 0.0),
         "species" => state.species().iter().any(|species| *species != 0),
-        name if name == LIFE.name => (0..state.len()).any(|id| !state.lives(id)),
+        name if name == LIFE.name => (0..state.len()).any(|id| !state.is_active(id)),
         _ => column.role == Role::State,
     };
     let one = |(column, values): (&Column, &Array)| {
@@ -187,27 +187,27 @@ impl Setup {
             return refuse(format!("the state is at step {step}, and a device counts to {}: begin anew", u32::MAX));
         };
         let apart = (time - f64::from(done) * self.dt).abs() > AGREEMENT * self.dt;
-        if self.integrator.pace().is_none() && apart {
+        if self.integrator.adaptive_step().is_none() && apart {
             return refuse(format!(
                 "the state is at step {step} and time {time:e}, which is not so many steps of dt = {:e}: choose a dt of which time is a \
                  whole number of steps and set `state.step` to that, or take `state.begin_anew()`",
                 self.dt
             ));
         }
-        if self.integrator.pace().is_some() && split(time, self.dt)[0] == u32::MAX {
+        if self.integrator.adaptive_step().is_some() && split(time, self.dt)[0] == u32::MAX {
             return refuse(format!("the state is at time {time:e}, more than {} steps of {:e}", u32::MAX, self.dt));
         }
         Ok(done)
     }
     /// The words of the adaptive clock of a state: what the last step kept, where it tells the same time, else one that stands there.
     fn wound(&self, dt: f64) -> Option<Vec<u32>> {
-        let pace = self.integrator.pace()?;
+        let adaptive_step = self.integrator.adaptive_step()?;
         let at = split(self.state.time, dt);
-        let kept = self.state.kept.get("kept_pace").filter(|list| list.len() == PACE_WORDS);
+        let kept = self.state.kept.get("kept_step_clock").filter(|list| list.len() == STEP_CLOCK_WORDS);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "words, or saturated")]
         let kept = kept.map(|list| list.iter().map(|x| *x as u32).collect::<Vec<_>>());
         Some(kept.filter(|words| words[..2] == at).unwrap_or_else(|| {
-            let mut words = pace.start(dt);
+            let mut words = adaptive_step.start(dt);
             words[..2].copy_from_slice(&at);
             // Why these were as long as they were, nothing tells.
             words[12] = u32::try_from(self.state.step).unwrap_or(u32::MAX);
@@ -267,7 +267,7 @@ impl<B: Backend> Simulation<B> {
             if words[2] > 0 {
                 dt = f64::from(words[2]) / f64::from(TICKS) * setup.dt;
             }
-            self.backend.write(PACE.name, &Array::Uint(words))?;
+            self.backend.write(STEP_CLOCK.name, &Array::Uint(words))?;
         }
         let (step, count, bounds) = (setup.done()?, self.count, setup.bounds);
         self.backend.set_world(World { time: state.time, dt, step, count, bounds })?;

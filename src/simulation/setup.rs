@@ -2,15 +2,15 @@
 
 use glam::DVec3;
 
-use super::{columns, keepers, lists, mortals, unwritten};
+use super::{columns, inactive, initial_projection, lists, unwritten};
 use crate::boundary;
 use crate::error::Error;
-use crate::fluids::{Start, Still};
 use crate::forces::{Component, Problem, Stage};
 use crate::integrators::{Integrator, Step};
 use crate::kernel::{Array, Bounds, Column, Columns, ListShape, Machine, Plan, Solver, claims};
 use crate::life;
 use crate::motion::{self, Hold};
+use crate::sph::{Start, Still};
 use crate::state::State;
 
 /// What a simulation is made of.
@@ -75,7 +75,7 @@ impl Setup {
         start.begin();
         self.integrator.start(&mut start);
         let mut step = Step::new(&self.forces, problem.clone());
-        step.pace();
+        step.adaptive_step();
         step.lead();
         self.integrator.step(&mut step);
         let columns = problem.columns.clone();
@@ -120,10 +120,10 @@ impl Setup {
             .of_species(self.state.species())
             .tied(&self.state.all_links(), &self.state.held)
             .moved(&self.state.motions, self.dt)
-            .mortal(&self.state.births, &self.state.drains, self.state.is_mortal())
+            .with_life(&self.state.births, &self.state.drains, self.state.has_inactive())
             .breaking(self.breaks())
             .solved(self.solver)
-            .paced(self.integrator.pace())
+            .adapted(self.integrator.adaptive_step())
             .of_columns(self.columns()?);
         lists::counted(self, problem)
     }
@@ -171,13 +171,13 @@ impl Setup {
         let mut media = self.forces.iter().map(|force| Ok(force.resolved(&problem)?.fluid));
         let Some(fluid) = media.find_map(Result::<_, Error>::transpose).transpose()? else { return Ok(None) };
         // Who waits or is dead is in nobody's way; a scene has the ids of those last.
-        let living: Vec<usize> = (0..self.state.len()).filter(|id| self.state.lives(*id)).collect();
+        let living: Vec<usize> = (0..self.state.len()).filter(|id| self.state.is_active(*id)).collect();
         let of = |list: &[DVec3]| -> Vec<DVec3> { living.iter().map(|id| list[*id]).collect() };
-        let keepers::Kept { places, moved } = keepers::kept(self, &problem)?;
+        let initial_projection::Projected { places, moved } = initial_projection::projected(self, &problem)?;
         let (position, velocity) = (of(&places), of(self.state.velocity()));
         let mass: Vec<f64> = living.iter().map(|id| self.state.mass()[*id]).collect();
         let walls: Vec<bool> = living.iter().map(|id| problem.is_held(*id)).collect();
-        if problem.mortal && walls.iter().all(|wall| *wall) {
+        if problem.has_inactive && walls.iter().all(|wall| *wall) {
             return Ok(None);
         }
         let still = Still { position: &position, mass: &mass, walls: &walls, bounds: &self.bounds };
@@ -200,7 +200,7 @@ impl Setup {
     /// # Errors
     /// When the setup makes no sense.
     pub fn put_out(&self) -> Result<Vec<(usize, f64)>, Error> {
-        Ok(keepers::kept(self, &self.problem(Machine::HOST)?)?.moved)
+        Ok(initial_projection::projected(self, &self.problem(Machine::HOST)?)?.moved)
     }
     /// Refuses two fluids: each would take everybody for its own.
     fn fluids(&self) -> Result<(), Error> {
@@ -281,14 +281,14 @@ impl Setup {
         self.fluids()?;
         links.check(mass)?;
         self.solver.check()?;
-        if let Some(pace) = self.integrator.pace() {
-            pace.check(self.dt)?;
+        if let Some(adaptive_step) = self.integrator.adaptive_step() {
+            adaptive_step.check(self.dt)?;
             self.bear()?;
         }
         boundary::check(&self.bounds)?;
         motion::check(held, motions, count, self.bounds.dimensions, self.dt)?;
         life::check((life, births, drains), held, count, self.bounds.dimensions)?;
-        mortals::serves(&self.state, &self.forces, self.integrator.as_ref())?;
+        inactive::serves(&self.state, &self.forces, self.integrator.as_ref())?;
         if !links.rods.is_empty() && !self.forces.iter().any(|force| force.properties().keeps_rods) {
             let text = format!(
                 "nothing keeps the lengths of the rods (of which there are {}): add a [[force]] of kind = \"rod\"",

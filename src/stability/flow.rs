@@ -66,8 +66,8 @@ impl Flow {
         let highest = Mode { stiffness: rates.sound * rates.sound, damping: rates.friction };
         let safe = combined(build, highest, duration).await?.min(sound).min(friction);
         let asks = if sound < friction || rates.friction == 0.0 { Asks::Sound } else { Asks::Friction };
-        let paced = setup.integrator.pace().is_some();
-        let mut flow = Self { safe, excess: if paced { 0.0 } else { setup.dt / safe }, asks, sure: swings };
+        let adaptive = setup.integrator.adaptive_step().is_some();
+        let mut flow = Self { safe, excess: if adaptive { 0.0 } else { setup.dt / safe }, asks, sure: swings };
         // In units of the step.
         let drawn = rates.drawn / limit(build, Mode { stiffness: 0.0, damping: 1.0 }, PERIODS).await?;
         if drawn > flow.excess {

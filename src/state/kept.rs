@@ -21,7 +21,7 @@ pub(crate) const EXTENT: &str = "kept_extent";
 pub(crate) const STEP: &str = "kept_step";
 
 /// What goes on where positions and velocities are changed by a caller: it says nothing of them.
-const LASTING: [&str; 3] = [HOME, BROKEN, "kept_pace"];
+const LASTING: [&str; 3] = [HOME, BROKEN, "kept_step_clock"];
 
 /// Where held particles were at time 0, in groups of seven numbers: the id, that place, and where they are.
 pub(crate) const HOME: &str = "kept_home";
@@ -95,7 +95,7 @@ impl State {
         let origin = std::mem::take(&mut self.kept);
         // Files say nothing of life where all are active.
         if other.get(LIFE.name).is_none() && self.get(LIFE.name).is_some() {
-            self.set(LIFE.name, Array::Uint(vec![Life::Living.word(); self.len()]))?;
+            self.set(LIFE.name, Array::Uint(vec![Life::Active.word(); self.len()]))?;
         }
         for (column, values) in other.columns() {
             self.declare(column)?;

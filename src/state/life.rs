@@ -22,7 +22,7 @@ impl State {
     /// Says whether one takes part.
     pub fn set_life(&mut self, id: usize, life: Life) {
         let mut list = self.life();
-        list.resize(self.len(), Life::Living);
+        list.resize(self.len(), Life::Active);
         if let Some(place) = list.get_mut(id) {
             *place = life;
         }
@@ -31,13 +31,13 @@ impl State {
     }
     /// Whether one takes part.
     #[must_use]
-    pub fn lives(&self, id: usize) -> bool {
-        self.whole(LIFE.name).and_then(|words| words.get(id)).is_none_or(|word| *word == Life::Living.word())
+    pub fn is_active(&self, id: usize) -> bool {
+        self.whole(LIFE.name).and_then(|words| words.get(id)).is_none_or(|word| *word == Life::Active.word())
     }
     /// Whether not all take part, all the time.
     #[must_use]
-    pub fn is_mortal(&self) -> bool {
-        let idle = |word: &u32| *word != Life::Living.word();
+    pub fn has_inactive(&self) -> bool {
+        let idle = |word: &u32| *word != Life::Active.word();
         !self.births.is_empty()
             || !self.drains.is_empty()
             || self.whole(LIFE.name).is_some_and(|words| words.iter().any(idle))

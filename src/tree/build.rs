@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::{
     GROUP, LEAF, Opening, TREE_BODY, TREE_CENTER, TREE_DEMAND, TREE_HIGH, TREE_ID, TREE_LOW, TREE_MASS, TREE_SHAPE,
-    Tree, curve, twin,
+    Tree, curve, reference,
 };
 use crate::error::Error;
 use crate::kernel::{Field, Host, Kernel, Name, POSITION, Pass, Problem, Scalar, Shader, Source};
@@ -42,12 +42,12 @@ impl Tree {
         let mut kernels = vec![
             corner(Operation::Min, LEAST.name)?,
             corner(Operation::Max, GREATEST.name)?,
-            self.kernel("cube", self.cube()?, twin::cube),
-            self.kernel("keys", self.each(&[crate::shader!("tree/key.wgsl"), HILBERT], count)?, twin::keys),
+            self.kernel("cube", self.cube()?, reference::cube),
+            self.kernel("keys", self.each(&[crate::shader!("tree/key.wgsl"), HILBERT], count)?, reference::keys),
             sort(curve::LOWER)?,
-            self.kernel("upper words", self.each(&[crate::shader!("tree/upper.wgsl")], count)?, twin::upper),
+            self.kernel("upper words", self.each(&[crate::shader!("tree/upper.wgsl")], count)?, reference::upper),
             sort(curve::UPPER)?,
-            self.kernel("carry", self.each(&[crate::shader!("tree/carry.wgsl")], count)?, twin::carry),
+            self.kernel("carry", self.each(&[crate::shader!("tree/carry.wgsl")], count)?, reference::carry),
             self.levels()?,
         ];
         if let Opening::Relative { alpha, g, .. } = self.opening {
@@ -57,7 +57,7 @@ impl Tree {
             pass.constants.extend([("GROUP", f64::from(GROUP)), ("STRICTNESS", g / alpha), ("PART", g * PART)]);
             pass.constants.extend([("FIRST", first), ("NODES", nodes)].map(|(name, n)| (name, f64::from(n))));
             pass.work = 3 * u64::from(count);
-            kernels.push(self.kernel("demand", pass, twin::demand));
+            kernels.push(self.kernel("demand", pass, reference::demand));
         }
         Ok(kernels)
     }
@@ -79,13 +79,13 @@ impl Tree {
             .map(|name| self.field(name))
     }
 
-    fn kernel(&self, name: &str, pass: Pass, twin: Rule) -> Kernel {
+    fn kernel(&self, name: &str, pass: Pass, reference: Rule) -> Kernel {
         let tree = self.clone();
         let corners = [LEAST.name, GREATEST.name, CUBE.name].map(|name| (name.into(), 1));
         Kernel {
             name: format!("{name} {}", self.name()),
             passes: vec![pass],
-            twin: Some(Arc::new(move |host: &Host| twin(&tree, host))),
+            reference: Some(Arc::new(move |host: &Host| reference(&tree, host))),
             sizes: [corners.to_vec(), self.sizes()].concat(),
             scratch: Vec::new(),
             tables: Vec::new(),
@@ -126,7 +126,7 @@ impl Tree {
                 ..Pass { fields: pass.fields.clone(), ..Pass::new(pass.shader.clone(), nodes) }
             });
         }
-        let mut kernel = self.kernel("nodes", leaf, twin::nodes);
+        let mut kernel = self.kernel("nodes", leaf, reference::nodes);
         kernel.passes = passes;
         Ok(kernel)
     }

@@ -9,7 +9,7 @@ mod build;
 mod curve;
 mod nodes;
 mod opening;
-mod twin;
+mod reference;
 
 pub use curve::hilbert;
 pub use nodes::Nodes;

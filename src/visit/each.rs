@@ -21,5 +21,12 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
     constants.extend(law.mark());
     let sizes = law.alarm();
     let pass = Pass { constants, uniforms, ..Pass::new(shader, problem.count) };
-    Ok(Kernel { name: law.name, passes: vec![pass], twin: law.twin, sizes, scratch: Vec::new(), tables: Vec::new() })
+    Ok(Kernel {
+        name: law.name,
+        passes: vec![pass],
+        reference: law.reference,
+        sizes,
+        scratch: Vec::new(),
+        tables: Vec::new(),
+    })
 }

@@ -51,7 +51,7 @@ impl Law {
         let (shader, uniforms) = self.beside(&own)?;
         let mut constants = problem.constants(&shader);
         constants.extend([("FACTOR", factor), ("START", f64::from(u8::from(start)))]);
-        let twin = move |host: &Host| {
+        let reference = move |host: &Host| {
             let view = View::of(host)?;
             let (bodies, world) = (view.particles(), host.world());
             let h = factor * world.dt;
@@ -72,7 +72,7 @@ impl Law {
         Ok(Kernel {
             name: format!("{} rows", self.name),
             passes: vec![pass],
-            twin: Some(Arc::new(twin)),
+            reference: Some(Arc::new(reference)),
             sizes: Vec::new(),
             scratch: Vec::new(),
             tables: Vec::new(),

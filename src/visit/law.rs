@@ -4,14 +4,14 @@ use std::sync::Arc;
 
 use glam::{DVec3, DVec4};
 
-use super::twin::{ByTables, Sample};
+use super::reference::{ByTables, Sample};
 use super::{
     Group, Jacobian, Memory, Outcome, Over, PAIR_TABLE, PairTable, Particle, Search, Tables, each, links, list, near,
-    pairs, tree, twin, walk,
+    pairs, reference, tree, walk,
 };
 use crate::error::Error;
 use crate::kernel::{
-    ACCELERATION, Access, Kernel, Name, Problem, Scalar, Shader, Side, Source, Table, Twin, VELOCITY, World,
+    ACCELERATION, Access, Kernel, Name, Problem, Reference, Scalar, Shader, Side, Source, Table, VELOCITY, World,
 };
 use crate::links::{Corner, Half};
 use crate::neighbors::Grid;
@@ -38,8 +38,8 @@ pub struct Law {
     /// `var<storage, read_write>` under its name. Without `acceleration` its `finish` returns nothing, and over `each` it has
     /// `fn update(me: Particle)` in place of `force`.
     pub into: Vec<Name>,
-    /// The visit's twin around the law's; `None` only for a user's law.
-    pub twin: Option<Twin>,
+    /// The visit's reference around the law's; `None` only for a user's law.
+    pub reference: Option<Reference>,
     /// Whether what two do to each other adds up to nothing, so that momentum is kept.
     pub reciprocal: bool,
     /// What it offers to implicit integrators.
@@ -57,8 +57,8 @@ pub struct Law {
 pub struct Distant {
     /// Its WGSL; without it a group is met as one particle.
     pub wgsl: Option<Source>,
-    /// The twin that walks the same tree as the device.
-    pub walk: Option<Twin>,
+    /// The reference that walks the same tree as the device.
+    pub walk: Option<Reference>,
     /// What some targets feel of everybody.
     pub sample: Option<Sample>,
     /// Whether it sees all images in a periodic box, so that nothing jumps half a box away.
@@ -78,7 +78,7 @@ const ON_CALL: [(&str, Source); 6] = [
 impl Law {
     /// A law of which nothing more is known than its WGSL and its reference: it gives an acceleration.
     #[must_use]
-    pub fn plain(name: &str, over: Over, wgsl: Source, params: Vec<(String, Scalar)>, twin: Twin) -> Self {
+    pub fn plain(name: &str, over: Over, wgsl: Source, params: Vec<(String, Scalar)>, reference: Reference) -> Self {
         Self {
             name: name.to_owned(),
             over,
@@ -87,7 +87,7 @@ impl Law {
             pairs: None,
             tables: Vec::new(),
             into: vec![ACCELERATION.name.into()],
-            twin: Some(twin),
+            reference: Some(reference),
             reciprocal: false,
             jacobian: None,
             distant: Distant::default(),
@@ -102,7 +102,7 @@ impl Law {
         params: Vec<(String, Scalar)>,
         rule: impl Fn(&Particle, &World) -> DVec4 + Send + Sync + 'static,
     ) -> Self {
-        Self::plain(name, Over::Each, wgsl, params, twin::each(rule))
+        Self::plain(name, Over::Each, wgsl, params, reference::each(rule))
     }
     /// A law of all pairs that adds up: [`Law::between`] over [`Over::Pairs`].
     pub fn pairs(
@@ -139,18 +139,18 @@ impl Law {
     ) -> Self {
         let rule = Arc::new(rule);
         let (wgsl, distant) = files;
-        let (every, sample) = (rule.clone(), Some(twin::sample(rule.clone())));
+        let (every, sample) = (rule.clone(), Some(reference::sample(rule.clone())));
         let gather =
             move |me: &Particle, you: &Particle, r, world: &World, sum: &mut DVec4| *sum += every(me, you, r, world);
         let walk = match over {
-            Over::Tree { opening, core, .. } => Some(walk::twin(opening, core, rule, far)),
+            Over::Tree { opening, core, .. } => Some(walk::reference(opening, core, rule, far)),
             _ => None,
         };
-        let twin = twin::meetings(over, gather, |_, sum: &DVec4, _| *sum);
+        let reference = reference::meetings(over, gather, |_, sum: &DVec4, _| *sum);
         Self {
             reciprocal: true,
             distant: Distant { wgsl: distant, walk, sample, images: false },
-            ..Self::plain(name, over, wgsl, params, twin)
+            ..Self::plain(name, over, wgsl, params, reference)
         }
     }
     /// A law that makes something else of its neighbours than a sum of accelerations; `gather(me, you, r, sum)` takes
@@ -164,7 +164,7 @@ impl Law {
         finish: impl Fn(&Particle, &S, &World) -> DVec4 + Send + Sync + 'static,
     ) -> Self {
         let gather = move |me: &Particle, you: &Particle, r, _: &World, sum: &mut S| gather(me, you, r, sum);
-        Self::plain(name, over, wgsl, params, twin::meetings(over, gather, finish))
+        Self::plain(name, over, wgsl, params, reference::meetings(over, gather, finish))
     }
     /// The same of a law that writes columns: `finish(me, sum, world, outcome)` says which values they get. `into` names all
     /// that it writes, `acceleration` too where it gives one.
@@ -178,7 +178,7 @@ impl Law {
         finish: impl Fn(&Particle, &S, &World, &mut Outcome) + Send + Sync + 'static,
     ) -> Self {
         let into = into.iter().map(|name| Name::from(*name)).collect();
-        Self { into, ..Self::plain(name, over, wgsl, params, twin::computing(over, gather, finish)) }
+        Self { into, ..Self::plain(name, over, wgsl, params, reference::computing(over, gather, finish)) }
     }
     /// A law of each particle alone that writes columns; `rule(me, world, outcome)` says which values they get.
     pub fn updating(
@@ -189,7 +189,7 @@ impl Law {
         rule: impl Fn(&Particle, &World, &mut Outcome) + Send + Sync + 'static,
     ) -> Self {
         let into = into.iter().map(|name| Name::from(*name)).collect();
-        Self { into, ..Self::plain(name, Over::Each, wgsl, params, twin::updating(rule)) }
+        Self { into, ..Self::plain(name, Over::Each, wgsl, params, reference::updating(rule)) }
     }
     /// A law over [`Over::List`] that keeps history of pairs, as friction at a contact does; `gather(me, you, r, world, memory, sum)` takes
     /// a neighbour in, and `finish(me, sum, world, outcome)` is that of [`Law::computing`]. Its WGSL has, beside what all laws have,
@@ -206,9 +206,9 @@ impl Law {
         finish: impl Fn(&Particle, &S, &World, &mut Outcome) + Send + Sync + 'static,
     ) -> Self {
         let (range, skin, slots) = over;
-        let twin = list::remembering(range, slots as usize, gather, finish);
+        let reference = list::remembering(range, slots as usize, gather, finish);
         let into = into.iter().map(|name| Name::from(*name)).collect();
-        Self { into, ..Self::plain(name, Over::List { range, skin, slots }, wgsl, params, twin) }
+        Self { into, ..Self::plain(name, Over::List { range, skin, slots }, wgsl, params, reference) }
     }
     /// A law of springs; `gather(me, you, r, link, sum)` takes one in, with r from me to you, and `finish(me, sum)` gives
     /// acceleration and potential per unit mass, of which each end holds half.
@@ -219,9 +219,9 @@ impl Law {
         gather: impl Fn(&Particle, &Particle, DVec3, &Half, &mut S) + Send + Sync + 'static,
         finish: impl Fn(&Particle, &S) -> DVec4 + Send + Sync + 'static,
     ) -> Self {
-        let tied = twin::links(gather, finish);
-        let twin = tied(Tables::None);
-        Self { reciprocal: true, tied: Some(tied), ..Self::plain(name, Over::Links, wgsl, params, twin) }
+        let tied = reference::links(gather, finish);
+        let reference = tied(Tables::None);
+        Self { reciprocal: true, tied: Some(tied), ..Self::plain(name, Over::Links, wgsl, params, reference) }
     }
     /// A law of joints or triangles; `rule(corners, place, stiffness, world)` gives the force on the corner of that
     /// place, and the energy of the whole, of which each corner holds a third.
@@ -232,7 +232,7 @@ impl Law {
         params: Vec<(String, Scalar)>,
         rule: impl Fn([&Particle; 3], &Corner, &World) -> DVec4 + Send + Sync + 'static,
     ) -> Self {
-        Self::plain(name, over, wgsl, params, twin::corners(over, rule))
+        Self::plain(name, over, wgsl, params, reference::corners(over, rule))
     }
     /// Joins the law with its visit, for such a problem.
     ///
@@ -455,7 +455,7 @@ impl Law {
     }
     /// Whether it leaves particles out of a search; without `acts_on` of its own it acts on all.
     pub(super) fn choice(&self) -> Option<Source> {
-        (!self.says(&["fn", "acts_on", "("])).then_some(crate::shader!("visit/everybody.wgsl"))
+        (!self.says(&["fn", "acts_on", "("])).then_some(crate::shader!("visit/acts_on_all.wgsl"))
     }
     /// What the law leaves to the usual: a sum of accelerations; and what it calls for.
     pub(super) fn files(&self) -> Vec<Source> {

@@ -85,11 +85,11 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
     let work = u64::from(problem.count) + u64::from(elements.copied().unwrap_or(0));
     let pass = Pass { constants, uniforms, work, ..Pass::new(shader, problem.count) };
     let sizes = law.alarm();
-    let twin = match &law.tied {
+    let reference = match &law.tied {
         Some(reference) => Some(reference(tables)),
-        None => law.twin,
+        None => law.reference,
     };
     let (name, over) = (law.name, law.over);
     let (scratch, tables) = (Vec::new(), Vec::new());
-    Ok(bind(Kernel { name, passes: vec![pass], twin, sizes, scratch, tables }, over, problem))
+    Ok(bind(Kernel { name, passes: vec![pass], reference, sizes, scratch, tables }, over, problem))
 }

@@ -98,5 +98,5 @@ pub fn kernel(law: Law, range: f64, slots: u32, problem: &Problem) -> Result<Ker
     }
     let mut sizes = law.alarm();
     sizes.extend([(LIST.into(), list.elements(problem.count)), (HISTORY.into(), list.words(problem.count))]);
-    Ok(Kernel { name: law.name, passes, twin: law.twin, sizes, scratch: Vec::new(), tables: Vec::new() })
+    Ok(Kernel { name: law.name, passes, reference: law.reference, sizes, scratch: Vec::new(), tables: Vec::new() })
 }

@@ -110,8 +110,8 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
         constants.extend(shader.reflection().known(&search.constants));
     }
     let passes = passes(&grid, &Pass { constants, uniforms: params, ..Pass::new(shader, 0) }, targets, problem)?;
-    let (twin, sizes) = (law.twin, sizes(&grid));
-    let mut kernel = Kernel { name: law.name, passes, twin, sizes, scratch: Vec::new(), tables };
+    let (reference, sizes) = (law.reference, sizes(&grid));
+    let mut kernel = Kernel { name: law.name, passes, reference, sizes, scratch: Vec::new(), tables };
     law.search.iter().for_each(|search| search.bind(&mut kernel));
     Ok(kernel)
 }

@@ -113,7 +113,14 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
     let parts = if whole { 1 } else { u64::from(cut.layers) * u64::from(count) };
     let mut sizes = law.alarm();
     sizes.push(("parts".into(), parts));
-    Ok(Kernel { name: law.name, passes, twin: law.twin, sizes, scratch: vec!["parts".into()], tables: Vec::new() })
+    Ok(Kernel {
+        name: law.name,
+        passes,
+        reference: law.reference,
+        sizes,
+        scratch: vec!["parts".into()],
+        tables: Vec::new(),
+    })
 }
 
 #[cfg(test)]

@@ -27,7 +27,7 @@ pub struct Particle<'a> {
     /// How heavy it is \[mass\].
     pub mass: f64,
     species: u32,
-    lives: bool,
+    is_active: bool,
     view: &'a View<'a>,
 }
 
@@ -45,7 +45,7 @@ impl<'a> View<'a> {
     pub(super) fn extend(&mut self, arrays: Vec<(&'static str, Array)>) {
         self.arrays.extend(arrays.into_iter().map(|(name, array)| (name, Arc::new(array))));
     }
-    fn slice<T: Element>(&self, name: &str) -> &[T::Twin] {
+    fn slice<T: Element>(&self, name: &str) -> &[T::Reference] {
         self.arrays.get(name).and_then(|array| T::view(array)).map_or(&[], Vec::as_slice)
     }
     /// The particles, by index.
@@ -61,7 +61,7 @@ impl<'a> View<'a> {
                 velocity: v.truncate(),
                 mass: x.w,
                 species: species.get(index).copied().unwrap_or(0),
-                lives: life.get(index).is_none_or(|word| *word == Life::Living.word()),
+                is_active: life.get(index).is_none_or(|word| *word == Life::Active.word()),
                 view: self,
             }
         };
@@ -77,8 +77,8 @@ impl Particle<'_> {
     }
     /// Whether it takes part.
     #[must_use]
-    pub fn lives(&self) -> bool {
-        self.lives
+    pub fn is_active(&self) -> bool {
+        self.is_active
     }
     /// Its value of a scalar column; `None` where the host has none of that name and kind.
     #[must_use]

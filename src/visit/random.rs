@@ -1,4 +1,4 @@
-//! Random numbers by counting: the twin of `shaders/law/random.wgsl`, word by word.
+//! Random numbers by counting: the reference of `shaders/law/random.wgsl`, word by word.
 
 /// Four random words for a counter (pcg4d; Jarzynski & Olano, Journal of Computer Graphics Techniques 9(3), 2020). Laws
 /// count with id, step and seed, so that nothing is kept from step to step and no order of particles matters.

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{Candidate, Law, Outcome, Over, Particle, twin};
+use super::{Candidate, Law, Outcome, Over, Particle, reference};
 use crate::error::Error;
 use crate::kernel::{Array, Host, Kernel, Name, Problem, Scalar, Source, World};
 use crate::neighbors::{Grid, SORTED_ID};
@@ -39,7 +39,7 @@ impl Law {
         let over = Over::Near { range: search.grid.range, of: None };
         let params = params.into_iter().map(|(name, value)| (name.to_owned(), value)).collect();
         let into = into.iter().map(|name| Name::from(*name)).collect();
-        let reference = twin::searching(over, search.clone(), gather, finish);
+        let reference = reference::searching(over, search.clone(), gather, finish);
         Self { into, search: Some(search), ..Self::plain(name, over, wgsl, params, reference) }
     }
     /// Whether its WGSL, or a file beside it, holds these words in a row.

@@ -1,4 +1,4 @@
-//! The tables of links as a twin reads them.
+//! The tables of links as a reference reads them.
 
 use super::{LINK, LINK_START};
 use crate::error::Error;

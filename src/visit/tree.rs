@@ -178,7 +178,7 @@ pub fn kernel(law: Law, tree: &Tree, problem: &Problem) -> Result<Kernel, Error>
     sizes.push((KEPT_WALKS.into(), u64::from(groups.min(tree.groups()) * GROUP)));
     sizes.push((GO.into(), 3));
     let scratch = vec![KEPT_WALKS.into(), GO.into()];
-    Ok(Kernel { name: law.name, passes, twin: law.distant.walk, sizes, scratch, tables: Vec::new() })
+    Ok(Kernel { name: law.name, passes, reference: law.distant.walk, sizes, scratch, tables: Vec::new() })
 }
 
 /// What targets of a dispatch have met, and where their walks stand.

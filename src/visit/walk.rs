@@ -1,4 +1,4 @@
-//! The twin of the walk of a tree: the same nodes are opened as on the device, and what is met adds up in f64.
+//! The reference of the walk of a tree: the same nodes are opened as on the device, and what is met adds up in f64.
 
 use std::sync::Arc;
 
@@ -7,10 +7,10 @@ use rayon::prelude::*;
 
 use super::particle::{Particle, View};
 use crate::error::Error;
-use crate::kernel::{ACCELERATION, Bounds, Twin, World};
+use crate::kernel::{ACCELERATION, Bounds, Reference, World};
 use crate::tree::{GROUP, Nodes, Opening, Tree};
 
-/// A far group of particles, as a law's twin sees it.
+/// A far group of particles, as a law's reference sees it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Group {
     /// How heavy it is.
@@ -72,12 +72,12 @@ fn squared_size(d: Vec3) -> f32 {
 }
 
 /// Every group of targets, from the root on.
-pub fn twin(
+pub fn reference(
     opening: Opening,
     core: f64,
     rule: Arc<impl Fn(&Particle, &Particle, DVec3, &World) -> DVec4 + Send + Sync + 'static>,
     far: impl Fn(&Particle, &Group, DVec3, &World) -> DVec4 + Send + Sync + 'static,
-) -> Twin {
+) -> Reference {
     Arc::new(move |host| {
         let view = View::of(host)?;
         let (bodies, world) = (view.particles(), host.world());

@@ -6,7 +6,7 @@ use motes::settings::Value;
 use motes::{Simulation, State};
 
 use crate::support::states::{force, vector};
-use crate::{DT, Free, PACE, clock, drop, fluid, on_cpu, on_gpu, paced, support};
+use crate::{ADAPTIVE, DT, Free, adapted, clock, drop, fluid, on_cpu, on_gpu, support};
 
 fn bytes<B: Backend>(simulation: &mut Simulation<B>) -> Vec<u8> {
     pollster::block_on(async {
@@ -21,7 +21,7 @@ fn bytes<B: Backend>(simulation: &mut Simulation<B>) -> Vec<u8> {
 /// Without friction, or with some.
 fn falling_with(alpha: f64) -> motes::Setup {
     let weight = force("uniform", &[("acceleration", vector(0.0, 0.0, -3.0))]);
-    paced(&drop(), vec![weight, fluid(4.0, &[("alpha", Value::Number(alpha))])], "leapfrog", PACE)
+    adapted(&drop(), vec![weight, fluid(4.0, &[("alpha", Value::Number(alpha))])], "leapfrog", ADAPTIVE)
 }
 
 fn falling() -> motes::Setup {
@@ -33,15 +33,15 @@ fn a_run_ends_where_it_shall() {
     let shared = support::device();
     // At a stop forces are evaluated anew, with velocities at rest: only those that depend on velocities differ by that.
     let smooth = falling_with(0.0);
-    let (mut device, mut twin) = (on_gpu(&shared, &smooth), on_cpu(&smooth));
+    let (mut device, mut reference) = (on_gpu(&shared, &smooth), on_cpu(&smooth));
     // No whole number of anything.
     let until = 0.071_234_567;
     let stop = device.stop_at(until).expect("a stop");
     assert!((stop - until).abs() <= DT / f64::from(1 << 25), "{stop} is not {until}");
-    assert!(stop.to_bits() == twin.stop_at(until).expect("a stop").to_bits());
+    assert!(stop.to_bits() == reference.stop_at(until).expect("a stop").to_bits());
     device.step(40).expect("steps");
-    twin.step(40).expect("steps");
-    let (now, there) = (clock(&mut device), clock(&mut twin));
+    reference.step(40).expect("steps");
+    let (now, there) = (clock(&mut device), clock(&mut reference));
     assert_eq!((now.time, there.time, now.dt, now.reason), (stop, stop, 0.0, Reason::Stop));
     assert!(now.steps > 5 && now.steps < 40 && now.steps == device.steps(), "{now:?}");
     // The last were made alike, two or, where the limit has shrunk in between, three, rather than one long and one tiny.
@@ -103,7 +103,7 @@ fn orbit(name: &str, n: u32) -> DVec3 {
     let mut particles = State::default();
     particles.push(DVec3::new(0.8, 0.1, -0.2), DVec3::new(-0.2, 0.9, 0.3), 1.0, 0.0);
     let centre = force("attractor", &[("strength", Value::Number(1.0)), ("softening", Value::Number(0.2))]);
-    let mut setup = paced(&particles, vec![centre, Box::new(Free)], name, PACE);
+    let mut setup = adapted(&particles, vec![centre, Box::new(Free)], name, ADAPTIVE);
     setup.dt = 2.0 / f64::from(n);
     let mut simulation = on_cpu(&setup);
     // Steps as a smooth function of the number: between the nodes of a fixed map of [0, 1] to the time.

@@ -1,14 +1,14 @@
 //! The ledger against direct sums, and what it counts.
 
 use glam::DVec3;
-use motes::fluids::DENSITY;
 use motes::kernel::Machine;
 use motes::measure::Ledger;
 use motes::motion::{Held, Hold};
+use motes::sph::DENSITY;
 use motes::{Bounds, Side};
 
 use crate::support::states::{force, vector};
-use crate::{PACE, drop, fluid, on_gpu, paced, support};
+use crate::{ADAPTIVE, adapted, drop, fluid, on_gpu, support};
 
 #[test]
 fn its_numbers_are_direct_sums() {
@@ -17,7 +17,7 @@ fn its_numbers_are_direct_sums() {
     particles.position_mut().iter_mut().for_each(|x| *x *= 0.93);
     particles.held = [3, 40, 77].map(|id| Held { id, by: Hold::Fixed }).to_vec();
     let weight = force("uniform", &[("acceleration", vector(0.0, 0.0, -3.0))]);
-    let mut setup = paced(&particles, vec![weight, fluid(4.0, &[])], "leapfrog", PACE);
+    let mut setup = adapted(&particles, vec![weight, fluid(4.0, &[])], "leapfrog", ADAPTIVE);
     setup.bounds =
         Bounds { low: DVec3::new(-1.0, -1.0, -0.7), high: DVec3::splat(1.0), sides: [Side::Open; 3], dimensions: 3 };
     let shared = support::device();

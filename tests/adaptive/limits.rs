@@ -6,7 +6,7 @@ use motes::settings::Value;
 use motes::{Error, State};
 
 use crate::support::states::{force, vector};
-use crate::{DT, Free, LENGTH, PACE, SPACING, Silent, clock, drop, fluid, on_cpu, on_gpu, paced, support};
+use crate::{ADAPTIVE, DT, Free, LENGTH, SPACING, Silent, adapted, clock, drop, fluid, on_cpu, on_gpu, support};
 
 /// Lengths are rounded down to twelve binary digits; beside that the device rounds what it multiplies a few times.
 const DIGITS: f64 = 1.0 / 2048.0;
@@ -25,7 +25,7 @@ fn few() -> State {
 
 #[test]
 fn a_step_is_as_long_as_its_formula_says() {
-    let (c, r) = (PACE.courant, f64::from(0.15f32));
+    let (c, r) = (ADAPTIVE.courant, f64::from(0.15f32));
     let mu = LENGTH * 3.0 * r / (r * r + 0.01 * LENGTH * LENGTH);
     let weight = |g: f64| force("uniform", &[("acceleration", vector(0.0, 0.0, -g))]);
     // (forces, what limits, which particle, how long)
@@ -44,11 +44,11 @@ fn a_step_is_as_long_as_its_formula_says() {
     ];
     let shared = support::device();
     for (name, forces, limiting, dt) in cases {
-        let setup = paced(&few(), forces, "leapfrog", PACE);
-        let (mut device, mut twin) = (on_gpu(&shared, &setup), on_cpu(&setup));
+        let setup = adapted(&few(), forces, "leapfrog", ADAPTIVE);
+        let (mut device, mut reference) = (on_gpu(&shared, &setup), on_cpu(&setup));
         device.step(1).expect("a step");
-        twin.step(1).expect("a step");
-        for now in [clock(&mut device), clock(&mut twin)] {
+        reference.step(1).expect("a step");
+        for now in [clock(&mut device), clock(&mut reference)] {
             assert_eq!((now.reason.name(), now.particle, now.steps), (name, limiting, 1), "{now:?}");
             let good = (1.0 - DIGITS - ROUNDING)..=(1.0 + ROUNDING);
             assert!(good.contains(&(now.dt / dt)), "{name}: {} is not {dt}", now.dt);
@@ -62,9 +62,9 @@ fn a_step_is_as_long_as_its_formula_says() {
 
 #[test]
 fn steps_grow_by_a_fifth_at_most() {
-    let pace = motes::kernel::Pace { before: Some(DT / 64.0), ..PACE };
+    let adaptive_step = motes::kernel::AdaptiveStep { before: Some(DT / 64.0), ..ADAPTIVE };
     let shared = support::device();
-    let mut simulation = on_gpu(&shared, &paced(&few(), vec![Box::new(Free)], "leapfrog", pace));
+    let mut simulation = on_gpu(&shared, &adapted(&few(), vec![Box::new(Free)], "leapfrog", adaptive_step));
     let mut last = DT / 64.0;
     let mut grown = 0;
     for _ in 0..30 {
@@ -80,17 +80,17 @@ fn steps_grow_by_a_fifth_at_most() {
 }
 
 #[test]
-fn device_and_twins_take_the_same_steps() {
+fn device_and_references_take_the_same_steps() {
     let shared = support::device();
     for name in ["leapfrog", "symplectic_euler", "midpoint", "heun", "rk4", "forest_ruth", "pefrl", "forward_euler"] {
         let weight = force("uniform", &[("acceleration", vector(0.0, 0.0, -3.0))]);
-        let setup = paced(&drop(), vec![weight, fluid(4.0, &[("alpha", Value::Number(0.2))])], name, PACE);
-        let (mut device, mut twin) = (on_gpu(&shared, &setup), on_cpu(&setup));
+        let setup = adapted(&drop(), vec![weight, fluid(4.0, &[("alpha", Value::Number(0.2))])], name, ADAPTIVE);
+        let (mut device, mut reference) = (on_gpu(&shared, &setup), on_cpu(&setup));
         let mut alike = 0;
         for _ in 0..12 {
             device.step(1).expect("a step");
-            twin.step(1).expect("a step");
-            let (here, there) = (clock(&mut device), clock(&mut twin));
+            reference.step(1).expect("a step");
+            let (here, there) = (clock(&mut device), clock(&mut reference));
             assert_eq!(here.reason, there.reason, "{name}");
             // Where a length is at the edge of a digit, rounding takes it to either side.
             assert!((here.dt - there.dt).abs() <= 2.0 * DIGITS * there.dt, "{name}: {} and {}", here.dt, there.dt);
@@ -99,14 +99,14 @@ fn device_and_twins_take_the_same_steps() {
         // Rates differ by about 1e-6, so that one step in 500 is at an edge.
         assert!(alike >= 11, "{name}: {alike} of 12 steps are alike");
         assert!(clock(&mut device).reasons[Reason::Signal as usize] > 0, "{name} must be limited");
-        assert!((device.steps(), twin.steps()) == (12, 12));
+        assert!((device.steps(), reference.steps()) == (12, 12));
     }
 }
 
 #[test]
 fn too_short_a_step_ends_a_run() {
     let weight = force("uniform", &[("acceleration", vector(0.0, 0.0, -7e8))]);
-    let setup = paced(&few(), vec![weight, fluid(9.0, &[])], "leapfrog", PACE);
+    let setup = adapted(&few(), vec![weight, fluid(9.0, &[])], "leapfrog", ADAPTIVE);
     let shared = support::device();
     let mut device = on_gpu(&shared, &setup);
     pollster::block_on(device.check()).expect("nothing has happened yet");
@@ -114,14 +114,14 @@ fn too_short_a_step_ends_a_run() {
     let Err(Error::TooShort { step, wanted, least, reason, particle }) = pollster::block_on(device.check()) else {
         panic!("a step of a millionth must be reported");
     };
-    assert_eq!((step, reason, particle.as_str(), least), (0, "acceleration", "particle 0", PACE.least));
-    let want = PACE.courant * (LENGTH / 7e8f64).sqrt();
+    assert_eq!((step, reason, particle.as_str(), least), (0, "acceleration", "particle 0", ADAPTIVE.least));
+    let want = ADAPTIVE.courant * (LENGTH / 7e8f64).sqrt();
     assert!((wanted / want - 1.0).abs() < ROUNDING, "{wanted} is not {want}");
     // None is shorter than the shortest, whatever is asked for: 16777 ticks.
-    assert!((clock(&mut device).dt / PACE.least - 1.0).abs() < 1e-4);
-    let mut twin = on_cpu(&setup);
-    twin.step(3).expect("steps");
-    let said = pollster::block_on(twin.check()).expect_err("the reference says the same").to_string();
+    assert!((clock(&mut device).dt / ADAPTIVE.least - 1.0).abs() < 1e-4);
+    let mut reference = on_cpu(&setup);
+    reference.step(3).expect("steps");
+    let said = pollster::block_on(reference.check()).expect_err("the reference says the same").to_string();
     assert!(
         said.contains("step 0") && said.contains("acceleration of particle 0") && said.contains("dt_min"),
         "{said}"
@@ -130,8 +130,8 @@ fn too_short_a_step_ends_a_run() {
 
 #[test]
 fn what_makes_no_sense_is_refused() {
-    let refused = |forces: Vec<Box<dyn motes::forces::Component>>, name: &str, pace| {
-        let setup = paced(&few(), forces, name, pace);
+    let refused = |forces: Vec<Box<dyn motes::forces::Component>>, name: &str, adaptive_step| {
+        let setup = adapted(&few(), forces, name, adaptive_step);
         let shared = support::device();
         match motes::Simulation::new(&shared.found.device, &shared.found.queue, &setup) {
             Ok(_) => panic!("it must be refused"),
@@ -139,15 +139,15 @@ fn what_makes_no_sense_is_refused() {
         }
     };
     let free = || -> Vec<Box<dyn motes::forces::Component>> { vec![Box::new(Free)] };
-    let no_limit = refused(vec![force("gravity", &[])], "leapfrog", PACE);
+    let no_limit = refused(vec![force("gravity", &[])], "leapfrog", ADAPTIVE);
     assert!(no_limit.contains("no force says how long"), "{no_limit}");
-    let two = refused(vec![Box::new(Free), Box::new(Free)], "leapfrog", PACE);
+    let two = refused(vec![Box::new(Free), Box::new(Free)], "leapfrog", ADAPTIVE);
     assert!(two.contains("2 forces say"), "{two}");
-    assert!(refused(free(), "backward_euler", PACE).contains("implicit"));
-    let even = refused(vec![Box::new(Free), force("wander", &[])], "leapfrog", PACE);
+    assert!(refused(free(), "backward_euler", ADAPTIVE).contains("implicit"));
+    let even = refused(vec![Box::new(Free), force("wander", &[])], "leapfrog", ADAPTIVE);
     assert!(even.contains("random walk"), "{even}");
-    let with = |least: f64, courant: f64, before: Option<f64>| motes::kernel::Pace { least, courant, before };
-    for (pace, says) in [
+    let with = |least: f64, courant: f64, before: Option<f64>| motes::kernel::AdaptiveStep { least, courant, before };
+    for (adaptive_step, says) in [
         (with(1.01 * DT, 0.3, None), "shortest step"),
         (with(0.9e-6 * DT, 0.3, None), "shortest step"),
         (with(DT / 10.0, 1.01, None), "Courant"),
@@ -155,7 +155,7 @@ fn what_makes_no_sense_is_refused() {
         (with(DT / 10.0, 0.3, Some(DT / 11.0)), "before the first"),
         (with(DT / 10.0, 0.3, Some(1.1 * DT)), "before the first"),
     ] {
-        let said = refused(free(), "leapfrog", pace);
+        let said = refused(free(), "leapfrog", adaptive_step);
         assert!(said.contains(says), "{said}");
     }
 }

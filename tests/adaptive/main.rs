@@ -10,12 +10,12 @@ mod support;
 
 use glam::DVec3;
 use motes::error::Error;
-use motes::fluids::{self, Limits, Medium, Smoothing};
 use motes::forces::{Component, Law, Problem, Properties, Resolved, Stage};
-use motes::integrators::Paced;
-use motes::kernel::{Backend, Pace, Plan};
+use motes::integrators::Adaptive;
+use motes::kernel::{AdaptiveStep, Backend, Plan};
 use motes::settings::Value;
 use motes::simulation::Clock;
+use motes::sph::{self, Limits, Medium, Smoothing};
 use motes::{Bounds, Cpu, Gpu, Setup, Simulation, Solver, State};
 use support::Shared;
 use support::states::{force, integrator};
@@ -59,25 +59,25 @@ impl Component for Silent {
     }
     fn resolved(&self, problem: &Problem) -> Result<Resolved, Error> {
         let medium = Self::medium(problem);
-        let viscous_steps = fluids::viscous_steps(&medium, 0.0, problem);
+        let viscous_steps = sph::viscous_steps(&medium, 0.0, problem);
         Ok(Resolved { cell_lists: vec![(medium.grid(problem)?, true)], viscous_steps, ..Resolved::default() })
     }
     fn stage(&self, stage: Stage, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
         if stage != Stage::StepLimit {
             return Ok(());
         }
-        fluids::limits(&Self::medium(problem), Limits { sound: None, alpha: 0.0 }, plan, problem)
+        sph::limits(&Self::medium(problem), Limits { sound: None, alpha: 0.0 }, plan, problem)
     }
 }
 
 /// Steps down to a thousandth, with C = 0.3.
-const PACE: Pace = Pace { least: DT / 1000.0, courant: 0.3, before: None };
+const ADAPTIVE: AdaptiveStep = AdaptiveStep { least: DT / 1000.0, courant: 0.3, before: None };
 
-fn paced(particles: &State, forces: Vec<Box<dyn Component>>, name: &str, pace: Pace) -> Setup {
+fn adapted(particles: &State, forces: Vec<Box<dyn Component>>, name: &str, adaptive_step: AdaptiveStep) -> Setup {
     Setup {
         state: particles.clone(),
         forces,
-        integrator: Box::new(Paced { integrator: integrator(name), pace }),
+        integrator: Box::new(Adaptive { integrator: integrator(name), adaptive_step }),
         dt: DT,
         bounds: Bounds::default(),
         solver: Solver::default(),
@@ -94,7 +94,7 @@ fn on_cpu(setup: &Setup) -> Simulation<Cpu> {
 }
 
 fn clock<B: Backend>(simulation: &mut Simulation<B>) -> Clock {
-    pollster::block_on(simulation.clock()).expect("a clock").expect("steps are paced")
+    pollster::block_on(simulation.clock()).expect("a clock").expect("adaptive steps")
 }
 
 /// `fluid` with a speed of sound, and some more.

@@ -7,7 +7,7 @@ use motes::motion::{Held, Hold, Keyframe, Motion};
 use motes::settings::Value;
 
 use crate::support::states::{force, word};
-use crate::{DT, Free, PACE, clock, on_gpu, paced, support};
+use crate::{ADAPTIVE, DT, Free, adapted, clock, on_gpu, support};
 
 fn swing() -> Motion {
     let key = |time: f64, x: f64, turn: f64| Keyframe {
@@ -35,7 +35,7 @@ fn held_ones_are_where_the_time_says() {
     particles.held = (0..3).zip(hold).map(|(id, by)| Held { id, by }).collect();
     let homes = particles.position().to_vec();
     for name in ["leapfrog", "rk4"] {
-        let setup = paced(&particles, vec![Box::new(Free)], name, PACE);
+        let setup = adapted(&particles, vec![Box::new(Free)], name, ADAPTIVE);
         let shared = support::device();
         let mut simulation = on_gpu(&shared, &setup);
         let goal = DVec3::new(0.9, -0.4, 0.2);
@@ -77,7 +77,7 @@ fn solids_are_where_the_time_says() {
             ("friction", Value::Number(0.0)),
         ],
     );
-    let setup = paced(&particles, vec![wall, Box::new(Free)], "leapfrog", PACE);
+    let setup = adapted(&particles, vec![wall, Box::new(Free)], "leapfrog", ADAPTIVE);
     let shared = support::device();
     let mut simulation = on_gpu(&shared, &setup);
     let mut time = 0.0;

@@ -2,7 +2,7 @@
 
 use std::process::Command;
 
-use motes::kernel::Pace;
+use motes::kernel::AdaptiveStep;
 use motes::scene::{Options, Scene, Source};
 
 const HEAD: &str = "[simulation]\ndt = 0.01\nuntil = 0.055\n";
@@ -36,15 +36,15 @@ fn load(text: &str) -> Result<Scene, String> {
 fn keys_are_read_and_written_back() {
     let of = |more: &str| load(&format!("{HEAD}{more}{REST}")).unwrap_or_else(|faults| panic!("{faults}"));
     let plain = of("adaptive = true\n");
-    assert_eq!(plain.pace, Some(Pace { least: 1e-5, courant: 0.25, before: None }));
+    assert_eq!(plain.adaptive_step, Some(AdaptiveStep { least: 1e-5, courant: 0.25, before: None }));
     assert_eq!((plain.steps, plain.until), (6, 0.055));
     assert!(plain.remarks.iter().any(|text| text.contains("symplectic")), "{:?}", plain.remarks);
     let given = of("adaptive = true\ndt_min = 1e-4\ncfl = 0.4\ndt_before = 0.002\nintegrator = \"rk4\"\n");
-    assert_eq!(given.pace, Some(Pace { least: 1e-4, courant: 0.4, before: Some(0.002) }));
+    assert_eq!(given.adaptive_step, Some(AdaptiveStep { least: 1e-4, courant: 0.4, before: Some(0.002) }));
     assert!(given.remarks.is_empty(), "{:?}", given.remarks);
     let again = load(&given.resolved).unwrap_or_else(|faults| panic!("{faults}"));
-    assert_eq!((again.pace, again.until, again.steps, again.dt), (given.pace, given.until, 6, 0.01));
-    assert_eq!((of("adaptive = false\n").pace, of("").pace), (None, None));
+    assert_eq!((again.adaptive_step, again.until, again.steps, again.dt), (given.adaptive_step, given.until, 6, 0.01));
+    assert_eq!((of("adaptive = false\n").adaptive_step, of("").adaptive_step), (None, None));
 }
 
 #[test]

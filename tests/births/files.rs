@@ -1,6 +1,6 @@
 //! States that say which particles are active, and runs that go on from them.
 
-use motes::io::{Precision, csv, npz};
+use motes::formats::{Precision, csv, npz};
 use motes::kernel::Columns;
 use motes::life::Life;
 use motes::scene::{Options, Scene, Source};
@@ -11,8 +11,8 @@ use crate::{DT, jet, state};
 #[test]
 fn files_say_which_are_active() {
     let mut particles = jet(0.3);
-    particles.set_life(1, Life::Living);
-    particles.set_life(2, Life::Dead);
+    particles.set_life(1, Life::Active);
+    particles.set_life(2, Life::Removed);
     let folder = tempfile::tempdir().expect("a folder");
     let [table, archive] = ["a.csv", "a.npz"].map(|name| folder.path().join(name));
     csv::write_csv(std::fs::File::create(&table).expect("a file"), &particles, Precision::Double).expect("written");
@@ -22,10 +22,10 @@ fn files_say_which_are_active() {
     assert_eq!(npz::read(&archive, &Columns::default()).expect("an archive").life(), particles.life());
     // In another order, and with words that mean nothing.
     std::fs::write(&table, "id,x,y,z,life\n1,0,0,0,2\n0,0,0,0,0\n").expect("written");
-    assert_eq!(csv::read(&table, &Columns::default()).expect("a table").life(), [Life::Waiting, Life::Dead]);
+    assert_eq!(csv::read(&table, &Columns::default()).expect("a table").life(), [Life::Pending, Life::Removed]);
     std::fs::write(&table, "x,y,z,life\n0,0,0,3\n").expect("written");
     let said = csv::read(&table, &Columns::default()).expect_err("no such life").to_string();
-    assert!(said.contains("column life: 3 is none of 0 (waits), 1 (lives) and 2 (is dead)"), "{said}");
+    assert!(said.contains("column life: 3 is none of 0 (pending), 1 (active) and 2 (removed)"), "{said}");
     // Where all are active nothing is said of it.
     particles.remove("life");
     csv::write_csv(std::fs::File::create(&table).expect("a file"), &particles, Precision::Double).expect("written");
@@ -77,8 +77,8 @@ fn a_run_goes_on_from_its_state() {
     let then = run(&rest, folder.path(), 25);
     assert_eq!(then.life(), end.life());
     let of = end.population();
-    assert!(of.waiting > 0 && of.dead > 0 && of.living > 5, "{of:?}");
-    assert!(half.population().waiting > of.waiting);
+    assert!(of.pending > 0 && of.removed > 0 && of.active > 5, "{of:?}");
+    assert!(half.population().pending > of.pending);
     for id in 0..85 {
         // Rounding alone: in f64 births are decided by their times, which are written otherwise.
         assert!((then.position()[id] - end.position()[id]).length() < 1e-9, "{id}");

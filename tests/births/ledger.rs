@@ -33,23 +33,23 @@ fn the_dead_stay_dead_and_ids_are_never_reused() {
             let (then, is) = (last.life()[id], now.life()[id]);
             // Life goes on, and never back.
             assert!(then.word() <= is.word(), "{id}: {then:?} and then {is:?}");
-            seen[0] += usize::from(then == Life::Waiting && is != then);
-            seen[1] += usize::from(is == Life::Dead && is != then);
-            if then == Life::Dead || is == Life::Waiting {
+            seen[0] += usize::from(then == Life::Pending && is != then);
+            seen[1] += usize::from(is == Life::Removed && is != then);
+            if then == Life::Removed || is == Life::Pending {
                 assert_eq!(now.position()[id], last.position()[id], "{id} stays");
             }
-            if is != Life::Living {
+            if is != Life::Active {
                 assert_eq!((now.velocity()[id], now.mass()[id], *energy), (DVec3::ZERO, 0.0, 0.0), "{id} rests");
             }
         }
         let of = now.population();
         assert_eq!(of, pollster::block_on(simulation.population()).expect("a count"));
-        assert_eq!(of.waiting + of.living + of.dead, count as u64);
+        assert_eq!(of.pending + of.active + of.removed, count as u64);
         // The ledger's sums are those over the living, of their own masses.
         let own = |id: usize| {
             setup.state.births.iter().find(|b| b.id as usize == id).map_or(setup.state.mass()[id], |b| b.mass)
         };
-        let alive = || (0..count).filter(|id| now.life()[*id] == Life::Living);
+        let alive = || (0..count).filter(|id| now.life()[*id] == Life::Active);
         let mass: f64 = alive().map(own).sum();
         let momentum: DVec3 = alive().map(|id| own(id) * now.velocity()[id]).sum();
         let measure = Measure::of(&snapshot).expect("energies");
@@ -77,7 +77,7 @@ fn inactive_particles_are_in_no_pair() {
     // In the midst of the pool, some of them dead.
     for k in n..some.len() {
         some.position_mut()[k] = some.position()[k % n] + DVec3::new(0.013, 0.021, 0.0);
-        some.set_life(k, [Life::Waiting, Life::Dead][k % 2]);
+        some.set_life(k, [Life::Pending, Life::Removed][k % 2]);
         some.velocity_mut()[k] = DVec3::X;
         some.mass_mut()[k] = 3.0;
     }
@@ -101,7 +101,7 @@ fn removed_particles_attract_none() {
     };
     let mut massless = particles.clone();
     (30..40).for_each(|id| massless.mass_mut()[id] = 0.0);
-    (30..40).for_each(|id| particles.set_life(id, Life::Dead));
+    (30..40).for_each(|id| particles.set_life(id, Life::Removed));
     let (dead, light) = (gravity(particles), gravity(massless));
     for id in 0..30 {
         assert!((dead[id] - light[id]).length() < 1e-6 * light[id].length(), "{id}");

@@ -1,11 +1,11 @@
-//! Every kernel of a pool with a jet and drains against its twin.
+//! Every kernel of a pool with a jet and drains against its reference.
 
 use std::collections::BTreeSet;
 
-use motes::fluids::DENSITY;
 use motes::kernel::{Backend, Machine, Plan};
 use motes::lockstep::compare;
 use motes::settings::Value;
+use motes::sph::DENSITY;
 use motes::{Gpu, LIFE, Simulation};
 
 use crate::ledger::drains;
@@ -27,7 +27,7 @@ fn agreed(simulation: &mut Simulation<Gpu>, steps: u32, plan: &Plan, name: &str)
 }
 
 #[test]
-fn kernels_agree_with_their_twins() {
+fn kernels_agree_with_their_references() {
     let shared = support::device();
     for (name, machine) in machines::machines(&shared).into_iter().filter(|(name, _)| !name.contains("layers")) {
         let mut setup = pool(drains());
@@ -60,7 +60,7 @@ fn kernels_agree_with_their_twins() {
 
 /// Where density is a state, pending particles keep it, and removed ones are in no sum.
 #[test]
-fn states_of_density_agree_with_their_twins() {
+fn states_of_density_agree_with_their_references() {
     let shared = support::device();
     let mut setup = pool(drains());
     let (continuity, diffusion) = (("density_by", word("continuity")), ("diffusion", Value::Number(0.1)));
@@ -77,12 +77,12 @@ fn states_of_density_agree_with_their_twins() {
         assert!(of(1).any(|rho| (rho - 1000.0).abs() > 1.0));
     }
     let of = pollster::block_on(simulation.population()).expect("a count");
-    assert!(of.waiting > 0 && of.dead > 0, "{of:?}");
+    assert!(of.pending > 0 && of.removed > 0, "{of:?}");
 }
 
 /// Where pressure is solved for, active particles alone are: pairs are kept, or found anew.
 #[test]
-fn solves_for_pressure_agree_with_their_twins() {
+fn solves_for_pressure_agree_with_their_references() {
     let shared = support::device();
     for walks in [false, true] {
         let mut setup = pool(drains());
@@ -103,6 +103,6 @@ fn solves_for_pressure_agree_with_their_twins() {
             assert!(changed.contains(kernel), "{walks}: {kernel} of {changed:?}");
         }
         let of = pollster::block_on(simulation.population()).expect("a count");
-        assert!(of.waiting > 0 && of.dead > 0, "{of:?}");
+        assert!(of.pending > 0 && of.removed > 0, "{of:?}");
     }
 }

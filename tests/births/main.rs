@@ -1,9 +1,9 @@
 //! Which particles are spawned when and where, which are removed, and that inactive ones act on no other.
 
+mod adaptive;
 mod files;
 mod ledger;
 mod lockstep;
-mod paced;
 mod refusals;
 mod schedule;
 #[path = "../support/mod.rs"]
@@ -13,8 +13,8 @@ use glam::DVec3;
 use motes::forces::Component;
 use motes::kernel::Backend;
 use motes::life::Drain;
-use motes::particles::emitter;
 use motes::settings::{Settings, Value};
+use motes::shapes::emitter;
 use motes::{Bounds, Setup, Side, Simulation, State};
 use support::states::{force, integrator, word};
 
@@ -81,7 +81,7 @@ fn fluid_with(more: &[(&'static str, Value)]) -> Box<dyn Component> {
 
 /// A pool in the plane, a jet into it, and a drain in which some of both die; mirrors around.
 fn pool(drains: Vec<Drain>) -> Setup {
-    let block = motes::particles::shape("block").expect("a shape");
+    let block = motes::shapes::shape("block").expect("a shape");
     let settings = Settings::defaults(block.keys)
         .with("size", Value::Vector(DVec3::new(1.2, 0.5, 0.0)))
         .with("spacing", Value::Number(0.1))

@@ -57,7 +57,7 @@ fn faults_of_scenes_name_their_place() {
 fn programs_get_the_same_errors() {
     let birth = Birth { id: 1, time: 0.0, velocity: DVec3::X, mass: 1.0, guided: 0.0, emitter: 0 };
     let drain = Drain { solid: Solid::Sphere(1.0), position: DVec3::ZERO, outside: false, species: None };
-    let life = [Life::Living, Life::Waiting];
+    let life = [Life::Active, Life::Pending];
     let held = |id| Held { id, by: Hold::Fixed };
     assert!(check((&life, &[birth], &[drain]), &[held(0)], 2, 3).is_ok());
     let up = Birth { velocity: DVec3::Z, ..birth };

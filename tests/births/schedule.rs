@@ -32,23 +32,23 @@ fn as_many_are_born_as_are_due() {
     let mut simulation = Simulation::on(gpu, &setup(particles.clone(), Vec::new(), Bounds::default())).expect("a run");
     let all = particles.len() as u64;
     let before = pollster::block_on(simulation.population()).expect("a count");
-    assert_eq!((before.waiting, before.living, before.dead), (all, 0, 0));
+    assert_eq!((before.pending, before.active, before.removed), (all, 0, 0));
     for steps in [1, 7, 9, 20, 20] {
         simulation.step(steps).expect("steps");
         let time = simulation.steps() as f64 * DT;
         let want = (6 * due(time, 0.0, 0.1 / 1.3)).min(rows) + due(time, 0.1, 1.0 / 71.0).min(all - rows);
         let have = pollster::block_on(simulation.population()).expect("a count");
-        assert_eq!((have.living, have.waiting, have.dead), (want, all - want, 0), "at {time}");
+        assert_eq!((have.active, have.pending, have.removed), (want, all - want, 0), "at {time}");
         // Active particles are the first of each emitter, and each is where it flew to by itself.
         let now = state(&mut simulation);
         for birth in &particles.births {
             let id = birth.id as usize;
-            let lives = birth.time <= time + DT / 64.0;
-            assert_eq!(now.life()[id], if lives { Life::Living } else { Life::Waiting }, "{id} at {time}");
-            let way = if lives { birth.velocity * (time - birth.time) } else { DVec3::ZERO };
+            let is_active = birth.time <= time + DT / 64.0;
+            assert_eq!(now.life()[id], if is_active { Life::Active } else { Life::Pending }, "{id} at {time}");
+            let way = if is_active { birth.velocity * (time - birth.time) } else { DVec3::ZERO };
             // 60 additions near 1, each rounded by 6e-8.
             assert!((now.position()[id] - particles.position()[id] - way).length() < 60.0 * 2e-7, "{id}");
-            let (mass, v) = if lives { (birth.mass, birth.velocity) } else { (0.0, DVec3::ZERO) };
+            let (mass, v) = if is_active { (birth.mass, birth.velocity) } else { (0.0, DVec3::ZERO) };
             assert!(
                 (now.mass()[id] - mass).abs() < 1e-7 * birth.mass && (now.velocity()[id] - v).length() < 1e-6,
                 "{id}"
@@ -66,7 +66,7 @@ fn rows_follow_each_other_at_the_spacing() {
     let mut simulation = Simulation::on(gpu, &setup(particles.clone(), Vec::new(), Bounds::default())).expect("a run");
     simulation.step(73).expect("steps");
     let now = state(&mut simulation);
-    assert!(now.life().iter().all(|life| *life == Life::Living));
+    assert!(now.life().iter().all(|life| *life == Life::Active));
     // In the middle of the jet the nearest others of each are a spacing away, and six of them.
     let gap = |a: usize, b: usize| (now.position()[a] - now.position()[b]).length();
     for id in 0..particles.len() {
@@ -120,11 +120,11 @@ fn a_jet_is_at_rest_density() {
     let mut simulation =
         Simulation::on(Cpu::new(count).expect("some"), &setup(particles, vec![fluid()], bounds)).expect("a run");
     simulation.step(88).expect("steps");
-    let density = pollster::block_on(simulation.read(motes::fluids::DENSITY)).expect("densities");
+    let density = pollster::block_on(simulation.read(motes::sph::DENSITY)).expect("densities");
     let now = state(&mut simulation);
     // Ten abreast: the fourth to seventh of a row see no edge, nor do rows that are two behind an end.
     let rows = now.len() / 10;
-    assert!(rows >= 12 && now.life().iter().all(|life| *life == Life::Living));
+    assert!(rows >= 12 && now.life().iter().all(|life| *life == Life::Active));
     for id in (2..rows - 2).flat_map(|row| (3..7).map(move |k| 10 * row + k)) {
         assert!((f64::from(density[id]) / 1000.0 - 1.0).abs() < 0.02, "{id}: {}", density[id]);
     }

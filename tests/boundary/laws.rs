@@ -1,7 +1,7 @@
 //! Forces in a periodic box: the nearest image, on every machine.
 
 use glam::{DVec3, DVec4};
-use motes::forces::{Component, FORCES, Problem};
+use motes::forces::{self, Component, Problem};
 use motes::integrators::Step;
 use motes::kernel::Backend;
 use motes::lockstep::{Verdict, compare};
@@ -65,7 +65,8 @@ fn every_law_in_a_periodic_box() {
         }
     }
     let lawless = |name: &str| force(name, &[]).laws().is_empty();
-    let idle: Vec<_> = FORCES.iter().map(|e| e.name).filter(|name| !busy.contains(name) && !lawless(name)).collect();
+    let idle: Vec<_> =
+        forces::entries().map(|e| e.name).filter(|name| !busy.contains(name) && !lawless(name)).collect();
     assert!(idle.is_empty(), "nothing changes: {idle:?}");
 }
 

@@ -138,12 +138,12 @@ fn from_however_far() {
         let setup = setup(inside(far.len(), &bounds, 4), Vec::new(), "leapfrog", 1e-3, bounds);
         let mut device = Simulation::on(gpu(&shared, far.len()), &setup).expect("a simulation");
         let count = u32::try_from(far.len()).expect("few");
-        let mut twins = Simulation::on(Cpu::new(count).expect("some"), &setup).expect("a simulation");
+        let mut references = Simulation::on(Cpu::new(count).expect("some"), &setup).expect("a simulation");
         device.write(POSITION, &places).expect("places");
-        twins.write(POSITION, &places).expect("places");
+        references.write(POSITION, &places).expect("places");
         device.step(1).expect("a step");
-        twins.step(1).expect("a step");
-        let found = [pollster::block_on(device.read(POSITION)), pollster::block_on(twins.read(POSITION))];
+        references.step(1).expect("a step");
+        let found = [pollster::block_on(device.read(POSITION)), pollster::block_on(references.read(POSITION))];
         for x in found.into_iter().flat_map(|places| places.expect("places")) {
             let x = x.truncate();
             let (low, high) = (bounds.low.as_vec3(), bounds.high.as_vec3());

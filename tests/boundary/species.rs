@@ -16,7 +16,7 @@ struct Sorting;
 impl Component for Sorting {
     fn laws(&self) -> Vec<Law> {
         let wgsl = "fn force(me: Particle) -> vec4f { return vec4f(f32(species[me.index]), 0.0, 0.0, 0.0); }";
-        let twin = |host: &Host| {
+        let reference = |host: &Host| {
             let species = host.read(SPECIES)?;
             for (a, of) in host.write(ACCELERATION)?.iter_mut().zip(species.iter()) {
                 *a += DVec4::X * f64::from(*of);
@@ -24,7 +24,7 @@ impl Component for Sorting {
             Ok(())
         };
         let wgsl = Source::ours("sorting", wgsl);
-        vec![Law::plain("sorting", Over::Each, wgsl, Vec::new(), Arc::new(twin))]
+        vec![Law::plain("sorting", Over::Each, wgsl, Vec::new(), Arc::new(reference))]
     }
 }
 

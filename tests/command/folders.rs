@@ -202,7 +202,7 @@ fn a_pipe_with_a_name_is_no_scene() {
 /// Every format of the register is written by a run, replaced by the next, and read as where another run begins.
 #[test]
 fn every_format_is_written_replaced_and_read() {
-    for format in motes::io::FORMATS.iter().filter(|format| format.write.is_some()) {
+    for format in motes::formats::FORMATS.iter().filter(|format| format.write.is_some()) {
         let scene = SCENE.replace("formats = [\"csv\"]", &format!("formats = [\"{}\"]", format.name));
         assert_eq!(format.name == "csv", scene == SCENE, "the scene says which format");
         let place = Place::with(&[("a.toml", &scene)]);

@@ -60,8 +60,8 @@ fn faults_are_reported_before_particles_are_made() {
 /// What is counted is what is made.
 #[test]
 fn amounts_are_those_of_the_shapes() {
-    use motes::particles::{Amount, shape};
     use motes::settings::{Settings, Value};
+    use motes::shapes::{Amount, shape};
     let number = |x: u32| Value::Number(f64::from(x));
     let size = Value::Vector(glam::DVec3::new(4.0, 3.0, 5.0));
     let text = |word: &'static str| Value::Text(word.into());

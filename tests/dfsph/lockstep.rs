@@ -1,4 +1,4 @@
-//! Every kernel against its twin, on the device's own inputs.
+//! Every kernel against its reference, on the device's own inputs.
 
 use std::collections::BTreeMap;
 
@@ -13,7 +13,7 @@ use crate::support::{self, Random};
 use crate::{SPACING, Tank};
 
 #[test]
-fn device_and_twins_solve_alike() {
+fn device_and_references_solve_alike() {
     let shared = support::device();
     // Pairs are kept where there is room for them.
     for (flat, walks) in [(true, false), (false, false), (false, true)] {

@@ -1,7 +1,7 @@
 //! The solves once more, as the paper writes them: velocities instead of accelerations, lists of neighbours, f64.
 
 use glam::DVec3;
-use motes::fluids::{Medium, Smoothing};
+use motes::sph::{Medium, Smoothing};
 
 use crate::{DENSITY, SPACING};
 

@@ -1,8 +1,8 @@
 //! Columns at rest.
 
 use glam::Vec4;
-use motes::fluids::PRESSURE;
 use motes::settings::Value;
+use motes::sph::PRESSURE;
 use motes::{POSITION, VELOCITY};
 
 use crate::{DENSITY, SPACING, Tank, WEIGHT, support};

@@ -1,7 +1,7 @@
 //! Water at rest.
 
 use glam::Vec4;
-use motes::fluids::DENSITY;
+use motes::sph::DENSITY;
 use motes::{POSITION, Simulation};
 
 use crate::support;

@@ -1,9 +1,9 @@
 //! What must hold whatever the fluid is.
 
 use glam::{DVec3, DVec4, Vec4};
-use motes::fluids::{DENSITY, Friction, Medium, Smoothing, Walls, pressure};
 use motes::kernel::{ACCELERATION, Array, Machine, Problem};
 use motes::settings::Value;
+use motes::sph::{DENSITY, Friction, Medium, Smoothing, Walls, pressure};
 use motes::{Bounds, POSITION, Side, State, VELOCITY};
 
 use crate::support;

@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 
 use glam::DVec3;
-use motes::fluids::{DENSITY, Medium, Smoothing};
 use motes::settings::Value;
+use motes::sph::{DENSITY, Medium, Smoothing};
 use motes::{Bounds, State};
 
 use crate::support;

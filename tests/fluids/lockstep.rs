@@ -1,4 +1,4 @@
-//! The device against the twins, kernel by kernel.
+//! The device against the references, kernel by kernel.
 
 use motes::kernel::Backend;
 use motes::lockstep::compare;
@@ -54,7 +54,7 @@ fn state() -> Vec<(&'static str, Value)> {
 }
 
 #[test]
-fn kernels_agree_with_their_twins() {
+fn kernels_agree_with_their_references() {
     let shared = support::device();
     for flat in [false, true] {
         for (side, walls) in [(Side::Open, false), (Side::Open, true), (Side::Periodic, false), (Side::Periodic, true)]

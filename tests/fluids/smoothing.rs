@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use glam::DVec3;
-use motes::fluids::{Medium, Smoothing};
+use motes::sph::{Medium, Smoothing};
 
 const KERNELS: [Smoothing; 2] = [Smoothing::Cubic, Smoothing::Wendland];
 

@@ -51,7 +51,7 @@ const LAYERS: [(f64, [[f64; 3]; 2]); 4] = [
 fn a_layer_weighs_what_the_fluid_in_its_place_does() {
     for (support, both) in LAYERS {
         for (flat, [volume, dense, gap]) in [(false, both[0]), (true, both[1])] {
-            let sum = motes::fluids::Smoothing::Cubic.lattice_sum(support, if flat { 2 } else { 3 });
+            let sum = motes::sph::Smoothing::Cubic.lattice_sum(support, if flat { 2 } else { 3 });
             for (gap, want) in [(1.0, dense), (gap, 1.0)] {
                 let (particles, bounds, walls) = layers(flat, gap, 5);
                 let setup = setup(&particles, vec![fluid("cubic", support)], "leapfrog", 1e-9, bounds);

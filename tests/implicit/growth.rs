@@ -8,7 +8,7 @@ use motes::{Setup, Solver, State};
 
 use crate::support::states::{force, one, word};
 use crate::support::{self, Shared};
-use crate::{ALL, hold, on_device, on_twins, phase, setup, tie};
+use crate::{ALL, hold, on_device, on_references, phase, setup, tie};
 
 /// ω², not 1.
 const STRENGTH: f64 = 1.69;
@@ -38,7 +38,7 @@ fn run(shared: &Shared, setup: &Setup, steps: u32, device: bool) -> [(DVec3, DVe
         simulation.step(steps).expect("steps");
         [before, phase(&mut simulation, 0)]
     } else {
-        let mut simulation = on_twins(setup);
+        let mut simulation = on_references(setup);
         let before = phase(&mut simulation, 0);
         simulation.step(steps).expect("steps");
         [before, phase(&mut simulation, 0)]

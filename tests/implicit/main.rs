@@ -38,7 +38,7 @@ fn on_device(shared: &Shared, setup: &Setup) -> Simulation<Gpu> {
     Simulation::new(&shared.found.device, &shared.found.queue, setup).expect("a simulation")
 }
 
-fn on_twins(setup: &Setup) -> Simulation<Cpu> {
+fn on_references(setup: &Setup) -> Simulation<Cpu> {
     let count = u32::try_from(setup.state.len()).expect("few");
     Simulation::on(Cpu::new(count).expect("some"), setup).expect("a simulation")
 }

@@ -6,7 +6,7 @@ use motes::{Setup, Solver, State};
 
 use crate::support::states::{force, phase as wide, vector};
 use crate::support::{self};
-use crate::{hold, on_device, on_twins, phase, setup, tie};
+use crate::{hold, on_device, on_references, phase, setup, tie};
 
 const SOLVER: Solver = Solver { tolerance: 1e-6, iterations: 10, solves: 8 };
 const GRAVITY: f64 = 9.81;
@@ -32,17 +32,17 @@ const GOLDEN: [f64; 4] = [-0.919_295_487_728, -0.674_524_783_863, -1.401_110_610
 #[test]
 fn golden_row_of_linear_backward_euler() {
     let setup = swing("linear_backward_euler", 0.01);
-    let mut twins = on_twins(&setup);
-    twins.step(100).expect("steps");
-    let (x, v) = wide(&mut twins);
+    let mut references = on_references(&setup);
+    references.step(100).expect("steps");
+    let (x, v) = wide(&mut references);
     let error = |x: DVec3, v: DVec3| {
         let got = [x.x, x.z, v.x, v.z];
         got.iter().zip(GOLDEN).map(|(got, want)| (got - want).abs()).fold(0.0, f64::max)
     };
     // Two unknowns are solved exactly by two iterations; one is enough only where a part of 1e-6 is left of a change of
     // about a tenth of a metre per second, a few times in a hundred steps.
-    let by_twins = error(x[0].truncate(), v[0].truncate());
-    assert!(by_twins < 1e-7, "the references are off by {by_twins:e}");
+    let by_references = error(x[0].truncate(), v[0].truncate());
+    assert!(by_references < 1e-7, "the references are off by {by_references:e}");
 
     let shared = support::device();
     let mut device = on_device(&shared, &setup);
@@ -64,7 +64,7 @@ fn converged_methods_over_long_times() {
     // At rest below: ½ k s² − g (1 + s) with s = g / k.
     let rest = -0.5 * GRAVITY * GRAVITY / STIFFNESS - GRAVITY;
     for (name, dt, steps) in [("backward_euler", 0.05, 4000), ("implicit_midpoint", 0.02, 4000)] {
-        let mut simulation = on_twins(&swing(name, dt));
+        let mut simulation = on_references(&swing(name, dt));
         let (mut low, mut high) = (f64::MAX, f64::MIN);
         for _ in 0..steps / 10 {
             simulation.step(10).expect("steps");

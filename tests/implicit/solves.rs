@@ -11,7 +11,7 @@ use motes::{ACCELERATION, Gpu, POSITION, Simulation, Solver, State};
 use crate::cloth::{System, cloth};
 use crate::support::states::{force, vector};
 use crate::support::{self, Shared};
-use crate::{on_device, on_twins, phase, setup};
+use crate::{on_device, on_references, phase, setup};
 
 /// A frame of a film.
 const H: f64 = 1.0 / 60.0;
@@ -86,10 +86,10 @@ fn what_does_not_converge_says_so() {
     let solver = Solver { tolerance: 1e-4, iterations: 7, solves: 1 };
     for name in ["linear_backward_euler", "backward_euler"] {
         let setup = setup(&particles, forces(), name, H, solver);
-        let (mut device, mut twins) = (on_device(&shared, &setup), on_twins(&setup));
+        let (mut device, mut references) = (on_device(&shared, &setup), on_references(&setup));
         device.step(3).expect("steps");
-        twins.step(3).expect("steps");
-        for report in [report(&mut device), report(&mut twins)] {
+        references.step(3).expect("steps");
+        for report in [report(&mut device), report(&mut references)] {
             assert_eq!((report.solves, report.failures, report.first_failure), (3, 3, Some(0)), "{name}: {report:?}");
             assert_eq!((report.outcome, report.iterations, report.most_iterations), (Outcome::RanOut, 7, 7), "{name}");
             assert!(report.residual > 1e-4 && report.residual.is_finite(), "{name}: {report:?}");

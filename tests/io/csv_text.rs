@@ -1,7 +1,7 @@
 //! CSV: the text itself, what may be left out, and all that can be wrong with it.
 
 use glam::DVec3;
-use motes::io::Precision;
+use motes::formats::Precision;
 
 use crate::{bits, csv_bytes, folder, put, read, refused, some};
 

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use motes::error::Error;
-use motes::io::links::{self, Tie, Usual};
+use motes::formats::links::{self, Tie, Usual};
 use motes::links::{Link, Links, Rod};
 use proptest::prelude::*;
 

@@ -18,7 +18,7 @@ use std::path::{Path, PathBuf};
 use glam::DVec3;
 use motes::State;
 use motes::error::Error;
-use motes::io::{Precision, csv, npz, tipsy, xyz};
+use motes::formats::{Precision, csv, npz, tipsy, xyz};
 use motes::kernel::Columns;
 use tempfile::TempDir;
 
@@ -28,7 +28,7 @@ fn folder() -> TempDir {
 
 /// Reads what every simulation has.
 fn read(path: &Path) -> Result<State, Error> {
-    motes::io::read(path, &Columns::default())
+    motes::formats::read(path, &Columns::default())
 }
 
 fn put(folder: &TempDir, name: &str, bytes: impl AsRef<[u8]>) -> PathBuf {

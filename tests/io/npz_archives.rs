@@ -5,7 +5,7 @@ use std::path::Path;
 
 use glam::DVec3;
 use motes::error::Error;
-use motes::io::npz;
+use motes::formats::npz;
 use npyz::zip::write::FileOptions;
 use npyz::zip::{CompressionMethod, ZipWriter};
 

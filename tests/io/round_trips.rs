@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use motes::State;
-use motes::io::{Precision, tipsy};
+use motes::formats::{Precision, tipsy};
 use proptest::prelude::*;
 
 use crate::{bits, csv_bytes, folder, npz_bytes, put, read, some, tipsy_bytes, xyz_bytes};

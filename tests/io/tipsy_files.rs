@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use motes::State;
-use motes::io::tipsy;
+use motes::formats::tipsy;
 
 use crate::{folder, put, read, refused, some};
 

@@ -5,7 +5,7 @@ use std::io::Write;
 use std::path::Path;
 
 use motes::error::Error;
-use motes::io::{Precision, atomically, csv};
+use motes::formats::{Precision, atomically, csv};
 
 use crate::{csv_bytes, folder, npz_bytes, put, read, refusal, some, tipsy_bytes};
 

@@ -1,7 +1,7 @@
 //! Extended XYZ: what other programs write, and what is wrong with a file.
 
 use glam::DVec3;
-use motes::io::{Precision, read as read_state};
+use motes::formats::{Precision, read as read_state};
 use motes::kernel::{Array, Column, Columns, Kind};
 
 use crate::{folder, put, read, some, xyz_bytes};
@@ -87,6 +87,6 @@ fn faults_are_reported_with_their_lines() {
     let mut state = some(1);
     state.species_mut()[0] = 119;
     let said =
-        motes::io::xyz::write_xyz(std::io::sink(), &state, Precision::Single).expect_err("no element").to_string();
+        motes::formats::xyz::write_xyz(std::io::sink(), &state, Precision::Single).expect_err("no element").to_string();
     assert!(said.contains("species 119"), "{said}");
 }

@@ -4,8 +4,11 @@
 use glam::Vec4;
 use motes::error::Error;
 use motes::forces::{Component, Law, Problem, Resolved};
-use motes::integrators::Paced;
-use motes::kernel::{ALARM, Backend, Kernel, Machine, PACE, PACE_WORDS, Pace, STOP, URGENT, URGES, World};
+use motes::integrators::Adaptive;
+use motes::kernel::{
+    ALARM, AdaptiveStep, Backend, Kernel, LARGEST_CRITERION, Machine, STEP_CLOCK, STEP_CLOCK_WORDS, STEP_CRITERIA,
+    STOP, World,
+};
 use motes::{Bounds, Gpu, Setup, Simulation, Solver};
 
 use crate::stages::{Device, FEW, Stage, fill, moving};
@@ -49,11 +52,11 @@ impl Component for Thick {
 }
 
 fn setup(force: Box<dyn Component>, least: f64) -> Setup {
-    let pace = Pace { least, courant: 0.3, before: None };
+    let adaptive_step = AdaptiveStep { least, courant: 0.3, before: None };
     Setup {
         state: support::cloud(FEW, 11),
         forces: vec![force],
-        integrator: Box::new(Paced { integrator: integrator("heun"), pace }),
+        integrator: Box::new(Adaptive { integrator: integrator("heun"), adaptive_step }),
         dt: DT,
         bounds: Bounds::default(),
         solver: Solver::default(),
@@ -69,7 +72,7 @@ fn kernel(setup: &Setup, name: &str) -> Kernel {
 
 /// A clock: the time, the ticks of the step, those before, then the alarm, the shortest and the longest.
 pub fn words([whole, rest, step, free]: [u32; 4], alarm: u32, [shortest, longest]: [u32; 2]) -> Vec<u32> {
-    let mut words: Vec<u32> = (0..PACE_WORDS as u32).map(|k| 70 + 3 * k).collect();
+    let mut words: Vec<u32> = (0..STEP_CLOCK_WORDS as u32).map(|k| 70 + 3 * k).collect();
     words[..4].copy_from_slice(&[whole, rest, step, free]);
     words[4..12].copy_from_slice(&[3, 77, alarm, 9, 8, 7, shortest, longest]);
     words
@@ -85,7 +88,7 @@ pub fn staged(
 ) {
     let plan = alone(kernel);
     fill(&mut simulation, &plan);
-    simulation.write(PACE, clock).expect("a clock");
+    simulation.write(STEP_CLOCK, clock).expect("a clock");
     more(&mut simulation);
     stages.push(Stage::of(name, simulation, plan));
 }
@@ -146,7 +149,7 @@ fn steps(device: &Device, stages: &mut Vec<Stage>) {
         let kernel = kernel(&setup(Box::new(Thick(viscous)), DT / 64.0), "adaptive");
         staged(stages, &format!("adaptive dt {case}"), moving(device, FEW, None), kernel, &clock, |simulation| {
             let most = Vec4::new(wants[0], wants[1], wants[2], 0.0);
-            simulation.write(URGENT, &[most]).expect("urgent");
+            simulation.write(LARGEST_CRITERION, &[most]).expect("largest_criterion");
             simulation.write(STOP, &stop).expect("a stop");
         });
     }
@@ -160,7 +163,9 @@ fn steps(device: &Device, stages: &mut Vec<Stage>) {
             kernel,
             &usual,
             |simulation| {
-                simulation.write(URGENT, &[Vec4::new(TICKS as f32 / ticks, 0.2, 0.3, 0.0)]).expect("urgent");
+                simulation
+                    .write(LARGEST_CRITERION, &[Vec4::new(TICKS as f32 / ticks, 0.2, 0.3, 0.0)])
+                    .expect("largest_criterion");
                 simulation.write(STOP, &far).expect("a stop");
             },
         );
@@ -170,11 +175,11 @@ fn steps(device: &Device, stages: &mut Vec<Stage>) {
 /// The limiting particle: of each reason, of none, with an alarm of now and of before.
 fn limiting(device: &Device, stages: &mut Vec<Stage>) {
     let mut random = Random::new(5);
-    let mut urges: Vec<Vec4> = (0..FEW).map(|_| random.vector().as_vec3().abs().extend(0.0)).collect();
+    let mut step_criteria: Vec<Vec4> = (0..FEW).map(|_| random.vector().as_vec3().abs().extend(0.0)).collect();
     // Each is the most of some: two, two of which one is the last, the last alone.
     for (part, ids) in [[40, 377], [20, FEW - 1], [FEW - 1, FEW - 1]].into_iter().enumerate() {
         for id in ids {
-            urges[id][part] = 2.5;
+            step_criteria[id][part] = 2.5;
         }
     }
     let clock = pollster::block_on(moving(device, FEW, None).backend().world()).expect("a clock");
@@ -193,8 +198,8 @@ fn limiting(device: &Device, stages: &mut Vec<Stage>) {
                 kernel,
                 &state,
                 |simulation| {
-                    simulation.write(URGES, &urges).expect("urges");
-                    simulation.write(URGENT, &[Vec4::new(2.5, 2.5, 2.5, 0.0)]).expect("urgent");
+                    simulation.write(STEP_CRITERIA, &step_criteria).expect("step_criteria");
+                    simulation.write(LARGEST_CRITERION, &[Vec4::new(2.5, 2.5, 2.5, 0.0)]).expect("largest_criterion");
                 },
             );
         }
@@ -205,8 +210,8 @@ fn limiting(device: &Device, stages: &mut Vec<Stage>) {
 fn clocks(device: &Device, stages: &mut Vec<Stage>) {
     let setup = || {
         let mut setup = setup(Box::new(Thick(0.1)), DT / 64.0);
-        let pace = setup.integrator.pace().expect("a pace");
-        setup.integrator = Box::new(Paced { integrator: integrator("forest_ruth"), pace });
+        let adaptive_step = setup.integrator.adaptive_step().expect("adaptive steps");
+        setup.integrator = Box::new(Adaptive { integrator: integrator("forest_ruth"), adaptive_step });
         setup.forces.push(force("goal", &[("velocity", vector(0.2, 0.3, -0.1))]));
         setup
     };

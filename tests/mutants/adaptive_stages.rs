@@ -2,12 +2,12 @@
 
 use glam::Vec4;
 use motes::error::Error;
-use motes::fluids::{self, Limits, Medium, Smoothing};
 use motes::forces::{Component, Law, Problem, Resolved};
-use motes::integrators::{Paced, Step};
-use motes::kernel::{Backend, HOME, Machine, Pace, Plan, TARGET, World};
+use motes::integrators::{Adaptive, Step};
+use motes::kernel::{AdaptiveStep, Backend, HOME, Machine, Plan, TARGET, World};
 use motes::motion::{Held, Hold};
 use motes::settings::Value;
+use motes::sph::{self, Limits, Medium, Smoothing};
 use motes::{Bounds, Gpu, Setup, Side, Simulation, Solver};
 
 use crate::adaptive::{DT, MACHINE, NONE, staged, words};
@@ -34,14 +34,14 @@ impl Component for Silent {
         Vec::new()
     }
     fn resolved(&self, problem: &Problem) -> Result<Resolved, Error> {
-        let viscous_steps = fluids::viscous_steps(&Self::medium(), 0.0, problem);
+        let viscous_steps = sph::viscous_steps(&Self::medium(), 0.0, problem);
         Ok(Resolved { viscous_steps, ..Resolved::default() })
     }
     fn stage(&self, stage: motes::component::Stage, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
         if stage != motes::component::Stage::StepLimit {
             return Ok(());
         }
-        fluids::limits(&Self::medium(), Limits { sound: None, alpha: 0.0 }, plan, problem)
+        sph::limits(&Self::medium(), Limits { sound: None, alpha: 0.0 }, plan, problem)
     }
 }
 
@@ -51,7 +51,7 @@ fn motions(device: &Device, stages: &mut Vec<Stage>) {
     let number = u32::try_from(held::motions().len()).expect("few");
     let by = |id: u32| if id % 3 == 1 { Hold::Target } else { Hold::Motion(id / 3 % number) };
     let led: Vec<Held> = (0..count).map(|id| Held { id, by: by(id) }).collect();
-    let pace = Some(Pace { least: DT / 64.0, courant: 0.3, before: None });
+    let adaptive_step = Some(AdaptiveStep { least: DT / 64.0, courant: 0.3, before: None });
     // At 1.13, in a step of 0.22.
     let clock = words([3, 900_001, 10_000_003, 9], NONE, [1, 2]);
     let places = |it: &mut Simulation<Gpu>| {
@@ -63,14 +63,15 @@ fn motions(device: &Device, stages: &mut Vec<Stage>) {
         }
     };
     let periodic = Bounds::new(glam::DVec3::new(-0.9, -1.1, -1.0), glam::DVec3::new(0.7, 0.8, 0.9), Side::Periodic);
-    let problem = held::problem(&led, periodic).paced(pace);
+    let problem = held::problem(&led, periodic).adapted(adaptive_step);
     let mut step = Step::new(&[], problem);
     step.lead();
     for kernel in step.finished().expect("a plan").kernels {
         staged(stages, "lead, adaptive", resting(device, MACHINE, periodic), kernel, &clock, places);
     }
     for (case, motion) in held::motions().into_iter().enumerate() {
-        let problem = Problem { reached: [0.3, 1.0][case % 2], ..held::problem(&[], Bounds::default()).paced(pace) };
+        let problem =
+            Problem { reached: [0.3, 1.0][case % 2], ..held::problem(&[], Bounds::default()).adapted(adaptive_step) };
         let settings = [
             ("shape", word("sphere")),
             ("motion", Value::Text(motion.name.clone().into())),
@@ -109,19 +110,19 @@ fn wants(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
     let machines = if subgroups_of_eight(shared) { vec![lanes, eight] } else { vec![lanes] };
     for machine in machines {
         for silent in [false, true] {
-            let pace = Pace { least: 1e-4, courant: 0.3, before: None };
+            let adaptive_step = AdaptiveStep { least: 1e-4, courant: 0.3, before: None };
             let forces = if silent { vec![Box::new(Silent) as Box<dyn Component>] } else { vec![fluid(&[])] };
             let setup = Setup {
                 // Without fixed particles, a write behind the last one is seen.
                 state: cloud(FEW, false, !silent),
                 forces,
-                integrator: Box::new(Paced { integrator: integrator("leapfrog"), pace }),
+                integrator: Box::new(Adaptive { integrator: integrator("leapfrog"), adaptive_step }),
                 dt: 0.003,
                 bounds: bounds(FEW, false, Side::Periodic),
                 solver: Solver::default(),
             };
             for kernel in setup.plans(machine).expect("plans").step.kernels {
-                if !["fluid closing", "fluid urge"].contains(&kernel.name.as_str()) {
+                if !["fluid closing", "fluid step criterion"].contains(&kernel.name.as_str()) {
                     continue;
                 }
                 let name = format!("{}, silent {silent}", kernel.name);
@@ -129,7 +130,7 @@ fn wants(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
                 let mut random = Random::new(41);
                 let gpu = simulation.backend();
                 // What they make anew held other numbers; held ones keep them.
-                for field in ["closing", "urges"] {
+                for field in ["closing", "step_criteria"] {
                     let some: Vec<f32> = (0..gpu.size(field) / 4).map(|_| random.narrow().abs()).collect();
                     gpu.write_bytes(field, 0, bytemuck::cast_slice(&some)).expect("a field");
                 }

@@ -84,9 +84,9 @@ fn drains(bounds: &Bounds, edge: DVec3) -> Vec<Drain> {
     drains
 }
 
-fn mortal(machine: Machine, bounds: Bounds, held: &[Held]) -> Problem {
+fn with_life(machine: Machine, bounds: Bounds, held: &[Held]) -> Problem {
     let links = motes::links::Links::default();
-    Problem::new(FEW as u32, machine).at(&[], bounds).tied(&links, held).mortal(&[], &[], true)
+    Problem::new(FEW as u32, machine).at(&[], bounds).tied(&links, held).with_life(&[], &[], true)
 }
 
 fn staged(name: &str, mut simulation: Simulation<Gpu>, bounds: Bounds, plan: Plan) -> Stage {
@@ -111,7 +111,7 @@ pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
     let periodic = Bounds::new(DVec3::new(-0.9, -1.1, -1.0), DVec3::new(0.7, 0.8, 0.9), Side::Periodic);
     let edge = pollster::block_on(few(MACHINE).read(POSITION)).expect("places")[3].truncate().as_dvec3();
     for (bounds, held) in [(Bounds::default(), &[][..]), (periodic, &some[..])] {
-        let problem = mortal(MACHINE, bounds, held).mortal(&births(), &drains(&bounds, edge), true);
+        let problem = with_life(MACHINE, bounds, held).with_life(&births(), &drains(&bounds, edge), true);
         let mut step = Step::new(&[], problem);
         step.evaluate();
         step.populate();
@@ -145,7 +145,7 @@ fn tabled(kernel: Kernel) -> Kernel {
 fn passing_by(device: &Device, held: &[Held], stages: &mut Vec<Stage>) {
     let mirrors = Bounds::new(DVec3::splat(-0.8), DVec3::splat(0.7), Side::Reflecting);
     for held in [held, &[]] {
-        let problem = mortal(MACHINE, mirrors, held);
+        let problem = with_life(MACHINE, mirrors, held);
         let mut plan = Plan::default();
         let limits = [("min", Value::Number(0.3)), ("max", Value::Number(0.6))];
         force("speed_limit", &limits).stage(motes::component::Stage::AfterKick, &mut plan, &problem).expect("a kernel");
@@ -154,7 +154,7 @@ fn passing_by(device: &Device, held: &[Held], stages: &mut Vec<Stage>) {
             .expect("a kernel");
         plan.kernels.extend(motes::boundary::kernels(&problem).expect("kernels"));
         for kernel in plan.kernels {
-            let name = format!("{} of mortals", kernel.name);
+            let name = format!("{} of inactive", kernel.name);
             stages.push(staged(&name, moving(device, FEW, None), mirrors, alone(kernel)));
         }
     }
@@ -167,7 +167,7 @@ fn searches(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
         let near = Over::Near { range: 0.4, of: None };
         let one = Over::Near { range: 0.4, of: Some(OTHERS + 1) };
         for (text, over) in [(MOVING, near), (STILL, near), (STILL, Over::Nearest { count: 5 }), (CHOOSY, one)] {
-            let problem = mortal(machine, Bounds::default(), &[]);
+            let problem = with_life(machine, Bounds::default(), &[]);
             let law = law(text, over);
             let (grid, moves) = law.grid(&problem).expect("a range").expect("a grid");
             let kernels = vec![grid.kernel(&problem, moves).expect("a grid"), law.kernel(&problem).expect("a search")];

@@ -6,10 +6,10 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use glam::{DVec3, Vec4};
-use motes::fluids::DFSPH_REPORT;
 use motes::kernel::{Backend, Kernel, Machine, Plan, World};
 use motes::motion::{Held, Hold};
 use motes::settings::Value;
+use motes::sph::DFSPH_REPORT;
 use motes::{Bounds, Gpu, Setup, Side, Simulation, State, VELOCITY};
 
 use crate::stages::{Device, Stage, next};

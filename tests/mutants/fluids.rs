@@ -26,7 +26,7 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("fluids/tension", "let pull = ", "<=", "<", "both halves have one value where they meet"),
     same("fluids/cubic", "return select(-6.0", "<=", "<", "both halves have one value where they meet"),
     same("fluids/", "return me.density > 0.0; }", ">", ">=", "fixed particles stand behind all that are evaluated"),
-    same("fluids/dense.wgsl", "return Particle(", "0.0", "1.0", "its pressure is not read"),
+    same("sph/dense.wgsl", "return Particle(", "0.0", "1.0", "its pressure is not read"),
     same(
         "fluids/wall_pressure",
         "let p = ",
@@ -185,8 +185,8 @@ fn finish(me: Particle, sum: Sum) -> vec4f { return vec4f(sum.acceleration, 2.0 
 fn curious(problem: &Problem) -> Kernel {
     let grid = Grid::apart(2.0 * SPACING, problem).expect("a grid");
     let candidate = Candidate {
-        particle: motes::shader!("fluids/flowing.wgsl"),
-        broadcast: motes::shader!("fluids/flowing_broadcast.wgsl"),
+        particle: motes::shader!("sph/flowing.wgsl"),
+        broadcast: motes::shader!("sph/flowing_broadcast.wgsl"),
     };
     let search =
         Search { grid, candidate, sorted: vec!["flow"], files: Vec::new(), constants: Vec::new(), fixed: true };

@@ -75,7 +75,7 @@ struct Place<'a> {
     device: &'a Device,
     machine: Machine,
     bounds: Bounds,
-    mortal: bool,
+    has_inactive: bool,
     capacity: u32,
     slots: u32,
 }
@@ -122,7 +122,7 @@ impl Place<'_> {
         let places: Vec<DVec3> = (0..count).map(|_| place(random.vector())).collect();
         let shape = ListShape { range: RANGE, skin: SKIN, words: self.slots, capacity: self.capacity };
         let problem = Problem::new(count as u32, self.machine).at(&places, self.bounds);
-        let problem = problem.mortal(&[], &[], self.mortal).listed(Some(shape));
+        let problem = problem.with_life(&[], &[], self.has_inactive).listed(Some(shape));
         let plan = self.plan(&problem);
         let mut simulation = moving(self.device, count, Some(self.machine));
         let clock = pollster::block_on(simulation.backend().world()).expect("a clock");
@@ -135,7 +135,7 @@ impl Place<'_> {
         simulation.write(ALARM, &[u32::MAX; 3]).expect("an alarm");
         begin(&mut simulation);
         let mut life: Vec<u32> = (0..count as u32).map(|i| if i % 5 == 3 { i % 2 * 2 } else { 1 }).collect();
-        if self.mortal {
+        if self.has_inactive {
             simulation.write(LIFE, &life).expect("lives");
         }
         if since != Since::Never {
@@ -160,7 +160,7 @@ impl Place<'_> {
                 _ => {}
             }
             simulation.write(POSITION, &now).expect("places");
-            if self.mortal {
+            if self.has_inactive {
                 simulation.write(LIFE, &life).expect("lives");
             }
             if since == Since::First {
@@ -217,12 +217,13 @@ pub fn all(shared: &Shared, stages: &mut Vec<Stage>) {
     let device = &pollster::block_on(support::limited(shared, |_| {}));
     let periodic = Bounds::new(DVec3::new(0.125, 3.0, -2.5), DVec3::new(2.125, 5.5, -0.5), Side::Periodic);
     let open = Bounds { sides: [Side::Open; 3], ..periodic };
-    let place = |machine, bounds, mortal, capacity| Place { device, machine, bounds, mortal, capacity, slots: 0 };
+    let place =
+        |machine, bounds, has_inactive, capacity| Place { device, machine, bounds, has_inactive, capacity, slots: 0 };
     let lanes = place(LANES, periodic, false, ROOM);
     stages.extend([Since::Never, Since::Little, Since::Much].map(|since| lanes.stage(since)));
     stages.push(place(LANES, open, false, ROOM).stage(Since::Little));
-    let mortal = place(LANES, open, true, ROOM);
-    stages.extend([Since::Never, Since::Spawned, Since::Removed, Since::Little].map(|since| mortal.stage(since)));
+    let has_inactive = place(LANES, open, true, ROOM);
+    stages.extend([Since::Never, Since::Spawned, Since::Removed, Since::Little].map(|since| has_inactive.stage(since)));
     // Some have more neighbours than there is room for.
     stages.push(place(LANES, periodic, false, TIGHT).stage(Since::Never));
     // Of an odd step and of an even one.

@@ -16,12 +16,12 @@ pub fn remembering(mut plan: Plan) -> Plan {
 }
 
 fn remember(kernel: &mut Kernel) {
-    let Some(twin) = kernel.twin.take() else { return };
+    let Some(reference) = kernel.reference.take() else { return };
     let mut names: Vec<String> = kernel.bindings().map(|(name, _)| name.to_owned()).collect();
     names.extend([POSITION.name.to_owned(), VELOCITY.name.to_owned()]);
     let writes = kernel.writes();
     let known: Mutex<HashMap<u64, Made>> = Mutex::default();
-    kernel.twin = Some(Arc::new(move |host: &Host| {
+    kernel.reference = Some(Arc::new(move |host: &Host| {
         let mut hash = DefaultHasher::new();
         names.iter().filter_map(|name| host.get(name)).for_each(|array| array.to_bytes().hash(&mut hash));
         format!("{:?}", host.world()).hash(&mut hash);
@@ -38,7 +38,7 @@ fn remember(kernel: &mut Kernel) {
             host.set_world(*world);
             return Ok(());
         }
-        twin(host)?;
+        reference(host)?;
         let arrays = writes.iter().filter_map(|name| Some((name.clone(), host.get(name)?)));
         known.insert(hash.finish(), (arrays.collect(), host.world()));
         Ok(())

@@ -13,5 +13,5 @@ pub const OPEN: &[Open] = &[
     open("shaders/visit/tree_broadcast.wgsl", 1),
     open("shaders/visit/tree_look.wgsl", 1),
     open("shaders/tree/demand.wgsl", 3),
-    open("shaders/fluids/dfsph/listed.wgsl", 1),
+    open("shaders/sph/dfsph/listed.wgsl", 1),
 ];

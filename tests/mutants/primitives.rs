@@ -110,7 +110,7 @@ fn sorts(device: &Device, stages: &mut Vec<Stage>) {
         settle.passes.retain(|pass| pass.shader.reflection().entry == "sort_settle");
         settle.passes[0].constants = vec![("LARGEST", most as f64)];
         settle.scratch.clear();
-        settle.twin = Some(Arc::new(move |host: &Host| {
+        settle.reference = Some(Arc::new(move |host: &Host| {
             let (keys, arrivals) = (host.reading::<u32>("cells")?, host.reading::<u32>("order_arrivals")?);
             let mut order = host.writing::<u32>("order")?;
             order.copy_from_slice(&arrivals);

@@ -6,8 +6,8 @@ use motes::kernel::{Machine, Plan, Source};
 use motes::life::Drain;
 use motes::lockstep::compare;
 use motes::neighbors::LIST_STATE;
-use motes::particles::emitter;
 use motes::settings::{Settings, Value};
+use motes::shapes::emitter;
 use motes::solids::Solid;
 use motes::{ACCELERATION, Bounds, Error, Gpu, POSITION, Setup, Side, Simulation, State, VELOCITY};
 
@@ -182,7 +182,7 @@ fn births_and_deaths_are_brute_force_to_the_bit() {
         let setup = setup(&particles, bounds, Box::new(Weak(list(0.23, 0.2))), 7e-3);
         let mut simulation = on(&shared, machine, &setup);
         let plan = evaluation(&setup, machine);
-        let mut lives = Vec::new();
+        let mut is_active = Vec::new();
         for _ in 0..15 {
             simulation.step(8).expect("steps");
             pollster::block_on(simulation.check()).expect("no alarm");
@@ -190,9 +190,9 @@ fn births_and_deaths_are_brute_force_to_the_bit() {
             agree(&mut simulation, &plan, variant);
             let want = wanted(&mut simulation, &bounds, 0.23);
             same(&accelerations(&mut simulation), &want, variant);
-            lives.push(pollster::block_on(simulation.population()).expect("a population"));
+            is_active.push(pollster::block_on(simulation.population()).expect("a population"));
         }
-        assert!(lives.iter().any(|p| p.waiting > 0) && lives.iter().any(|p| p.dead > 20), "{lives:?}");
+        assert!(is_active.iter().any(|p| p.pending > 0) && is_active.iter().any(|p| p.removed > 20), "{is_active:?}");
     }
 }
 

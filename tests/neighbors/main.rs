@@ -1,4 +1,4 @@
-//! Neighbours: the grid against its twin, and searches through it against those that visit everybody.
+//! Neighbours: the grid against its reference, and searches through it against those that visit everybody.
 #![allow(
     clippy::cast_sign_loss,
     clippy::cast_possible_truncation,
@@ -92,7 +92,7 @@ fn the_nearest_are_those_that_a_sort_finds() {
     }
 }
 
-/// Compares one evaluation of the curious law with its twins.
+/// Compares one evaluation of the curious law with its references.
 fn check(gpu: Gpu, place: &Place, over: Over, of: &str) {
     let count = u32::try_from(place.particles.len()).expect("few");
     let machine = gpu.machine();

@@ -154,7 +154,10 @@ fn a_crowd_is_named() {
             let error = pollster::block_on(simulation.check()).expect_err("an alarm");
             // A search for the nearest in thin air looks far, and finds the dense part too.
             let first = if over.range().is_some() { 30 } else { 0 };
-            assert!(matches!(error, Error::Crowded { particle } if particle >= first), "{over:?}, {name}: {error}");
+            assert!(
+                matches!(error, Error::TooManyNeighbors { particle } if particle >= first),
+                "{over:?}, {name}: {error}"
+            );
             assert!(over.range().is_none() || alarm[2] == 30, "{name}: {alarm:?}");
         }
     }

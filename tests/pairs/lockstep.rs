@@ -33,8 +33,9 @@ fn scene(count: usize, name: &str) -> Setup {
         particles.held = fixed.map(|id| Held { id, by: Hold::Fixed }).collect();
     }
     if count > 7 && !integrator(name).is_implicit() {
-        let lives: Vec<Life> = (0..count).map(|id| if id % 7 == 5 { Life::Dead } else { Life::Living }).collect();
-        particles.set_lives(&lives).expect("one for each");
+        let is_active: Vec<Life> =
+            (0..count).map(|id| if id % 7 == 5 { Life::Removed } else { Life::Active }).collect();
+        particles.set_lives(&is_active).expect("one for each");
     }
     give(&mut particles, &columns(), 17);
     setup(&particles, forces(), name, 0.07)

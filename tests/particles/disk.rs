@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 use motes::State;
-use motes::particles::shape;
 use motes::settings::{Settings, Value};
+use motes::shapes::shape;
 use rayon::prelude::*;
 
 const SOFTENING: f64 = 0.05;

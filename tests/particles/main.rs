@@ -13,8 +13,8 @@ use glam::DVec3;
 use motes::State;
 use motes::error::Error;
 use motes::links::Links;
-use motes::particles::{SHAPES, shape};
 use motes::settings::{Kind, Settings, Value};
+use motes::shapes::{SHAPES, shape};
 
 /// Settings of a shape: of these values and some that are usual here, those that it has a key for.
 fn settings(name: &str, values: &[(&'static str, f64)]) -> Settings {

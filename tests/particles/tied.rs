@@ -8,8 +8,8 @@ use motes::State;
 use motes::error::Error;
 use motes::links::Link;
 use motes::motion::Hold;
-use motes::particles::shape;
 use motes::settings::{Settings, Value};
+use motes::shapes::shape;
 
 pub(crate) const fn number(x: f64) -> Value {
     Value::Number(x)

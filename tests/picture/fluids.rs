@@ -107,7 +107,7 @@ fn a_slab_is_as_thick_as_it_is() {
 }
 
 #[test]
-fn gpu_and_twins_draw_the_same_fluid() {
+fn gpu_and_references_draw_the_same_fluid() {
     let mut particles = lattice(DVec3::new(0.7, 0.4, 0.3), 0.06, |x| x.x + 2.0 * x.z < 0.5);
     let mut random = support::Random::new(3);
     particles.position_mut().iter_mut().for_each(|x| *x += 0.02 * random.vector());

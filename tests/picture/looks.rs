@@ -86,7 +86,7 @@ fn headings_are_hues_and_the_same_bytes_every_time() {
 }
 
 #[test]
-fn gpu_and_twins_draw_the_same_birds() {
+fn gpu_and_references_draw_the_same_birds() {
     for (count, background, tail) in [(65, "dusk", 0.3), (3000, "dusk", 0.08), (3000, "night", 0.2), (40, "dusk", 0.0)]
     {
         let mut particles = support::cloud(count, 21);

@@ -88,7 +88,7 @@ fn assert_close(gpu: &Image, cpu: &Image, what: &str) {
 }
 
 #[test]
-fn gpu_and_twins_draw_the_same_picture() {
+fn gpu_and_references_draw_the_same_picture() {
     let sizes = [(1, 320, 200), (2, 257, 131), (65, 301, 203), (1000, 127, 255), (4097, 640, 360)];
     for (count, width, height) in sizes {
         for (style, projection, color) in

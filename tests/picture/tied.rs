@@ -65,7 +65,7 @@ fn assert_alike(gpu: &Image, cpu: &Image, what: &str) {
 }
 
 #[test]
-fn gpu_and_twins_draw_the_same_cloth_threads_and_solids() {
+fn gpu_and_references_draw_the_same_cloth_threads_and_solids() {
     for (side, draw, projection) in [
         (7, "auto", "perspective"),
         (24, "auto", "orthographic"),

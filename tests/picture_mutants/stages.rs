@@ -96,7 +96,7 @@ pub fn canvas((device, queue): &(wgpu::Device, wgpu::Queue), count: usize) -> Ca
     let count = u32::try_from(count).expect("few");
     let mut gpu = Gpu::new(device, queue, count).expect("a GPU");
     gpu.pad(PAD);
-    gpu.pace(Duration::from_millis(80), Duration::from_secs(5));
+    gpu.adaptive_step(Duration::from_millis(80), Duration::from_secs(5));
     Rc::new(RefCell::new(gpu))
 }
 
@@ -137,7 +137,7 @@ pub fn stages(scene: &Scene, canvas: &Canvas) -> Vec<Stage> {
         let fields: Vec<_> = fields.filter(|n| cpu.host().contains(n)).collect();
         let look = |cpu: &Cpu, name: &String| (name.clone(), cpu.host().get(name).expect("a field"));
         let given = fields.iter().map(|name| look(&cpu, name)).collect();
-        kernel.twin.as_ref().expect("a reference")(cpu.host()).expect("a reference runs");
+        kernel.reference.as_ref().expect("a reference")(cpu.host()).expect("a reference runs");
         let wanted: BTreeMap<_, _> = kernel.writes().iter().map(|name| look(&cpu, name)).collect();
         for (name, array) in &wanted {
             cpu.write(name, &array.like(&array.to_bytes())).expect("a field");

@@ -22,7 +22,7 @@ fn key(time: f64, shift: [f64; 3], turn: [f64; 3]) -> Keyframe {
     Keyframe { time, shift: shift.into(), turn: turn.into() }
 }
 
-/// One of every kind: at one pace, gently, by several turns, over and over, begun before the run, and never moving.
+/// One of every kind: at constant speed, gently, by several turns, over and over, begun before the run, and never moving.
 pub(crate) fn motions() -> Vec<Motion> {
     let motion = |name: &str, about: [f64; 3], keys: Vec<Keyframe>, smooth, repeat| Motion {
         name: name.to_owned(),
@@ -107,14 +107,14 @@ fn a_fixed_one_keeps_every_bit() {
         assert!(got[0].truncate() == glam::Vec3::ZERO && got[0].w != 0.0, "{}: no force, a potential", entry.name);
     }
     // The references hold positions in f64.
-    let mut twins = Simulation::on(Cpu::new(12).expect("some"), &setup(pinned(12), "rk4")).expect("a simulation");
-    let place = |twins: &mut Simulation<Cpu>| match twins.backend().host().get(POSITION.name) {
+    let mut references = Simulation::on(Cpu::new(12).expect("some"), &setup(pinned(12), "rk4")).expect("a simulation");
+    let place = |references: &mut Simulation<Cpu>| match references.backend().host().get(POSITION.name) {
         Some(Array::Vec4(x)) => x[0],
         _ => panic!("there are positions"),
     };
-    let before: DVec4 = place(&mut twins);
-    twins.step(50).expect("steps");
-    assert_eq!(before, place(&mut twins));
+    let before: DVec4 = place(&mut references);
+    references.step(50).expect("steps");
+    assert_eq!(before, place(&mut references));
 }
 
 #[test]
@@ -248,7 +248,7 @@ fn no_mirror_throws_back_prescribed_motions() {
 
 /// Leading and holding against their references, at sizes around the workgroup's.
 #[test]
-fn the_kernels_agree_with_their_twins() {
+fn the_kernels_agree_with_their_references() {
     let shared = support::device();
     for count in [12usize, 64, 65, 333] {
         let mut particles = pinned(count);

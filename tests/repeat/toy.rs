@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use motes::kernel::{Host, Kernel, Plan, Shader, Source, Twin};
+use motes::kernel::{Host, Kernel, Plan, Reference, Shader, Source};
 
 /// Several workgroups, the last not full.
 pub const COUNT: u32 = 300;
@@ -55,12 +55,12 @@ impl Toy {
 
 const START: &str = "@group(0) @binding(1) var<storage, read_write> state: array<State>;";
 
-fn kernel(name: &str, bindings: &'static str, body: &'static str, twin: Twin, limit: u32) -> Kernel {
+fn kernel(name: &str, bindings: &'static str, body: &'static str, reference: Reference, limit: u32) -> Kernel {
     let entry = "@compute @workgroup_size(64) fn run(@builtin(global_invocation_id) id: vec3u) { let i = id.x; let limit = LIMIT; ";
     let text = [STATE, bindings, entry, body, " }"].concat();
     let shader = Shader::join(&[Source::theirs(name.to_owned(), text)]).expect("a shader");
     let lanes = if bindings.contains("array<u32>") { COUNT } else { 1 };
-    let mut kernel = Kernel::new(name, shader, vec![("LIMIT", f64::from(limit))], lanes, twin);
+    let mut kernel = Kernel::new(name, shader, vec![("LIMIT", f64::from(limit))], lanes, reference);
     name.clone_into(&mut kernel.name);
     kernel.sizes.push(("state".into(), 1));
     kernel
@@ -72,20 +72,20 @@ fn start(host: &Host) -> Result<(), motes::Error> {
 }
 
 fn begin() -> Kernel {
-    let twin = |host: &Host| {
+    let reference = |host: &Host| {
         host.writing::<u32>("state")?[2..].fill(0);
         Ok(())
     };
     let text = "if i == 0u { state[0].inner = 0u; state[0].inner_done = 0u; }";
-    kernel("begin", START, text, Arc::new(twin), 0)
+    kernel("begin", START, text, Arc::new(reference), 0)
 }
 
 fn adds(name: &str, field: &'static str, bindings: &'static str, body: &'static str) -> Kernel {
-    let twin = move |host: &Host| {
+    let reference = move |host: &Host| {
         host.writing::<u32>(field)?.iter_mut().for_each(|n| *n += 1);
         Ok(())
     };
-    kernel(name, bindings, body, Arc::new(twin), 0)
+    kernel(name, bindings, body, Arc::new(reference), 0)
 }
 
 /// Every lane works.
@@ -113,7 +113,7 @@ pub fn look() -> Kernel {
 
 fn counting(name: &str, level: &'static str, limit: u32) -> Kernel {
     let inner = level == "inner";
-    let twin = move |host: &Host| {
+    let reference = move |host: &Host| {
         let mut state = host.writing::<u32>("state")?;
         let (first, limit) = if inner { (2, limit + state[0]) } else { (0, limit) };
         state[first] += 1;
@@ -125,5 +125,5 @@ fn counting(name: &str, level: &'static str, limit: u32) -> Kernel {
     } else {
         "if i == 0u { state[0].outer += 1u; state[0].outer_done = u32(state[0].outer >= limit); }"
     };
-    kernel(name, START, text, Arc::new(twin), limit)
+    kernel(name, START, text, Arc::new(reference), limit)
 }

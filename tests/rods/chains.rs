@@ -9,7 +9,7 @@ use motes::settings::Value;
 use support::Random;
 use support::states::{force, phase};
 
-use crate::{HELD, Weight, chain, device, down, forces, read, state, stretch, support, twins};
+use crate::{HELD, Weight, chain, device, down, forces, read, references, state, stretch, support};
 
 /// The equilibrium of links of mass 1 at their joints, 1.5 long in all, between two points 1 apart: the lowest joint, and the
 /// first behind the left end. Statics: every joint carries the same pull across, and the slopes grow by one weight each.
@@ -46,7 +46,7 @@ fn a_chain_comes_to_hang_in_the_catenary() {
             }
         };
         // What swings decays by e^(−3t), and the valley is 0.05 from it: after t = 9, 1e-13.
-        let mut simulation = twins(&start, drag(), "leapfrog", 0.01);
+        let mut simulation = references(&start, drag(), "leapfrog", 0.01);
         simulation.step(900).expect("steps");
         check(&phase(&mut simulation).0, 1e-11);
         // In f32 a joint stands still once its speed times dt is below half a place, 3e-8: at an acceleration of 6 times
@@ -89,7 +89,7 @@ fn a_free_chain_keeps_momentum_and_spin() {
     let join = |v: &[DVec3]| -> Vec<DVec4> { v.iter().zip(start.mass()).map(|(v, m)| v.extend(*m)).collect() };
     let (p, l, _) = momenta(&join(start.position()), &join(start.velocity()));
     for name in ["leapfrog", "pefrl", "rk4"] {
-        let mut simulation = twins(&start, rod(), name, 0.01);
+        let mut simulation = references(&start, rod(), name, 0.01);
         simulation.step(1000).expect("steps");
         let (x, v) = phase(&mut simulation);
         let (p_now, l_now, _) = momenta(&x, &v);
@@ -132,7 +132,7 @@ fn each_rod_pulls_what_is_behind_it() {
     particles.mass_mut().copy_from_slice(&(0..13).map(|n| f64::from(1 + n * n % 7)).collect::<Vec<_>>());
     let want = -along * 5.0 * particles.mass()[0] / particles.mass().iter().sum::<f64>();
     let forces = || -> Vec<Box<dyn Component>> { vec![Box::new(Pull), force("rod", &[])] };
-    let mut simulation = twins(&particles, forces(), "leapfrog", 0.125);
+    let mut simulation = references(&particles, forces(), "leapfrog", 0.125);
     simulation.step(16).expect("steps");
     for v in phase(&mut simulation).1 {
         assert!((v.truncate() - 2.0 * want).length() < 1e-13, "{v} is not twice {want}");
@@ -188,7 +188,7 @@ fn chains_at_a_held_one_know_nothing_of_each_other() {
             particles.push(down(-1.3), DVec3::ZERO, 2.5, 0.0);
             particles.links.rods.push(Rod { ends: [3, 0], length: 1.0 });
         }
-        let mut simulation = twins(&particles, vec![Box::new(Weight), force("rod", &[])], "leapfrog", 0.01);
+        let mut simulation = references(&particles, vec![Box::new(Weight), force("rod", &[])], "leapfrog", 0.01);
         simulation.step(50).expect("steps");
         phase(&mut simulation).0
     };

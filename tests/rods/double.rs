@@ -3,7 +3,7 @@
 use motes::integrators::INTEGRATORS;
 use support::states::phase;
 
-use crate::{angles, device, extrapolated, forces, pendulum, read, state, stretch, support, twins};
+use crate::{angles, device, extrapolated, forces, pendulum, read, references, state, stretch, support};
 
 /// Both at 90° at rest, g = 9.81, masses and lengths 1: θ₁, θ₂, θ₁′, θ₂′. By a Taylor series of 24 digits, and (the last row)
 /// by a Runge–Kutta method of order 8 with tolerance 1e-13, which agrees with it elsewhere.
@@ -32,14 +32,14 @@ fn it_is_where_it_should_be() {
 
         let (steps, dt) = (time * 1000, 1e-3);
         let (x, v) = state(&right(), "leapfrog", f64::from(time), steps);
-        let twin = flat(&angles(&x, &v));
+        let reference = flat(&angles(&x, &v));
         let mut simulation = device(&shared, &right(), forces(), "leapfrog", dt);
         simulation.step(steps).expect("steps");
         let (x, v) = read(&mut simulation);
         let got = flat(&angles(&x, &v));
-        for ((got, twin), want) in got.into_iter().zip(twin).zip(want) {
+        for ((got, reference), want) in got.into_iter().zip(reference).zip(want) {
             // 6e-8 in each of n steps, added up at random and in phase: n √n times that less a few; and thirteenfold by t = 5.
-            assert!((got - twin).abs() < 5e-4, "after {time}: {got} on the device, {twin} by the references");
+            assert!((got - reference).abs() < 5e-4, "after {time}: {got} on the device, {reference} by the references");
             // What the method leaves is h² times numbers of about 100.
             assert!((got - want).abs() < 2e-3, "after {time}: {got}, not {want}");
         }
@@ -72,14 +72,14 @@ fn there_and_back() {
     let start = right();
     let steps = 600;
     for name in ["leapfrog", "forest_ruth", "pefrl"] {
-        let mut simulation = twins(&start, forces(), name, 1e-3);
+        let mut simulation = references(&start, forces(), name, 1e-3);
         simulation.step(steps).expect("steps");
         let (x, v) = phase(&mut simulation);
         assert!(x[2].truncate().distance(start.position()[2]) > 0.5, "{name}: {x:?} is no way away");
         let mut back = start.clone();
         back.position_mut().copy_from_slice(&x.iter().map(|x| x.truncate()).collect::<Vec<_>>());
         back.velocity_mut().copy_from_slice(&v.iter().map(|v| -v.truncate()).collect::<Vec<_>>());
-        let mut simulation = twins(&back, forces(), name, 1e-3);
+        let mut simulation = references(&back, forces(), name, 1e-3);
         simulation.step(steps).expect("steps");
         let (x, _) = phase(&mut simulation);
         // Lengths are exact to rounding, and 1200 roundings of speeds, 1e-15 each, go 0.6 far.

@@ -43,7 +43,7 @@ fn tangle(count: usize, rods: usize) -> State {
 }
 
 #[test]
-fn device_and_twins_solve_alike() {
+fn device_and_references_solve_alike() {
     let shared = support::device();
     // A multiple of 7 would give an id twice.
     for (count, rods) in [(2, 1), (3, 2), (65, 1), (200, 2), (1000, 3), (1000, 16), (500, 400)] {
@@ -139,7 +139,7 @@ fn what_does_not_come_right_stops_the_run() {
     simulation.step(2).expect("steps");
     let lost = pollster::block_on(simulation.check());
     assert!(matches!(lost, Err(motes::Error::NotFinite { particle: 1, step: 0 })), "{lost:?}");
-    let mut simulation = crate::twins(&particles, forces(), "leapfrog", 0.01);
+    let mut simulation = crate::references(&particles, forces(), "leapfrog", 0.01);
     simulation.step(2).expect("steps");
     let lost = pollster::block_on(simulation.check());
     assert!(matches!(lost, Err(motes::Error::NotFinite { particle: 1, step: 0 })), "{lost:?}");

@@ -4,7 +4,7 @@ use glam::{DVec3, DVec4};
 use motes::State;
 use support::states::phase;
 
-use crate::{G, chain, device, down, forces, pendulum, read, stretch, support, twins};
+use crate::{G, chain, device, down, forces, pendulum, read, references, stretch, support};
 
 /// Of double pendulums of masses 1, per pendulum.
 fn energies(x: &[DVec4], v: &[DVec4]) -> Vec<f64> {
@@ -44,10 +44,10 @@ fn lengths_hold_for_100_000_steps_of_a_double_pendulum() {
 }
 
 #[test]
-fn energy_stays_in_bounds_by_the_twins() {
+fn energy_stays_in_bounds_by_the_references() {
     // How far it is off within the first and the last fifth of the way: a drift would make the last one larger.
     let spread = |name: &str| {
-        let mut simulation = twins(&pendulum(&[90.0, 90.0].map(f64::to_radians)), forces(), name, 0.005);
+        let mut simulation = references(&pendulum(&[90.0, 90.0].map(f64::to_radians)), forces(), name, 0.005);
         let parts: Vec<f64> = (0..5)
             .map(|_| {
                 let off = (0..800).map(|_| {

@@ -87,7 +87,7 @@ fn angles(x: &[DVec4], v: &[DVec4]) -> Vec<[f64; 2]> {
     rods.map(angle).collect()
 }
 
-fn twins(particles: &State, forces: Vec<Box<dyn Component>>, name: &str, dt: f64) -> Simulation<Cpu> {
+fn references(particles: &State, forces: Vec<Box<dyn Component>>, name: &str, dt: f64) -> Simulation<Cpu> {
     cpu(particles, forces, name, dt)
 }
 
@@ -128,7 +128,7 @@ type Phase = (Vec<DVec4>, Vec<DVec4>);
 
 /// What the references have after a time in so many steps, all components of the state of the particles in a row.
 fn state(particles: &State, name: &str, time: f64, steps: u32) -> Phase {
-    let mut simulation = twins(particles, forces(), name, time / f64::from(steps));
+    let mut simulation = references(particles, forces(), name, time / f64::from(steps));
     simulation.step(steps).expect("steps");
     phase(&mut simulation)
 }

@@ -29,7 +29,7 @@ pub(crate) fn setup(particles: State, forces: Vec<Box<dyn Component>>, name: &st
     }
 }
 
-fn twins(setup: &Setup) -> Simulation<Cpu> {
+fn references(setup: &Setup) -> Simulation<Cpu> {
     let count = u32::try_from(setup.state.len()).expect("few");
     Simulation::on(Cpu::new(count).expect("some"), setup).expect("a simulation")
 }
@@ -65,7 +65,7 @@ fn on_an_incline_it_sticks_or_slides() {
                 &[("normal", Value::Vector(normal)), ("friction", number(friction)), ("thickness", number(0.1))],
             );
             let start = 0.1 * normal;
-            let mut simulation = twins(&setup(one(start, DVec3::ZERO), vec![weight(), ramp], name, dt));
+            let mut simulation = references(&setup(one(start, DVec3::ZERO), vec![weight(), ramp], name, dt));
             simulation.step(steps).expect("steps");
             let way = phase(&mut simulation).0[0].truncate() - start;
             let pull = (G * (angle.sin() - friction * angle.cos())).max(0.0);
@@ -95,7 +95,7 @@ fn a_bounce_comes_back_to_e_squared() {
             &[("restitution", number(e)), ("position", vector(0.0, 0.0, -1.0)), ("thickness", number(0.05))],
         );
         let drop = one(DVec3::new(0.3, 0.2, -0.95 + 0.7), DVec3::X);
-        let mut simulation = twins(&setup(drop, vec![weight(), floor], "leapfrog", dt));
+        let mut simulation = references(&setup(drop, vec![weight(), floor], "leapfrog", dt));
         let fall = (2.0 * 0.7 / G).sqrt();
         let top = fall * (1.0 + e);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "some thousands")]
@@ -137,7 +137,7 @@ fn a_moving_sphere_pushes() {
         );
         let mut particles = one(DVec3::ZERO, DVec3::ZERO);
         particles.motions = vec![slide(0.0, 1.0, 2.0)];
-        let mut simulation = twins(&setup(particles, vec![ball], name, 1e-3));
+        let mut simulation = references(&setup(particles, vec![ball], name, 1e-3));
         // It touches at 0.25, and goes on at 2; one that does not bounce is carried along.
         simulation.step(500).expect("steps");
         let (x, v) = phase(&mut simulation);
@@ -152,7 +152,7 @@ fn a_belt_drags_by_friction() {
     let belt = solid("plane", &[("motion", word("slide")), ("friction", number(0.2))]);
     let mut particles = one(DVec3::ZERO, DVec3::ZERO);
     particles.motions = vec![slide(0.0, 10.0, 5.0)];
-    let mut simulation = twins(&setup(particles, vec![weight(), belt], "leapfrog", 1e-3));
+    let mut simulation = references(&setup(particles, vec![weight(), belt], "leapfrog", 1e-3));
     simulation.step(100).expect("steps");
     let v = phase(&mut simulation).1[0].x;
     assert!((v - 0.2 * G * 0.1).abs() < 2.0 * G * 1e-3, "{v}");
@@ -207,7 +207,7 @@ fn no_particle_is_inside_after_any_step() {
                 assert!(free > thickness - allowed, "{case}: {shape}, {name}, at {x}: {free}, not {thickness}");
             }
         };
-        let mut simulation = twins(&setup);
+        let mut simulation = references(&setup);
         for step in 1..=10 {
             simulation.step(1).expect("a step");
             let places = phase(&mut simulation).0.iter().map(|x| x.truncate()).collect();
@@ -236,7 +236,7 @@ fn it_meets_images_and_leaves_the_held_alone() {
     particles.held = vec![Held { id: 1, by: Hold::Fixed }];
     let bounds = Bounds::new(DVec3::splat(-1.0), DVec3::splat(1.0), Side::Periodic);
     let setup = Setup { bounds, ..setup(particles, vec![ball()], "leapfrog", 0.1) };
-    let mut simulation = twins(&setup);
+    let mut simulation = references(&setup);
     simulation.step(1).expect("a step");
     let x = phase(&mut simulation).0;
     // From 0.2 beyond the middle of the image at −1.1 it is pushed out to 0.5 from there.
@@ -246,7 +246,7 @@ fn it_meets_images_and_leaves_the_held_alone() {
 
 /// Still and moving, through every drift of a step, with some held, against the references.
 #[test]
-fn the_kernels_agree_with_their_twins() {
+fn the_kernels_agree_with_their_references() {
     let shared = support::device();
     for (case, shape) in SHAPES.iter().enumerate() {
         for name in ["pefrl", "heun"] {

@@ -85,10 +85,14 @@ fn broken_stays_broken_over_a_restart() {
     // Through a file, as the command does it.
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("links.csv");
-    motes::io::links::write(std::fs::File::create(&path).expect("a file"), &rest.links).expect("written");
-    let usual =
-        motes::io::links::Usual { tie: motes::io::links::Tie::default(), rest: 1.0, stiffness: 1.0, damping: 0.0 };
-    let read = motes::io::links::read(&path, rest.position(), &motes::Bounds::default(), &usual).expect("links");
+    motes::formats::links::write(std::fs::File::create(&path).expect("a file"), &rest.links).expect("written");
+    let usual = motes::formats::links::Usual {
+        tie: motes::formats::links::Tie::default(),
+        rest: 1.0,
+        stiffness: 1.0,
+        damping: 0.0,
+    };
+    let read = motes::formats::links::read(&path, rest.position(), &motes::Bounds::default(), &usual).expect("links");
     assert_eq!(read.springs, rest.links.springs);
     rest.links.springs = read.springs;
     let mut again = gpu(&shared, &tearing(&rest, 0.4, "symplectic_euler", 0.004));
@@ -107,15 +111,15 @@ fn both_ends_decide_alike() {
     let mut particles = row();
     fix(&mut particles, [0]);
     let setup = tearing(&particles, 0.3, "leapfrog", 0.01);
-    let mut twins = cpu(&particles, setup.forces, "leapfrog", 0.01);
-    twins.step(20).expect("steps");
-    let words = twins.backend().host().get("link").expect("links");
+    let mut references = cpu(&particles, setup.forces, "leapfrog", 0.01);
+    references.step(20).expect("steps");
+    let words = references.backend().host().get("link").expect("links");
     let motes::kernel::Array::Uint(words) = words else { panic!("words") };
     let halves: Vec<_> = words.chunks(4).map(motes::links::Half::new).collect();
     let broken: Vec<_> = halves.iter().map(motes::links::Half::is_broken).collect();
     // 0–1 | 1–0, 1–2 | 2–1, 2–3 | 3–2
     assert_eq!(broken, [false, false, false, false, true, true]);
-    let (_, v) = phase(&mut twins);
+    let (_, v) = phase(&mut references);
     assert!(v[3].x > 4.0);
 }
 

@@ -45,9 +45,9 @@ fn links_one_by_one_and_by_their_kind() {
         let apart = ends[0].iter().zip(&ends[1]).map(|(a, b)| (*a - *b).length()).fold(0.0, f32::max);
         // Another order of the sums: some ulp of a place, grown by 100 steps.
         assert!(apart < 1e-5 && apart > 0.0, "{apart:e} apart");
-        let mut twins = cpu(&cloth(12, damping), forces(9.81, 0.0), "leapfrog", 0.002);
-        twins.step(100).expect("steps");
-        let (x, _) = phase(&mut twins);
+        let mut references = cpu(&cloth(12, damping), forces(9.81, 0.0), "leapfrog", 0.002);
+        references.step(100).expect("steps");
+        let (x, _) = phase(&mut references);
         let far = x.iter().zip(&ends[0]).map(|(a, b)| (a.as_vec4() - *b).length()).fold(0.0, f32::max);
         assert!(far < 1e-5, "{far:e} from the references");
     }
@@ -105,9 +105,9 @@ fn a_hub_and_a_hermit() {
         pollster::block_on(simulation.read(POSITION)).expect("places")
     };
     assert_eq!(ends[1], glam::Vec4::new(9.0, 9.0, 9.0, 1.0), "nothing is tied to it");
-    let mut twins = cpu(&particles, forces(0.0, 0.0), "leapfrog", 0.01);
-    twins.step(20).expect("steps");
-    let (x, _) = phase(&mut twins);
+    let mut references = cpu(&particles, forces(0.0, 0.0), "leapfrog", 0.01);
+    references.step(20).expect("steps");
+    let (x, _) = phase(&mut references);
     for id in [0, 2, 4999, 5001] {
         assert!((x[id].as_vec4() - ends[id]).length() < 2e-6, "{id}: {} {}", x[id], ends[id]);
     }

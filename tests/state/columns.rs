@@ -89,15 +89,15 @@ fn a_law_writes_what_a_scene_declares_and_files_hold_it() {
         let path = folder.path().join("state").with_extension(format);
         let file = std::fs::File::create(&path).expect("a file");
         match format {
-            "csv" => motes::io::csv::write_csv(file, &state, motes::io::Precision::Double).expect("written"),
-            _ => motes::io::npz::write_npz(file, &state, motes::io::Precision::Double).expect("written"),
+            "csv" => motes::formats::csv::write_csv(file, &state, motes::formats::Precision::Double).expect("written"),
+            _ => motes::formats::npz::write_npz(file, &state, motes::formats::Precision::Double).expect("written"),
         }
-        let back = motes::io::read(&path, &columns).expect("a state");
+        let back = motes::formats::read(&path, &columns).expect("a state");
         for name in ["position", "charge", "turning", "family", "heat", "potential"] {
             assert_eq!(back.get(name), state.get(name), "{name} in {format}");
         }
         // A file of such columns is refused where they are not declared.
-        let said = motes::io::read(&path, &Columns::default()).expect_err("unknown").to_string();
+        let said = motes::formats::read(&path, &Columns::default()).expect_err("unknown").to_string();
         assert!(said.contains("unknown") && said.contains("`charge`"), "{said}");
         let text = bodies(", charge = 3");
         let tail = &text[text.find("[[force]]").expect("a force")..];
@@ -186,16 +186,16 @@ fn states_keep_their_columns_together() {
     let mut b = State::default();
     b.push(DVec3::NEG_X, DVec3::ZERO, 4.0, 0.5);
     b.set("tint", Array::Vec3(vec![DVec3::ONE])).expect("one");
-    b.set_life(0, Life::Waiting);
+    b.set_life(0, Life::Pending);
     b.births.push(Birth { id: 0, time: 1.0, velocity: DVec3::X, mass: 4.0, guided: 0.0, emitter: 0 });
     a.append(&b).expect("no column is of two kinds");
     assert_eq!((a.len(), a.births[0].id), (4, 3));
     assert_eq!(a.scalar("charge"), Some(&[1.0, 2.0, 0.0, 0.0][..]));
     assert_eq!(a.vector("tint").map(|tint| tint[3]), Some(DVec3::ONE));
-    assert_eq!(a.life(), [Life::Living, Life::Living, Life::Living, Life::Waiting]);
+    assert_eq!(a.life(), [Life::Active, Life::Active, Life::Active, Life::Pending]);
     let c = a.picked(&[3, 1]);
     assert_eq!((c.scalar("charge"), c.whole("bins")), (Some(&[0.0, 2.0][..]), Some(&[0, 0, 0, 3, 4, 5][..])));
-    assert_eq!((c.births[0].id, c.life(), c.mass()), (0, vec![Life::Waiting, Life::Living], &[4.0, 2.0][..]));
+    assert_eq!((c.births[0].id, c.life(), c.mass()), (0, vec![Life::Pending, Life::Active], &[4.0, 2.0][..]));
     // Of another length, of another kind.
     assert!(a.set("charge", Array::Float(vec![0.0; 3])).is_err());
     assert!(a.set("charge", Array::Uint(vec![0; 4])).is_err());

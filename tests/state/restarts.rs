@@ -7,8 +7,8 @@ pub mod small;
 use std::path::Path;
 
 use glam::{DVec3, Vec4};
+use motes::formats::{Precision, csv, npz};
 use motes::integrators::INTEGRATORS;
-use motes::io::{Precision, csv, npz};
 use motes::kernel::{Backend, Columns, base};
 use motes::motion::{Held, Hold};
 use motes::scene::SCENES;

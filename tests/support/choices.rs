@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use glam::DVec3;
-use motes::forces::{Component, Entry, FORCES};
+use motes::forces::{self, Component, Entry};
 use motes::motion::{Keyframe, Motion};
 use motes::settings::{Key, Kind, Settings, Value};
 
@@ -13,7 +13,7 @@ const OWN: [&str; 1] = ["fluid"];
 
 /// The entries of the register of forces, without those that have tests of their own.
 pub fn entries() -> impl Iterator<Item = &'static Entry> {
-    FORCES.iter().filter(|entry| !OWN.contains(&entry.name))
+    forces::entries().filter(|entry| !OWN.contains(&entry.name))
 }
 
 /// Every combination of the words and flags that some keys accept; all numbers nudged away from their defaults.

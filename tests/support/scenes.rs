@@ -1,7 +1,7 @@
 //! Built-in scenes with few particles, and what simulations of them are made of.
 
 use motes::Setup;
-use motes::integrators::Paced;
+use motes::integrators::Adaptive;
 use motes::scene::{Options, SCENES, Scene, Source};
 
 /// Particles of a shape, where a scene is made small.
@@ -33,8 +33,8 @@ pub fn small(name: &str) -> Scene {
 /// What a simulation of a scene is made of.
 pub fn setup(scene: Scene) -> Setup {
     Setup {
-        integrator: match scene.pace {
-            Some(pace) => Box::new(Paced { integrator: scene.integrator(), pace }),
+        integrator: match scene.adaptive_step {
+            Some(adaptive_step) => Box::new(Adaptive { integrator: scene.integrator(), adaptive_step }),
             None => scene.integrator(),
         },
         state: scene.particles,

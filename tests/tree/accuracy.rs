@@ -1,8 +1,8 @@
 //! How far a tree is from the direct sum, against theory and published numbers.
 
 use glam::{DVec3, DVec4, Vec4};
-use motes::particles;
 use motes::settings::{Settings as Words, Value};
+use motes::shapes;
 
 use crate::support::machines::walkers;
 use crate::support::{self, Random, Shared};
@@ -10,7 +10,7 @@ use crate::walks::{SOFTENING, Settings, USUAL, Walk, direct, gravity};
 
 /// Bodies of a shape.
 fn shape(name: &str, count: usize, more: &[(&'static str, f64)]) -> Vec<Vec4> {
-    let shape = particles::shape(name).expect("a shape");
+    let shape = shapes::shape(name).expect("a shape");
     let words = Words::defaults(shape.keys).with("count", Value::Number(count as f64));
     let words = more.iter().fold(words, |words, (key, x)| words.with(key, Value::Number(*x)));
     let all = (shape.build)(&words).expect("particles");

@@ -7,7 +7,7 @@ use motes::forces::{Law, Over, Particle};
 use motes::kernel::{ACCELERATION, POSITION, Source};
 use motes::settings::{Settings as Words, Value};
 use motes::tree::Opening;
-use motes::{Bounds, Side, particles};
+use motes::{Bounds, Side, shapes};
 
 use crate::support::{self, Random, Shared, machines};
 use crate::walks::{Alone, USUAL, Walk, gravity};
@@ -40,7 +40,7 @@ fn number(name: &str, usual: u32) -> u32 {
 
 /// A shape of the library, by its keys.
 fn built(name: &str, count: u32, seed: u32, more: &[(&'static str, Value)]) -> Vec<DVec3> {
-    let shape = particles::shape(name).expect("a shape");
+    let shape = shapes::shape(name).expect("a shape");
     let words = Words::defaults(shape.keys)
         .with("count", Value::Number(f64::from(count)))
         .with("seed", Value::Number(f64::from(seed)));

@@ -12,7 +12,7 @@ use crate::support;
 const SIZES: [usize; 18] = [1, 2, 3, 4, 5, 8, 9, 16, 17, 31, 32, 33, 63, 64, 65, 127, 1000, 1025];
 
 #[test]
-fn each_kernel_agrees_with_its_twin_at_every_size() {
+fn each_kernel_agrees_with_its_reference_at_every_size() {
     let shared = support::device();
     for count in SIZES {
         for (machine, opening, core) in [(MACHINES[0], RELATIVE, 0.0), (MACHINES[1], GEOMETRIC, 0.05)] {
@@ -22,7 +22,7 @@ fn each_kernel_agrees_with_its_twin_at_every_size() {
 }
 
 #[test]
-fn many_agree_with_the_twins() {
+fn many_agree_with_the_references() {
     let shared = support::device();
     let count = 65_537;
     agree(&mut Built::new(&shared, &cloud(count, 2), &cloud(count, 3), RELATIVE, 0.01, MACHINES[0]), count);

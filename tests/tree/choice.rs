@@ -20,7 +20,7 @@ fn auto_is_whichever_is_faster() {
                 assert_eq!(law.tree(&problem).is_some(), tree, "{over}, {count}");
                 let kernel = law.kernel(&problem).expect("a kernel");
                 assert_eq!(kernel.passes.iter().any(walks), tree, "{over}, {count}");
-                assert!(kernel.twin.is_some(), "{over}");
+                assert!(kernel.reference.is_some(), "{over}");
             }
         }
     }

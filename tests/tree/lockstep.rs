@@ -39,7 +39,7 @@ fn agrees(walk: &mut Walk, of: &str, count: usize) {
 }
 
 #[test]
-fn each_walk_agrees_with_its_twin_at_every_size() {
+fn each_walk_agrees_with_its_reference_at_every_size() {
     let shared = support::device();
     let settings = settings();
     for (case, count) in SIZES.into_iter().enumerate() {
@@ -53,7 +53,7 @@ fn each_walk_agrees_with_its_twin_at_every_size() {
 }
 
 #[test]
-fn each_law_agrees_with_its_twin() {
+fn each_law_agrees_with_its_reference() {
     let shared = support::device();
     let count = 1500;
     for settings in settings() {
@@ -66,7 +66,7 @@ fn each_law_agrees_with_its_twin() {
 }
 
 #[test]
-fn many_agree_with_their_twin() {
+fn many_agree_with_their_reference() {
     let shared = support::device();
     let count = 20_001;
     for (name, machine) in walkers(&shared) {
@@ -76,7 +76,7 @@ fn many_agree_with_their_twin() {
 }
 
 #[test]
-fn awkward_sets_agree_with_their_twin() {
+fn awkward_sets_agree_with_their_reference() {
     let shared = support::device();
     for (name, machine) in walkers(&shared) {
         for (set, bodies) in awkward(777).into_iter().filter(|(set, _)| *set != "massless") {

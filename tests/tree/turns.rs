@@ -67,7 +67,7 @@ fn a_walk_that_is_not_done_is_an_alarm() {
             walk.run();
             match (pollster::block_on(walk.simulation.check()), crowded) {
                 (Ok(()), false) => (),
-                (Err(Error::Crowded { particle }), true) => assert!(particle < 3200, "{name}: {particle}"),
+                (Err(Error::TooManyNeighbors { particle }), true) => assert!(particle < 3200, "{name}: {particle}"),
                 (said, _) => panic!("{name}, {rounds} rounds: {said:?}"),
             }
         }

@@ -1,7 +1,7 @@
 //! The gap between a wall and a fluid at rest.
 
 use glam::DVec3;
-use motes::fluids::{DENSITY, Smoothing, gap};
+use motes::sph::{DENSITY, Smoothing, gap};
 use motes::{Gpu, Simulation};
 
 use crate::{made, number, setup, support, vector};

@@ -1,8 +1,8 @@
 //! No particle leaves.
 
 use glam::DVec3;
-use motes::fluids::{Smoothing, gap};
 use motes::settings::Value;
+use motes::sph::{Smoothing, gap};
 
 use crate::support::states::force;
 use crate::{builtin, setup, vector, watched, word};

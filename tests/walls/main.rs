@@ -17,9 +17,9 @@ use std::path::PathBuf;
 
 use glam::DVec3;
 use motes::State;
-use motes::particles::shape;
 use motes::scene::{Diagnostics, Options, Scene, Source};
 use motes::settings::{Settings, Value};
+use motes::shapes::shape;
 use motes::{Gpu, POSITION, Setup, Simulation};
 
 /// A shape by its settings.

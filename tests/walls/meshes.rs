@@ -3,9 +3,9 @@
 use std::fmt::Write as _;
 
 use glam::DVec3;
-use motes::fluids::{Smoothing, gap};
 use motes::scene::{Builtin, Options, Scene, Source};
 use motes::settings::Value;
+use motes::sph::{Smoothing, gap};
 
 use crate::{load, made, number, word};
 

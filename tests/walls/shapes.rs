@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 use motes::State;
-use motes::fluids::{Smoothing, gap};
 use motes::settings::Value;
+use motes::sph::{Smoothing, gap};
 
 use crate::{made, number, vector, word};
 

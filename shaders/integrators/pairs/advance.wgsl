@@ -12,7 +12,7 @@ const WORKGROUP: u32 = 64u;
 @compute @workgroup_size(WORKGROUP)
 fn advance(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let i = folded(group, groups) * WORKGROUP + lane;
-    if i < ELEMENTS && !is_held(i / SLOTS) && lives(i / SLOTS) {
+    if i < ELEMENTS && !is_held(i / SLOTS) && is_active(i / SLOTS) {
         value[i] = own(value[i], value[i] + (FACTOR * world.dt) * rate[i]);
     }
 }

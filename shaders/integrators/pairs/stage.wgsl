@@ -16,7 +16,7 @@ const WORKGROUP: u32 = 64u;
 @compute @workgroup_size(WORKGROUP)
 fn stage(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let i = folded(group, groups) * WORKGROUP + lane;
-    if i < ELEMENTS && !is_held(i / SLOTS) && lives(i / SLOTS) {
+    if i < ELEMENTS && !is_held(i / SLOTS) && is_active(i / SLOTS) {
         slope[i] += WEIGHT * rate[i];
         value[i] = own(value[i], start[i] + (FACTOR * world.dt) * rate[i]);
     }

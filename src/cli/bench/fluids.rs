@@ -3,12 +3,12 @@
 use std::time::Duration;
 
 use glam::DVec3;
-use motes::fluids::{self, Friction, Medium, Smoothing, Walls};
 use motes::forces;
 use motes::kernel::{Backend, Plan};
 use motes::neighbors::Cells;
-use motes::particles::random::Random;
 use motes::settings::{Settings, Value};
+use motes::shapes::random::Random;
+use motes::sph::{self, Friction, Medium, Smoothing, Walls};
 use motes::{Bounds, Error, POSITION, Setup, Side, Simulation, State, gpu, integrators};
 use serde_json::json;
 
@@ -162,7 +162,7 @@ fn sweep(
     let gpu = simulation.backend();
     let problem = setup.problem(gpu.machine())?;
     let mut plan = Plan::default();
-    plan.add(fluids::pressure(medium, friction, Walls::Mirror, &problem)?.kernel(&problem)?);
+    plan.add(sph::pressure(medium, friction, Walls::Mirror, &problem)?.kernel(&problem)?);
     let program = gpu.compile(&plan)?;
     let mut run = |turns| time(turns, || gpu.run(&program, turns).and_then(|()| gpu.wait()));
     let turns = super::repeats(run(1)?.min(run(1)?));

@@ -2,7 +2,7 @@
 
 use motes::kernel::Backend;
 use motes::settings::{Settings, Value};
-use motes::{Bounds, Error, Setup, Simulation, State, forces, gpu, integrators, lockstep, particles};
+use motes::{Bounds, Error, Setup, Simulation, State, forces, gpu, integrators, lockstep, shapes};
 use serde_json::json;
 
 use super::bodies::Bodies;
@@ -100,7 +100,7 @@ fn setup(count: u32, integrator: &str) -> Result<Setup, Error> {
     let absent = |what: &str| Error::Scene(format!("there is no {what}"));
     let gravity = forces::entry("gravity").ok_or_else(|| absent("gravity"))?;
     let settings = Settings::defaults(gravity.keys).with("softening", Value::Number(SOFTENING));
-    let plummer = particles::shape("plummer").ok_or_else(|| absent("plummer"))?;
+    let plummer = shapes::shape("plummer").ok_or_else(|| absent("plummer"))?;
     let particles: State =
         (plummer.build)(&Settings::defaults(plummer.keys).with("count", Value::Number(f64::from(count))))?;
     let integrator = integrators::entry(integrator).ok_or_else(|| absent(integrator))?;

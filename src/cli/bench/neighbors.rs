@@ -7,8 +7,8 @@ use motes::forces::{self, Component, Law, Over};
 use motes::kernel::Source;
 use motes::measure::Flock;
 use motes::neighbors::Cells;
-use motes::particles::random::Random;
 use motes::settings::{Settings, Value};
+use motes::shapes::random::Random;
 use motes::{Bounds, Error, POSITION, Setup, Side, Simulation, State, gpu, integrators};
 use serde_json::json;
 
@@ -134,7 +134,7 @@ fn measure(
     #[expect(clippy::cast_possible_truncation, reason = "the baseline is in single precision")]
     let mut agents = Agents::new(positions, side as f32);
     let plain = plain && last.is_none_or(|row| 2.0 * median(&row.plain) <= args.longest && !row.plain.is_empty());
-    let (candidates, neighbors) = company(setup, *range)?;
+    let (candidates, neighbors) = numbers(setup, *range)?;
     #[expect(clippy::cast_possible_truncation, reason = "the baseline is in single precision")]
     let mut baseline = |turns| {
         (0..turns).for_each(|_| agents.step(DT as f32));
@@ -145,7 +145,7 @@ fn measure(
 }
 
 /// Candidates and neighbours of an agent, on average.
-fn company(setup: &Setup, range: f64) -> Result<(f64, f64), Failure> {
+fn numbers(setup: &Setup, range: f64) -> Result<(f64, f64), Failure> {
     let cells = Cells::new(setup.state.position(), setup.bounds, range)?;
     Ok((cells.candidates(), Flock::of(&setup.state, setup.bounds, Some(range), None)?.neighbors))
 }
@@ -154,7 +154,7 @@ fn company(setup: &Setup, range: f64) -> Result<(f64, f64), Failure> {
 async fn forced(args: &BenchArgs, found: &gpu::Found) -> Result<serde_json::Value, Failure> {
     let count = FORCED.clamp(args.from, args.to.max(args.from));
     let (mut setup, range) = circles(count);
-    let (candidates, _) = company(&setup, range)?;
+    let (candidates, _) = numbers(&setup, range)?;
     let mut near = Simulation::new(&found.device, &found.queue, &setup)?;
     setup.forces = vec![Box::new(Circles(Over::Within { range }))];
     let mut force = Simulation::new(&found.device, &found.queue, &setup)?;

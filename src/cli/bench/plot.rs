@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use motes::Error;
-use motes::io::atomically;
+use motes::formats::atomically;
 use plotters::prelude::*;
 use serde_json::Value;
 

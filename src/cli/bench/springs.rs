@@ -5,7 +5,7 @@ use std::time::Duration;
 use glam::{DVec3, Vec4};
 use motes::integrators::{Integrator, Step};
 use motes::settings::{Settings, Value};
-use motes::{Bounds, Error, POSITION, Setup, Simulation, Solver, forces, gpu, integrators, particles};
+use motes::{Bounds, Error, POSITION, Setup, Simulation, Solver, forces, gpu, integrators, shapes};
 use serde_json::json;
 
 use super::median;
@@ -107,7 +107,7 @@ fn joined(args: &BenchArgs, found: &gpu::Found) -> Result<serde_json::Value, Fai
 fn setup(count: u32) -> Result<Setup, Failure> {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small whole number")]
     let side = f64::from(f64::from(count).sqrt().round().max(2.0) as u32);
-    let cloth = particles::shape("cloth").ok_or_else(|| Error::Scene("there is no cloth".to_owned()))?;
+    let cloth = shapes::shape("cloth").ok_or_else(|| Error::Scene("there is no cloth".to_owned()))?;
     let number = Value::Number;
     let settings = Settings::defaults(cloth.keys)
         .with("columns", number(side))

@@ -6,7 +6,7 @@ use glam::Vec4;
 use motes::kernel::{Backend, Plan, Problem};
 use motes::settings::{Settings, Value};
 use motes::tree::{Opening, Tree};
-use motes::{ACCELERATION, Bounds, Error, Gpu, POSITION, Setup, Simulation, forces, gpu, integrators, particles};
+use motes::{ACCELERATION, Bounds, Error, Gpu, POSITION, Setup, Simulation, forces, gpu, integrators, shapes};
 use serde_json::json;
 
 use super::effort::{Effort, effort};
@@ -222,7 +222,7 @@ fn gravity(over: &'static str, variant: &Variant) -> Result<Box<dyn forces::Comp
 
 /// Without forces as yet.
 fn setup(set: &Set, count: u32) -> Result<Setup, Error> {
-    let shape = particles::shape(set.shape).ok_or_else(|| absent(set.shape))?;
+    let shape = shapes::shape(set.shape).ok_or_else(|| absent(set.shape))?;
     let start = Settings::defaults(shape.keys).with("count", Value::Number(f64::from(count)));
     let settings = set.values.iter().fold(start, |all, (key, x)| all.with(key, Value::Number(*x)));
     Ok(Setup {

@@ -2,7 +2,7 @@
 //! and pressure with artificial viscosity over rows of three cells, in f32, over all cores. Nothing by hand; the instruction set
 //! is the one cargo compiled for.
 
-use motes::fluids::{Friction, Medium};
+use motes::sph::{Friction, Medium};
 use rayon::prelude::*;
 
 use super::cells::sorted;
@@ -50,7 +50,7 @@ impl Water {
             stiffness: medium.stiffness() as f32,
             sound: medium.sound as f32,
             alpha: friction.alpha as f32,
-            cubic: medium.smoothing == motes::fluids::Smoothing::Cubic,
+            cubic: medium.smoothing == motes::sph::Smoothing::Cubic,
         };
         let velocity = vec![[0.0; 3]; position.len()];
         let cells = ((side / medium.range()).floor() as usize).max(3);

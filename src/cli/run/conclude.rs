@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use motes::io::Precision;
+use motes::formats::Precision;
 use motes::render::Image;
 use motes::stability::Verdict;
 use motes::{Error, Setup};
@@ -45,7 +45,7 @@ impl Run {
             "finish",
             json!({ "steps": steps, "stopped": stopped, "seconds": took.as_secs_f64(), "stepping_seconds": stepping.as_secs_f64(), "steps_per_second": rate,
                 "energy": last.total(), "energy_error": last.drift_from(&first), "worst_energy_error": worst,
-                "adaptive": course.event(), "order": output.company().map(|(_, last)| last.order), "output": output.folder().path() }),
+                "adaptive": course.event(), "order": output.flock_statistics().map(|(_, last)| last.order), "output": output.folder().path() }),
         );
         let say = |text: String| self.progress.conclude(&text);
         if stopped {
@@ -58,16 +58,23 @@ impl Run {
         say(summary::speed(done, self.count, stepping, took));
         course.summary().into_iter().for_each(&say);
         // Birds are driven: their energy has no meaning.
-        if self.conserved.energy || output.company().is_none() {
+        if self.conserved.energy || output.flock_statistics().is_none() {
             say(summary::energy(output.rows(), &self.looks, &self.conserved));
         }
         summary::momentum(output.rows(), &self.conserved).into_iter().for_each(&say);
-        output.company().map(|(first, last)| summary::company(first, last)).into_iter().for_each(&say);
+        output
+            .flock_statistics()
+            .map(|(first, last)| summary::flock_statistics(first, last))
+            .into_iter()
+            .for_each(&say);
         self.book.as_ref().and_then(Book::summary).into_iter().for_each(&say);
         self.torn.iter().cloned().chain(output.population().map(summary::population)).for_each(&say);
         let flow = output.population().is_some();
-        let more =
-            [(output.company().is_some(), ", flock.csv"), (self.book.is_some(), ", fluid.csv"), (flow, ", flow.csv")];
+        let more = [
+            (output.flock_statistics().is_some(), ", flock.csv"),
+            (self.book.is_some(), ", fluid.csv"),
+            (flow, ", flow.csv"),
+        ];
         let tables: String =
             more.iter().filter(|(is, _)| *is).fold("energy.csv".to_owned(), |all, (_, name)| all + name);
         let picture = if output.pictures() { format!("{}.png, ", self.scene.name) } else { String::new() };

@@ -8,15 +8,15 @@ use crate::kernel::Plan;
 
 impl Step<'_> {
     /// How long the step is, by the dt criteria at the end of the one before; nothing where dt is fixed.
-    pub fn pace(&mut self) {
-        let Some(how) = self.problem.pace else { return };
+    pub fn adaptive_step(&mut self) {
+        let Some(how) = self.problem.adaptive_step else { return };
         let viscous = self.limits().map(|(_, viscous)| viscous);
         self.add(viscous.and_then(|viscous| adaptive::next_dt(&how, viscous, &self.problem)));
         self.add(adaptive::limiting_particle(&how, &self.problem));
     }
     /// What forces say of the length of the step to come.
     pub(super) fn dt_criteria(&mut self) {
-        if self.problem.pace.is_none() {
+        if self.problem.adaptive_step.is_none() {
             return;
         }
         if self.moved {

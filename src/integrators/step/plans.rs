@@ -37,7 +37,7 @@ impl<'a> Step<'a> {
     /// The first thing that went wrong while the step was written.
     pub fn done(mut self) -> Result<Plan, Error> {
         self.each(Stage::EndOfStep);
-        self.add(if self.problem.pace.is_some() { adaptive::tick(&self.problem) } else { tick::kernel() });
+        self.add(if self.problem.adaptive_step.is_some() { adaptive::tick(&self.problem) } else { tick::kernel() });
         self.populate();
         // Particles just spawned take part in the criterion for their first step.
         self.dt_criteria();
@@ -55,7 +55,7 @@ impl<'a> Step<'a> {
         // By what they run, not by what they are called: a force may be called anything.
         let runs = |kernel: &Kernel, entry| kernel.passes.iter().all(|p| p.shader.reflection().entry == entry);
         let asked = |kernel: &Kernel| {
-            ![tick::NAME, life::BEAR].into_iter().any(|entry| runs(kernel, entry))
+            ![tick::NAME, life::SPAWN].into_iter().any(|entry| runs(kernel, entry))
                 && kernel.passes.iter().any(|p| p.shader.reflection().reads_time)
         };
         if !self.plan.kernels.iter().any(|kernel| !runs(kernel, at::NAME) && asked(kernel)) {
@@ -68,7 +68,7 @@ impl<'a> Step<'a> {
     /// # Errors
     /// When a shader does not compile.
     pub fn time(problem: &Problem) -> Result<Plan, Error> {
-        let kernel = if problem.pace.is_some() { adaptive::at(0.0, problem) } else { at::kernel(0.0) };
+        let kernel = if problem.adaptive_step.is_some() { adaptive::at(0.0, problem) } else { at::kernel(0.0) };
         Ok(Plan::of(vec![kernel?]))
     }
     /// The two plans around a measurement: the first keeps the forces that the next step is going to use and evaluates

@@ -10,8 +10,8 @@ use glam::DVec4;
 
 use crate::error::Error;
 use crate::kernel::{
-    Host, Kernel, PACE, PACE_WORDS, Pace, Pass, Problem, Reason, STOP, Shader, TICKS, Table, URGENT, URGES, World,
-    ticks,
+    AdaptiveStep, Host, Kernel, LARGEST_CRITERION, Pass, Problem, Reason, STEP_CLOCK, STEP_CLOCK_WORDS, STEP_CRITERIA,
+    STOP, Shader, TICKS, Table, World, ticks,
 };
 use crate::primitives::{Items, Operation, reduce};
 
@@ -20,29 +20,31 @@ const DIGITS: u32 = 11;
 
 /// The maximum of all dt criteria.
 pub fn measure(problem: &Problem) -> Result<Kernel, Error> {
-    let (all, most) = (URGES.name.into(), URGENT.name.into());
+    let (all, most) = (STEP_CRITERIA.name.into(), LARGEST_CRITERION.name.into());
     let kernel = reduce(Operation::Max, Items::Vec4, &all, &most, problem.count, &problem.machine)?;
-    Ok(Kernel { name: "most urgent".to_owned(), ..kernel })
+    Ok(Kernel { name: "largest criterion".to_owned(), ..kernel })
 }
 
-fn tables(pace: &Pace, dt: f64) -> Vec<Table> {
-    vec![(PACE.name.into(), Arc::new(pace.start(dt))), (STOP.name.into(), Arc::new(vec![u32::MAX, 0]))]
+fn tables(adaptive_step: &AdaptiveStep, dt: f64) -> Vec<Table> {
+    vec![(STEP_CLOCK.name.into(), Arc::new(adaptive_step.start(dt))), (STOP.name.into(), Arc::new(vec![u32::MAX, 0]))]
 }
 
 fn sizes() -> Vec<(crate::kernel::Name, u64)> {
-    vec![(PACE.name.into(), PACE_WORDS as u64), (STOP.name.into(), 2), (URGENT.name.into(), 1)]
+    vec![(STEP_CLOCK.name.into(), STEP_CLOCK_WORDS as u64), (STOP.name.into(), 2), (LARGEST_CRITERION.name.into(), 1)]
 }
 
 /// How long the step is; `viscous` is how many of it viscosity wants in a longest one.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "as the device does it")]
-pub fn next_dt(pace: &Pace, viscous: f64, problem: &Problem) -> Result<Kernel, Error> {
+pub fn next_dt(adaptive_step: &AdaptiveStep, viscous: f64, problem: &Problem) -> Result<Kernel, Error> {
     let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("integrators/adaptive_dt.wgsl")])?;
-    let (unit, least, viscous) = (problem.dt, ticks(pace.least, problem.dt).max(1), viscous as f32);
-    let twin = move |host: &Host| {
-        let (world, urgent, stop) = (host.world(), host.read(URGENT)?, host.read(STOP)?);
-        let mut words = host.write(PACE)?;
-        let (Some(urgent), [stop_whole, stop_rest]) = (urgent.first(), &stop[..]) else { return Ok(()) };
-        let wants = [urgent.x as f32, urgent.y as f32, viscous, urgent.z as f32];
+    let (unit, least, viscous) = (problem.dt, ticks(adaptive_step.least, problem.dt).max(1), viscous as f32);
+    let reference = move |host: &Host| {
+        let (world, largest_criterion, stop) = (host.world(), host.read(LARGEST_CRITERION)?, host.read(STOP)?);
+        let mut words = host.write(STEP_CLOCK)?;
+        let (Some(largest_criterion), [stop_whole, stop_rest]) = (largest_criterion.first(), &stop[..]) else {
+            return Ok(());
+        };
+        let wants = [largest_criterion.x as f32, largest_criterion.y as f32, viscous, largest_criterion.z as f32];
         let (mut rate, mut reason) = (1.0f32, Reason::Longest as u32);
         for (want, number) in wants.into_iter().zip(1..) {
             if want > rate {
@@ -86,19 +88,20 @@ pub fn next_dt(pace: &Pace, viscous: f64, problem: &Problem) -> Result<Kernel, E
     Ok(Kernel {
         name: "adaptive dt".to_owned(),
         passes: vec![pass],
-        twin: Some(Arc::new(twin)),
+        reference: Some(Arc::new(reference)),
         sizes: sizes(),
         scratch: Vec::new(),
-        tables: tables(pace, unit),
+        tables: tables(adaptive_step, unit),
     })
 }
 
 /// The limiting particle.
-pub fn limiting_particle(pace: &Pace, problem: &Problem) -> Result<Kernel, Error> {
+pub fn limiting_particle(adaptive_step: &AdaptiveStep, problem: &Problem) -> Result<Kernel, Error> {
     let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("integrators/limiting_particle.wgsl")])?;
-    let twin = |host: &Host| {
-        let (world, urges, urgent) = (host.world(), host.read(URGES)?, host.read(URGENT)?);
-        let most = urgent.first().copied().unwrap_or_default();
+    let reference = |host: &Host| {
+        let (world, step_criteria, largest_criterion) =
+            (host.world(), host.read(STEP_CRITERIA)?, host.read(LARGEST_CRITERION)?);
+        let most = largest_criterion.first().copied().unwrap_or_default();
         let first = |reason: u32| {
             let part: fn(&DVec4) -> f64 = match Reason::of(reason) {
                 Reason::Acceleration => |v| v.x,
@@ -106,16 +109,16 @@ pub fn limiting_particle(pace: &Pace, problem: &Problem) -> Result<Kernel, Error
                 Reason::Speed => |v| v.z,
                 _ => return u32::MAX,
             };
-            let found = urges.iter().position(|urge| part(urge).total_cmp(&part(&most)).is_eq());
+            let found = step_criteria.iter().position(|criterion| part(criterion).total_cmp(&part(&most)).is_eq());
             found.and_then(|id| u32::try_from(id).ok()).unwrap_or(u32::MAX)
         };
-        let mut words = host.write(PACE)?;
+        let mut words = host.write(STEP_CLOCK)?;
         words[5] = words[5].min(first(words[4]));
         if words[6] == world.step {
             words[8] = words[8].min(first(words[7]));
         }
         Ok(())
     };
-    let kernel = Kernel::new("limiting particle", shader, Vec::new(), problem.count, Arc::new(twin));
-    Ok(Kernel { sizes: sizes(), tables: tables(pace, problem.dt), ..kernel })
+    let kernel = Kernel::new("limiting particle", shader, Vec::new(), problem.count, Arc::new(reference));
+    Ok(Kernel { sizes: sizes(), tables: tables(adaptive_step, problem.dt), ..kernel })
 }

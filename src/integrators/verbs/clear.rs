@@ -5,16 +5,16 @@ use std::sync::Arc;
 use glam::DVec4;
 
 use crate::error::Error;
-use crate::kernel::{ACCELERATION, Kernel, Shader, Twin};
+use crate::kernel::{ACCELERATION, Kernel, Reference, Shader};
 
 /// The kernel.
 pub fn kernel(count: u32) -> Result<Kernel, Error> {
     let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("integrators/clear.wgsl")])?;
-    let twin = |host: &crate::kernel::Host| {
+    let reference = |host: &crate::kernel::Host| {
         host.write(ACCELERATION)?.fill(DVec4::ZERO);
         Ok(())
     };
-    Ok(Kernel::new("clear", shader, Vec::new(), count, Arc::new(twin)))
+    Ok(Kernel::new("clear", shader, Vec::new(), count, Arc::new(reference)))
 }
 
 /// Clears them with the first kernel that adds to them, if it can: it sets accelerations instead.
@@ -23,8 +23,8 @@ pub fn with(law: &mut Kernel) -> bool {
     let can = law.passes.len() == 1 && law.passes[0].shader.reflection().overrides.contains_key(FIRST);
     if can {
         law.passes[0].constants.push((FIRST, 1.0));
-        let adds = law.twin.take();
-        law.twin = adds.map(|adds| -> Twin {
+        let adds = law.reference.take();
+        law.reference = adds.map(|adds| -> Reference {
             Arc::new(move |host| {
                 host.write(ACCELERATION)?.fill(DVec4::ZERO);
                 adds(host)

@@ -41,7 +41,7 @@ fn kernel(problem: &Problem, first: usize, end: usize, kind: &str, files: Vec<So
         constants.extend(problem.clock_constants());
     }
     let (held, motions, all) = (problem.held.clone(), problem.motions.clone(), problem.clone());
-    let twin = move |host: &Host| {
+    let reference = move |host: &Host| {
         let (world, home) = (host.world(), host.read(HOME)?);
         let target = if host.contains(TARGET.name) { host.read(TARGET)?.to_vec() } else { Vec::new() };
         let (position, mut velocity) = (host.read(POSITION)?, host.write(VELOCITY)?);
@@ -76,7 +76,7 @@ fn kernel(problem: &Problem, first: usize, end: usize, kind: &str, files: Vec<So
     Ok(Kernel {
         name: format!("lead {kind}"),
         passes: vec![pass],
-        twin: Some(Arc::new(twin)),
+        reference: Some(Arc::new(reference)),
         sizes: vec![
             ("holds".into(), count),
             (HOME.name.into(), count),
@@ -99,7 +99,7 @@ fn kernel(problem: &Problem, first: usize, end: usize, kind: &str, files: Vec<So
 pub fn hold(problem: &Problem) -> Result<Kernel, Error> {
     let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("motion/hold.wgsl")])?;
     let (held, count) = (problem.held.clone(), problem.held.len());
-    let twin = move |host: &Host| {
+    let reference = move |host: &Host| {
         let mut acceleration = host.write(ACCELERATION)?;
         for one in held.iter() {
             let a = &mut acceleration[one.id as usize];
@@ -111,7 +111,7 @@ pub fn hold(problem: &Problem) -> Result<Kernel, Error> {
     Ok(Kernel {
         name: "hold".to_owned(),
         passes: vec![pass],
-        twin: Some(Arc::new(twin)),
+        reference: Some(Arc::new(reference)),
         sizes: vec![("holds".into(), count as u64)],
         scratch: Vec::new(),
         tables: vec![("holds".into(), Arc::new(motion::list(&problem.held)))],

@@ -12,11 +12,11 @@ const KEPT: Field<Vec4> = Field::new("kept_acceleration");
 /// Copies a field of one vector for each particle to another, under a name.
 pub fn copy(count: u32, name: &str, from: Field<Vec4>, to: Field<Vec4>) -> Result<Kernel, Error> {
     let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("integrators/keep.wgsl")])?;
-    let twin = move |host: &Host| {
+    let reference = move |host: &Host| {
         host.write(to)?.copy_from_slice(&host.read(from)?);
         Ok(())
     };
-    let mut kernel = Kernel::new(name, shader, Vec::new(), count, Arc::new(twin));
+    let mut kernel = Kernel::new(name, shader, Vec::new(), count, Arc::new(reference));
     let fields = [("acceleration", from.name.into()), ("kept_acceleration", to.name.into())];
     kernel.passes = kernel.passes.into_iter().map(|pass| pass.on(&fields)).collect();
     Ok(kernel)
@@ -25,19 +25,19 @@ pub fn copy(count: u32, name: &str, from: Field<Vec4>, to: Field<Vec4>) -> Resul
 /// Keeps the forces that the next step is going to use.
 pub fn keep(count: u32) -> Result<Kernel, Error> {
     let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("integrators/keep.wgsl")])?;
-    let twin = |host: &Host| {
+    let reference = |host: &Host| {
         host.write(KEPT)?.copy_from_slice(&host.read(ACCELERATION)?);
         Ok(())
     };
-    Ok(Kernel::new("keep", shader, Vec::new(), count, Arc::new(twin)))
+    Ok(Kernel::new("keep", shader, Vec::new(), count, Arc::new(reference)))
 }
 
 /// Puts them back.
 pub fn restore(count: u32) -> Result<Kernel, Error> {
     let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("integrators/restore.wgsl")])?;
-    let twin = |host: &Host| {
+    let reference = |host: &Host| {
         host.write(ACCELERATION)?.copy_from_slice(&host.read(KEPT)?);
         Ok(())
     };
-    Ok(Kernel::new("restore", shader, Vec::new(), count, Arc::new(twin)))
+    Ok(Kernel::new("restore", shader, Vec::new(), count, Arc::new(reference)))
 }

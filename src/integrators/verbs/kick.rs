@@ -8,7 +8,7 @@ use crate::kernel::{ACCELERATION, Kernel, Shader, VELOCITY};
 /// The kernel, for a part of the step.
 pub fn kernel(count: u32, factor: f64) -> Result<Kernel, Error> {
     let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("integrators/kick.wgsl")])?;
-    let twin = move |host: &crate::kernel::Host| {
+    let reference = move |host: &crate::kernel::Host| {
         let dt = factor * host.world().dt;
         let (mut velocity, acceleration) = (host.write(VELOCITY)?, host.read(ACCELERATION)?);
         for (v, a) in velocity.iter_mut().zip(acceleration.iter()) {
@@ -16,5 +16,5 @@ pub fn kernel(count: u32, factor: f64) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    Ok(Kernel::new("kick", shader, vec![("FACTOR", factor)], count, Arc::new(twin)))
+    Ok(Kernel::new("kick", shader, vec![("FACTOR", factor)], count, Arc::new(reference)))
 }

@@ -8,7 +8,7 @@ use crate::kernel::{ACCELERATION, Host, Kernel, POSITION, Shader, VELOCITY};
 /// The kernel, for parts of the step.
 pub fn kernel(count: u32, kick: f64, drift: f64) -> Result<Kernel, Error> {
     let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("integrators/kick_drift.wgsl")])?;
-    let twin = move |host: &Host| {
+    let reference = move |host: &Host| {
         let dt = host.world().dt;
         let (mut position, mut velocity) = (host.write(POSITION)?, host.write(VELOCITY)?);
         for ((x, v), a) in position.iter_mut().zip(velocity.iter_mut()).zip(host.read(ACCELERATION)?.iter()) {
@@ -17,5 +17,5 @@ pub fn kernel(count: u32, kick: f64, drift: f64) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    Ok(Kernel::new("kick+drift", shader, vec![("KICK", kick), ("DRIFT", drift)], count, Arc::new(twin)))
+    Ok(Kernel::new("kick+drift", shader, vec![("KICK", kick), ("DRIFT", drift)], count, Arc::new(reference)))
 }

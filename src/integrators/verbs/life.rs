@@ -1,4 +1,4 @@
-//! Births and drains: `bear` and `drain` spawn and remove particles at the end of a step; `rest` clears the accelerations of
+//! Births and drains: `spawn` and `drain` spawn and remove particles at the end of a step; `rest` clears the accelerations of
 //! particles that are not active, and `guide` those of particles just spawned.
 
 use std::sync::Arc;
@@ -6,37 +6,39 @@ use std::sync::Arc;
 use glam::DVec4;
 
 use crate::error::Error;
-use crate::kernel::{ACCELERATION, Host, Kernel, LIFE, POSITION, Pass, Problem, Scalar, Shader, Twin, VELOCITY, World};
+use crate::kernel::{
+    ACCELERATION, Host, Kernel, LIFE, POSITION, Pass, Problem, Reference, Scalar, Shader, VELOCITY, World,
+};
 use crate::life::{self, Drain, Life};
 use crate::solids::Solid;
 
 /// What the shader of a birth is called.
-pub const BEAR: &str = "bear";
+pub const SPAWN: &str = "spawn";
 /// Particles that are due within such a part of a step are due: rounding of times decides nothing.
 const SOON: f64 = 1.0 / 64.0;
 
 /// At the end of a step, and before the first one: due particles are spawned, and those in a drain removed.
 pub fn kernels(problem: &Problem) -> Result<Vec<Kernel>, Error> {
-    let births = (!problem.births.is_empty()).then(|| bear(problem));
+    let births = (!problem.births.is_empty()).then(|| spawn(problem));
     let drains = problem.drains.iter().zip(1..).map(|(drain, number)| self::drain(problem, *drain, number));
     births.into_iter().chain(drains).collect()
 }
 
-fn bear(problem: &Problem) -> Result<Kernel, Error> {
+fn spawn(problem: &Problem) -> Result<Kernel, Error> {
     let shader = Shader::join(&[
         crate::shader!("world.wgsl"),
         crate::shader!("life/birth.wgsl"),
-        crate::shader!("life/bear.wgsl"),
+        crate::shader!("life/spawn.wgsl"),
     ])?;
     let births = problem.births.clone();
-    let twin = move |host: &Host| {
+    let reference = move |host: &Host| {
         let world = host.world();
         let mut life = host.write(LIFE)?;
         let (mut position, mut velocity) = (host.write(POSITION)?, host.write(VELOCITY)?);
         for birth in births.iter() {
             let id = birth.id as usize;
-            if life[id] == Life::Waiting.word() && birth.time <= world.time + SOON * world.dt {
-                life[id] = Life::Living.word();
+            if life[id] == Life::Pending.word() && birth.time <= world.time + SOON * world.dt {
+                life[id] = Life::Active.word();
                 let x = position[id].truncate() + (world.time - birth.time) * birth.velocity;
                 position[id] = x.extend(birth.mass);
                 velocity[id] = birth.velocity.extend(velocity[id].w);
@@ -44,18 +46,18 @@ fn bear(problem: &Problem) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    Ok(of_births(BEAR, shader, problem, Arc::new(twin)))
+    Ok(of_births(SPAWN, shader, problem, Arc::new(reference)))
 }
 
 /// A kernel of one invocation for each birth.
-fn of_births(name: &str, shader: Arc<Shader>, problem: &Problem, twin: Twin) -> Kernel {
+fn of_births(name: &str, shader: Arc<Shader>, problem: &Problem, reference: Reference) -> Kernel {
     let count = problem.births.len();
     let number = u32::try_from(count).unwrap_or(u32::MAX);
     let pass = Pass { constants: vec![("END", count as f64)], ..Pass::new(shader, number) };
     Kernel {
         name: name.to_owned(),
         passes: vec![pass],
-        twin: Some(twin),
+        reference: Some(reference),
         sizes: vec![("births".into(), count as u64)],
         scratch: Vec::new(),
         tables: vec![("births".into(), Arc::new(life::table(&problem.births)))],
@@ -85,17 +87,17 @@ fn drain(problem: &Problem, drain: Drain, number: u32) -> Result<Kernel, Error> 
     let params = shader.reflection().binding("params");
     let params = params.map_or(Ok(Vec::new()), |binding| binding.packed.pack("a drain", &values))?;
     let all = problem.clone();
-    let twin = move |host: &Host| {
+    let reference = move |host: &Host| {
         let view = crate::visit::View::of(host)?;
         let (bodies, world) = (view.particles(), host.world());
         let mut life = host.write(LIFE)?;
         let (mut position, mut velocity) = (host.write(POSITION)?, host.write(VELOCITY)?);
         let mut acceleration = host.write(ACCELERATION)?;
-        let free = bodies.iter().filter(|body| body.lives() && !all.is_held(body.index));
+        let free = bodies.iter().filter(|body| body.is_active() && !all.is_held(body.index));
         for body in free.filter(|body| drain.species.is_none_or(|kind| kind == body.species())) {
             if takes(&drain, body.position, &world) {
                 let id = body.index;
-                life[id] = Life::Dead.word();
+                life[id] = Life::Removed.word();
                 position[id].w = 0.0;
                 velocity[id] = DVec4::ZERO.with_w(velocity[id].w);
                 acceleration[id] = DVec4::ZERO;
@@ -107,7 +109,7 @@ fn drain(problem: &Problem, drain: Drain, number: u32) -> Result<Kernel, Error> 
     Ok(Kernel {
         name: format!("drain {number}"),
         passes: vec![pass],
-        twin: Some(Arc::new(twin)),
+        reference: Some(Arc::new(reference)),
         sizes: Vec::new(),
         scratch: Vec::new(),
         tables,
@@ -130,31 +132,31 @@ pub fn still(problem: &Problem) -> Result<Vec<Kernel>, Error> {
 
 fn guide(problem: &Problem) -> Result<Kernel, Error> {
     let shader = Shader::join(&[
-        problem.living(),
+        problem.active(),
         crate::shader!("world.wgsl"),
         crate::shader!("life/birth.wgsl"),
         crate::shader!("life/guide.wgsl"),
     ])?;
     let births = problem.births.clone();
-    let twin = move |host: &Host| {
-        let (lives, time) = (host.lives()?, host.world().time);
+    let reference = move |host: &Host| {
+        let (is_active, time) = (host.is_active()?, host.world().time);
         let mut acceleration = host.write(ACCELERATION)?;
-        for birth in births.iter().filter(|birth| lives(birth.id as usize) && time < birth.time + birth.guided) {
+        for birth in births.iter().filter(|birth| is_active(birth.id as usize) && time < birth.time + birth.guided) {
             let a = &mut acceleration[birth.id as usize];
             *a = DVec4::ZERO.with_w(a.w);
         }
         Ok(())
     };
-    Ok(of_births("guide", shader, problem, Arc::new(twin)))
+    Ok(of_births("guide", shader, problem, Arc::new(reference)))
 }
 
 fn rest(problem: &Problem) -> Result<Kernel, Error> {
-    let shader = Shader::join(&[problem.living(), crate::shader!("world.wgsl"), crate::shader!("life/rest.wgsl")])?;
-    let twin = |host: &Host| {
-        let lives = host.lives()?;
+    let shader = Shader::join(&[problem.active(), crate::shader!("world.wgsl"), crate::shader!("life/rest.wgsl")])?;
+    let reference = |host: &Host| {
+        let is_active = host.is_active()?;
         let mut acceleration = host.write(ACCELERATION)?;
-        acceleration.iter_mut().enumerate().filter(|(id, _)| !lives(*id)).for_each(|(_, a)| *a = DVec4::ZERO);
+        acceleration.iter_mut().enumerate().filter(|(id, _)| !is_active(*id)).for_each(|(_, a)| *a = DVec4::ZERO);
         Ok(())
     };
-    Ok(Kernel::new("rest", shader, Vec::new(), problem.count, Arc::new(twin)))
+    Ok(Kernel::new("rest", shader, Vec::new(), problem.count, Arc::new(reference)))
 }

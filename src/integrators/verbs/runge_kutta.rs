@@ -22,19 +22,25 @@ fn vector(v: DVec4) -> DVec4 {
 
 /// Keeps the start of the step.
 pub fn save(count: u32) -> Result<Kernel, Error> {
-    let twin = |host: &Host| {
+    let reference = |host: &Host| {
         host.write(START_POSITION)?.copy_from_slice(&host.read(POSITION)?);
         host.write(START_VELOCITY)?.copy_from_slice(&host.read(VELOCITY)?);
         host.write(SLOPE_POSITION)?.fill(DVec4::ZERO);
         host.write(SLOPE_VELOCITY)?.fill(DVec4::ZERO);
         Ok(())
     };
-    Ok(Kernel::new("rk_save", shader(crate::shader!("integrators/rk_save.wgsl"))?, Vec::new(), count, Arc::new(twin)))
+    Ok(Kernel::new(
+        "rk_save",
+        shader(crate::shader!("integrators/rk_save.wgsl"))?,
+        Vec::new(),
+        count,
+        Arc::new(reference),
+    ))
 }
 
 /// A stage: `weight` times its slopes go into the sum, and the next slopes are wanted `factor` of the step from the start.
 pub fn stage(count: u32, weight: f64, factor: f64) -> Result<Kernel, Error> {
-    let twin = move |host: &Host| {
+    let reference = move |host: &Host| {
         let dt = factor * host.world().dt;
         let (x0, v0) = (host.read(START_POSITION)?, host.read(START_VELOCITY)?);
         let (mut x, mut v, a) = (host.write(POSITION)?, host.write(VELOCITY)?, host.read(ACCELERATION)?);
@@ -49,12 +55,18 @@ pub fn stage(count: u32, weight: f64, factor: f64) -> Result<Kernel, Error> {
         Ok(())
     };
     let constants = vec![("WEIGHT", weight), ("FACTOR", factor)];
-    Ok(Kernel::new("rk_stage", shader(crate::shader!("integrators/rk_stage.wgsl"))?, constants, count, Arc::new(twin)))
+    Ok(Kernel::new(
+        "rk_stage",
+        shader(crate::shader!("integrators/rk_stage.wgsl"))?,
+        constants,
+        count,
+        Arc::new(reference),
+    ))
 }
 
 /// The end of the step, with the weight of the last slopes.
 pub fn finish(count: u32, weight: f64) -> Result<Kernel, Error> {
-    let twin = move |host: &Host| {
+    let reference = move |host: &Host| {
         let dt = host.world().dt;
         let (x0, v0) = (host.read(START_POSITION)?, host.read(START_VELOCITY)?);
         let (mut x, mut v, a) = (host.write(POSITION)?, host.write(VELOCITY)?, host.read(ACCELERATION)?);
@@ -71,6 +83,6 @@ pub fn finish(count: u32, weight: f64) -> Result<Kernel, Error> {
         shader(crate::shader!("integrators/rk_finish.wgsl"))?,
         constants,
         count,
-        Arc::new(twin),
+        Arc::new(reference),
     ))
 }

@@ -23,13 +23,13 @@ pub fn grown(alarm: &mut [u32], step: u32) {
 /// The kernel.
 pub fn kernel() -> Result<Kernel, Error> {
     let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("integrators/tick.wgsl")])?;
-    let twin = |host: &crate::kernel::Host| {
+    let reference = |host: &crate::kernel::Host| {
         let clock = host.world();
         let step = clock.step + 1;
         host.set_world(World { step, time: f64::from(step) * clock.dt, ..clock });
         grown(&mut host.write(ALARM)?, step);
         Ok(())
     };
-    let kernel = Kernel::new(NAME, shader, Vec::new(), 1, Arc::new(twin));
+    let kernel = Kernel::new(NAME, shader, Vec::new(), 1, Arc::new(reference));
     Ok(Kernel { sizes: vec![(ALARM.name.into(), ALARM_WORDS as u64)], ..kernel })
 }

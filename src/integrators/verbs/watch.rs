@@ -16,7 +16,7 @@ pub fn kernel(count: u32) -> Result<Kernel, Error> {
         crate::shader!("broken.wgsl"),
         crate::shader!("integrators/watch.wgsl"),
     ])?;
-    let twin = |host: &crate::kernel::Host| {
+    let reference = |host: &crate::kernel::Host| {
         let done = host.world().step;
         let (position, velocity, acceleration) = (host.read(POSITION)?, host.read(VELOCITY)?, host.read(ACCELERATION)?);
         // What single precision cannot hold ends a run on every backend.
@@ -41,6 +41,6 @@ pub fn kernel(count: u32) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    let kernel = Kernel::new("watch", shader, Vec::new(), count, Arc::new(twin));
+    let kernel = Kernel::new("watch", shader, Vec::new(), count, Arc::new(reference));
     Ok(Kernel { sizes: vec![(ALARM.name.into(), ALARM_WORDS as u64)], ..kernel })
 }

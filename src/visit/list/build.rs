@@ -69,7 +69,7 @@ pub fn kernel(list: List, problem: &Problem) -> Result<Kernel, Error> {
     Ok(Kernel {
         name: list.title(),
         passes,
-        twin: Some(Arc::new(move |host: &Host| list.update(host).map(|_| ()))),
+        reference: Some(Arc::new(move |host: &Host| list.update(host).map(|_| ()))),
         sizes,
         scratch,
         tables: vec![(ALL.into(), Arc::new(all))],
@@ -101,7 +101,7 @@ fn moved(list: &List, problem: &Problem) -> Result<Pass, Error> {
     let shader = Shader::join(&[
         crate::shader!("world.wgsl"),
         crate::shader!("fields.wgsl"),
-        problem.living(),
+        problem.active(),
         state(),
         crate::shader!("neighbors/list_moved.wgsl"),
     ])?;
@@ -136,7 +136,7 @@ fn order(list: &List, problem: &Problem) -> Result<Pass, Error> {
         crate::shader!("fields.wgsl"),
         crate::shader!("neighbors/starts.wgsl"),
         list.grid.present(problem),
-        problem.living(),
+        problem.active(),
         state(),
         crate::shader!("neighbors/list_order.wgsl"),
     ])?;

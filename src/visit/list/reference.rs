@@ -6,7 +6,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::error::Error;
-use crate::kernel::{Host, Twin, World};
+use crate::kernel::{Host, Reference, World};
 use crate::neighbors::{HISTORY, LIST, List, NONE};
 use crate::visit::particle::{Particle, View};
 use crate::visit::{Outcome, result};
@@ -43,7 +43,7 @@ pub fn remembering<S: Default>(
     slots: usize,
     gather: impl Fn(&Particle, &Particle, DVec3, &World, &mut Memory<'_>, &mut S) + Send + Sync + 'static,
     finish: impl Fn(&Particle, &S, &World, &mut Outcome) + Send + Sync + 'static,
-) -> Twin {
+) -> Reference {
     Arc::new(move |host: &Host| {
         let view = View::of(host)?;
         let (bodies, world) = (view.particles(), host.world());
@@ -59,7 +59,7 @@ pub fn remembering<S: Default>(
             let mut words = Vec::new();
             let ids: Vec<u32> = (0..end as usize).map_while(|n| list.get(List::place(k, n, count)).copied()).collect();
             let mut next = vec![vec![0.0; slots]; ids.len()];
-            for you in bodies.iter().filter(|you| you.lives() && you.index != me.index) {
+            for you in bodies.iter().filter(|you| you.is_active() && you.index != me.index) {
                 let way = you.position - me.position;
                 if !world.bounds.within(way, range) {
                     continue;

@@ -4,27 +4,29 @@ use std::sync::Arc;
 
 use crate::error::Error;
 use crate::integrators::verbs::tick::grown;
-use crate::kernel::{ALARM, ALARM_WORDS, Host, Kernel, PACE, PACE_WORDS, Problem, Shader, TICKS, World, time};
+use crate::kernel::{
+    ALARM, ALARM_WORDS, Host, Kernel, Problem, STEP_CLOCK, STEP_CLOCK_WORDS, Shader, TICKS, World, time,
+};
 
 /// The time after a part of the step.
 pub fn at(factor: f64, problem: &Problem) -> Result<Kernel, Error> {
     let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("integrators/at_adaptive.wgsl")])?;
     let all = problem.clone();
-    let twin = move |host: &Host| {
+    let reference = move |host: &Host| {
         let time = time(host, &all, factor)?;
         host.set_world(World { time, ..host.world() });
         Ok(())
     };
-    let kernel = Kernel::new("at", shader, vec![("FACTOR", factor), ("UNIT", problem.dt)], 1, Arc::new(twin));
-    Ok(Kernel { sizes: vec![(PACE.name.into(), PACE_WORDS as u64)], ..kernel })
+    let kernel = Kernel::new("at", shader, vec![("FACTOR", factor), ("UNIT", problem.dt)], 1, Arc::new(reference));
+    Ok(Kernel { sizes: vec![(STEP_CLOCK.name.into(), STEP_CLOCK_WORDS as u64)], ..kernel })
 }
 
 /// A step is done.
 pub fn tick(problem: &Problem) -> Result<Kernel, Error> {
     let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("integrators/tick_adaptive.wgsl")])?;
     let unit = problem.dt;
-    let twin = move |host: &Host| {
-        let (clock, mut words) = (host.world(), host.write(PACE)?);
+    let reference = move |host: &Host| {
+        let (clock, mut words) = (host.world(), host.write(STEP_CLOCK)?);
         let [whole, rest, ticks, ..] = &mut words[..] else { return Ok(()) };
         if *ticks > 0 {
             let all = *rest + *ticks;
@@ -35,7 +37,7 @@ pub fn tick(problem: &Problem) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    let kernel = Kernel::new("tick", shader, vec![("UNIT", unit)], 1, Arc::new(twin));
-    let sizes = vec![(ALARM.name.into(), ALARM_WORDS as u64), (PACE.name.into(), PACE_WORDS as u64)];
+    let kernel = Kernel::new("tick", shader, vec![("UNIT", unit)], 1, Arc::new(reference));
+    let sizes = vec![(ALARM.name.into(), ALARM_WORDS as u64), (STEP_CLOCK.name.into(), STEP_CLOCK_WORDS as u64)];
     Ok(Kernel { sizes, ..kernel })
 }

@@ -11,7 +11,7 @@ use glam::{DVec4, Vec4};
 
 use crate::error::Error;
 use crate::kernel::{
-    Column, Columns, Element, Host, Kernel, Name, Pair, Pass, Problem, Shader, Shape, Source, Table, Threads, Twin,
+    Column, Columns, Element, Host, Kernel, Name, Pair, Pass, Problem, Reference, Shader, Shape, Source, Table, Threads,
 };
 
 /// The part of a buffer that a column is: what kernels bind of it, and of which elements.
@@ -66,11 +66,11 @@ impl Part {
     }
     /// Which particles' elements go on: not those of fixed ones, nor of those that are not active.
     fn moving(&self, problem: &Problem, host: &Host) -> Result<impl Fn(usize) -> bool + use<>, Error> {
-        let (lives, mask, slots) = (host.lives()?, problem.mask.clone(), self.slots());
+        let (is_active, mask, slots) = (host.is_active()?, problem.mask.clone(), self.slots());
         let all = matches!(self.shape, Shape::System(_));
         Ok(move |i: usize| {
             let id = i / slots;
-            all || lives(id) && mask.get(id).is_none_or(|word| *word == 0)
+            all || is_active(id) && mask.get(id).is_none_or(|word| *word == 0)
         })
     }
 }
@@ -83,13 +83,13 @@ impl Advanced {
 }
 
 /// The element of a buffer of real numbers, of which a column is a part.
-pub trait Real: Element<Twin: Add<Output = Self::Twin> + Mul<f64, Output = Self::Twin>> {
+pub trait Real: Element<Reference: Add<Output = Self::Reference> + Mul<f64, Output = Self::Reference>> {
     /// Nothing.
-    const ZERO: Self::Twin;
+    const ZERO: Self::Reference;
     /// The new value in the components of a column, the old one elsewhere.
-    fn own(old: Self::Twin, new: Self::Twin, components: &Range<usize>) -> Self::Twin;
+    fn own(old: Self::Reference, new: Self::Reference, components: &Range<usize>) -> Self::Reference;
     /// Whether the components of a column are numbers.
-    fn is_finite(value: Self::Twin, components: &Range<usize>) -> bool;
+    fn is_finite(value: Self::Reference, components: &Range<usize>) -> bool;
 }
 
 impl Real for f32 {
@@ -135,7 +135,7 @@ pub fn kernel(
     let system = matches!(part.shape, Shape::System(_));
     let (holding, tables): (Source, Vec<Table>) =
         if system { (crate::shader!("motion/free.wgsl"), Vec::new()) } else { problem.holding() };
-    let living = if system { crate::shader!("life/all.wgsl") } else { problem.living() };
+    let living = if system { crate::shader!("life/all_active.wgsl") } else { problem.active() };
     let shader = Shader::join(&[
         crate::shader!("world.wgsl"),
         crate::shader!("broken.wgsl"),
@@ -162,7 +162,7 @@ pub fn kernel(
     let number = u32::try_from(elements).map_err(|_| {
         Error::Limit(format!("the column `{}` has {elements} elements: 2³² − 1 are the most", part.name))
     })?;
-    let twin: Twin = if part.vectors {
+    let reference: Reference = if part.vectors {
         Arc::new(move |host: &Host| work.run::<Vec4>(host))
     } else {
         Arc::new(move |host: &Host| work.run::<f32>(host))
@@ -176,7 +176,7 @@ pub fn kernel(
     Ok(Kernel {
         name: format!("{verb} {}{factors}", part.name),
         passes: vec![pass],
-        twin: Some(twin),
+        reference: Some(reference),
         sizes,
         scratch: Vec::new(),
         tables,

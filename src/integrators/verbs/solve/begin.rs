@@ -4,7 +4,8 @@ use glam::{DVec3, DVec4};
 use rayon::prelude::*;
 
 use super::{
-    ALONE, DIRECTIONS, HELD, OTHER, RESIDUALS, START_VELOCITY, STATE, State, System, TIED, on_states, plain, twin, with,
+    ALONE, DIRECTIONS, HELD, OTHER, RESIDUALS, START_VELOCITY, STATE, State, System, TIED, on_states, plain, reference,
+    with,
 };
 use crate::error::Error;
 use crate::kernel::{ACCELERATION, Host, Kernel, VELOCITY};
@@ -64,7 +65,7 @@ pub fn kernel(system: &System<'_>, start: bool) -> Result<Kernel, Error> {
         });
         Ok(())
     };
-    let kernel = plain("begin", system, crate::shader!("integrators/solve_begin.wgsl"), twin(run))?;
+    let kernel = plain("begin", system, crate::shader!("integrators/solve_begin.wgsl"), reference(run))?;
     let kernel = with(kernel, &[("FACTOR", factor), ("START", f64::from(u8::from(start)))]);
     Ok(on_states(kernel, false))
 }

@@ -4,7 +4,7 @@ use glam::{DVec3, DVec4};
 use rayon::prelude::*;
 
 use super::rows::Ties;
-use super::{ALONE, DIRECTIONS, DOTS, RESIDUALS, State, System, names, on_states, twin, with};
+use super::{ALONE, DIRECTIONS, DOTS, RESIDUALS, State, System, names, on_states, reference, with};
 use crate::error::Error;
 use crate::kernel::{Host, Kernel, Shader};
 use crate::visit::{LINK, LINK_START, ROW, ROWS, View};
@@ -64,7 +64,7 @@ pub fn product(system: &System<'_>, turned: bool) -> Result<Kernel, Error> {
         Ok(())
     };
     let files = [crate::shader!("integrators/solve_product.wgsl"), crate::shader!("integrators/solve_total.wgsl")];
-    let kernel = with(system.tied("product", &files, twin(run))?, &[("FACTOR", factor)]);
+    let kernel = with(system.tied("product", &files, reference(run))?, &[("FACTOR", factor)]);
     let mut kernel = on_states(system.in_runs(kernel)?, turned);
     for pass in &mut kernel.passes {
         pass.work += u64::from(system.problem.network.ends());
@@ -115,7 +115,7 @@ pub fn advance(system: &System<'_>, turned: bool, limit: u32, part: f64) -> Resu
         crate::shader!("integrators/solve_total.wgsl"),
         crate::shader!("integrators/solve_advance.wgsl"),
     ])?;
-    let kernel = system.sized(Kernel::new("advance", shader, Vec::new(), system.problem.count, twin(run)));
+    let kernel = system.sized(Kernel::new("advance", shader, Vec::new(), system.problem.count, reference(run)));
     let kernel = with(kernel, &[("TOLERANCE", tolerance), ("LIMIT", limit), ("PART", part)]);
     Ok(on_states(system.in_runs(kernel)?, turned))
 }

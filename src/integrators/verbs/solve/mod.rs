@@ -13,7 +13,7 @@ use glam::Vec4;
 
 use crate::error::Error;
 use crate::forces::Law;
-use crate::kernel::{Field, Kernel, Pass, Problem, Scalar, Shader, Source, Twin};
+use crate::kernel::{Field, Kernel, Pass, Problem, Reference, Scalar, Shader, Source};
 
 /// Where a solve begins.
 pub const START_POSITION: Field<Vec4> = Field::new("start_position");
@@ -98,7 +98,7 @@ impl System<'_> {
         (each * WORKGROUP, count.div_ceil(each * WORKGROUP).max(1))
     }
     /// A kernel of one dispatch, of files that call the Jacobian of the links.
-    fn tied(&self, name: &str, files: &[Source], twin: Twin) -> Result<Kernel, Error> {
+    fn tied(&self, name: &str, files: &[Source], reference: Reference) -> Result<Kernel, Error> {
         let mut all = vec![crate::shader!("integrators/solve_row.wgsl")];
         let (shader, uniforms) = if let Some(law) = &self.links {
             all.extend([crate::shader!("visit/link_table.wgsl"), crate::shader!("integrators/solve_links.wgsl")]);
@@ -113,7 +113,7 @@ impl System<'_> {
             all.extend_from_slice(files);
             (Shader::join(&all)?, Vec::new())
         };
-        let mut kernel = Kernel::new(name, shader.clone(), Vec::new(), self.problem.count, twin);
+        let mut kernel = Kernel::new(name, shader.clone(), Vec::new(), self.problem.count, reference);
         kernel.passes[0].constants = self.problem.constants(&shader);
         kernel.passes[0].uniforms = uniforms;
         let kernel = self.sized(kernel);
@@ -143,9 +143,9 @@ impl System<'_> {
 }
 
 /// A kernel of one dispatch over all particles, of files that know rows.
-fn plain(name: &str, system: &System<'_>, source: Source, twin: Twin) -> Result<Kernel, Error> {
+fn plain(name: &str, system: &System<'_>, source: Source, reference: Reference) -> Result<Kernel, Error> {
     let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("integrators/solve_row.wgsl"), source])?;
-    Ok(system.sized(Kernel::new(name, shader, Vec::new(), system.problem.count, twin)))
+    Ok(system.sized(Kernel::new(name, shader, Vec::new(), system.problem.count, reference)))
 }
 
 /// The same with a name of constants, so that two that differ in them are two.
@@ -172,6 +172,6 @@ fn names(turned: bool) -> (&'static str, &'static str) {
 }
 
 /// Shares a reference.
-fn twin(twin: impl Fn(&crate::kernel::Host) -> Result<(), Error> + Send + Sync + 'static) -> Twin {
-    Arc::new(twin)
+fn reference(reference: impl Fn(&crate::kernel::Host) -> Result<(), Error> + Send + Sync + 'static) -> Reference {
+    Arc::new(reference)
 }

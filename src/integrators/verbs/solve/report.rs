@@ -1,6 +1,6 @@
 //! What became of the solves, kept on the device until it is read.
 
-use super::{STATE, State, System, plain, twin, with};
+use super::{STATE, State, System, plain, reference, with};
 use crate::error::Error;
 use crate::kernel::{Host, Kernel};
 
@@ -29,7 +29,7 @@ pub fn kernel(system: &System<'_>, newton: bool) -> Result<Kernel, Error> {
         report[5] = if converged { 1 } else { 3 - u32::from(state.broken > 0.0) };
         Ok(())
     };
-    let kernel = plain("report", system, crate::shader!("integrators/solve_report.wgsl"), twin(run))?;
+    let kernel = plain("report", system, crate::shader!("integrators/solve_report.wgsl"), reference(run))?;
     let mut kernel = with(kernel, &[("NEWTON", f64::from(u8::from(newton)))]);
     kernel.passes[0].threads.count = 1;
     kernel.passes[0].work = 1;

@@ -3,7 +3,7 @@
 use glam::{DVec3, DVec4};
 use rayon::prelude::*;
 
-use super::{ALONE, HELD, System, TIED, twin, with};
+use super::{ALONE, HELD, System, TIED, reference, with};
 use crate::error::Error;
 use crate::forces::Particle;
 use crate::kernel::{Bounds, Host, Kernel};
@@ -75,7 +75,7 @@ pub fn kernel(system: &System<'_>, start: bool) -> Result<Kernel, Error> {
         Ok(())
     };
     let (holding, tables) = system.problem.holding();
-    let kernel = system.tied("rows", &[crate::shader!("integrators/solve_rows.wgsl"), holding], twin(run))?;
+    let kernel = system.tied("rows", &[crate::shader!("integrators/solve_rows.wgsl"), holding], reference(run))?;
     let mut kernel = with(kernel, &[("FACTOR", factor), ("START", f64::from(u8::from(start)))]);
     kernel.tables.extend(tables);
     Ok(kernel)

@@ -1,6 +1,6 @@
 //! What becomes of a solution.
 
-use super::{DIRECTIONS, START_POSITION, START_VELOCITY, STATE, State, System, plain, twin, with};
+use super::{DIRECTIONS, START_POSITION, START_VELOCITY, STATE, State, System, plain, reference, with};
 use crate::error::Error;
 use crate::kernel::{Host, Kernel, POSITION, Shader, VELOCITY};
 
@@ -15,7 +15,7 @@ pub fn kernel(system: &System<'_>, start: bool) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    let kernel = plain("update", system, crate::shader!("integrators/solve_update.wgsl"), twin(run))?;
+    let kernel = plain("update", system, crate::shader!("integrators/solve_update.wgsl"), reference(run))?;
     Ok(with(kernel, &[("START", f64::from(u8::from(start)))]))
 }
 
@@ -30,7 +30,7 @@ pub fn reach(count: u32, factor: f64) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    Ok(Kernel::new("reach", shader, vec![("FACTOR", factor)], count, twin(run)))
+    Ok(Kernel::new("reach", shader, vec![("FACTOR", factor)], count, reference(run)))
 }
 
 /// v ← 2 v − v₀
@@ -43,5 +43,5 @@ pub fn extrapolate(count: u32) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    Ok(Kernel::new("extrapolate", shader, Vec::new(), count, twin(run)))
+    Ok(Kernel::new("extrapolate", shader, Vec::new(), count, reference(run)))
 }

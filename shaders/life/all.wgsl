@@ -1,2 +1,0 @@
-// All particles are active.
-fn lives(id: u32) -> bool { return true; }

@@ -1,0 +1,71 @@
+//! Keys and parameters that components share.
+
+use std::borrow::Cow;
+
+use crate::kernel::Scalar;
+use crate::settings::{Key, Kind, Settings, Value};
+use crate::visit::Over;
+
+/// The settings that a shader's `Params` has by the same names.
+pub fn params(settings: &Settings, names: &[&str]) -> Vec<(String, Scalar)> {
+    let scalar = |name: &&str| {
+        let value = match settings.0.get(*name) {
+            Some(Value::Vector(v)) => Scalar::Vector(*v),
+            _ => Scalar::Float(settings.number(name)),
+        };
+        ((*name).to_owned(), value)
+    };
+    names.iter().map(scalar).collect()
+}
+
+/// Which pairs are evaluated, where a force has a cut-off radius; `of` is the species of the neighbours.
+pub fn over(settings: &Settings, of: Option<u32>) -> Over {
+    let range = settings.number("range");
+    let skin = Some(settings.number("skin")).filter(|skin| *skin > 0.0);
+    match settings.text("over") {
+        "within" => Over::Within { range },
+        "list" => Over::List { range, skin, slots: 0 },
+        _ => Over::Near { range, of },
+    }
+}
+
+/// Which neighbours.
+pub const SEE_NEAR: Key = Key::new(
+    "over",
+    Kind::Choice(&["near", "list", "within"]),
+    Value::Text(Cow::Borrowed("near")),
+    "which neighbours: all in range, by a cell list, by a list that is kept over steps, or by brute force",
+);
+
+/// How far a list reaches beyond the range.
+pub const SKIN: Key = Key::new(
+    "skin",
+    Kind::NotNegative,
+    Value::Number(0.0),
+    "over = \"list\": how much farther than the range the list reaches; 0: a fifth of the range [length]",
+);
+
+/// The seed of random numbers.
+pub const SEED: Key =
+    Key::new("seed", Kind::Whole, Value::Number(1.0), "seed of the random numbers, counted by id and step");
+
+/// The words of the seed, as shaders know them.
+pub fn seed(settings: &Settings) -> [(String, Scalar); 2] {
+    let [low, high] = crate::visit::random::words(settings.whole("seed"));
+    [("seed_low".to_owned(), Scalar::Uint(low)), ("seed_high".to_owned(), Scalar::Uint(high))]
+}
+
+/// Whether r is shorter than a range, by the device's own arithmetic.
+pub fn is_nearer(r: glam::DVec3, range: f64) -> bool {
+    #[expect(clippy::cast_possible_truncation, reason = "as the device holds it")]
+    let (r, range) = (r.as_vec3(), range as f32);
+    r.length_squared() < range * range
+}
+
+/// Each particle alone.
+pub const EACH: Key = Key::new(
+    "over",
+    Kind::Choice(&["each"]),
+    Value::Text(Cow::Borrowed("each")),
+    "what is evaluated: each particle alone",
+);

@@ -1,0 +1,211 @@
+//! A component of a simulation: what it declares, and what it adds to a step. Everything else is derived from that.
+
+pub(crate) mod keys;
+pub(crate) mod kind;
+mod misnamed;
+mod register;
+
+pub(crate) use misnamed::misnamed;
+pub(crate) use register::components;
+
+use glam::DVec3;
+
+use crate::error::Error;
+use crate::kernel::{Column, Plan, Problem, Way};
+use crate::neighbors::Grid;
+use crate::settings::{Key, Settings};
+use crate::solids::Standing;
+use crate::sph::{Continuum, Rates};
+use crate::visit::Law;
+
+/// A component: an interaction, a constraint or an updater.
+pub trait Component: Send + Sync {
+    /// The columns that it reads or writes beside those of all simulations.
+    fn columns(&self) -> Vec<Column> {
+        Vec::new()
+    }
+    /// Its laws, in the order in which they are evaluated; a later one may read what an earlier one wrote.
+    fn laws(&self) -> Vec<Law> {
+        Vec::new()
+    }
+    /// What it says of itself, as its settings have it.
+    fn properties(&self) -> Properties {
+        Properties::default()
+    }
+    /// What it says of itself in a problem.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] when it makes no sense there.
+    fn resolved(&self, problem: &Problem) -> Result<Resolved, Error> {
+        let cell_lists = self.laws().into_iter().filter_map(|law| law.grid(problem).transpose());
+        Ok(Resolved { cell_lists: cell_lists.collect::<Result<_, _>>()?, ..Resolved::default() })
+    }
+    /// Adds its kernels at a stage of a step; without a word, those of its laws where accelerations are evaluated.
+    ///
+    /// # Errors
+    /// When a law does not compile or lacks a parameter, or the component makes no sense there.
+    fn stage(&self, stage: Stage, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
+        match stage {
+            Stage::Evaluate { earlier } => evaluate(self.laws(), earlier, plan, problem),
+            Stage::Carry { earlier } => carry(self.laws(), earlier, plan, problem),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// Where in a step kernels run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Stage {
+    /// Once, before the first step, when fixed particles are where they belong.
+    Start,
+    /// Where accelerations are evaluated. `earlier` counts the components of its kind before it in the scene.
+    Evaluate {
+        /// The number of those.
+        earlier: usize,
+    },
+    /// Where the rates of columns are computed that are carried along with positions: in the middle of each drift, and in each
+    /// stage of a Runge–Kutta step. Cell lists are those of where particles are.
+    Carry {
+        /// As where accelerations are evaluated.
+        earlier: usize,
+    },
+    /// After every kick, and at the end of a Runge–Kutta step: velocities are brought within limits.
+    AfterKick,
+    /// After every drift, by `factor` of the step: positions are brought to where they may be.
+    AfterDrift {
+        /// The part of the step.
+        factor: f64,
+    },
+    /// The same after a part of the step that was no drift, as that of a Runge–Kutta or an implicit method: x − c v dt need
+    /// not be where it began.
+    AfterAdvance {
+        /// The part of the step.
+        factor: f64,
+    },
+    /// Where the length of the next step is found: kernels that fill [`STEP_CRITERIA`](crate::kernel::STEP_CRITERIA), from accelerations,
+    /// positions and velocities at the end of a step.
+    StepLimit,
+    /// Once at the end of each step.
+    EndOfStep,
+}
+
+/// What a component says of itself, as its settings have it.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Properties {
+    /// The radius within which it looks at others \[length\], and of which species, if not of all: runs are measured for order
+    /// and clusters by it.
+    pub statistics_radius: Option<(f64, Option<u32>)>,
+    /// The solid that pictures show for it.
+    pub pictured: Option<Standing>,
+    /// Whether particles without mass do nothing to others: then pending and removed particles may stand among its sources.
+    pub ignores_massless: bool,
+    /// Why it requires a fixed time step, if it does.
+    pub fixed_step: Option<&'static str>,
+    /// Whether it breaks bonds.
+    pub breaks_bonds: bool,
+    /// Whether it is evaluated after all others, wherever the scene names it.
+    pub evaluated_last: bool,
+    /// Whether rods keep their lengths by it.
+    pub keeps_rods: bool,
+    /// Whether it changes positions or velocities beside accelerations, so that neither energy nor momentum is conserved.
+    pub constrains: bool,
+    /// What of it changes the energy that is measured, in a word or two each, beside what its laws tell.
+    pub dissipates: Vec<&'static str>,
+    /// The same, where some particles are fixed.
+    pub dissipates_at_walls: Vec<&'static str>,
+    /// Whether it changes the angular momentum.
+    pub turns: bool,
+    /// Whether it makes a fluid of all particles that are not fixed.
+    pub makes_fluid: bool,
+    /// Whether it can say how long a step may be, so that steps can be adaptive.
+    pub limits_steps: bool,
+    /// The integrators under which it is what its paper says; none: under all.
+    pub integrators: &'static [&'static str],
+    /// The distance that a particle may go in a step at most, where its method has such a bound \[length\].
+    pub largest_move: Option<f64>,
+    /// What else one should know before it runs.
+    pub caution: Option<&'static str>,
+}
+
+/// What a component says of itself in a problem.
+#[derive(Default)]
+pub struct Resolved {
+    /// The cell lists that it searches, and whether it asks there for velocities.
+    pub cell_lists: Vec<(Grid, bool)>,
+    /// The fluid that it makes of all particles that are not fixed.
+    pub fluid: Option<Continuum>,
+    /// How fast that fluid oscillates and creeps, at most.
+    pub rates: Option<Rates>,
+    /// Where a particle of a species is put that stands somewhere before the first step, if there are places where it lets none
+    /// be.
+    pub initial_projection: Option<Projection>,
+    /// Where the length of steps is found by it: how many steps viscosity, which is the same for all particles, asks for in a
+    /// longest one.
+    pub viscous_steps: Option<f64>,
+}
+
+/// Where a particle of a species belongs that stands somewhere.
+pub type Projection = Box<dyn Fn(u32, DVec3) -> DVec3 + Send + Sync>;
+
+/// Adds the kernels of laws to a plan; `earlier` counts the components of their kind before them. Laws of what is carried along
+/// with positions are left to [`carry`].
+///
+/// # Errors
+/// When a law does not compile or lacks a parameter.
+pub fn evaluate(laws: Vec<Law>, earlier: usize, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
+    add(laws.into_iter().filter(|law| !carries(law, problem)), earlier, plan, problem)
+}
+
+/// Adds the kernels of laws that write rates of what is carried along with positions.
+///
+/// # Errors
+/// When a law does not compile or lacks a parameter.
+pub fn carry(laws: Vec<Law>, earlier: usize, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
+    add(laws.into_iter().filter(|law| carries(law, problem)), earlier, plan, problem)
+}
+
+fn add(laws: impl Iterator<Item = Law>, earlier: usize, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
+    for law in laws {
+        let name = numbered(&law.name, earlier);
+        plan.push(&name, || law.kernel(problem))?;
+    }
+    Ok(())
+}
+
+/// Whether a law writes the rate of a column that is carried along with positions.
+#[must_use]
+pub fn carries(law: &Law, problem: &Problem) -> bool {
+    let mut pairs = problem.columns.pairs().into_iter();
+    pairs.any(|pair| pair.way == Way::Carried && law.into.contains(&pair.rate.name))
+}
+
+/// The name of a kernel with `earlier` of its kind before it.
+#[must_use]
+pub fn numbered(name: &str, earlier: usize) -> String {
+    if earlier == 0 { name.to_owned() } else { format!("{name} {}", earlier + 1) }
+}
+
+/// What kind of a component it is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Role {
+    /// It accelerates particles, or computes columns of them.
+    Interaction,
+    /// It projects positions or velocities.
+    Constraint,
+    /// It acts between steps.
+    Updater,
+}
+
+/// A line of a register.
+pub struct Entry {
+    /// The scene's word for it.
+    pub name: &'static str,
+    /// One line for a list.
+    pub about: &'static str,
+    /// What a scene may say to it.
+    pub keys: &'static [Key],
+    /// What kind of a component it is.
+    pub role: Role,
+    /// Makes one, from checked settings. What they say that it has no key for is an error of every simulation with it.
+    pub build: fn(&Settings) -> Box<dyn Component>,
+}

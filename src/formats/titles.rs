@@ -1,0 +1,201 @@
+//! What files call the components of columns, and what their numbers may be.
+
+use std::borrow::Cow;
+use std::fmt::Write as _;
+
+use super::Precision;
+use crate::kernel::{Array, Column, Columns, Kind, LIFE, Shape};
+use crate::life::Life;
+use crate::state::State;
+
+/// A component of a column, by the title that it has in files.
+#[derive(Debug, Clone)]
+pub(super) struct Title<'a> {
+    /// The title.
+    pub text: String,
+    /// The column.
+    pub column: &'a Column,
+    /// Which of its numbers for one particle it is.
+    pub place: usize,
+}
+
+/// Numbers of a column for one particle.
+fn width(column: &Column) -> usize {
+    column.kind.components() * column.shape.len(1)
+}
+
+/// The titles of a column: `x`, `y`, `z`; `vx`, `vy`, `vz`; else its name, the number of the slot where there are several, and
+/// `_x`, `_y`, `_z`, `_w`.
+pub(super) fn titles(column: &Column) -> Vec<Title<'_>> {
+    let one = |(place, text): (usize, String)| Title { text, column, place };
+    let own = |list: [&str; 3]| list.map(str::to_owned).into_iter().enumerate().map(one).collect();
+    match column.name.as_ref() {
+        "position" => return own(["x", "y", "z"]),
+        "velocity" => return own(["vx", "vy", "vz"]),
+        _ => {}
+    }
+    let suffixes = column.kind.suffixes();
+    let slots = if let Shape::Slots(k) = column.shape { Some(k as usize) } else { None };
+    let text = |place: usize| {
+        let slot = slots.map_or_else(String::new, |_| format!("_{}", place / suffixes.len()));
+        format!("{}{slot}{}", column.name, suffixes[place % suffixes.len()])
+    };
+    (0..width(column)).map(|place| one((place, text(place)))).collect()
+}
+
+/// The titles of all columns that have a value for each particle.
+pub(super) fn all(columns: &Columns) -> Vec<Title<'_>> {
+    columns.iter().filter(|column| !matches!(column.shape, Shape::System(_))).flat_map(titles).collect()
+}
+
+impl Title<'_> {
+    /// What is wrong with a number, if anything.
+    pub fn fault(&self, value: f64) -> Option<Cow<'static, str>> {
+        if !value.is_finite() {
+            return Some("is not finite".into());
+        }
+        let whole = value.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(&value);
+        match self.column.name.as_ref() {
+            "mass" | "size" if value < 0.0 => Some("is below 0".into()),
+            name if name == LIFE.name && !(whole && value <= f64::from(Life::Removed.word())) => {
+                Some("is none of 0 (pending), 1 (active) and 2 (removed)".into())
+            }
+            _ if self.column.kind == Kind::Whole && !whole => {
+                Some(format!("is not a whole number from 0 to {}", u32::MAX).into())
+            }
+            _ => None,
+        }
+    }
+}
+
+/// The values of a column out of what files hold for its titles; components that are left out have their initial value.
+pub(super) fn array(column: &Column, given: &[Option<Vec<f64>>], particles: usize) -> Array {
+    let initial = column.initial.unwrap_or_default();
+    let components = column.kind.components();
+    let number = |place: usize, row: usize| {
+        given[place].as_ref().and_then(|list| list.get(row)).copied().unwrap_or(initial[place % components])
+    };
+    let slots = column.shape.len(1);
+    let rows = (0..particles).flat_map(|row| (0..slots).map(move |slot| (row, slot * components)));
+    match column.kind {
+        Kind::Scalar => Array::Float(rows.map(|(row, first)| number(first, row)).collect()),
+        Kind::Vector => {
+            let one = |(row, first)| [0, 1, 2].map(|k| number(first + k, row)).into();
+            Array::Vec3(rows.map(one).collect())
+        }
+        Kind::Quaternion => {
+            let one = |(row, first)| [0, 1, 2, 3].map(|k| number(first + k, row)).into();
+            Array::Vec4(rows.map(one).collect())
+        }
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked by `Title::fault`")]
+        Kind::Whole => Array::Uint(rows.map(|(row, first)| number(first, row) as u32).collect()),
+    }
+}
+
+/// A state of the numbers of a file, by the title's place among [`all`]; columns of which it has nothing are not given.
+pub(super) fn state(columns: &Columns, mut given: Vec<Option<Vec<f64>>>, particles: usize) -> State {
+    let mut state = State::default();
+    for column in columns.iter().filter(|column| !matches!(column.shape, Shape::System(_))) {
+        let rest = given.split_off(width(column));
+        let own = std::mem::replace(&mut given, rest);
+        let basic = state.get(&column.name).is_some();
+        if basic || own.iter().any(Option::is_some) {
+            state.put(column, Some(array(column, &own, particles)));
+        }
+    }
+    state
+}
+
+/// The numbers of a column, as a writer goes through them.
+pub(super) struct Strip<'a> {
+    /// What they are called.
+    pub text: String,
+    values: &'a Array,
+    slots: usize,
+    slot: usize,
+    axis: usize,
+}
+
+/// A number of a file.
+pub(super) enum Number {
+    /// A real one.
+    Real(f64),
+    /// A whole one.
+    Whole(u32),
+}
+
+impl Number {
+    /// Appends the shortest decimal that reads back to the same bits of the precision, with an exponent where that is shorter.
+    pub fn write(&self, text: &mut String, precision: Precision) {
+        let start = text.len();
+        // Writing into a String cannot fail.
+        let _ = match (self, precision) {
+            (Self::Whole(number), _) => write!(text, "{number}"),
+            (Self::Real(number), Precision::Double) => write!(text, "{number:?}"),
+            (Self::Real(number), Precision::Single) => {
+                #[expect(clippy::cast_possible_truncation, reason = "single precision was asked for")]
+                let single = *number as f32;
+                let written = write!(text, "{single:?}");
+                if reads_back(&text[start..], single) {
+                    written
+                } else {
+                    text.truncate(start);
+                    write!(text, "{:?}", f64::from(single))
+                }
+            }
+        };
+    }
+}
+
+/// Whether a reader that knows only f64 finds the same f32 when it narrows: rounding twice is not always rounding once. Of all
+/// f32 only ±7.038531e-26 is lost, half way between two of them for an f64.
+fn reads_back(text: &str, single: f32) -> bool {
+    #[expect(clippy::cast_possible_truncation, reason = "this is the question")]
+    text.parse::<f64>().is_ok_and(|wide| (wide as f32).to_bits() == single.to_bits())
+}
+
+impl Strip<'_> {
+    /// That of a particle.
+    pub fn of(&self, id: usize) -> Number {
+        let place = id * self.slots + self.slot;
+        match self.values {
+            Array::Float(list) => Number::Real(list[place]),
+            Array::Vec3(list) => Number::Real(list[place][self.axis]),
+            Array::Vec4(list) => Number::Real(list[place][self.axis]),
+            Array::Uint(list) => Number::Whole(list[place]),
+        }
+    }
+    /// Whether they are whole numbers.
+    pub fn is_whole(&self) -> bool {
+        matches!(self.values, Array::Uint(_))
+    }
+}
+
+/// The strips of one column.
+fn of<'a>(column: &'a Column, values: &'a Array) -> impl Iterator<Item = Strip<'a>> {
+    let (slots, components) = (column.shape.len(1), column.kind.components());
+    titles(column).into_iter().map(move |title| Strip {
+        text: title.text,
+        values,
+        slots,
+        slot: title.place / components,
+        axis: title.place % components,
+    })
+}
+
+/// All that a table of particles holds of a state: positions, velocities and masses; sizes and species where one is not 0, life where
+/// one is not active; and every other column that it has.
+pub(super) fn strips(state: &State) -> Vec<Strip<'_>> {
+    kept(state).into_iter().flat_map(|(c, v)| of(c, v)).collect()
+}
+
+/// The columns of which those are, with their values.
+pub(super) fn kept(state: &State) -> Vec<(&Column, &Array)> {
+    let usual = |column: &Column| match column.name.as_ref() {
+        "size" => state.size().iter().any(|size| *size != 0.0),
+        "species" => state.species().iter().any(|species| *species != 0),
+        name if name == LIFE.name => (0..state.len()).any(|id| !state.is_active(id)),
+        _ => !matches!(column.shape, Shape::System(_)),
+    };
+    state.columns().filter(|(column, _)| usual(column)).collect()
+}

@@ -1,0 +1,40 @@
+//! Steps as long as forces allow. What is symplectic with steps all alike is not so any more: energy that such a method keeps
+//! in bounds may drift (Skeel & Gear 1992).
+
+use super::{Integrator, Step};
+use crate::kernel::{AdaptiveStep, Column};
+
+/// Another integrator, in steps as long as forces allow.
+pub struct Adaptive {
+    /// What makes a step; an explicit method.
+    pub integrator: Box<dyn Integrator>,
+    /// How long.
+    pub adaptive_step: AdaptiveStep,
+}
+
+impl Integrator for Adaptive {
+    fn order(&self) -> u32 {
+        self.integrator.order()
+    }
+    fn order_with_velocity(&self) -> u32 {
+        self.integrator.order_with_velocity()
+    }
+    fn is_implicit(&self) -> bool {
+        self.integrator.is_implicit()
+    }
+    fn adaptive_step(&self) -> Option<AdaptiveStep> {
+        Some(self.adaptive_step)
+    }
+    fn fixed_step(&self) -> Option<&'static str> {
+        self.integrator.fixed_step()
+    }
+    fn columns(&self) -> Vec<Column> {
+        self.integrator.columns()
+    }
+    fn start(&self, s: &mut Step) {
+        self.integrator.start(s);
+    }
+    fn step(&self, s: &mut Step) {
+        self.integrator.step(s);
+    }
+}

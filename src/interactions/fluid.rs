@@ -1,0 +1,260 @@
+//! A fluid, weakly compressible.
+
+use std::borrow::Cow;
+
+use glam::DVec3;
+
+use super::{Component, Problem, Properties, Resolved, Stage};
+use crate::error::Error;
+use crate::sph::{
+    self, Asked, COURANT, Continuity, Continuum, Dfsph, Friction, Limits, Medium, Rates, Smoothing, Tension, WallMass, Walls,
+};
+use crate::kernel::{Column, Plan};
+use crate::settings::{Key, Kind, Settings, Value};
+
+/// What a scene may say.
+pub const KEYS: &[Key] = &[
+    Key::new("density", Kind::Positive, Value::Number(1000.0), "the density at rest [mass / length³, or mass / length² in two dimensions]"),
+    Key::required("spacing", Kind::Positive, "how far apart particles are at rest, on a cubic lattice [length]"),
+    Key::new("support", Kind::Positive, Value::Number(2.0), "how far the kernel reaches [spacings]"),
+    Key::new("kernel", Kind::Choice(Smoothing::NAMES), Value::Text(Cow::Borrowed("cubic")), "what smooths: the cubic spline, or Wendland's C2"),
+    Key::new("solver", Kind::Choice(&["wcsph", "dfsph"]), Value::Text(Cow::Borrowed("wcsph")), "pressure by an equation of state, or solved for (Bender & Koschier 2015)"),
+    Key::new("sound_speed", Kind::NotNegative, Value::Number(0.0), "wcsph: the speed of sound: ten times the fastest flow makes the density vary by 1 % [length / time]"),
+    Key::new("gamma", Kind::Count, Value::Number(7.0), "the exponent of Tait's equation p = (ρ₀ c² / γ) ((ρ/ρ₀)^γ − 1), 2 to 15"),
+    Key::new("negative_pressure", Kind::Flag, Value::Flag(false), "whether pressure may be below 0: where there is no free surface"),
+    Key::new("alpha", Kind::NotNegative, Value::Number(0.0), "the artificial viscosity α (Monaghan 1992)"),
+    Key::new("viscosity", Kind::NotNegative, Value::Number(0.0), "the kinematic viscosity ν (Morris, Fox & Zhu 1997) [length² / time]"),
+    Key::new("xsph", Kind::NotNegative, Value::Number(0.0), "ε of XSPH: how much of the mean velocity around is taken on in each step (Schechter & Bridson 2012)"),
+    Key::new("wall_friction", Kind::NotNegative, Value::Number(1.0), "how much of both viscosities walls have; 0 lets slip"),
+    Key::new("walls", Kind::Choice(WALLS), Value::Text(Cow::Borrowed("mirror")), "the pressure of walls: that of the particle at the wall (Akinci et al. 2012), or that of the fluid around them (Adami, Hu & Adams 2012, as if they were not accelerated)"),
+    Key::new("wall_mass", Kind::Choice(WALL_MASS), Value::Text(Cow::Borrowed("sampled")), "what walls weigh: by how close they are, for one layer (Akinci et al. 2012), or each a share of the lattice, for several"),
+    Key::new("density_by", Kind::Choice(DENSITY_BY), Value::Text(Cow::Borrowed("summation")), "where density comes from: masses around, or the continuity equation (Monaghan 1994), which knows of no surface"),
+    Key::new("diffusion", Kind::NotNegative, Value::Number(0.0), "δ of the diffusion of density by continuity, 0.1 say (Molteni & Colagrossi 2009)"),
+    Key::new("weight", Kind::Vector, Value::Vector(DVec3::ZERO), "the acceleration of weight that a force gives, so that diffusion (Fourtakas et al. 2019) and walls leave a fluid at rest alone [length / time²]"),
+    Key::new("tension", Kind::NotNegative, Value::Number(0.0), "surface tension γ (Akinci, Akinci & Teschner 2013), which is not σ: with water's 1000 for density, in space, σ is about 25 000, 55 000 or 75 000 γ spacing² where support is 2, 2.5 or 3"),
+    Key::new("adhesion", Kind::NotNegative, Value::Number(0.0), "how walls pull the fluid, β (as above)"),
+    Key::new("tolerance", Kind::Positive, Value::Number(1e-4), "dfsph: the mean error of the density that is left [parts of the density]"),
+    Key::new("divergence_tolerance", Kind::Positive, Value::Number(1e-3), "dfsph: what the velocity may compress by in a step, in the mean [parts of the density]"),
+    Key::new("min_iterations", Kind::Count, Value::Number(2.0), "dfsph: the fewest iterations of a solve"),
+    Key::new("max_iterations", Kind::Count, Value::Number(50.0), "dfsph: the most iterations of a solve"),
+];
+
+const WALLS: &[&str] = &["mirror", "extrapolate"];
+const WALL_MASS: &[&str] = &["sampled", "lattice"];
+const DENSITY_BY: &[&str] = &["summation", "continuity"];
+
+/// `fluid`: smoothed particle hydrodynamics with density by summation or continuity and Tait's equation of state (Monaghan 1994; Becker &
+/// Teschner 2007). Particles that are not held are of the fluid; held ones are its boundary particles (Akinci et al. 2012).
+pub struct Fluid(Settings);
+
+impl Fluid {
+    /// From checked settings.
+    #[must_use]
+    pub fn new(settings: &Settings) -> Self {
+        Self(settings.clone())
+    }
+    /// What flows, in the box of a problem.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] when there is no such fluid.
+    pub fn medium(&self, problem: &Problem) -> Result<Medium, Error> {
+        let number = |name| self.0.number(name);
+        let exponent = u32::try_from(self.0.whole("gamma")).unwrap_or(u32::MAX);
+        if !(2..=15).contains(&exponent) {
+            return Err(Error::Scene(format!("a fluid has gamma = {exponent}: Tait's exponent is a whole number from 2 to 15; water has 7")));
+        }
+        let support = number("support");
+        if !(1.5..=6.0).contains(&support) {
+            return Err(Error::Scene(format!(
+                "a fluid has support = {support} spacings: with less than 1.5 particles do not meet, and more than 6 are hundreds \
+                 of neighbours; say 2 to 3"
+            )));
+        }
+        let solves = self.solves();
+        if !solves && number("sound_speed") == 0.0 {
+            return Err(Error::Scene(
+                "a fluid has no sound_speed: give ten times the speed of the fastest flow, or solver = \"dfsph\", which needs none"
+                    .to_owned(),
+            ));
+        }
+        let medium = Medium {
+            density: number("density"),
+            spacing: number("spacing"),
+            support,
+            smoothing: Smoothing::named(self.0.text("kernel")),
+            sound: if solves { 0.0 } else { number("sound_speed") },
+            exponent,
+            negative: self.0.flag("negative_pressure"),
+            dimensions: problem.bounds.dimensions,
+        };
+        medium.check()?;
+        Ok(medium)
+    }
+    /// Whether its pressure is solved for.
+    fn solves(&self) -> bool {
+        self.0.text("solver") == "dfsph"
+    }
+    fn dfsph<'a>(&self, medium: Medium, problem: &'a Problem) -> Result<Dfsph<'a>, Error> {
+        let number = |name| self.0.number(name);
+        let count = |name| u32::try_from(self.0.whole(name)).unwrap_or(u32::MAX);
+        let asked = Asked {
+            density: number("tolerance"),
+            divergence: number("divergence_tolerance"),
+            least: count("min_iterations"),
+            most: count("max_iterations"),
+        };
+        Dfsph::new(medium, asked, problem)
+    }
+    fn friction(&self) -> Friction {
+        let number = |name| self.0.number(name);
+        Friction { alpha: number("alpha"), viscosity: number("viscosity"), wall: number("wall_friction") }
+    }
+    fn tension(&self) -> Option<Tension> {
+        let tension = Tension { tension: self.0.number("tension"), adhesion: self.0.number("adhesion") };
+        (tension.tension > 0.0 || tension.adhesion > 0.0).then_some(tension)
+    }
+    fn walls(&self) -> Walls {
+        if self.0.text("walls") == "extrapolate" {
+            return Walls::Extrapolate { weight: self.0.vector("weight") };
+        }
+        Walls::Mirror
+    }
+    fn wall_mass(&self) -> WallMass {
+        if self.0.text("wall_mass") == "lattice" { WallMass::Lattice } else { WallMass::Sampled }
+    }
+    /// How density follows the fluid, where it is a state.
+    fn continuity(&self) -> Result<Option<Continuity>, Error> {
+        let diffusion = self.0.number("diffusion");
+        if self.solves() && (self.0.text("density_by") == "continuity" || self.0.text("walls") == "extrapolate") {
+            return Err(Error::Scene(
+                "a fluid with solver = \"dfsph\" has its density by summation, and its walls have the pressure of the particles that press on \
+                 them: leave out density_by = \"continuity\" and walls = \"extrapolate\", or say solver = \"wcsph\""
+                    .to_owned(),
+            ));
+        }
+        if self.0.text("density_by") == "continuity" {
+            return Ok(Some(Continuity { diffusion, weight: self.0.vector("weight") }));
+        }
+        if diffusion > 0.0 {
+            return Err(Error::Scene(format!(
+                "a fluid has diffusion = {diffusion} of a density by summation, which has no state to diffuse: say \
+                 density_by = \"continuity\", or diffusion = 0"
+            )));
+        }
+        Ok(None)
+    }
+}
+
+impl Component for Fluid {
+    fn columns(&self) -> Vec<Column> {
+        // Settings that contradict each other are refused where the fluid is resolved.
+        if matches!(self.continuity(), Ok(Some(_))) {
+            return sph::continuity_columns(self.0.number("density"));
+        }
+        if self.solves() { sph::dfsph_columns() } else { Vec::new() }
+    }
+    fn properties(&self) -> Properties {
+        let on = |name| self.0.number(name) > 0.0;
+        let (rubs, solves) = (on("viscosity") || on("xsph"), self.solves());
+        // Pressure by summation is the slope of the internal energy, and the equation of continuity goes along with it; nothing
+        // else is. Friction along the difference of two velocities, and the curvature of a surface, turn a fluid.
+        let all = [
+            (rubs || on("alpha") && !solves, "viscosity"),
+            (self.tension().is_some(), "surface tension, which is not counted"),
+            (on("diffusion"), "diffusion"),
+            (solves, "pressure that is solved for"),
+        ];
+        let caution = "alpha goes with the speed of sound, which is none where pressure is solved for: give viscosity instead";
+        Properties {
+            evaluated_last: solves,
+            dissipates: all.into_iter().filter(|(is, _)| *is).map(|(_, what)| what).collect(),
+            dissipates_at_walls: vec!["walls"],
+            makes_fluid: true,
+            limits_steps: true,
+            turns: rubs || self.tension().is_some(),
+            integrators: if solves { &["symplectic_euler"] } else { &[] },
+            largest_move: solves.then(|| COURANT * self.0.number("spacing")),
+            caution: (solves && on("alpha")).then_some(caution),
+            ..Properties::default()
+        }
+    }
+    fn resolved(&self, problem: &Problem) -> Result<Resolved, Error> {
+        let (medium, continuity) = (self.medium(problem)?, self.continuity()?);
+        medium.fits(&problem.bounds)?;
+        let weighs = self.walls() != Walls::Mirror || continuity.is_some_and(|its| its.diffusion > 0.0);
+        let weight = weighs.then(|| self.0.vector("weight"));
+        let fluid = Continuum { medium, walls: self.wall_mass(), summed: continuity.is_none(), weight };
+        Ok(Resolved {
+            cell_lists: vec![(medium.grid(problem)?, true)],
+            fluid: Some(fluid),
+            rates: Some(Rates::of(&medium, self.friction(), self.0.number("xsph"))),
+            viscous_steps: sph::viscous_steps(&medium, self.friction().viscosity, problem),
+            ..Resolved::default()
+        })
+    }
+    fn stage(&self, stage: Stage, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
+        match stage {
+            Stage::Start => self.begin(plan, problem),
+            Stage::Evaluate { .. } => self.evaluate(plan, problem),
+            Stage::Carry { .. } => self.carry(plan, problem),
+            Stage::StepLimit => self.limit_steps(plan, problem),
+            Stage::EndOfStep if self.solves() => self.dfsph(self.medium(problem)?, problem)?.conclude(plan),
+            Stage::AfterKick | Stage::AfterDrift { .. } | Stage::AfterAdvance { .. } | Stage::EndOfStep => Ok(()),
+        }
+    }
+}
+
+impl Fluid {
+    fn begin(&self, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
+        let medium = self.medium(problem)?;
+        if !problem.held.is_empty() {
+            plan.add(medium.grid(problem)?.kernel(problem, true)?);
+            plan.add(sph::walls(&medium, self.wall_mass(), problem)?);
+        }
+        Ok(())
+    }
+    fn limit_steps(&self, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
+        let medium = self.medium(problem)?;
+        let limits = Limits { sound: (!self.solves()).then_some(medium.sound), alpha: self.friction().alpha };
+        sph::limits(&medium, limits, plan, problem)
+    }
+    fn evaluate(&self, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
+        let medium = self.medium(problem)?;
+        let (friction, solves) = (self.friction(), self.solves());
+        let (xsph, tension) = (self.0.number("xsph"), self.tension());
+        // Where pressure is solved for, sound and with it the pressure of a state are none: friction and tension are left.
+        if !solves || friction.viscosity > 0.0 || xsph > 0.0 || tension.is_some() {
+            if self.continuity()?.is_none() {
+                plan.add(sph::density(&medium, problem)?.kernel(problem)?);
+            }
+            plan.add(sph::state(&medium, problem)?);
+        }
+        if let Walls::Extrapolate { weight } = self.walls()
+            && !problem.held.is_empty()
+        {
+            sph::wall_pressure(&medium, weight, problem)?.into_iter().for_each(|kernel| plan.add(kernel));
+        }
+        if !solves || friction.viscosity > 0.0 {
+            plan.add(sph::pressure(&medium, friction, self.walls(), problem)?.kernel(problem)?);
+        }
+        if xsph > 0.0 {
+            plan.add(sph::xsph(&medium, xsph, problem)?.kernel(problem)?);
+        }
+        if let Some(tension) = tension {
+            for law in sph::tension(&medium, tension, problem)? {
+                plan.add(law.kernel(problem)?);
+            }
+        }
+        if solves {
+            self.dfsph(medium, problem)?.evaluate(plan)?;
+        }
+        Ok(())
+    }
+    /// The rate of a density that is carried along with positions.
+    fn carry(&self, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
+        if let Some(continuity) = self.continuity()? {
+            plan.add(sph::rate(&self.medium(problem)?, continuity, problem)?.kernel(problem)?);
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,179 @@
+//! Newton's law of gravity, softened.
+
+use std::borrow::Cow;
+
+use glam::{DVec3, DVec4};
+
+use super::{Component, Law, Over, Problem, Properties, Stage, evaluate, ewald, numbered, params};
+use crate::error::Error;
+use crate::kernel::{Plan, Side, Source, World};
+use crate::settings::{Key, Kind, Settings, Value};
+use crate::tree::Opening;
+use crate::visit::{Particle, Group};
+
+/// What a scene may say.
+pub const KEYS: &[Key] = &[
+    Key::new("g", Kind::Number, Value::Number(1.0), "the gravitational constant [length³ / mass / time²]"),
+    Key::new("softening", Kind::NotNegative, Value::Number(0.0), "the Plummer softening ε; the spline ends at 2.8 ε, so for PKDGRAV's own ε (which ends at 2 ε) say 2/2.8 of it [length]"),
+    Key::new("kernel", Kind::Choice(&["plummer", "spline"]), Value::Text(Cow::Borrowed("plummer")), "how close encounters are softened"),
+    Key::new("over", Kind::Choice(&["pairs", "tree", "auto"]), Value::Text(Cow::Borrowed("pairs")), "which pairs are evaluated: all of them, or far groups as one, through a tree; \"auto\": whichever is faster"),
+    Key::new("theta", Kind::Fraction, Value::Number(0.5), "the opening angle θ of the tree, at most 1: a group of size l is approximated from the distance l / θ on"),
+    Key::new("alpha", Kind::NotNegative, Value::Number(0.0), "above 0: the tree opens by relative force (GADGET): a group is approximated where its quadrupole is below α of the last acceleration"),
+    Key::new("images", Kind::Choice(&["nearest", "ewald"]), Value::Text(Cow::Borrowed("nearest")), "in a periodic box: nearest images alone, or all images in a uniform background, in a cube (Ewald 1921)"),
+    Key::new("multipoles", Kind::Choice(&["quadrupole", "monopole"]), Value::Text(Cow::Borrowed("quadrupole")), "what the tree knows of a far group"),
+];
+
+/// `gravity`: a = G m r / (r² + ε²)^(3/2), or the spline of GADGET, which is exact beyond 2.8 ε
+/// (PKDGRAV has the same spline, and calls half of its support ε).
+pub struct Gravity(Settings);
+
+impl Gravity {
+    /// From checked settings.
+    #[must_use]
+    pub fn new(settings: &Settings) -> Self {
+        Self(settings.clone())
+    }
+    /// Which pairs are evaluated, where groups nearer than `core` must not be taken as one.
+    fn over(&self, core: f64) -> Over {
+        let (theta, alpha, g) = (self.0.number("theta"), self.0.number("alpha"), self.0.number("g"));
+        let opening = if alpha > 0.0 {
+            Opening::Relative { alpha, g: g.abs(), theta }
+        } else {
+            Opening::Geometric { theta }
+        };
+        match self.0.text("over") {
+            "pairs" => Over::Pairs,
+            word => Over::Tree { opening, core, auto: word == "auto" },
+        }
+    }
+    fn all_images(&self) -> bool {
+        self.0.text("images") == "ewald"
+    }
+    /// Whether there is such a law in the box of a problem.
+    fn fits(&self, problem: &Problem) -> Result<(), Error> {
+        if self.all_images() {
+            if self.0.text("kernel") == "spline" {
+                return Err(Error::Scene(
+                    "gravity with images = \"ewald\" is softened by kernel = \"plummer\" alone: leave out \"spline\"".to_owned(),
+                ));
+            }
+            return ewald::fits(problem, self.0.number("softening"));
+        }
+        if self.0.text("over") == "tree" && problem.bounds.has(Side::Periodic) {
+            return Err(Error::Scene(format!(
+                "gravity over = \"tree\" in a periodic box ({}) cannot meet nearest images alone: their force jumps half a box \
+                 away, within a group. Say images = \"ewald\" in a cube that is periodic on all sides, or over = \"pairs\"",
+                problem.bounds
+            )));
+        }
+        Ok(())
+    }
+    /// The law of far groups; none where they are met as one particle.
+    fn distant(&self, law: Source) -> Option<Source> {
+        (self.0.text("multipoles") == "quadrupole").then_some(law)
+    }
+}
+
+impl Component for Gravity {
+    fn laws(&self) -> Vec<Law> {
+        let values = params(&self.0, &["g", "softening"]);
+        let (g, softening) = (self.0.number("g"), self.0.number("softening"));
+        let quadrupole = self.0.text("multipoles") == "quadrupole";
+        vec![if self.all_images() {
+            let files = (
+                crate::shader!("interactions/gravity_ewald.wgsl"),
+                self.distant(crate::shader!("interactions/gravity_ewald_distant.wgsl")),
+            );
+            let frequency = |world: &World| world.bounds.frequency().x;
+            let rule = move |_: &Particle, you: &Particle, r, world: &World| {
+                ewald::pair(g * you.mass, softening, r, frequency(world))
+            };
+            let far = move |_: &Particle, you: &Group, r, world: &World| {
+                if quadrupole {
+                    ewald::group((g, you.mass, you.moments), softening, r, frequency(world))
+                } else {
+                    ewald::pair(g * you.mass, softening, r, frequency(world))
+                }
+            };
+            Law::attracting("gravity_ewald", self.over(0.0), files, values, rule, far).of_all_images()
+        } else if self.0.text("kernel") == "spline" {
+            let h = 2.8 * softening;
+            let files = (
+                crate::shader!("interactions/gravity_spline.wgsl"),
+                self.distant(crate::shader!("interactions/gravity_distant.wgsl")),
+            );
+            let rule = move |_: &Particle, you: &Particle, r, _: &World| spline(g * you.mass, h, r);
+            // Beyond its support the spline is Newton's law.
+            let far = move |_: &Particle, you: &Group, r, _: &World| multipole(g, you, 0.0, r, quadrupole);
+            Law::attracting("gravity_spline", self.over(h), files, values, rule, far)
+        } else {
+            let files =
+                (crate::shader!("interactions/gravity.wgsl"), self.distant(crate::shader!("interactions/gravity_distant.wgsl")));
+            let rule = move |_: &Particle, you: &Particle, r, _: &World| plummer(g * you.mass, softening, r);
+            let far = move |_: &Particle, you: &Group, r, _: &World| multipole(g, you, softening, r, quadrupole);
+            Law::attracting("gravity", self.over(0.0), files, values, rule, far)
+        }]
+    }
+    fn properties(&self) -> Properties {
+        Properties { ignores_massless: true, ..Properties::default() }
+    }
+    fn stage(&self, stage: Stage, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
+        let Stage::Evaluate { earlier } = stage else { return Ok(()) };
+        self.fits(problem)?;
+        evaluate(self.laws(), earlier, plan, problem)?;
+        if self.all_images() {
+            let sources = [
+                crate::shader!("interactions/gravity_waves.wgsl"),
+                crate::shader!("interactions/gravity_structure.wgsl"),
+                crate::shader!("interactions/gravity_structure_sum.wgsl"),
+                crate::shader!("interactions/gravity_images.wgsl"),
+            ];
+            let world = [crate::shader!("world.wgsl"), crate::shader!("fields.wgsl")];
+            let [structure, images] = ewald::kernels(self.0.number("g"), &world, sources, problem)?;
+            plan.push(&numbered("gravity structure", earlier), || Ok(structure))?;
+            plan.push(&numbered("gravity images", earlier), || Ok(images))?;
+        }
+        Ok(())
+    }
+}
+
+/// A far group: its mass at its centre, and its second moments about that (after McMillan & Aarseth 1993, softened).
+fn multipole(g: f64, you: &Group, softening: f64, r: DVec3, quadrupole: bool) -> DVec4 {
+    let point = plummer(g * you.mass, softening, r);
+    if !quadrupole {
+        return point;
+    }
+    let square = r.length_squared() + softening * softening;
+    let (trace, q) = (you.moments.x_axis.x + you.moments.y_axis.y + you.moments.z_axis.z, you.moments * r);
+    let (fifth, twist) = (square.powf(-2.5), r.dot(q));
+    let acceleration = r * (7.5 * twist / square - 1.5 * trace) - 3.0 * q;
+    point + g * (acceleration * fifth).extend(0.5 * trace * square.powf(-1.5) - 1.5 * twist * fifth)
+}
+
+/// Plummer (1911).
+fn plummer(gm: f64, softening: f64, r: DVec3) -> DVec4 {
+    let inverse = 1.0 / (r.length_squared() + softening * softening).sqrt();
+    let potential = gm * inverse;
+    (r * (potential * inverse * inverse)).extend(-potential)
+}
+
+/// The potential of a cubic spline of support h (Monaghan & Lattanzio 1985; Springel, Yoshida & White 2001, appendix A).
+fn spline(gm: f64, h: f64, r: DVec3) -> DVec4 {
+    let distance = r.length();
+    if distance >= h {
+        return (r * (gm / distance.powi(3))).extend(-gm / distance);
+    }
+    let u = distance / h;
+    let (force, potential) = if u < 0.5 {
+        (
+            32.0 / 3.0 + u * u * (32.0 * u - 38.4),
+            -2.8 + u * u * (16.0 / 3.0 + u * u * (6.4 * u - 9.6)),
+        )
+    } else {
+        (
+            64.0 / 3.0 + u * (-48.0 + u * (38.4 - 32.0 / 3.0 * u)) - 1.0 / (15.0 * u.powi(3)),
+            -3.2 + 1.0 / (15.0 * u) + u * u * (32.0 / 3.0 + u * (-16.0 + u * (9.6 - 32.0 / 15.0 * u))),
+        )
+    };
+    (r * (gm * force / h.powi(3))).extend(gm * potential / h)
+}

@@ -1,0 +1,33 @@
+//! Interactions: what accelerates particles, or computes columns of them. Each is one `.wgsl` and one `.rs` of the same name, and one
+//! line in the register below.
+
+mod ewald;
+
+use crate::component::keys::{EACH, SEE_NEAR, SEED, SKIN, is_nearer, over, params, seed};
+use crate::component::kind::{SPECIES, species};
+use crate::component::{Component, Properties, Resolved, Stage, components, evaluate, numbered};
+use crate::constraints::speed_limit;
+use crate::kernel::Problem;
+use crate::visit::{Jacobian, Law, Over};
+
+components! {
+    INTERACTIONS, Interaction;
+    gravity: Gravity, "all particles attract each other, softened (Newton 1687)";
+    uniform: Uniform, "the same acceleration everywhere: weight";
+    drag: Drag, "linear and quadratic resistance of a medium that may move (Stokes 1851, Newton 1687)";
+    wind: Wind, "a wind that blows in gusts and carries particles along";
+    vortex: Vortex, "a whirl about an axis that carries particles along (Kaufmann 1962)";
+    attractor: Attractor, "a fixed or moving centre: point mass, spring or logarithmic halo";
+    boids: Boids, "a flock: separation, alignment and cohesion within a field of view (Reynolds 1987, 1999)";
+    obstacle: Obstacle, "a sphere, a box or a plane that is seen ahead and avoided (after Reynolds 1999)";
+    flee: Flee, "prey flee from predators";
+    chase: Chase, "predators chase prey";
+    goal: Goal, "a place to steer to and arrive at, or a roost to keep to (Reynolds 1999)";
+    wander: Wander, "a random walk of velocities, the same numbers on every device";
+    soft_turn: SoftTurn, "a box with soft walls that turn back";
+    vicsek: Vicsek, "each particle takes the mean heading around it, with noise, in the plane (Vicsek et al. 1995)";
+    spring: Spring, "springs and ropes, damped along themselves (Hooke 1678)";
+    joint: Joint, "joints that resist bending: elastic rods, hair (Euler 1744)";
+    fluid: Fluid, "a fluid by smoothed particle hydrodynamics, weakly compressible (Monaghan 1994); held particles are its walls";
+    air: Air, "drag and lift on every triangle of a cloth, in gusts (Ling, Damodaran & Gay 1996)";
+}

@@ -1,0 +1,177 @@
+//! How long steps are, where they are not all alike. Such a clock counts in whole ticks, 2²⁴ in the longest step: sums of
+//! them are exact, so that nothing is lost between the first step and the last, and an end is met to the tick.
+
+use super::{Field, Host, Problem, Source};
+use crate::error::Error;
+
+/// Steps as short as forces ask for, and no longer than `dt`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AdaptiveStep {
+    /// The shortest step \[time\]: where forces ask for less, a run ends.
+    pub least: f64,
+    /// The Courant number C, a part of every limit that forces offer.
+    pub courant: f64,
+    /// The length of the step before the first, after which steps grow by a fifth at most \[time\]; none: the first may be
+    /// as long as forces allow.
+    pub before: Option<f64>,
+}
+
+/// Ticks in the longest step.
+pub const TICKS: u32 = 1 << 24;
+/// The shortest step, as a part of the longest, at least: ticks must tell steps apart.
+const LEAST_PART: f64 = 1e-6;
+
+/// The clock, word by word: 0 and 1: the time in longest steps and ticks; 2: the ticks of the step at hand, 0 where a run
+/// rests; 3: those of the last that nothing but forces and growth has shortened; 4: the reason, a [`Reason`]; 5: the limiting
+/// particle, the lowest id of those whose criterion gave it. 6 to 9: the first step that should have been shorter than the
+/// shortest, its reason, its particle, and how many of it would have made a longest step, as the bits of an `f32`;
+/// [`u32::MAX`] while there is none. 10 and 11: the ticks of the shortest and of the longest step so far; from 12 on how many
+/// steps had each reason.
+pub const STEP_CLOCK: Field<u32> = Field::new("step_clock");
+/// The words of the clock.
+pub const STEP_CLOCK_WORDS: usize = 12 + Reason::ALL.len();
+/// Where the clock stops, in longest steps and ticks.
+pub const STOP: Field<u32> = Field::new("step_clock_stop");
+/// The dt criteria: how many steps each particle would have in a longest one, were it alone: for acceleration, signal and speed.
+pub const STEP_CRITERIA: Field<glam::Vec4> = Field::new("step_criteria");
+/// The largest of [`STEP_CRITERIA`].
+pub const LARGEST_CRITERION: Field<glam::Vec4> = Field::new("largest_criterion");
+
+/// Why a step has its length.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Reason {
+    /// It is the longest that is allowed.
+    Longest,
+    /// An acceleration.
+    Acceleration,
+    /// Sound, and how fast particles come together.
+    Signal,
+    /// Viscosity.
+    Viscosity,
+    /// A speed.
+    Speed,
+    /// The step before it was shorter.
+    Growth,
+    /// The run stops there.
+    Stop,
+}
+
+impl Reason {
+    /// All of them, in the order of their numbers on a device.
+    pub const ALL: [Self; 7] =
+        [Self::Longest, Self::Acceleration, Self::Signal, Self::Viscosity, Self::Speed, Self::Growth, Self::Stop];
+    /// The reason of a number.
+    #[must_use]
+    pub fn of(number: u32) -> Self {
+        Self::ALL.get(number as usize).copied().unwrap_or(Self::Longest)
+    }
+    /// One word for a table.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Longest => "longest",
+            Self::Acceleration => "acceleration",
+            Self::Signal => "signal",
+            Self::Viscosity => "viscosity",
+            Self::Speed => "speed",
+            Self::Growth => "growth",
+            Self::Stop => "stop",
+        }
+    }
+}
+
+/// The ticks of a length of time, in steps of `dt`, rounded to the nearest.
+#[must_use]
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to 32 bits")]
+pub fn ticks(time: f64, dt: f64) -> u32 {
+    (time / dt * f64::from(TICKS)).round().clamp(0.0, f64::from(u32::MAX)) as u32
+}
+
+/// A time as a clock of steps of `dt` has it: longest steps, and ticks.
+#[must_use]
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to what 32 bits hold")]
+pub fn split(time: f64, dt: f64) -> [u32; 2] {
+    let all = (time / dt * f64::from(TICKS)).round().max(0.0);
+    let whole = (all / f64::from(TICKS)).floor();
+    if whole >= f64::from(u32::MAX) {
+        return [u32::MAX, 0];
+    }
+    [whole as u32, (all - whole * f64::from(TICKS)) as u32]
+}
+
+impl AdaptiveStep {
+    /// Whether there can be such steps, none longer than `dt`.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] with the number that makes no sense.
+    pub fn check(&self, dt: f64) -> Result<(), Error> {
+        let Self { least, courant, before } = *self;
+        if !(LEAST_PART * dt..=dt).contains(&least) {
+            return Err(Error::Scene(format!(
+                "the shortest step is {least:e}, and the longest {dt:e}: choose one between {:e} and that",
+                LEAST_PART * dt
+            )));
+        }
+        if !(courant > 0.0 && courant <= 1.0) {
+            return Err(Error::Scene(format!(
+                "the Courant number is {courant}: choose one above 0, at most 1; 0.25 is usual"
+            )));
+        }
+        if let Some(before) = before.filter(|before| !(least..=dt).contains(before)) {
+            return Err(Error::Scene(format!(
+                "the step before the first is {before:e}: it must be one between the shortest, {least:e}, and the longest, {dt:e}"
+            )));
+        }
+        Ok(())
+    }
+    /// The words of a clock that stands at zero.
+    #[must_use]
+    pub fn start(&self, dt: f64) -> Vec<u32> {
+        let mut words = vec![0; STEP_CLOCK_WORDS];
+        words[3] = self.before.map_or(TICKS, |before| ticks(before, dt));
+        words[5..10].fill(u32::MAX);
+        words[4] = 0;
+        words[10] = u32::MAX;
+        words
+    }
+}
+
+/// The time after a part of the step, as a reference has it.
+///
+/// # Errors
+/// When a clock is asked that is not there.
+pub fn time(host: &Host, problem: &Problem, part: f64) -> Result<f64, Error> {
+    let world = host.world();
+    if problem.adaptive_step.is_none() {
+        return Ok((f64::from(world.step) + part) * world.dt);
+    }
+    let [whole, rest, step] = host.read(STEP_CLOCK)?.first_chunk().copied().unwrap_or_default();
+    Ok((f64::from(whole) + (f64::from(rest) + part * f64::from(step)) / f64::from(TICKS)) * problem.dt)
+}
+
+impl Problem {
+    /// The same in steps of this adaptive_step.
+    #[must_use]
+    pub fn adapted(self, adaptive_step: Option<AdaptiveStep>) -> Self {
+        Self { adaptive_step, ..self }
+    }
+    /// The file that says to motions how late it is.
+    #[must_use]
+    pub fn clock(&self) -> Source {
+        if self.adaptive_step.is_some() {
+            crate::shader!("motion/adaptive.wgsl")
+        } else {
+            crate::shader!("motion/even.wgsl")
+        }
+    }
+    /// What goes with it.
+    #[must_use]
+    pub fn clock_constants(&self) -> Vec<(&'static str, f64)> {
+        if self.adaptive_step.is_some() { vec![("UNIT", self.dt)] } else { Vec::new() }
+    }
+    /// The clock's elements, where there is one.
+    #[must_use]
+    pub fn clock_sizes(&self) -> Vec<(super::Name, u64)> {
+        if self.adaptive_step.is_some() { vec![(STEP_CLOCK.name.into(), STEP_CLOCK_WORDS as u64)] } else { Vec::new() }
+    }
+}

@@ -1,0 +1,61 @@
+//! What goes together with births and deaths, and what does not.
+
+use crate::error::Error;
+use crate::forces::{Component, Over};
+use crate::integrators::Integrator;
+use crate::state::State;
+
+/// Whether forces and an integrator know who lives. Who waits or is dead is in no grid, has no mass, and is put to rest after
+/// every evaluation: that serves searches of a grid, what acts on each alone, and attraction by mass. It does not serve ties.
+///
+/// # Errors
+/// [`Error::Scene`] that names what does not.
+pub fn serves(particles: &State, forces: &[Box<dyn Component>], integrator: &dyn Integrator) -> Result<(), Error> {
+    if !particles.has_inactive() {
+        return Ok(());
+    }
+    let refuse = |text: String| Err(Error::Scene(text));
+    if integrator.is_implicit() {
+        return refuse(
+            "where particles are born or die, no implicit integrator steps: its equations hold everybody. Choose leapfrog".to_owned(),
+        );
+    }
+    for force in forces {
+        for law in force.laws() {
+            let (name, over) = (&law.name, law.over.name());
+            match law.over {
+                Over::Each
+                | Over::Near { .. }
+                | Over::Nearest { .. }
+                | Over::List { .. }
+                | Over::Links
+                | Over::Joints
+                | Over::Triangles => {}
+                _ if force.properties().ignores_massless => {}
+                _ => {
+                    return refuse(format!(
+                        "`{name}` over \"{over}\" meets everybody, and where particles are born or die, some do not live: say over = \
+                         \"near\", which meets who is in its grid"
+                    ));
+                }
+            }
+        }
+    }
+    let links = &particles.links;
+    let mut waits = vec![false; particles.len()];
+    particles.births.iter().for_each(|birth| waits[birth.id as usize] = true);
+    let springs = links.springs.iter().map(|link| link.ends).chain(links.rods.iter().map(|rod| rod.ends)).flatten();
+    let corners = links.joints.iter().map(|joint| joint.ids).chain(links.triangles.iter().copied()).flatten();
+    let idle = |id: &u32| waits.get(*id as usize).is_some_and(|waits| *waits) || !particles.is_active(*id as usize);
+    let mut tied = springs.chain(corners);
+    if !particles.drains.is_empty() && tied.next().is_some() {
+        return refuse(
+            "a drain takes particles, and here some are tied: links cannot lose an end. Take away one of them"
+                .to_owned(),
+        );
+    }
+    match tied.find(idle) {
+        Some(id) => refuse(format!("particle {id} is tied, and does not live from the start: tie others")),
+        None => Ok(()),
+    }
+}

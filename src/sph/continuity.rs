@@ -1,0 +1,68 @@
+//! Density by the continuity equation: a state that goes along with positions (Monaghan 1994).
+
+use glam::DVec3;
+
+use super::{DENSITY, DENSITY_RATE, Medium};
+use crate::error::Error;
+use crate::kernel::{Column, Kind, Problem, Scalar, World};
+use crate::visit::{Candidate, Law, Outcome, Particle};
+
+/// How the density of a fluid follows it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Continuity {
+    /// δ of the diffusion (Molteni & Colagrossi 2009).
+    pub diffusion: f64,
+    /// What the diffusion leaves alone: the density of a fluid at rest in this weight \[length / time²\].
+    pub weight: DVec3,
+}
+
+/// The columns of such a density, which starts as that of rest. It is carried along with positions: integrators compute its rate in
+/// the middle of each drift.
+#[must_use]
+pub fn columns(rest: f64) -> Vec<Column> {
+    vec![
+        Column::new(
+            "density",
+            Kind::Scalar,
+            "mass / length³",
+            "how dense the fluid is there; of walls it says nothing",
+        )
+        .carried("density_rate")
+        .starting([rest, 0.0, 0.0, 0.0]),
+        Column::new("density_rate", Kind::Scalar, "mass / (length³ time)", "how fast that changes").derived(),
+    ]
+}
+
+/// The law that finds how fast density changes, where particles are and as they move.
+///
+/// # Errors
+/// When the range is none.
+pub fn rate(medium: &Medium, continuity: Continuity, problem: &Problem) -> Result<Law, Error> {
+    let candidate = Candidate {
+        particle: crate::shader!("sph/dense.wgsl"),
+        broadcast: crate::shader!("sph/flowing_broadcast.wgsl"),
+    };
+    let search = medium.search(candidate, &[], problem)?;
+    let diffusion = 2.0 * continuity.diffusion * 0.5 * medium.range() * medium.sound;
+    let params = vec![("diffusion", Scalar::Float(diffusion)), ("weight", Scalar::Vector(continuity.weight))];
+    let (medium, walls, fixed) = (*medium, problem.clone(), problem.clone());
+    let gather = move |me: &Particle, you: &Particle, r: DVec3, _: &World, rate: &mut f64| {
+        *rate += you.mass * medium.gradient(r) * r.dot(you.velocity - me.velocity);
+        if !walls.is_held(you.index) {
+            let [mine, yours] = [me, you].map(|one| one.scalar(DENSITY.name).unwrap_or(f64::NAN));
+            let denser = 0.5 * (mine + yours) - medium.density;
+            let give = medium.density - f64::from(medium.exponent - 2) * denser;
+            let excess = yours - mine - give * continuity.weight.dot(r) / (medium.sound * medium.sound);
+            let smoothing = 0.5 * medium.range();
+            let near = r.length_squared() / (r.length_squared() + 0.01 * smoothing * smoothing);
+            *rate -= diffusion * you.mass / yours * excess * medium.gradient(r) * near;
+        }
+    };
+    let finish = move |me: &Particle, rate: &f64, _: &World, outcome: &mut Outcome| {
+        if !fixed.is_held(me.index) {
+            outcome.set(DENSITY_RATE.name, *rate);
+        }
+    };
+    let wgsl = crate::shader!("sph/density_rate.wgsl");
+    Ok(Law::searching("fluid density rate", search, wgsl, params, &[DENSITY_RATE.name], gather, finish))
+}

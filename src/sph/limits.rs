@@ -1,0 +1,124 @@
+//! How long a step of a fluid may be (Monaghan 1992; Morris, Fox & Zhu 1997; Ihmsen et al. 2014):
+//! dt = min( C √(s / |a|), C s / (c + |μ| + 0.6 α c), s² / (8 ν), 0.4 C d / |v| ), with s the smoothing length, which is half of the
+//! support, and d the spacing. Where the speed of sound is told, speeds themselves are no limit.
+
+use std::sync::Arc;
+
+use glam::{DVec3, DVec4, Vec4};
+
+use super::Medium;
+use crate::error::Error;
+use crate::kernel::{
+    ACCELERATION, Field, Host, Kernel, Pass, Plan, Problem, STEP_CRITERIA, Scalar, Shader, VELOCITY, World,
+};
+use crate::visit::{Candidate, Law, Outcome, Particle};
+
+/// How far a particle may go in a step, in spacings, where no speed of sound limits it (Courant, Friedrichs & Lewy 1928; 0.4 as
+/// Bender & Koschier 2015 have it).
+pub const COURANT: f64 = 0.4;
+
+/// How fast neighbours come or go, at most \[length / time\].
+const CLOSING: Field<f32> = Field::new("closing");
+
+/// What limits the steps of a fluid, beside accelerations.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Limits {
+    /// The speed of sound \[length / time\]; none where the fluid has none: then speeds are a limit.
+    pub sound: Option<f64>,
+    /// α of the artificial viscosity, which goes with sound (Monaghan 1992).
+    pub alpha: f64,
+}
+
+/// What the step_criteria of everybody are multiplied by.
+#[derive(Clone, Copy)]
+struct Shares {
+    acceleration: f64,
+    signal: f64,
+    /// With what artificial viscosity adds to it.
+    sound: f64,
+    speed: f64,
+}
+
+/// How many steps viscosity asks for in a longest one; nothing where steps are all alike.
+#[must_use]
+pub fn viscous_steps(medium: &Medium, viscosity: f64, problem: &Problem) -> Option<f64> {
+    let length = 0.5 * medium.range();
+    problem.adaptive_step.map(|_| problem.dt * 8.0 * viscosity / (length * length))
+}
+
+/// Adds kernels that fill [`STEP_CRITERIA`]; none where steps are all alike.
+///
+/// # Errors
+/// When the range is none, or a shader does not compile.
+pub fn limits(medium: &Medium, limits: Limits, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
+    let Some(adaptive_step) = problem.adaptive_step else { return Ok(()) };
+    let (length, longest) = (0.5 * medium.range(), problem.dt / adaptive_step.courant);
+    if limits.sound.is_some() {
+        plan.add(closing(medium, problem)?.kernel(problem)?);
+    }
+    let shares = Shares {
+        acceleration: longest / length.sqrt(),
+        signal: limits.sound.map_or(0.0, |_| longest / length),
+        sound: limits.sound.unwrap_or(0.0) * (1.0 + 0.6 * limits.alpha),
+        speed: if limits.sound.is_some() { 0.0 } else { longest / (COURANT * medium.spacing) },
+    };
+    plan.add(criterion(&shares, problem)?);
+    Ok(())
+}
+
+fn closing(medium: &Medium, problem: &Problem) -> Result<Law, Error> {
+    let search = medium.search(Candidate::STILL, &[], problem)?;
+    let (length, fixed) = (0.5 * medium.range(), problem.clone());
+    let gather = move |me: &Particle, you: &Particle, r: DVec3, _: &World, most: &mut f64| {
+        let near = r.length_squared() + 0.01 * length * length;
+        *most = most.max((you.velocity - me.velocity).dot(r).abs() * length / near);
+    };
+    let finish = move |me: &Particle, most: &f64, _: &World, outcome: &mut Outcome| {
+        if !fixed.is_held(me.index) {
+            outcome.set(CLOSING.name, *most);
+        }
+    };
+    let wgsl = crate::shader!("sph/closing.wgsl");
+    Ok(Law::searching("fluid closing", search, wgsl, Vec::new(), &[CLOSING.name], gather, finish))
+}
+
+fn criterion(shares: &Shares, problem: &Problem) -> Result<Kernel, Error> {
+    let (holding, tables) = problem.holding();
+    let shader = Shader::join(&[
+        holding,
+        problem.active(),
+        crate::shader!("world.wgsl"),
+        crate::shader!("sph/step_criterion.wgsl"),
+    ])?;
+    let params = vec![
+        ("acceleration", Scalar::Float(shares.acceleration)),
+        ("signal", Scalar::Float(shares.signal)),
+        ("sound", Scalar::Float(shares.sound)),
+        ("speed", Scalar::Float(shares.speed)),
+    ];
+    let uniforms = shader.block("the limits of a fluid", "params", &params)?;
+    let pass = Pass { uniforms, ..Pass::new(shader, problem.count) };
+    let (shares, who) = (*shares, problem.clone());
+    let reference = move |host: &Host| {
+        let (velocity, acceleration) = (host.read(VELOCITY)?, host.read(ACCELERATION)?);
+        let (closing, mut step_criteria) = (host.read(CLOSING)?, host.write::<Vec4>(STEP_CRITERIA)?);
+        let is_active = host.is_active()?;
+        for (i, criterion) in step_criteria.iter_mut().enumerate().filter(|(i, _)| !who.is_held(*i)) {
+            *criterion = DVec4::new(
+                shares.acceleration * acceleration[i].truncate().length().sqrt(),
+                shares.signal * (shares.sound + closing[i]),
+                shares.speed * velocity[i].truncate().length(),
+                0.0,
+            ) * f64::from(u8::from(is_active(i)));
+        }
+        Ok(())
+    };
+    Ok(Kernel {
+        name: "fluid step criterion".to_owned(),
+        passes: vec![pass],
+        reference: Some(Arc::new(reference)),
+        sizes: Vec::new(),
+        scratch: Vec::new(),
+        tables,
+    })
+}

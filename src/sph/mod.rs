@@ -1,0 +1,51 @@
+//! Fluids: smoothed particle hydrodynamics. What is smoothed and how, and the searches that a step of it takes; which of them,
+//! and in which order, is for the forces to say.
+
+mod continuity;
+mod density;
+mod dfsph;
+mod fits;
+mod gap;
+mod limits;
+mod medium;
+mod nearby;
+mod overdense;
+mod pressure;
+mod rates;
+mod smoothing;
+mod start;
+mod state;
+mod tension;
+mod wall_pressure;
+mod walls;
+mod xsph;
+
+pub use continuity::{Continuity, columns as continuity_columns, rate};
+pub use density::density;
+pub use dfsph::{Asked, DFSPH_ERRORS, DFSPH_REPORT, DFSPH_WORDS, Dfsph, columns as dfsph_columns};
+pub use gap::gap;
+pub use limits::{COURANT, Limits, limits, viscous_steps};
+pub use medium::Medium;
+pub use pressure::{Friction, Walls, pressure};
+pub use rates::Rates;
+pub use smoothing::Smoothing;
+pub use start::{Continuum, Start, Still};
+pub use state::state;
+pub use tension::{Tension, tension};
+pub use wall_pressure::wall_pressure;
+pub use walls::{WallMass, walls};
+pub use xsph::xsph;
+
+use crate::kernel::Field;
+
+/// How dense the fluid is around a particle \[mass / length³, or mass / length² in two dimensions\]; of walls it says nothing.
+pub const DENSITY: Field<f32> = Field::new("density");
+/// How fast that changes, where it is a state: [`rate`].
+pub(crate) const DENSITY_RATE: Field<f32> = Field::new("density_rate");
+/// The pressure, where it is solved for \[mass / (length time²), or mass / time² in two dimensions\]; of walls it is 0.
+pub const PRESSURE: Field<f32> = Field::new("pressure");
+/// What a neighbour is asked for, in the order of the grid: density, which is 0 for walls; pressure over its square; internal
+/// energy per unit mass.
+pub(crate) const FLOW: &str = "flow";
+/// Which way the surface is, in the order of the grid.
+pub(crate) const NORMAL: &str = "normal";

@@ -1,0 +1,283 @@
+//! How a fluid starts: how dense it is before the first step, and whether that would blow it apart.
+
+use std::f64::consts::SQRT_2;
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::nearby::Nearby;
+use super::{COURANT, Medium, WallMass, gap, overdense};
+use crate::error::Error;
+use crate::kernel::Bounds;
+
+/// What Mach number a fluid may be given by the pressure it starts with. Its speed of sound is ten times that of the fastest
+/// flow that is expected (Monaghan 1994), so that what bursts at Mach 0.2 is twice as fast, and has four times the energy: with
+/// c = 10 √(2 g H) it leaps four times as high as it is deep.
+const MACH: f64 = 0.2;
+/// Two that are nearer than this \[spacings\] have hardly any pressure between them, whose gradient is none at no distance: they
+/// stay together for ever.
+const SAME_PLACE: f64 = 0.1;
+
+/// What a force makes of all particles that are not held.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Continuum {
+    /// What flows.
+    pub medium: Medium,
+    /// What its walls weigh.
+    pub walls: WallMass,
+    /// Whether its density is summed over masses around; else it begins at rest, whatever is around.
+    pub summed: bool,
+    /// The weight that it goes by, if by any \[length / time²\].
+    pub weight: Option<DVec3>,
+}
+
+/// Particles as they stand before the first step.
+#[derive(Debug, Clone, Copy)]
+pub struct Still<'a> {
+    /// Where they are.
+    pub position: &'a [DVec3],
+    /// How heavy they are; what walls weigh is found here.
+    pub mass: &'a [f64],
+    /// Which are of a wall, by id.
+    pub walls: &'a [bool],
+    /// Where they may be.
+    pub bounds: &'a Bounds,
+}
+
+/// How a fluid starts.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Start {
+    /// What flows.
+    pub medium: Medium,
+    /// Whether its density is that of the start, or only what a sum over masses would say: see [`Continuum`].
+    pub summed: bool,
+    /// How many particles are of the fluid.
+    pub fluid: u32,
+    /// How many are of walls.
+    pub walls: u32,
+    /// Where the fluid begins and ends \[length\].
+    pub extent: (DVec3, DVec3),
+    /// The lightest and the heaviest of the fluid \[mass\].
+    pub mass: (f64, f64),
+    /// The fastest of the fluid \[length / time\].
+    pub speed: f64,
+    /// The densest particle of the fluid, and how dense it is, as a part of the density at rest.
+    pub densest: (u32, f64),
+    /// The thinnest, likewise.
+    pub thinnest: (u32, f64),
+    /// Two of the fluid at the same place, if any, and how far apart they are.
+    pub same: Option<(u32, u32, f64)>,
+    /// How many are too dense.
+    pub dense: u32,
+    /// How far the fastest particle must move in the first step, at least, where pressure is solved for: that takes away at once all that is too
+    /// dense; else 0 \[spacings\].
+    pub thrust: f64,
+    /// What makes the densest so dense.
+    cause: String,
+}
+
+impl Start {
+    /// Looks at a start.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] when there is nothing of the fluid, or something of it weighs nothing.
+    pub fn of(fluid: &Continuum, still: &Still<'_>) -> Result<Self, Error> {
+        let medium = &fluid.medium;
+        let ids: Vec<usize> = (0..still.position.len()).filter(|id| !still.walls[*id]).collect();
+        if ids.is_empty() {
+            let text = "there is a fluid and nothing of it: all particles are held, and held particles are its walls; add a \
+                        [[particles]] of shape = \"block\"";
+            return Err(Error::Scene(text.to_owned()));
+        }
+        if let Some(id) = ids.iter().find(|id| still.mass[**id] <= 0.0) {
+            return Err(Error::Scene(format!(
+                "particle {id} is of the fluid and weighs nothing: it has no density, and pressure cannot move it; give it the mass \
+                 {}, which is density × spacing^{}, as the shapes block and drop do",
+                medium.mass(),
+                medium.dimensions
+            )));
+        }
+        let nearby = Nearby::new(still.position, still.bounds, medium.range());
+        let mass = masses(fluid, still, &nearby);
+        let densities: Vec<(f64, Option<(usize, f64)>)> =
+            ids.par_iter().map(|id| density_at(medium, still, &nearby, &mass, *id)).collect();
+        let (mut densest, mut thinnest) = ((0, 0.0), (0, f64::INFINITY));
+        let (mut same, mut dense) = (None, 0);
+        for (id, (density, nearest)) in ids.iter().zip(&densities) {
+            let ratio = density / medium.density;
+            dense += u32::from(speed(medium, ratio) > MACH * medium.sound);
+            if ratio > densest.1 {
+                densest = (*id, ratio);
+            }
+            if ratio < thinnest.1 {
+                thinnest = (*id, ratio);
+            }
+            if let Some((other, r)) = nearest.filter(|(_, r)| *r < SAME_PLACE * medium.spacing) {
+                same = same.or(Some((id32(*id), id32(other), r)));
+            }
+        }
+        let overdense: Vec<_> =
+            ids.iter().zip(&densities).map(|(id, (density, _))| (still.position[*id], mass[*id], *density)).collect();
+        let low = ids.iter().map(|id| still.position[*id]).reduce(DVec3::min).unwrap_or_default();
+        let high = ids.iter().map(|id| still.position[*id]).reduce(DVec3::max).unwrap_or_default();
+        Ok(Self {
+            medium: *medium,
+            summed: fluid.summed,
+            fluid: id32(ids.len()),
+            walls: id32(still.position.len() - ids.len()),
+            extent: (low, high),
+            mass: ids.iter().map(|id| still.mass[*id]).fold((f64::INFINITY, 0.0), |(a, b), m| (m.min(a), m.max(b))),
+            speed: 0.0,
+            densest: (id32(densest.0), densest.1),
+            thinnest: (id32(thinnest.0), thinnest.1),
+            same,
+            dense,
+            thrust: if medium.sound > 0.0 { 0.0 } else { overdense::thrust(medium, &overdense) },
+            cause: cause(fluid, still, &nearby, &mass, densest.0),
+        })
+    }
+    /// The pressure of the densest particle \[mass / (length time²)\].
+    #[must_use]
+    pub fn pressure(&self) -> f64 {
+        let density = self.densest.1 * self.medium.density;
+        self.medium.state(density).0 * density * density
+    }
+    /// How fast that pressure drives the fluid apart into a void, by the Riemann invariant of Tait's equation:
+    /// u = 2 c / (γ − 1) ((ρ/ρ₀)^((γ − 1)/2) − 1) \[length / time\].
+    #[must_use]
+    pub fn burst(&self) -> f64 {
+        speed(&self.medium, self.densest.1)
+    }
+    /// Refuses what would blow apart.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] that names the particles, and the cause.
+    pub fn check(&self) -> Result<(), Error> {
+        let (id, ratio) = self.densest;
+        let hidden =
+            if self.summed { "" } else { " by the sum over masses, of which density by continuity would never know" };
+        if self.dense > 0 {
+            return Err(Error::Scene(format!(
+                "this start would explode: {} of {} particles of the fluid are too dense; particle {id}, the densest, is at {ratio:.3} times \
+                 the density at rest{hidden}, which is a pressure of {:.3e} and bursts at {:.2} of the speed of sound ({MACH} is the most): {}",
+                self.dense,
+                self.fluid,
+                self.pressure(),
+                self.burst() / self.medium.sound,
+                self.cause
+            )));
+        }
+        if self.thrust > COURANT {
+            return Err(Error::Scene(format!(
+                "this start would explode: particle {id} of the fluid, the densest, is at {ratio:.3} times the density at rest, and a pressure \
+                 that is solved for takes away in the first step all that is too dense: a particle would have to move {:.2} spacings in \
+                 it at least, whatever dt ({COURANT} is the most): {}",
+                self.thrust, self.cause
+            )));
+        }
+        if let Some((a, b, r)) = self.same {
+            return Err(Error::Scene(format!(
+                "particles {a} and {b} of the fluid are {r:.1e} apart, and the spacing is {}: nothing drives two apart that are at one \
+                 place; do two blocks overlap?",
+                self.medium.spacing
+            )));
+        }
+        Ok(())
+    }
+}
+
+fn id32(id: usize) -> u32 {
+    u32::try_from(id).unwrap_or(u32::MAX)
+}
+
+fn speed(medium: &Medium, ratio: f64) -> f64 {
+    let power = 0.5 * f64::from(medium.exponent - 1);
+    (medium.sound / power * (ratio.powf(power) - 1.0)).max(0.0)
+}
+
+/// The mass of each particle: walls as much as the fluid whose place they take.
+fn masses(fluid: &Continuum, still: &Still<'_>, nearby: &Nearby<'_>) -> Vec<f64> {
+    let medium = &fluid.medium;
+    let of = |id: usize| {
+        if !still.walls[id] {
+            return still.mass[id];
+        }
+        if fluid.walls == WallMass::Lattice {
+            return medium.mass();
+        }
+        let mut sum = medium.kernel(DVec3::ZERO);
+        nearby.of(id, |you, r| sum += if still.walls[you] { medium.kernel(r) } else { 0.0 });
+        medium.density / sum
+    };
+    (0..still.position.len()).into_par_iter().map(of).collect()
+}
+
+/// How dense the fluid is at a particle, and the nearest particle of it.
+fn density_at(
+    medium: &Medium,
+    still: &Still<'_>,
+    nearby: &Nearby<'_>,
+    mass: &[f64],
+    id: usize,
+) -> (f64, Option<(usize, f64)>) {
+    let mut density = mass[id] * medium.kernel(DVec3::ZERO);
+    let mut nearest: Option<(usize, f64)> = None;
+    nearby.of(id, |you, r| {
+        density += mass[you] * medium.kernel(r);
+        if !still.walls[you] && nearest.is_none_or(|(_, least)| r.length() < least) {
+            nearest = Some((you, r.length()));
+        }
+    });
+    (density, nearest)
+}
+
+/// Why it is so dense there: the first that is out of the way among masses, spacings, walls and nearby particles.
+fn cause(fluid: &Continuum, still: &Still<'_>, nearby: &Nearby<'_>, mass: &[f64], id: usize) -> String {
+    let medium = &fluid.medium;
+    let (own, lattice, d) = (mass[id], medium.mass(), medium.spacing);
+    let (mut walls, mut wall) = (0.0, None::<(usize, f64)>);
+    nearby.of(id, |you, r| {
+        if still.walls[you] {
+            walls += mass[you] * medium.kernel(r) / medium.density;
+            if wall.is_none_or(|(_, least)| r.length() < least) {
+                wall = Some((you, r.length()));
+            }
+        }
+    });
+    // It may be farther away than the kernel reaches.
+    let others = (0..still.position.len()).filter(|other| *other != id && !still.walls[*other]);
+    let away = others.map(|other| (other, still.bounds.shortest(still.position[other] - still.position[id]).length()));
+    let nearest = away.reduce(|a, b| if b.1 < a.1 { b } else { a });
+    if (own / lattice - 1.0).abs() > 0.01 {
+        let dimensions = medium.dimensions;
+        let power = (own / medium.density).powf(1.0 / f64::from(dimensions));
+        // A distance that goes with the mass is another lattice, and not another density.
+        let spaced = nearest.is_some_and(|(_, r)| (r / power - 1.0).abs() < 0.05) && (power / d - 1.0).abs() > 0.01;
+        return if spaced {
+            format!("particles have the spacing {power:.6}, and the force has {d}: give both the same")
+        } else {
+            format!(
+                "it weighs {own:.6e}, and density × spacing^{dimensions} = {lattice:.6e} is right: give its shape the density and the \
+                 spacing of the force"
+            )
+        };
+    }
+    let rest = match fluid.walls {
+        WallMass::Sampled => d * gap(medium.smoothing, medium.support, 1, medium.dimensions),
+        WallMass::Lattice => d,
+    };
+    if let Some((other, r)) = nearest.filter(|(_, r)| *r < 0.9 * d) {
+        return format!(
+            "particle {other} of the fluid is {r:.3e} away from it, and the spacing is {d}: two blocks overlap, or stand too near to \
+             each other; between two there is one spacing from the last layer to the first"
+        );
+    }
+    match wall {
+        Some((other, r)) if r < rest.max(SQRT_2 * d) => format!(
+            "particle {other} of a wall is {r:.3e} away from it, and leaves the fluid at rest at {rest:.3e} (for a support \
+             of {} spacings): move it away, or let the shapes tank and wall place it",
+            medium.support
+        ),
+        _ => format!("{:.0} % of that are walls, the rest is fluid around it: give it more room", 100.0 * walls),
+    }
+}

@@ -1,0 +1,46 @@
+//! How heavy the particles of walls are.
+
+use glam::DVec3;
+
+use super::Medium;
+use crate::error::Error;
+use crate::kernel::{Kernel, POSITION, Problem, Scalar, World};
+use crate::visit::{Candidate, Law, Outcome, Particle, Search};
+
+/// What the particles of walls weigh.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum WallMass {
+    /// The fluid whose place they take, where they are a layer (Akinci et al. 2012): ρ₀ / Σ W, over the walls.
+    Sampled,
+    /// A share of the lattice each, ρ₀ d^D, where they are several layers of it (Adami, Hu & Adams 2012).
+    Lattice,
+}
+
+/// The positions, whose fourth numbers are masses, in a shader that reads them elsewhere.
+const WEIGHED: &str = "weighed";
+
+/// The kernel that gives fixed particles their masses.
+///
+/// # Errors
+/// When the range is none, or a shader does not compile.
+pub fn walls(medium: &Medium, weighs: WallMass, problem: &Problem) -> Result<Kernel, Error> {
+    let search = Search { fixed: true, ..medium.search(Candidate::STILL, &[], problem)? };
+    // 0 where the sum says it.
+    let mass = if weighs == WallMass::Sampled { 0.0 } else { medium.mass() };
+    let (medium, walls, held) = (*medium, problem.clone(), problem.clone());
+    let gather = move |_: &Particle, you: &Particle, r, _: &World, sum: &mut f64| {
+        *sum += if walls.is_held(you.index) { medium.kernel(r) } else { 0.0 };
+    };
+    let finish = move |me: &Particle, sum: &f64, _: &World, outcome: &mut Outcome| {
+        let sampled = medium.density / (sum + medium.kernel(DVec3::ZERO));
+        if held.is_held(me.index) {
+            let mass = if weighs == WallMass::Sampled { sampled } else { medium.mass() };
+            outcome.set(POSITION.name, me.position.extend(mass));
+        }
+    };
+    let (wgsl, params) = (crate::shader!("sph/walls.wgsl"), vec![("mass", Scalar::Float(mass))]);
+    let law = Law::searching("fluid walls", search, wgsl, params, &[WEIGHED], gather, finish);
+    let mut kernel = law.kernel(problem)?;
+    kernel.passes.iter_mut().for_each(|pass| pass.fields.push((WEIGHED, POSITION.name.into())));
+    Ok(kernel)
+}
