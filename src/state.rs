@@ -3,6 +3,7 @@
 
 mod append;
 mod basic;
+mod ids;
 mod kept;
 mod life;
 
@@ -13,6 +14,7 @@ use crate::links::Links;
 use crate::motion::{Held, Motion};
 
 use basic::BASIC;
+pub(crate) use ids::distinct;
 use kept::Kept;
 pub(crate) use kept::{EXTENT as KEPT_EXTENT, HOME as KEPT_HOME, KEPT, STEP as KEPT_STEP};
 
@@ -38,6 +40,11 @@ pub struct State {
     pub time: f64,
     /// Steps done.
     pub step: u64,
+    /// Rows for so many particles, so that some can be spawned and removed as it runs; `None`: one for each that there is, and a
+    /// simulation that makes room when it must.
+    pub capacity: Option<u32>,
+    /// No particle has had an id from here on.
+    pub(crate) next: u32,
     /// What the last step kept for the next one.
     pub(crate) kept: Kept,
 }
@@ -66,6 +73,8 @@ impl Default for State {
             drains: Vec::new(),
             time: 0.0,
             step: 0,
+            capacity: None,
+            next: 0,
             kept: Kept::default(),
         }
     }

@@ -24,7 +24,7 @@ fn merge(total: ptr<function, Sum>, part: Sum) {
 fn finish(me: Particle, sum: Sum) -> vec4f {
     let v = velocity_of(me);
     let own = heading(v);
-    let xi = fraction(pcg4d(vec4u(me.index, world.step, params.seed_low, params.seed_high)).x) - 0.5;
+    let xi = fraction(pcg4d(vec4u(id_of(me.index), world.step, params.seed_low, params.seed_high)).x) - 0.5;
     var way = sum.heading + own;
     if params.vectorial == 1u {
         way += (params.eta * f32(sum.neighbors + 1u)) * vec2f(cos(TAU * xi), sin(TAU * xi));

@@ -8,7 +8,7 @@ const TAU: f32 = 6.283185307;
 
 fn force(me: Particle) -> vec4f {
     if !is_of(me.index, params.species) { return vec4f(); }
-    let words = pcg4d(vec4u(me.index, world.step, params.seed_low, params.seed_high));
+    let words = pcg4d(vec4u(id_of(me.index), world.step, params.seed_low, params.seed_high));
     let angle = TAU * (fraction(words.x) - 0.5);
     // Heights of a sphere are uniform (Archimedes); in the plane there is none.
     var z = 0.0;

@@ -71,8 +71,7 @@ impl Component for Vicsek {
         };
         let finish = move |me: &Particle, seen: &Seen, world: &World| {
             let own = heading(me.velocity);
-            let id = u32::try_from(me.index).unwrap_or(u32::MAX);
-            let xi = fraction(pcg4d([id, world.step, low, high])[0]) - 0.5;
+            let xi = fraction(pcg4d([me.id(), world.step, low, high])[0]) - 0.5;
             let sum = seen.heading + own;
             let way = if vectorial {
                 sum + eta * (seen.neighbors + 1.0) * DVec2::from_angle(TAU * xi)

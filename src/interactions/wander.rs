@@ -43,8 +43,7 @@ impl Component for Wander {
             if !kind.has(me) {
                 return DVec4::ZERO;
             }
-            let id = u32::try_from(me.index).unwrap_or(u32::MAX);
-            let random = pcg4d([id, world.step, low, high]);
+            let random = pcg4d([me.id(), world.step, low, high]);
             let angle = TAU * (fraction(random[0]) - 0.5);
             let z = if world.bounds.dimensions == 3 { 2.0 * fraction(random[1]) - 1.0 } else { 0.0 };
             let across = (1.0 - z * z).sqrt();

@@ -37,6 +37,7 @@ pub fn base() -> Vec<Column> {
         Column::new("species", Kind::Whole, "", "of which kind it is, as a number that laws tell apart"),
         Column::new("life", Kind::Whole, "", "whether it takes part: 0 is pending, 1 active, 2 removed")
             .starting([1.0, 0.0, 0.0, 0.0]),
+        Column::new("id", Kind::Whole, "", "the number that stays with the particle; its row, where none is given"),
     ]
 }
 

@@ -16,6 +16,8 @@ pub const SPECIES: Field<u32> = Field::new("species");
 /// Whether a particle takes part, as [`Life::word`](crate::life::Life::word) has it: 0 pending, 1 active, 2 removed. It
 /// is there where particles may be spawned or removed.
 pub const LIFE: Field<u32> = Field::new("life");
+/// The id of a particle. It is there where rows are used again for other particles; elsewhere ids are rows.
+pub const ID: Field<u32> = Field::new("id");
 /// Where held particles with a target shall be, by id: `xyz` the place \[length\], `w` the time at which they shall be there
 /// \[time\]. They go there at constant velocity, and stay; a target whose time is over is reached in the next step. At the start it is where they
 /// are. Write it with [`Simulation::write`](crate::simulation::Simulation::write) whenever a new place is known. It is there

@@ -33,7 +33,7 @@ pub use bounds::{Bounds, Side};
 pub use column::{Advance, Column, Kind, Place, Role, Shape};
 pub use columns::{Columns, base};
 pub use field::{
-    ACCELERATION, ALARM, ALARM_WORDS, Array, Element, Field, HOME, LAW, LIFE, POSITION, QUIET, SPECIES, TARGET,
+    ACCELERATION, ALARM, ALARM_WORDS, Array, Element, Field, HOME, ID, LAW, LIFE, POSITION, QUIET, SPECIES, TARGET,
     VELOCITY,
 };
 pub use host::{Host, Reading, Writing};

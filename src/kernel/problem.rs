@@ -15,6 +15,8 @@ use crate::motion::{self, Held, Motion};
 pub struct Problem {
     /// How many particles.
     pub count: u32,
+    /// Whether ids are a column, apart from rows.
+    pub has_ids: bool,
     /// What the plan will run on.
     pub machine: Machine,
     /// Where particles may be.
@@ -68,6 +70,7 @@ impl Problem {
     pub fn new(count: u32, machine: Machine) -> Self {
         Self {
             count,
+            has_ids: false,
             machine,
             bounds: Bounds::default(),
             extent: (DVec3::ZERO, DVec3::ONE),
@@ -134,6 +137,16 @@ impl Problem {
     #[must_use]
     pub fn active(&self) -> Source {
         if self.has_inactive { crate::shader!("life/active.wgsl") } else { crate::shader!("life/all_active.wgsl") }
+    }
+    /// The same with ids apart from rows, or not.
+    #[must_use]
+    pub fn with_ids(self, has_ids: bool) -> Self {
+        Self { has_ids, ..self }
+    }
+    /// The file with `fn id_of(index: u32) -> u32`.
+    #[must_use]
+    pub fn naming(&self) -> Source {
+        if self.has_ids { crate::shader!("id/column.wgsl") } else { crate::shader!("id/row.wgsl") }
     }
     /// The file with `fn is_held(id: u32) -> bool`, and the table that it reads.
     #[must_use]

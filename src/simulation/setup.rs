@@ -121,6 +121,7 @@ impl Setup {
             .tied(&self.state.all_links(), &self.state.held)
             .moved(&self.state.motions, self.dt)
             .with_life(&self.state.births, &self.state.drains, self.state.has_inactive())
+            .with_ids(self.state.has_ids() || self.state.capacity.is_some())
             .breaking(self.breaks())
             .solved(self.solver)
             .adapted(self.integrator.adaptive_step())

@@ -2,20 +2,21 @@
 
 use super::State;
 use crate::error::Error;
-use crate::kernel::Shape;
+use crate::kernel::{Array, ID, Shape};
 use crate::life::Birth;
 use crate::motion::{Held, Hold};
 
 impl State {
-    /// Adds all particles of another state; their ids follow on. Columns that only one of them gives have their initial values in
+    /// Adds all particles of another state; their ids follow on, whatever they were there. Columns that only one of them gives have their initial values in
     /// the other. Time and step stay.
     ///
     /// # Errors
     /// [`Error::Scene`] when both have a column of one name and different kinds, or one gives a column that every particle must
     /// be given, and the other does not.
     pub fn append(&mut self, other: &Self) -> Result<(), Error> {
-        let (before, added) = (self.len(), other.len());
+        let (before, added, had_ids) = (self.len(), other.len(), self.has_ids());
         let first = u32::try_from(before).unwrap_or(u32::MAX);
+        let next = self.next_id();
         self.kept.clear();
         other.declared().try_for_each(|column| self.declare(column))?;
         for filled in self.columns.iter_mut().filter(|filled| !matches!(filled.column.shape, Shape::System(_))) {
@@ -38,6 +39,10 @@ impl State {
                 }
             }
         }
+        if let (Some(Array::Uint(ids)), false) = (self.get_mut(ID.name), had_ids) {
+            ids[..before].iter_mut().zip(0..).for_each(|(to, id)| *to = id);
+        }
+        self.name_last(added, next);
         self.links.append(&other.links, first);
         let motions = u32::try_from(self.motions.len()).unwrap_or(u32::MAX);
         let by = |by| if let Hold::Motion(n) = by { Hold::Motion(n.saturating_add(motions)) } else { by };
@@ -53,8 +58,8 @@ impl State {
         self.drains.extend_from_slice(&other.drains);
         Ok(())
     }
-    /// The particles of these ids, each named once, in this order, which becomes that of their ids; and of what ties, moves
-    /// and spawns particles all that concerns only these.
+    /// The particles in these places, each named once, in this order, with the ids that they are given; and of what ties, moves and
+    /// spawns particles all that concerns only these.
     #[must_use]
     pub fn picked(&self, order: &[usize]) -> Self {
         let mut picked = self.clone();

@@ -47,6 +47,7 @@ impl State {
     }
     /// Adds a particle of species 0. Other columns get their initial values.
     pub fn push(&mut self, position: DVec3, velocity: DVec3, mass: f64, size: f64) {
+        let next = self.next_id();
         self.kept.clear();
         for (place, (column, values)) in self.particle_columns().enumerate() {
             match (place, values) {
@@ -57,6 +58,7 @@ impl State {
                 (_, values) => values.resize(values.len() + column.shape.len(1), column.initial.unwrap_or_default()),
             }
         }
+        self.name_last(1, next);
     }
     /// The same, all of one species.
     #[must_use]

@@ -14,7 +14,7 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
     let mut files =
         vec![crate::shader!("world.wgsl"), crate::shader!("fields.wgsl"), crate::shader!("particle.wgsl"), visit];
     files.extend(law.alarm_file());
-    files.extend(law.files());
+    files.extend(law.files(problem));
     let shader = Shader::join(&files)?;
     let uniforms = law.uniforms(&shader)?;
     let mut constants = problem.constants(&shader);

@@ -48,7 +48,7 @@ impl Law {
             return Err(Error::Scene(format!("`{}` has no Jacobian of each particle alone", self.name)));
         };
         let own = [crate::shader!("integrators/solve_row.wgsl"), crate::shader!("visit/each_jacobian.wgsl")];
-        let (shader, uniforms) = self.beside(&own)?;
+        let (shader, uniforms) = self.beside(&own, problem)?;
         let mut constants = problem.constants(&shader);
         constants.extend([("FACTOR", factor), ("START", f64::from(u8::from(start)))]);
         let reference = move |host: &Host| {
@@ -82,7 +82,7 @@ impl Law {
     ///
     /// # Errors
     /// When the law has no `jvp` in its WGSL, or that does not compile.
-    pub fn beside(&self, files: &[Source]) -> Result<(Arc<Shader>, Uniforms), Error> {
+    pub fn beside(&self, files: &[Source], problem: &Problem) -> Result<(Arc<Shader>, Uniforms), Error> {
         let signature = match self.over {
             Over::Each => "fn jvp(me: Particle, dx: vec3f, dv: vec3f) -> vec3f",
             _ => "fn jvp(me: Particle, you: Particle, r: vec3f, link: Link, dx: vec3f, dv: vec3f) -> vec3f",
@@ -91,7 +91,7 @@ impl Law {
         let mut all =
             vec![crate::shader!("world.wgsl"), crate::shader!("fields.wgsl"), crate::shader!("particle.wgsl")];
         all.extend_from_slice(files);
-        all.extend(self.files());
+        all.extend(self.files(problem));
         let shader = Shader::join(&all)?;
         // A Jacobian may have no use for the parameters.
         let uniforms = match shader.reflection().binding("params") {

@@ -458,7 +458,7 @@ impl Law {
         (!self.says(&["fn", "acts_on", "("])).then_some(crate::shader!("visit/acts_on_all.wgsl"))
     }
     /// What the law leaves to the usual: a sum of accelerations; and what it calls for.
-    pub(super) fn files(&self) -> Vec<Source> {
+    pub(super) fn files(&self, problem: &Problem) -> Vec<Source> {
         let mut files = vec![self.turns()];
         if self.over != Over::Each && !self.says(&["struct", "Sum", "{"]) {
             files.push(crate::shader!("visit/sum.wgsl"));
@@ -468,6 +468,9 @@ impl Law {
             if called && !files.contains(&file) {
                 files.push(file);
             }
+        }
+        if self.wgsl.says(&["id_of", "("]) && !self.wgsl.says(&["fn", "id_of", "("]) {
+            files.push(problem.naming());
         }
         files.push(self.wgsl.clone());
         files

@@ -68,7 +68,7 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
     }
     files.push(law.result());
     files.extend(law.alarm_file());
-    files.extend(law.files());
+    files.extend(law.files(problem));
     let shader = Shader::join(&files)?;
     let (uniforms, mut constants) = (law.uniforms(&shader)?, problem.constants(&shader));
     constants.extend(law.mark());

@@ -75,7 +75,7 @@ pub fn kernel(law: Law, range: f64, slots: u32, problem: &Problem) -> Result<Ker
         0 => sources.push(crate::shader!("visit/list_plain.wgsl")),
         _ => sources.extend([crate::shader!("neighbors/history.wgsl"), crate::shader!("visit/list_history.wgsl")]),
     }
-    sources.extend(law.files());
+    sources.extend(law.files(problem));
     let shader = Shader::join(&sources)?;
     let (uniforms, mut constants) = (law.uniforms(&shader)?, problem.constants(&shader));
     constants.extend(law.mark());

@@ -95,7 +95,7 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
     sources.extend(law.search.iter().flat_map(|search| search.files.clone()));
     sources.push(law.result());
     sources.extend(law.choice());
-    sources.extend(law.files());
+    sources.extend(law.files(problem));
     // A user's law may have such a function of its own.
     let tables = if law.search.is_some() { problem.hold(&mut sources) } else { Vec::new() };
     let shader = Shader::join(&sources)?;

@@ -52,7 +52,7 @@ fn variant(machine: &Machine) -> Source {
     }
 }
 
-fn join(visit: Source, law: &Law) -> Result<Arc<Shader>, Error> {
+fn join(visit: Source, law: &Law, problem: &Problem) -> Result<Arc<Shader>, Error> {
     let mut files = vec![
         crate::shader!("world.wgsl"),
         crate::shader!("fields.wgsl"),
@@ -64,7 +64,7 @@ fn join(visit: Source, law: &Law) -> Result<Arc<Shader>, Error> {
     files.push(law.result());
     files.extend(law.choice());
     files.extend(law.alarm_file());
-    files.extend(law.files());
+    files.extend(law.files(problem));
     Shader::join(&files)
 }
 
@@ -72,7 +72,7 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
     let (count, machine) = (problem.count, &problem.machine);
     law.requires_meetings()?;
     law.over.range().map_or(Ok(()), checked)?;
-    let shader = join(variant(machine), &law)?;
+    let shader = join(variant(machine), &law, problem)?;
     let reflection = shader.reflection();
     let (targets, block) = (reflection.constant("TARGETS"), reflection.constant("BLOCK"));
     let sources = law.sources(SOURCES, targets, machine.software);
@@ -101,7 +101,7 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
         first = end;
     }
     if !whole {
-        let shader = join(crate::shader!("visit/pairs_finish.wgsl"), &law)?;
+        let shader = join(crate::shader!("visit/pairs_finish.wgsl"), &law, problem)?;
         let mut constants = vec![("LAYERS", f64::from(cut.layers))];
         constants.extend(law.mark());
         // What the parameters are for may all be in `gather`.

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use glam::{DVec3, DVec4, Vec4};
 
 use crate::error::Error;
-use crate::kernel::{Array, Element, Host, LIFE, POSITION, SPECIES, VELOCITY};
+use crate::kernel::{Array, Element, Host, ID, LIFE, POSITION, SPECIES, VELOCITY};
 use crate::life::Life;
 
 /// All particles of a host as they are at a moment: what is written later does not change them.
@@ -70,6 +70,11 @@ impl<'a> View<'a> {
 }
 
 impl Particle<'_> {
+    /// Its id: its index, where the host has no ids.
+    #[must_use]
+    pub fn id(&self) -> u32 {
+        self.whole(ID.name).unwrap_or_else(|| u32::try_from(self.index).unwrap_or(u32::MAX))
+    }
     /// Of which kind it is; 0 where the host has no species.
     #[must_use]
     pub fn species(&self) -> u32 {

@@ -45,7 +45,13 @@ impl Over {
     }
 }
 
-fn join(law: &Law, tree: &Tree, variant: Vec<Source>, alarm: Option<Source>) -> Result<Arc<Shader>, Error> {
+fn join(
+    law: &Law,
+    tree: &Tree,
+    problem: &Problem,
+    variant: Vec<Source>,
+    alarm: Option<Source>,
+) -> Result<Arc<Shader>, Error> {
     let mut files = vec![
         crate::shader!("world.wgsl"),
         crate::shader!("fields.wgsl"),
@@ -61,7 +67,7 @@ fn join(law: &Law, tree: &Tree, variant: Vec<Source>, alarm: Option<Source>) -> 
     files.push(law.result());
     files.extend(law.choice());
     files.extend(alarm);
-    files.extend(law.files());
+    files.extend(law.files(problem));
     Shader::join(&files)
 }
 
@@ -119,7 +125,7 @@ pub fn kernel(law: Law, tree: &Tree, problem: &Problem) -> Result<Kernel, Error>
         )));
     }
     let machine = &law.leaves(&problem.machine);
-    let shader = join(&law, tree, variant(machine), law.alarm_file())?;
+    let shader = join(&law, tree, problem, variant(machine), law.alarm_file())?;
     let params = law.uniforms(&shader)?;
     let mut constants = problem.constants(&shader);
     constants.extend([("GROUP", f64::from(GROUP)), ("LEAF", f64::from(LEAF))]);
@@ -136,7 +142,7 @@ pub fn kernel(law: Law, tree: &Tree, problem: &Problem) -> Result<Kernel, Error>
         None
     } else {
         let rest = vec![crate::shader!("visit/tree_kept.wgsl"), crate::shader!("visit/tree_rest.wgsl")];
-        Some(join(&law, tree, rest, Some(crate::shader!("own/alarm.wgsl")))?)
+        Some(join(&law, tree, problem, rest, Some(crate::shader!("own/alarm.wgsl")))?)
     };
     let mut passes = Vec::new();
     let mut first = 0;

@@ -103,7 +103,7 @@ impl System<'_> {
         let (shader, uniforms) = if let Some(law) = &self.links {
             all.extend([crate::shader!("visit/link_table.wgsl"), crate::shader!("integrators/solve_links.wgsl")]);
             all.extend_from_slice(files);
-            law.beside(&all)?
+            law.beside(&all, self.problem)?
         } else {
             all.splice(
                 0..0,

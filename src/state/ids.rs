@@ -1,0 +1,68 @@
+//! Ids of particles: names that stay with them, whatever row their values lie in.
+
+use std::borrow::Cow;
+use std::collections::BTreeSet;
+
+use super::State;
+use crate::error::Error;
+use crate::kernel::{Array, ID};
+
+impl State {
+    /// The ids of the particles, in the order of their places; 0, 1, 2, … where none are given.
+    #[must_use]
+    pub fn ids(&self) -> Cow<'_, [u32]> {
+        let places = || (0..u32::try_from(self.len()).unwrap_or(u32::MAX)).collect();
+        self.whole(ID.name).map_or_else(|| Cow::Owned(places()), Cow::Borrowed)
+    }
+    /// Whether ids are given, apart from places. Links, fixed particles, births and motions count particles by their places all the
+    /// same.
+    #[must_use]
+    pub fn has_ids(&self) -> bool {
+        self.whole(ID.name).is_some()
+    }
+    /// The place of a particle.
+    #[must_use]
+    pub fn place_of(&self, id: u32) -> Option<usize> {
+        match self.whole(ID.name) {
+            Some(ids) => ids.iter().position(|known| *known == id),
+            None => usize::try_from(id).ok().filter(|place| *place < self.len()),
+        }
+    }
+    /// Gives particles ids, in the order of their places.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] when there are not as many, two are the same, or one is 4294967295, which is none.
+    pub fn set_ids(&mut self, ids: Vec<u32>) -> Result<(), Error> {
+        distinct(&ids)?;
+        self.set(ID.name, Array::Uint(ids))
+    }
+    /// The lowest id that no particle has had: spawned particles get ids from here on.
+    #[must_use]
+    pub fn next_id(&self) -> u32 {
+        let beyond = match self.whole(ID.name) {
+            Some(ids) => ids.iter().max().map_or(0, |id| id.saturating_add(1)),
+            None => u32::try_from(self.len()).unwrap_or(u32::MAX),
+        };
+        beyond.max(self.next)
+    }
+    /// Gives the last `count` particles ids of their own, where ids are given.
+    pub(super) fn name_last(&mut self, count: usize, next: u32) {
+        if let Some(Array::Uint(ids)) = self.get_mut(ID.name) {
+            let first = ids.len().saturating_sub(count);
+            ids[first..].iter_mut().zip(next..).for_each(|(to, id)| *to = id);
+        }
+    }
+}
+
+/// Refuses ids of which two are the same, or one is none.
+///
+/// # Errors
+/// [`Error::Scene`] that names the id.
+pub(crate) fn distinct(ids: &[u32]) -> Result<(), Error> {
+    let mut known = BTreeSet::new();
+    match ids.iter().find(|id| **id == u32::MAX || !known.insert(**id)) {
+        Some(id) if *id == u32::MAX => Err(Error::Scene(format!("a particle has id {id}: ids are below that"))),
+        Some(id) => Err(Error::Scene(format!("two particles have id {id}: give each its own"))),
+        None => Ok(()),
+    }
+}
