@@ -10,6 +10,7 @@ mod pictures;
 mod population;
 mod pressures;
 mod restart;
+mod rows;
 mod setup;
 mod solves;
 mod ties;
@@ -31,6 +32,7 @@ use crate::state::State;
 use columns::Store;
 use glam::DVec3;
 use restart::Carried;
+use rows::Rows;
 use ties::Ties;
 
 /// Particles that move.
@@ -49,6 +51,7 @@ pub struct Simulation<B: Backend> {
     /// Whether a step keeps a report of its solves, and one of those for pressure.
     reports: [bool; 2],
     count: u32,
+    rows: Rows,
     store: Store,
     /// As the setup gave it, and whether springs may have broken since.
     ties: Ties,
@@ -111,6 +114,7 @@ impl<B: Backend> Simulation<B> {
             marks,
             reports,
             count,
+            rows: Rows::of(state, count),
             store,
             ties,
             breaks,

@@ -16,7 +16,7 @@ use crate::motion::{Held, Motion};
 use basic::BASIC;
 pub(crate) use ids::distinct;
 use kept::Kept;
-pub(crate) use kept::{EXTENT as KEPT_EXTENT, HOME as KEPT_HOME, KEPT, STEP as KEPT_STEP};
+pub(crate) use kept::{EXTENT as KEPT_EXTENT, HOME as KEPT_HOME, KEPT, NEXT as KEPT_NEXT, STEP as KEPT_STEP};
 
 /// Particles and all that a run needs to go on with them. Every array has one element per particle, in the order of ids. Units
 /// are the scene's own.
@@ -43,6 +43,8 @@ pub struct State {
     /// Rows for so many particles, so that some can be spawned and removed as it runs; `None`: one for each that there is, and a
     /// simulation that makes room when it must.
     pub capacity: Option<u32>,
+    /// How many of the last places are free rows.
+    pub(crate) free: u32,
     /// No particle has had an id from here on.
     pub(crate) next: u32,
     /// What the last step kept for the next one.
@@ -74,6 +76,7 @@ impl Default for State {
             time: 0.0,
             step: 0,
             capacity: None,
+            free: 0,
             next: 0,
             kept: Kept::default(),
         }

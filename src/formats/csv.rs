@@ -13,7 +13,7 @@ use ::csv::ByteRecord;
 use rayon::prelude::*;
 
 use super::line::Line;
-use super::problems::{Problems, order};
+use super::problems::{Problems, order, ordered};
 use super::rows::{self, Opened};
 use super::titles::{self, Strip, Title};
 use super::{Format, Precision, input, open};
@@ -36,11 +36,11 @@ const SHORT: &str = "m";
 const ID: &str = "id";
 const NAME: &str = "name";
 
-/// Reads a state of these columns. With a column `id` the rows may come in any order; ids count from 0.
+/// Reads a state of these columns. With a column `id` the rows may come in any order; ids that are not 0, 1, 2, … stay with the particles.
 ///
 /// # Errors
 /// [`Error::Input`] that lists, with line and column, every cell that is missing, no number, not finite, or negative where
-/// that makes no sense; every column that is unknown, missing or given twice; every id that is missing or given twice.
+/// that makes no sense; every column that is unknown, missing or given twice; every id that is given twice.
 pub fn read(path: &Path, columns: &Columns) -> Result<State, Error> {
     let (file, _) = open(path)?;
     let mut problems = Problems::default();
@@ -86,7 +86,7 @@ pub fn read(path: &Path, columns: &Columns) -> Result<State, Error> {
     problems.check(path)?;
     let state = titles::state(columns, given, count);
     Ok(match order {
-        Some(order) => state.picked(&order),
+        Some(order) => ordered(&state, &ids, &order),
         None => state,
     })
 }
@@ -209,7 +209,7 @@ pub fn write_csv(mut out: impl Write, state: &State, precision: Precision) -> io
     /// Rows per piece of work, and pieces that are in memory at once: about 16 MB of text.
     const ROWS: usize = 4096;
     const PIECES: usize = 32;
-    let strips = titles::strips(state);
+    let (strips, ids) = (titles::strips(state), state.ids());
     let header = strips.iter().fold(ID.to_owned(), |all, strip| all + "," + &strip.text);
     out.write_all(header.as_bytes())?;
     out.write_all(b"\n")?;
@@ -218,7 +218,7 @@ pub fn write_csv(mut out: impl Write, state: &State, precision: Precision) -> io
         pieces.par_iter_mut().enumerate().for_each(|(piece, text)| {
             text.clear();
             let first = start + piece * ROWS;
-            (first..state.len().min(first + ROWS)).for_each(|id| row(text, id, &strips, precision));
+            (first..state.len().min(first + ROWS)).for_each(|id| row(text, id, ids[id], &strips, precision));
         });
         for text in &pieces {
             out.write_all(text.as_bytes())?;
@@ -227,9 +227,9 @@ pub fn write_csv(mut out: impl Write, state: &State, precision: Precision) -> io
     Ok(())
 }
 
-fn row(text: &mut String, id: usize, strips: &[Strip<'_>], precision: Precision) {
+fn row(text: &mut String, id: usize, name: u32, strips: &[Strip<'_>], precision: Precision) {
     // Writing into a String cannot fail.
-    let _ = write!(text, "{id}");
+    let _ = write!(text, "{name}");
     for strip in strips {
         text.push(',');
         strip.of(id).write(text, precision);

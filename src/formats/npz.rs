@@ -13,12 +13,12 @@ use npyz::zip::{CompressionMethod, DateTime};
 use npyz::{AutoSerialize, Serialize, WriterBuilder};
 
 use super::archive::Arrays;
-use super::problems::{Problems, order};
+use super::problems::{Problems, order, ordered};
 use super::titles::{self, Number, Strip, Title};
 use super::{Format, Precision, input, open};
 use crate::error::Error;
 use crate::kernel::{Array, Column, Columns, Kind, Shape};
-use crate::state::State;
+use crate::state::{KEPT_NEXT, State};
 
 /// Its line in the register.
 pub(super) const FORMAT: Format = Format {
@@ -38,7 +38,7 @@ const PIECE: usize = 1 << 16;
 ///
 /// # Errors
 /// [`Error::Input`] that lists every array that is missing, unknown, of another length than `x`, larger than the file can
-/// hold, not of numbers, not finite, or negative where that makes no sense; and every id that is missing or given twice.
+/// hold, not of numbers, not finite, or negative where that makes no sense; and every id that is given twice.
 pub fn read(path: &Path, columns: &Columns) -> Result<State, Error> {
     let (file, _) = open(path)?;
     let known = titles::all(columns);
@@ -72,7 +72,7 @@ pub fn read(path: &Path, columns: &Columns) -> Result<State, Error> {
         let ids: Vec<u64> = ids.iter().map(|id| whole(*id)).collect();
         let order = order(&ids, |place| format!("id[{place}]"), &mut problems);
         problems.check(path)?;
-        state = state.picked(&order);
+        state = ordered(&state, &ids, &order);
     } else {
         problems.check(path)?;
     }
@@ -85,6 +85,7 @@ pub fn read(path: &Path, columns: &Columns) -> Result<State, Error> {
     // In another order they are not of these particles.
     if ids_in_order {
         kept.into_iter().for_each(|(numbers, name)| state.kept.put(name, numbers));
+        state.take_next();
     }
     Ok(state)
 }
@@ -130,13 +131,16 @@ pub fn write_npz(out: impl Write + Seek, state: &State, precision: Precision) ->
     let mut archive = NpzWriter::new(out);
     put(&mut archive, "time", &[], [state.time.to_le_bytes()], 0.0_f64)?;
     put(&mut archive, "step", &[], [state.step.to_le_bytes()], 0_u64)?;
-    let ids = u32::try_from(count).map_err(|_| io::Error::other(format!("{count} particles; ids have 32 bits")))?;
-    put(&mut archive, "id", &[count], (0..ids).map(u32::to_le_bytes), 0_u32)?;
+    u32::try_from(count).map_err(|_| io::Error::other(format!("{count} particles; ids have 32 bits")))?;
+    put(&mut archive, "id", &[count], state.ids().iter().copied().map(u32::to_le_bytes), 0_u32)?;
     for strip in titles::strips(state) {
         numbers(&mut archive, &strip, state.len(), precision)?;
     }
     for (column, values) in state.columns().filter(|(column, _)| matches!(column.shape, Shape::System(_))) {
         system(&mut archive, column, values)?;
+    }
+    if state.next > 0 {
+        kept(&mut archive, KEPT_NEXT, &[f64::from(state.next)])?;
     }
     for (name, numbers) in state.kept.iter() {
         kept(&mut archive, name, numbers)?;

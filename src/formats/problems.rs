@@ -3,6 +3,8 @@
 use std::path::Path;
 
 use crate::error::Error;
+use crate::kernel::{Array, Columns, ID};
+use crate::state::State;
 
 /// How many problems are spelled out.
 const SHOWN: usize = 20;
@@ -47,11 +49,10 @@ impl Problems {
     }
 }
 
-/// The places of rows in the order of their ids, which must be 0, 1, 2, … without gaps or repeats. `place` names a row.
+/// The places of rows in the order of their ids, each of which must be there once. `place` names a row.
 pub(super) fn order(ids: &[u64], place: impl Fn(usize) -> String, problems: &mut Problems) -> Vec<usize> {
     let mut order: Vec<usize> = (0..ids.len()).collect();
     order.sort_by_key(|row| ids[*row]);
-    let mut expected = 0;
     let mut before = None;
     for row in &order {
         let id = ids[*row];
@@ -59,19 +60,24 @@ pub(super) fn order(ids: &[u64], place: impl Fn(usize) -> String, problems: &mut
             Some(other) if ids[other] == id => {
                 problems.note(|| format!("{}: id {id} again; it is already at {}", place(*row), place(other)));
             }
-            _ => {
-                if id != expected {
-                    let missing = if id - expected == 1 {
-                        format!("id {expected} is")
-                    } else {
-                        format!("ids {expected} to {} are", id - 1)
-                    };
-                    problems.note(|| format!("{}: id {id}, but {missing} missing; ids count from 0", place(*row)));
-                }
-                expected = id.saturating_add(1);
+            _ if id >= u64::from(u32::MAX) => {
+                problems.note(|| format!("{}: id {id}; ids are below {}", place(*row), u32::MAX));
             }
+            _ => {}
         }
         before = Some(*row);
     }
     order
+}
+
+/// The particles of a table in the order of their ids, with these where they are not 0, 1, 2, …
+pub(super) fn ordered(state: &State, ids: &[u64], order: &[usize]) -> State {
+    let mut state = state.picked(order);
+    let ids: Vec<u32> = order.iter().filter_map(|row| u32::try_from(*ids.get(*row)?).ok()).collect();
+    if ids.iter().zip(0..).any(|(id, place)| *id != place)
+        && let Some(column) = Columns::default().get(ID.name)
+    {
+        state.put(column, Some(Array::Uint(ids)));
+    }
+    state
 }

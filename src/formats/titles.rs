@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::fmt::Write as _;
 
 use super::Precision;
-use crate::kernel::{Array, Column, Columns, Kind, LIFE, Shape};
+use crate::kernel::{Array, Column, Columns, ID, Kind, LIFE, Shape};
 use crate::life::Life;
 use crate::state::State;
 
@@ -43,9 +43,14 @@ pub(super) fn titles(column: &Column) -> Vec<Title<'_>> {
     (0..width(column)).map(|place| one((place, text(place)))).collect()
 }
 
-/// The titles of all columns that have a value for each particle.
+/// The columns that have a value for each particle, but ids: formats hold these in their own way.
+fn of_tables(columns: &Columns) -> impl Iterator<Item = &Column> {
+    columns.iter().filter(|column| !matches!(column.shape, Shape::System(_)) && column.name != ID.name)
+}
+
+/// The titles of all columns that have a value for each particle, but ids.
 pub(super) fn all(columns: &Columns) -> Vec<Title<'_>> {
-    columns.iter().filter(|column| !matches!(column.shape, Shape::System(_))).flat_map(titles).collect()
+    of_tables(columns).flat_map(titles).collect()
 }
 
 impl Title<'_> {
@@ -95,7 +100,7 @@ pub(super) fn array(column: &Column, given: &[Option<Vec<f64>>], particles: usiz
 /// A state of the numbers of a file, by the title's place among [`all`]; columns of which it has nothing are not given.
 pub(super) fn state(columns: &Columns, mut given: Vec<Option<Vec<f64>>>, particles: usize) -> State {
     let mut state = State::default();
-    for column in columns.iter().filter(|column| !matches!(column.shape, Shape::System(_))) {
+    for column in of_tables(columns) {
         let rest = given.split_off(width(column));
         let own = std::mem::replace(&mut given, rest);
         let basic = state.get(&column.name).is_some();
@@ -195,7 +200,7 @@ pub(super) fn kept(state: &State) -> Vec<(&Column, &Array)> {
         "size" => state.size().iter().any(|size| *size != 0.0),
         "species" => state.species().iter().any(|species| *species != 0),
         name if name == LIFE.name => (0..state.len()).any(|id| !state.is_active(id)),
-        _ => !matches!(column.shape, Shape::System(_)),
+        name => name != ID.name && !matches!(column.shape, Shape::System(_)),
     };
     state.columns().filter(|(column, _)| usual(column)).collect()
 }

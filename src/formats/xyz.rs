@@ -10,7 +10,7 @@ use std::fs::File;
 use std::io::{self, BufRead, BufReader, Write};
 use std::path::Path;
 
-use super::problems::{Problems, order};
+use super::problems::{Problems, order, ordered};
 use super::titles;
 use super::{Format, Precision, input, open};
 use crate::error::Error;
@@ -84,11 +84,11 @@ pub fn write_xyz(mut out: impl Write, state: &State, precision: Precision) -> io
     writeln!(out, "{}", state.len())?;
     writeln!(out, "Properties={properties} pbc=\"F F F\" Time={:?} Step={}", state.time, state.step)?;
     let strips: Vec<_> = titles::strips(state).into_iter().filter(|strip| strip.text != "species").collect();
-    let mut line = String::new();
-    for id in 0..state.len() {
+    let (mut line, ids) = (String::new(), state.ids());
+    for (id, name) in ids.iter().enumerate() {
         line.clear();
         let species = state.species().get(id).copied().unwrap_or(0);
-        let _ = write!(line, "{} {id}", elements[species as usize]);
+        let _ = write!(line, "{} {name}", elements[species as usize]);
         for strip in &strips {
             line.push(' ');
             strip.of(id).write(&mut line, precision);
@@ -186,11 +186,11 @@ pub fn read(path: &Path, columns: &Columns) -> Result<State, Error> {
     if after.is_some() {
         problems.note(|| format!("line {}: a second frame begins; one state is one frame: give the file of one", count + 3));
     }
-    let ordered = (ids.len() == count && problems.none()).then(|| order(&ids, |row| format!("line {}", row + 3), &mut problems));
+    let places = (ids.len() == count && problems.none()).then(|| order(&ids, |row| format!("line {}", row + 3), &mut problems));
     problems.check(path)?;
     let mut state = titles::state(columns, given, count);
-    if let Some(order) = ordered.filter(|order| order.len() == count && !ids.is_empty()) {
-        state = state.picked(&order);
+    if let Some(order) = places.filter(|order| order.len() == count && !ids.is_empty()) {
+        state = ordered(&state, &ids, &order);
     }
     state.time = said("Time").and_then(|text| text.parse().ok()).filter(|time: &f64| time.is_finite()).unwrap_or(0.0);
     state.step = said("Step").and_then(|text| text.parse().ok()).unwrap_or(0);

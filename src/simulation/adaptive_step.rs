@@ -79,7 +79,8 @@ impl<B: Backend> Simulation<B> {
     /// What reading says.
     pub async fn clock(&mut self) -> Result<Option<Clock>, Error> {
         let Some(words) = self.words().await? else { return Ok(None) };
-        let clock = Clock::of(&words, self.dt);
+        let mut clock = Clock::of(&words, self.dt);
+        clock.particle = clock.particle.map(|row| self.named(row));
         self.steps = clock.steps;
         Ok(Some(clock))
     }
@@ -126,7 +127,11 @@ impl<B: Backend> Simulation<B> {
         if words[6] == u32::MAX {
             return Ok(());
         }
-        let particle = if words[8] == u32::MAX { "all particles".to_owned() } else { format!("particle {}", words[8]) };
+        let particle = if words[8] == u32::MAX {
+            "all particles".to_owned()
+        } else {
+            format!("particle {}", self.named(words[8]))
+        };
         Err(Error::TooShort {
             step: u64::from(words[6]),
             wanted: self.dt / f64::from(f32::from_bits(words[9])),

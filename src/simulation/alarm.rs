@@ -43,6 +43,7 @@ impl<B: Backend> Simulation<B> {
             self.check_list().await?;
         }
         if fast != u32::MAX && fast <= done && cut == u32::MAX && endless == u32::MAX {
+            let particle = self.named(particle);
             return Err(Error::Runaway { particle, step: u64::from(fast.saturating_sub(1)) });
         }
         self.sound(&alarm)?;
@@ -66,8 +67,9 @@ impl<B: Backend> Simulation<B> {
         }
         if done != u32::MAX {
             // The first look comes before the first step, every other one after a step that is done.
+            let particle = self.named(particle);
             return Err(Error::NotFinite { particle, step: u64::from(done.saturating_sub(1)) });
         }
-        if crowded == u32::MAX { Ok(()) } else { Err(Error::TooManyNeighbors { particle: crowded }) }
+        if crowded == u32::MAX { Ok(()) } else { Err(Error::TooManyNeighbors { particle: self.named(crowded) }) }
     }
 }

@@ -8,7 +8,7 @@ use super::{Plans, Setup, Simulation};
 use crate::boundary;
 use crate::error::Error;
 use crate::kernel::{
-    ACCELERATION, Array, Backend, Column, Columns, HOME, Kind, LIFE, Name, POSITION, Role, TARGET, VELOCITY, insert,
+    ACCELERATION, Array, Backend, Column, Columns, HOME, ID, Kind, LIFE, Name, POSITION, Role, TARGET, VELOCITY, insert,
 };
 use crate::motion::{Held, Hold};
 use crate::state::State;
@@ -121,6 +121,7 @@ impl<B: Backend> Simulation<B> {
         if !self.store.lies_on_device(&column) {
             return match self.store.idle.get(&column.name) {
                 Some(values) => Ok(values.clone()),
+                None if column.name == ID.name => Ok(Array::Uint((0..self.count).collect())),
                 None if column.role == Role::State => Ok(column.array(self.count as usize)),
                 None => Err(Error::Scene(format!(
                     "nothing computes the column `{name}`: add a force that writes it, or leave it out"
@@ -189,8 +190,8 @@ impl<B: Backend> Simulation<B> {
             } else {
                 Some(self.read_column(&column.name).await?)
             };
-            // There is no such column where all are active.
-            if values.is_some() || column.name != LIFE.name {
+            // There is no such column where all are active, and none where ids are rows.
+            if values.is_some() || column.name != LIFE.name && column.name != ID.name {
                 state.put(column, values);
             }
         }

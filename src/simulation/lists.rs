@@ -36,7 +36,7 @@ impl<B: Backend> Simulation<B> {
         match u32::view(&state).map(Vec::as_slice) {
             Some([_, _, longest, full]) if *full > 0 => {
                 let (longest, capacity, reach) = (*longest, shape.capacity, shape.reach());
-                Err(Error::ListFull { particle: !full, longest, capacity, reach })
+                Err(Error::ListFull { particle: self.named(!full), longest, capacity, reach })
             }
             _ => Ok(()),
         }

@@ -13,7 +13,7 @@ use crate::boundary;
 use crate::error::Error;
 use crate::integrators::{SOLVE_REPORT, kept_rates};
 use crate::kernel::{
-    ALARM, Array, Backend, Column, Columns, HOME, LARGEST_CRITERION, LIFE, Plan, QUIET, Role, STEP_CLOCK,
+    ALARM, Array, Backend, Column, Columns, HOME, ID, LARGEST_CRITERION, LIFE, Plan, QUIET, Role, STEP_CLOCK,
     STEP_CLOCK_WORDS, STEP_CRITERIA, TICKS, World, extent, split,
 };
 use crate::links::Links;
@@ -145,6 +145,7 @@ fn of_columns(state: &State) -> u64 {
         "size" => state.size().iter().any(|size| *size != 0.0),
         "species" => state.species().iter().any(|species| *species != 0),
         name if name == LIFE.name => (0..state.len()).any(|id| !state.is_active(id)),
+        name if name == ID.name => !state.ids_are_places(),
         _ => column.role == Role::State,
     };
     let one = |(column, values): (&Column, &Array)| {

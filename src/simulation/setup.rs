@@ -11,7 +11,7 @@ use crate::kernel::{Array, Bounds, Column, Columns, ListShape, Machine, Plan, So
 use crate::life;
 use crate::motion::{self, Hold};
 use crate::sph::{Start, Still};
-use crate::state::State;
+use crate::state::{State, distinct};
 
 /// What a simulation is made of.
 pub struct Setup {
@@ -280,6 +280,9 @@ impl Setup {
         self.done()?;
         self.complete()?;
         self.fluids()?;
+        if state.has_ids() {
+            distinct(&state.ids()[..count.saturating_sub(state.free as usize)])?;
+        }
         links.check(mass)?;
         self.solver.check()?;
         if let Some(adaptive_step) = self.integrator.adaptive_step() {

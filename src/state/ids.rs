@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::collections::BTreeSet;
 
-use super::State;
+use super::{KEPT_NEXT, State};
 use crate::error::Error;
 use crate::kernel::{Array, ID};
 
@@ -19,6 +19,11 @@ impl State {
     #[must_use]
     pub fn has_ids(&self) -> bool {
         self.whole(ID.name).is_some()
+    }
+    /// Whether ids are places: 0, 1, 2, … without gaps.
+    #[must_use]
+    pub fn ids_are_places(&self) -> bool {
+        self.whole(ID.name).is_none_or(|ids| ids.iter().zip(0..).all(|(id, place)| *id == place))
     }
     /// The place of a particle.
     #[must_use]
@@ -44,6 +49,12 @@ impl State {
             None => u32::try_from(self.len()).unwrap_or(u32::MAX),
         };
         beyond.max(self.next)
+    }
+    /// Takes the counter of ids out of what a file kept.
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
+    pub(crate) fn take_next(&mut self) {
+        self.next = self.kept.get(KEPT_NEXT).and_then(|list| list.first()).map_or(0, |next| *next as u32);
+        self.kept.put(KEPT_NEXT, Vec::new());
     }
     /// Gives the last `count` particles ids of their own, where ids are given.
     pub(super) fn name_last(&mut self, count: usize, next: u32) {

@@ -23,6 +23,9 @@ pub(crate) const STEP: &str = "kept_step";
 /// What goes on where positions and velocities are changed by a caller: it says nothing of them.
 const LASTING: [&str; 3] = [HOME, BROKEN, "kept_step_clock"];
 
+/// The id from which on no particle has had one, in files.
+pub(crate) const NEXT: &str = "kept_next_id";
+
 /// Where held particles were at time 0, in groups of seven numbers: the id, that place, and where they are.
 pub(crate) const HOME: &str = "kept_home";
 /// Springs that have broken, in groups of three numbers: the ids of the two, and the rest length, negative for a rope.
