@@ -1,5 +1,5 @@
 // Random numbers by counting (pcg4d; Jarzynski & Olano, JCGT 9(3), 2020), for a law that calls for them: four new words for
-// every counter, the same on every device.
+// every counter, the same on every device. Count with `id_of(me.index)`: rows may be used again for other particles.
 fn pcg4d(counter: vec4u) -> vec4u {
     var v = counter * 1664525u + vec4u(1013904223u);
     v = mixed(v);

@@ -52,6 +52,29 @@ fn a_single_survives_rounding_twice() {
     assert_eq!(narrow(&read(&path).expect("csv")), narrow(&particles));
 }
 
+#[test]
+fn ids_that_are_not_places_stay_with_their_particles() {
+    let mut particles = some(4);
+    particles.set_ids(vec![2, 3, 7, 4_000_000_000]).expect("four ids");
+    let folder = folder();
+    let files = [
+        ("a.csv", csv_bytes(&particles, Precision::Double)),
+        ("a.npz", npz_bytes(&particles, Precision::Double)),
+        ("a.xyz", xyz_bytes(&particles, Precision::Double)),
+    ];
+    for (name, bytes) in files {
+        let back = read(&put(&folder, name, bytes)).expect(name);
+        assert_eq!((bits(&back), back.ids()), (bits(&particles), particles.ids()), "{name}");
+    }
+    // Rows in another order are sorted.
+    let text = "id,x,y,z\n9,3,0,0\n4,1,0,0\n7,2,0,0\n";
+    let sorted = read(&put(&folder, "b.csv", text)).expect("three");
+    assert_eq!((sorted.ids().to_vec(), sorted.position()[2].x), (vec![4, 7, 9], 3.0));
+    // Those that are places are not kept.
+    let plain = read(&put(&folder, "c.csv", csv_bytes(&some(3), Precision::Double))).expect("three");
+    assert!(!plain.has_ids() && plain.ids().to_vec() == [0, 1, 2]);
+}
+
 /// The same, of some species.
 fn kinds(mut particles: State, kinds: &[u32]) -> State {
     particles.species_mut().iter_mut().zip(kinds).for_each(|(species, kind)| *species = *kind);

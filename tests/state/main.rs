@@ -2,6 +2,7 @@
 
 mod columns;
 mod commands;
+mod ids;
 mod restarts;
 #[path = "../support/mod.rs"]
 mod support;
