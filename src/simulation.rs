@@ -114,7 +114,7 @@ impl<B: Backend> Simulation<B> {
             marks,
             reports,
             count,
-            rows: Rows::of(state, count),
+            rows: Rows::of(state),
             store,
             ties,
             breaks,

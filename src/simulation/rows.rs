@@ -1,115 +1,34 @@
-//! Which particle is in which row, and which rows are free. Rows are used again, and ids are not.
-
-use std::collections::{BTreeMap, BTreeSet};
+//! Which particle is in which row.
 
 use super::Simulation;
 use crate::kernel::Backend;
 use crate::state::State;
 
-/// The id of no particle.
-pub(super) const NONE: u32 = u32::MAX;
-
 /// The particles in the rows of a simulation.
 pub(super) struct Rows {
-    /// The id of each row, where ids are not rows; [`NONE`] in free ones.
+    /// The id of each row, where ids are not rows.
     ids: Option<Vec<u32>>,
-    /// The row of each id, likewise.
-    places: BTreeMap<u32, u32>,
-    free: BTreeSet<u32>,
-    /// How many rows there are.
-    capacity: u32,
-    /// No particle has had an id from here on.
-    next: u32,
 }
 
 impl Rows {
-    /// Those of a state that has one for each row; `free` of them at the end are free.
-    pub fn of(state: &State, capacity: u32) -> Self {
-        let used = capacity.saturating_sub(state.free);
-        let ids = state.has_ids().then(|| state.ids().into_owned());
-        let named = ids.iter().flatten().copied().zip(0..used);
-        Self { places: named.collect(), ids, free: (used..capacity).collect(), capacity, next: state.next_id() }
+    /// Those of a state.
+    pub fn of(state: &State) -> Self {
+        Self { ids: state.has_ids().then(|| state.ids().into_owned()) }
     }
-    /// How many rows there are.
-    pub fn capacity(&self) -> u32 {
-        self.capacity
-    }
-    /// The first rows that hold particles, or did: those behind them are free.
-    pub fn used(&self) -> u32 {
-        let mut used = self.capacity;
-        while used > 0 && self.free.contains(&(used - 1)) {
-            used -= 1;
-        }
-        used
-    }
-    /// Whether ids are a column, so that particles can come and go.
-    pub fn are_named(&self) -> bool {
-        self.ids.is_some()
-    }
-    /// The id of the particle in a row; what is no row has none.
+    /// The id of the particle in a row.
     pub fn id(&self, row: u32) -> u32 {
-        self.ids.as_ref().map_or(row, |ids| ids.get(row as usize).copied().unwrap_or(NONE))
-    }
-    /// The row of a particle.
-    pub fn row(&self, id: u32) -> Option<u32> {
-        if self.ids.is_some() { self.places.get(&id).copied() } else { Some(id).filter(|row| *row < self.capacity) }
-    }
-    /// Whether a row is free.
-    pub fn is_free(&self, row: u32) -> bool {
-        self.free.contains(&row)
-    }
-    /// How many rows are free.
-    pub fn room(&self) -> usize {
-        self.free.len()
-    }
-    /// The id that the next particle gets.
-    pub fn next(&self) -> u32 {
-        self.next
-    }
-    /// The lowest free rows for so many new particles, and their ids; nothing changes yet.
-    pub fn planned(&self, count: u32) -> (Vec<u32>, Vec<u32>) {
-        (
-            self.free.iter().copied().take(count as usize).collect(),
-            (self.next..self.next.saturating_add(count)).collect(),
-        )
-    }
-    /// Puts particles into rows.
-    pub fn fill(&mut self, rows: &[u32], ids: &[u32]) {
-        for (row, id) in rows.iter().zip(ids) {
-            self.free.remove(row);
-            self.places.insert(*id, *row);
-            self.ids.iter_mut().filter_map(|ids| ids.get_mut(*row as usize)).for_each(|place| *place = *id);
-            self.next = self.next.max(id.saturating_add(1));
-        }
-    }
-    /// Frees rows.
-    pub fn clear(&mut self, rows: &[u32]) {
-        for row in rows {
-            let id = self.id(*row);
-            self.places.remove(&id);
-            self.free.insert(*row);
-            self.ids.iter_mut().filter_map(|ids| ids.get_mut(*row as usize)).for_each(|place| *place = NONE);
-        }
+        self.ids.as_ref().and_then(|ids| ids.get(row as usize).copied()).unwrap_or(row)
     }
 }
 
 impl<B: Backend> Simulation<B> {
-    /// The ids of particles, row by row, as [`Simulation::read`] gives their values; `None` in free rows.
+    /// The ids of particles, row by row, as [`Simulation::read`] gives their values.
     #[must_use]
-    pub fn ids(&self) -> Vec<Option<u32>> {
-        (0..self.count()).map(|row| Some(self.rows.id(row)).filter(|id| *id != NONE)).collect()
-    }
-    /// The row of a particle, as [`Simulation::read`] counts them; `None` where it is unknown, or has been removed. Its row stays the
-    /// same while it takes part.
-    #[must_use]
-    pub fn row_of(&self, id: u32) -> Option<u32> {
-        self.rows.row(id)
+    pub fn ids(&self) -> Vec<u32> {
+        (0..self.count()).map(|row| self.rows.id(row)).collect()
     }
     /// The name by which messages know the particle in a row.
     pub(super) fn named(&self, row: u32) -> u32 {
-        match self.rows.id(row) {
-            NONE => row,
-            id => id,
-        }
+        self.rows.id(row)
     }
 }
