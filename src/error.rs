@@ -9,6 +9,14 @@ pub enum Error {
     /// The scene (or the caller's setup) asks for something that makes no sense. Mended in the scene or by the caller.
     #[error("{0}")]
     Scene(String),
+    /// The same, and which key of a component says it.
+    #[error("{why}")]
+    Setting {
+        /// The key.
+        key: &'static str,
+        /// What is wrong, with the number and the way out.
+        why: String,
+    },
     /// A file of particles cannot be read. Mended in that file.
     #[error("{}: {message}", file.display())]
     Input {
@@ -156,7 +164,7 @@ impl Error {
     #[must_use]
     pub fn exit_code(&self) -> u8 {
         match self {
-            Self::Scene(_) | Self::Shader { .. } => 3,
+            Self::Scene(_) | Self::Setting { .. } | Self::Shader { .. } => 3,
             Self::Input { .. } => 4,
             Self::NoAdapter(_) | Self::Limit(_) => 5,
             Self::NotFinite { .. }

@@ -82,18 +82,26 @@ pub struct Key {
     pub default: Option<Value>,
     /// One line: what it means, and its unit.
     pub about: &'static str,
+    /// Whether it says something of a scene's fluid: the force says it for shapes and emitters that leave it out.
+    pub of_fluid: bool,
 }
 
 impl Key {
+    /// The same, of the scene's fluid.
+    #[must_use]
+    pub const fn of_fluid(mut self) -> Self {
+        self.of_fluid = true;
+        self
+    }
     /// A key with a default.
     #[must_use]
     pub const fn new(name: &'static str, kind: Kind, default: Value, about: &'static str) -> Self {
-        Self { name, kind, default: Some(default), about }
+        Self { name, kind, default: Some(default), about, of_fluid: false }
     }
     /// A key that must be given.
     #[must_use]
     pub const fn required(name: &'static str, kind: Kind, about: &'static str) -> Self {
-        Self { name, kind, default: None, about }
+        Self { name, kind, default: None, about, of_fluid: false }
     }
 }
 

@@ -138,7 +138,7 @@ pub async fn sweep(args: &CompareArgs, found: &gpu::Found) -> Result<(), Failure
 fn gravity(args: &CompareArgs) -> Result<usize, Failure> {
     let mut scene = load(args, &[])?;
     let setup = engine::setup(&mut scene);
-    let has = |law: motes::forces::Law| law.name.starts_with("gravity");
+    let has = |law: motes::forces::Law| law.distant.sample.is_some();
     let found = setup.forces.iter().position(|force| force.laws().into_iter().any(has));
     found.ok_or_else(|| {
         motes::Error::Scene(format!("{} has no gravity: --theta compares what a tree makes of that", scene.name)).into()

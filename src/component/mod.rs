@@ -11,7 +11,7 @@ pub(crate) use register::components;
 use glam::DVec3;
 
 use crate::error::Error;
-use crate::kernel::{Column, Plan, Problem, Way};
+use crate::kernel::{Bounds, Column, Plan, Problem, Way};
 use crate::neighbors::Grid;
 use crate::settings::{Key, Settings};
 use crate::solids::Standing;
@@ -31,6 +31,13 @@ pub trait Component: Send + Sync {
     /// What it says of itself, as its settings have it.
     fn properties(&self) -> Properties {
         Properties::default()
+    }
+    /// Refuses settings that make no sense together, or in such a box.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] with the key, or [`Error::Scene`].
+    fn check(&self, _bounds: &Bounds) -> Result<(), Error> {
+        Ok(())
     }
     /// What it says of itself in a problem.
     ///

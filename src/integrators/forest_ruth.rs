@@ -12,6 +12,9 @@ impl Integrator for ForestRuth {
     fn order(&self) -> u32 {
         4
     }
+    fn is_symplectic(&self) -> bool {
+        true
+    }
     fn step(&self, s: &mut Step) {
         s.drift(THETA / 2.0);
         s.at(THETA / 2.0);

@@ -10,6 +10,9 @@ impl Integrator for ImplicitMidpoint {
     fn order(&self) -> u32 {
         2
     }
+    fn is_symplectic(&self) -> bool {
+        true
+    }
     /// Of laws that offer their Jacobian; it is 1 for others.
     fn order_with_velocity(&self) -> u32 {
         2

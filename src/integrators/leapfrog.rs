@@ -10,6 +10,9 @@ impl Integrator for Leapfrog {
     fn order(&self) -> u32 {
         2
     }
+    fn is_symplectic(&self) -> bool {
+        true
+    }
     fn start(&self, s: &mut Step) {
         s.evaluate();
     }

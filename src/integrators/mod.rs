@@ -25,6 +25,10 @@ pub trait Integrator: Send + Sync {
     fn is_implicit(&self) -> bool {
         false
     }
+    /// Whether it is symplectic in steps that are all alike: energy stays in bounds.
+    fn is_symplectic(&self) -> bool {
+        false
+    }
     /// Whether it damps what it cannot follow, however long its steps are.
     fn damps_at_any_step(&self) -> bool {
         false

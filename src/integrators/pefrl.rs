@@ -15,6 +15,9 @@ impl Integrator for Pefrl {
     fn order(&self) -> u32 {
         4
     }
+    fn is_symplectic(&self) -> bool {
+        true
+    }
     fn step(&self, s: &mut Step) {
         s.drift(XI);
         s.at(XI);

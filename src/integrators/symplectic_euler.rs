@@ -9,6 +9,9 @@ impl Integrator for SymplecticEuler {
     fn order(&self) -> u32 {
         1
     }
+    fn is_symplectic(&self) -> bool {
+        true
+    }
     fn step(&self, s: &mut Step) {
         s.evaluate();
         s.kick(1.0);

@@ -9,15 +9,15 @@ use crate::error::Error;
 use crate::sph::{
     self, Asked, COURANT, Continuity, Continuum, Dfsph, Friction, Limits, Medium, Rates, Smoothing, Tension, WallMass, Walls,
 };
-use crate::kernel::{Column, Plan};
+use crate::kernel::{Bounds, Column, Plan};
 use crate::settings::{Key, Kind, Settings, Value};
 
 /// What a scene may say.
 pub const KEYS: &[Key] = &[
-    Key::new("density", Kind::Positive, Value::Number(1000.0), "the density at rest [mass / length³, or mass / length² in two dimensions]"),
-    Key::required("spacing", Kind::Positive, "how far apart particles are at rest, on a cubic lattice [length]"),
-    Key::new("support", Kind::Positive, Value::Number(2.0), "how far the kernel reaches [spacings]"),
-    Key::new("kernel", Kind::Choice(Smoothing::NAMES), Value::Text(Cow::Borrowed("cubic")), "what smooths: the cubic spline, or Wendland's C2"),
+    Key::new("density", Kind::Positive, Value::Number(1000.0), "the density at rest [mass / length³, or mass / length² in two dimensions]").of_fluid(),
+    Key::required("spacing", Kind::Positive, "how far apart particles are at rest, on a cubic lattice [length]").of_fluid(),
+    Key::new("support", Kind::Positive, Value::Number(2.0), "how far the kernel reaches [spacings]").of_fluid(),
+    Key::new("kernel", Kind::Choice(Smoothing::NAMES), Value::Text(Cow::Borrowed("cubic")), "what smooths: the cubic spline, or Wendland's C2").of_fluid(),
     Key::new("solver", Kind::Choice(&["wcsph", "dfsph"]), Value::Text(Cow::Borrowed("wcsph")), "pressure by an equation of state, or solved for (Bender & Koschier 2015)"),
     Key::new("sound_speed", Kind::NotNegative, Value::Number(0.0), "wcsph: the speed of sound: ten times the fastest flow makes the density vary by 1 % [length / time]"),
     Key::new("gamma", Kind::Count, Value::Number(7.0), "the exponent of Tait's equation p = (ρ₀ c² / γ) ((ρ/ρ₀)^γ − 1), 2 to 15"),
@@ -27,7 +27,7 @@ pub const KEYS: &[Key] = &[
     Key::new("xsph", Kind::NotNegative, Value::Number(0.0), "ε of XSPH: how much of the mean velocity around is taken on in each step (Schechter & Bridson 2012)"),
     Key::new("wall_friction", Kind::NotNegative, Value::Number(1.0), "how much of both viscosities walls have; 0 lets slip"),
     Key::new("walls", Kind::Choice(WALLS), Value::Text(Cow::Borrowed("mirror")), "the pressure of walls: that of the particle at the wall (Akinci et al. 2012), or that of the fluid around them (Adami, Hu & Adams 2012, as if they were not accelerated)"),
-    Key::new("wall_mass", Kind::Choice(WALL_MASS), Value::Text(Cow::Borrowed("sampled")), "what walls weigh: by how close they are, for one layer (Akinci et al. 2012), or each a share of the lattice, for several"),
+    Key::new("wall_mass", Kind::Choice(WALL_MASS), Value::Text(Cow::Borrowed("sampled")), "what walls weigh: by how close they are, for one layer (Akinci et al. 2012), or each a share of the lattice, for several").of_fluid(),
     Key::new("density_by", Kind::Choice(DENSITY_BY), Value::Text(Cow::Borrowed("summation")), "where density comes from: masses around, or the continuity equation (Monaghan 1994), which knows of no surface"),
     Key::new("diffusion", Kind::NotNegative, Value::Number(0.0), "δ of the diffusion of density by continuity, 0.1 say (Molteni & Colagrossi 2009)"),
     Key::new("weight", Kind::Vector, Value::Vector(DVec3::ZERO), "the acceleration of weight that a force gives, so that diffusion (Fourtakas et al. 2019) and walls leave a fluid at rest alone [length / time²]"),
@@ -56,26 +56,25 @@ impl Fluid {
     /// What flows, in the box of a problem.
     ///
     /// # Errors
-    /// [`Error::Scene`] when there is no such fluid.
-    pub fn medium(&self, problem: &Problem) -> Result<Medium, Error> {
+    /// [`Error::Setting`] when there is no such fluid.
+    pub fn medium(&self, bounds: &Bounds) -> Result<Medium, Error> {
         let number = |name| self.0.number(name);
         let exponent = u32::try_from(self.0.whole("gamma")).unwrap_or(u32::MAX);
         if !(2..=15).contains(&exponent) {
-            return Err(Error::Scene(format!("a fluid has gamma = {exponent}: Tait's exponent is a whole number from 2 to 15; water has 7")));
+            return Err(Error::Setting { key: "gamma", why: format!("a fluid has gamma = {exponent}: Tait's exponent is a whole number from 2 to 15; water has 7") });
         }
         let support = number("support");
         if !(1.5..=6.0).contains(&support) {
-            return Err(Error::Scene(format!(
+            return Err(Error::Setting { key: "support", why: format!(
                 "a fluid has support = {support} spacings: with less than 1.5 particles do not meet, and more than 6 are hundreds \
                  of neighbours; say 2 to 3"
-            )));
+            ) });
         }
         let solves = self.solves();
         if !solves && number("sound_speed") == 0.0 {
-            return Err(Error::Scene(
+            return Err(Error::Setting { key: "solver", why: 
                 "a fluid has no sound_speed: give ten times the speed of the fastest flow, or solver = \"dfsph\", which needs none"
-                    .to_owned(),
-            ));
+                    .to_owned() });
         }
         let medium = Medium {
             density: number("density"),
@@ -85,7 +84,7 @@ impl Fluid {
             sound: if solves { 0.0 } else { number("sound_speed") },
             exponent,
             negative: self.0.flag("negative_pressure"),
-            dimensions: problem.bounds.dimensions,
+            dimensions: bounds.dimensions,
         };
         medium.check()?;
         Ok(medium)
@@ -126,20 +125,19 @@ impl Fluid {
     fn continuity(&self) -> Result<Option<Continuity>, Error> {
         let diffusion = self.0.number("diffusion");
         if self.solves() && (self.0.text("density_by") == "continuity" || self.0.text("walls") == "extrapolate") {
-            return Err(Error::Scene(
+            return Err(Error::Setting { key: "solver", why: 
                 "a fluid with solver = \"dfsph\" has its density by summation, and its walls have the pressure of the particles that press on \
                  them: leave out density_by = \"continuity\" and walls = \"extrapolate\", or say solver = \"wcsph\""
-                    .to_owned(),
-            ));
+                    .to_owned() });
         }
         if self.0.text("density_by") == "continuity" {
             return Ok(Some(Continuity { diffusion, weight: self.0.vector("weight") }));
         }
         if diffusion > 0.0 {
-            return Err(Error::Scene(format!(
+            return Err(Error::Setting { key: "diffusion", why: format!(
                 "a fluid has diffusion = {diffusion} of a density by summation, which has no state to diffuse: say \
                  density_by = \"continuity\", or diffusion = 0"
-            )));
+            ) });
         }
         Ok(None)
     }
@@ -178,9 +176,14 @@ impl Component for Fluid {
             ..Properties::default()
         }
     }
+    fn check(&self, bounds: &Bounds) -> Result<(), Error> {
+        let medium = self.medium(bounds)?;
+        self.continuity()?;
+        medium.fits(bounds)
+    }
     fn resolved(&self, problem: &Problem) -> Result<Resolved, Error> {
-        let (medium, continuity) = (self.medium(problem)?, self.continuity()?);
-        medium.fits(&problem.bounds)?;
+        self.check(&problem.bounds)?;
+        let (medium, continuity) = (self.medium(&problem.bounds)?, self.continuity()?);
         let weighs = self.walls() != Walls::Mirror || continuity.is_some_and(|its| its.diffusion > 0.0);
         let weight = weighs.then(|| self.0.vector("weight"));
         let fluid = Continuum { medium, walls: self.wall_mass(), summed: continuity.is_none(), weight };
@@ -198,7 +201,7 @@ impl Component for Fluid {
             Stage::Evaluate { .. } => self.evaluate(plan, problem),
             Stage::Carry { .. } => self.carry(plan, problem),
             Stage::StepLimit => self.limit_steps(plan, problem),
-            Stage::EndOfStep if self.solves() => self.dfsph(self.medium(problem)?, problem)?.conclude(plan),
+            Stage::EndOfStep if self.solves() => self.dfsph(self.medium(&problem.bounds)?, problem)?.conclude(plan),
             Stage::AfterKick | Stage::AfterDrift { .. } | Stage::AfterAdvance { .. } | Stage::EndOfStep => Ok(()),
         }
     }
@@ -206,7 +209,7 @@ impl Component for Fluid {
 
 impl Fluid {
     fn begin(&self, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
-        let medium = self.medium(problem)?;
+        let medium = self.medium(&problem.bounds)?;
         if !problem.held.is_empty() {
             plan.add(medium.grid(problem)?.kernel(problem, true)?);
             plan.add(sph::walls(&medium, self.wall_mass(), problem)?);
@@ -214,12 +217,12 @@ impl Fluid {
         Ok(())
     }
     fn limit_steps(&self, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
-        let medium = self.medium(problem)?;
+        let medium = self.medium(&problem.bounds)?;
         let limits = Limits { sound: (!self.solves()).then_some(medium.sound), alpha: self.friction().alpha };
         sph::limits(&medium, limits, plan, problem)
     }
     fn evaluate(&self, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
-        let medium = self.medium(problem)?;
+        let medium = self.medium(&problem.bounds)?;
         let (friction, solves) = (self.friction(), self.solves());
         let (xsph, tension) = (self.0.number("xsph"), self.tension());
         // Where pressure is solved for, sound and with it the pressure of a state are none: friction and tension are left.
@@ -253,7 +256,7 @@ impl Fluid {
     /// The rate of a density that is carried along with positions.
     fn carry(&self, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
         if let Some(continuity) = self.continuity()? {
-            plan.add(sph::rate(&self.medium(problem)?, continuity, problem)?.kernel(problem)?);
+            plan.add(sph::rate(&self.medium(&problem.bounds)?, continuity, problem)?.kernel(problem)?);
         }
         Ok(())
     }

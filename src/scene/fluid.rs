@@ -1,31 +1,29 @@
 //! What the force of a fluid says for the shapes and emitters that make it: one lattice for all.
 
 use crate::error::Error;
-use crate::forces::{self, Component, Problem};
-use crate::kernel::{Bounds, Machine};
+use crate::forces::{self, Component};
+use crate::kernel::Bounds;
 use crate::settings::{Key, Value};
 use crate::shapes::SHAPES;
 use crate::state::State;
 
 use super::emitter::EMITTER_KEYS;
-use super::report::{Fault, Place, Report};
+use super::report::{Fault, Report};
 use super::tree::{Data, Entry};
 use super::value;
 use super::walk::Table;
-
-/// What shapes and forces of fluids share.
-const SHARED: [&str; 5] = ["spacing", "density", "support", "kernel", "wall_mass"];
 
 fn kind<'a>(table: &Table<'_>, key: &str, of: impl Fn(&str) -> Option<&'a [Key]>) -> Option<&'a [Key]> {
     let keys = table.get(key).and_then(|entry| match &entry.node.data {
         Data::Text(kind) => of(kind),
         _ => None,
     });
-    keys.filter(|keys| has(keys, "spacing") && has(keys, "density"))
+    keys.filter(|keys| shared(keys).next().is_some())
 }
 
-fn has(keys: &[Key], name: &str) -> bool {
-    keys.iter().any(|key| key.name == name)
+/// What shapes and the force of a fluid share.
+fn shared<'a>(keys: &'a [Key]) -> impl Iterator<Item = &'static str> + use<'a> {
+    keys.iter().filter(|key| key.of_fluid).map(|key| key.name)
 }
 
 fn force_keys(table: &Table<'_>) -> Option<&'static [Key]> {
@@ -34,16 +32,14 @@ fn force_keys(table: &Table<'_>) -> Option<&'static [Key]> {
 
 /// What the first force that makes a fluid says of it.
 pub(super) fn said<'a>(mut tables: impl Iterator<Item = &'a Table<'a>>) -> Vec<Entry> {
-    let Some(table) = tables.find(|table| force_keys(table).is_some()) else { return Vec::new() };
-    SHARED.iter().filter_map(|key| table.get(key).cloned()).collect()
+    let Some((table, keys)) = tables.find_map(|table| Some((table, force_keys(table)?))) else { return Vec::new() };
+    shared(keys).filter_map(|key| table.get(key).cloned()).collect()
 }
 
 /// The entries of the table of a shape or of an emitter of these keys, and what it leaves to the force.
 pub(super) fn completed(table: &Table<'_>, keys: &[Key], said: &[Entry]) -> Vec<Entry> {
-    // What has a rate is a spray.
-    let of_fluid = has(keys, "spacing") && has(keys, "density") && table.get("rate").is_none();
-    let missing = said.iter().filter(|entry| of_fluid && has(keys, &entry.key) && table.get(&entry.key).is_none());
-    table.entries.iter().chain(missing).cloned().collect()
+    let left_out = |entry: &&Entry| shared(keys).any(|key| key == entry.key) && table.get(&entry.key).is_none();
+    table.entries.iter().chain(said.iter().filter(left_out)).cloned().collect()
 }
 
 /// Where shapes and emitters say something else than the first force that makes a fluid.
@@ -56,7 +52,7 @@ pub(super) fn contradictions<'a>(sections: &'a [(&'static str, Table<'a>)]) -> V
     let shapes = all("particles").filter_map(|table| Some((table, of_shape(table)?)));
     let mut remarks = Vec::new();
     for (table, own) in shapes.chain(all("emitter").map(|table| (table, EMITTER_KEYS))) {
-        for name in SHARED.into_iter().filter(|name| has(own, name)) {
+        for name in shared(own) {
             let (Some(mine), theirs) = (given(table, own, name), given(force, keys, name)) else { continue };
             let theirs = theirs.or_else(|| keys.iter().find(|key| key.name == name)?.default.clone());
             let Some(theirs) = theirs.filter(|theirs| *theirs != mine) else { continue };
@@ -77,8 +73,8 @@ fn given(table: &Table<'_>, keys: &[Key], name: &str) -> Option<Value> {
     value::read(&table.get(name)?.node, key.name, key.kind, &mut Report::default())
 }
 
-/// Reports what is wrong with a force that makes a fluid, at the key that its message names first, or else at its table. `earlier`
-/// says whether there is one already.
+/// Reports what is wrong with a force that makes a fluid, at the key that says it, or else at its table. `earlier` says whether there
+/// is one already.
 pub(super) fn check(
     table: &Table<'_>,
     force: &dyn Component,
@@ -88,26 +84,22 @@ pub(super) fn check(
     if !force.properties().makes_fluid {
         return false;
     }
-    let problem = Problem::new(1, Machine::HOST).at(&[], *bounds);
-    let why = match force.resolved(&problem).map(|resolved| resolved.fluid) {
-        Ok(None) => return false,
-        Ok(Some(_)) if earlier => "there are two forces that make a fluid of all particles: leave one of them".to_owned(),
-        Ok(Some(_)) if !particles.is_empty() && particles.held.len() == particles.len() => {
-            "there is a fluid and nothing of it: all particles are held, and held particles are its walls; add a [[particles]] of \
-             shape = \"block\""
-                .to_owned()
+    let fault = match force.check(bounds) {
+        Err(Error::Setting { key, why }) => {
+            let place = table.get(key).map_or(table.place, |entry| &entry.node.place);
+            Fault::at(place, why)
         }
-        Ok(Some(_)) => return true,
-        Err(Error::Scene(why)) => why,
-        Err(why) => why.to_string(),
+        Err(why) => Fault::at(table.place, why.to_string()),
+        Ok(()) if earlier => {
+            Fault::at(table.place, "there are two forces that make a fluid of all particles: leave one of them")
+        }
+        Ok(()) if !particles.is_empty() && particles.held.len() == particles.len() => Fault::at(
+            table.place,
+            "there is a fluid and nothing of it: all particles are held, and held particles are its walls; add a [[particles]] of \
+             shape = \"block\"",
+        ),
+        Ok(()) => return true,
     };
-    report.push(Fault::at(place(table, &why), why));
+    report.push(fault);
     true
-}
-
-/// Where the first of the keys stands that a message names as `key = `.
-fn place<'a>(table: &Table<'a>, why: &str) -> &'a Place {
-    let named = |entry: &&'a Entry| why.find(&format!("{} = ", entry.key));
-    let first = table.entries.iter().filter_map(|entry| Some((named(&entry)?, entry))).min_by_key(|(at, _)| *at);
-    first.map_or(table.place, |(_, entry)| &entry.node.place)
 }

@@ -111,7 +111,7 @@ pub(super) fn read(table: Option<&Table<'_>>, report: &mut Report) -> Simulation
     }
     simulation.adaptive_step = adaptive_step(table, &settings, &simulation, report);
     if simulation.adaptive_step.is_some() {
-        let lost = ["symplectic_euler", "leapfrog", "forest_ruth", "pefrl"].contains(&simulation.integrator.name);
+        let lost = simulation.integrator.by_default().is_symplectic();
         simulation.remark = lost.then(|| {
             format!(
                 "{} is not symplectic in adaptive steps: energy, which it keeps in bounds by a fixed dt, may drift (Skeel & Gear 1992)",

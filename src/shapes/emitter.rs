@@ -11,6 +11,9 @@ use crate::life::{Birth, Life};
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::state::State;
 
+/// The key that makes a spray of an emitter: what it says is of no fluid.
+pub const SPRAY: &str = "rate";
+
 /// The keys of an emitter.
 pub const KEYS: &[Key] = &[
     Key::new(
@@ -40,9 +43,10 @@ pub const KEYS: &[Key] = &[
         Kind::NotNegative,
         Value::Number(0.0),
         "for a fluid: rows of a cubic lattice so far apart follow each other at spacing / speed [length]",
-    ),
+    )
+    .of_fluid(),
     Key::new(
-        "rate",
+        SPRAY,
         Kind::NotNegative,
         Value::Number(0.0),
         "for a spray: so many leave one by one, at random places of the mouth [1 / time]",
@@ -58,7 +62,8 @@ pub const KEYS: &[Key] = &[
         Kind::Positive,
         Value::Number(1000.0),
         "of a fluid at rest, as in the force [mass / length³, or mass / length²]",
-    ),
+    )
+    .of_fluid(),
     Key::new(
         "mass",
         Kind::NotNegative,

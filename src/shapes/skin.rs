@@ -14,31 +14,35 @@ pub(super) const SPACING: Key = Key::required(
     "spacing",
     Kind::Positive,
     "how far apart particles are, as in the force `fluid`, which says it for its shapes where they do not [length]",
-);
+)
+.of_fluid();
 pub(super) const DENSITY: Key = Key::new(
     "density",
     Kind::Positive,
     Value::Number(1000.0),
     "the density at rest of the fluid, as in the force [mass / length³, or mass / length²]",
-);
+)
+.of_fluid();
 pub(super) const SUPPORT: Key = Key::new(
     "support",
     Kind::Positive,
     Value::Number(2.0),
     "how far the fluid's kernel reaches, as in the force [spacings]",
-);
+)
+.of_fluid();
 pub(super) const KERNEL: Key = Key::new(
     "kernel",
     Kind::Choice(Smoothing::NAMES),
     Value::Text(Cow::Borrowed("cubic")),
     "what smooths the fluid, as in the force",
-);
+)
+.of_fluid();
 pub(super) const WALL_MASS: Key = Key::new(
     "wall_mass",
     Kind::Choice(&["sampled", "lattice"]),
     Value::Text(Cow::Borrowed("sampled")),
     "what the force lets walls weigh: sampled ones keep the gap that leaves the fluid at rest, those of a lattice go on with its own",
-);
+).of_fluid();
 pub(super) const LAYERS: Key = Key::new(
     "layers",
     Kind::Whole,

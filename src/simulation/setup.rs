@@ -203,12 +203,10 @@ impl Setup {
     pub fn put_out(&self) -> Result<Vec<(usize, f64)>, Error> {
         Ok(initial_projection::projected(self, &self.problem(Machine::HOST)?)?.moved)
     }
-    /// Refuses two fluids: each would take everybody for its own.
+    /// Refuses settings that make no sense, and two fluids: each would take all particles for its own.
     fn fluids(&self) -> Result<(), Error> {
-        let problem = Problem::new(1, Machine::HOST).at(&[], self.bounds);
-        let fluids: Vec<_> = self.forces.iter().filter(|force| force.properties().makes_fluid).collect();
-        fluids.iter().try_for_each(|force| force.resolved(&problem).map(|_| ()))?;
-        let count = fluids.len();
+        self.forces.iter().try_for_each(|force| force.check(&self.bounds))?;
+        let count = self.forces.iter().filter(|force| force.properties().makes_fluid).count();
         if count > 1 {
             return Err(Error::Scene(format!(
                 "there are {count} forces that make a fluid of everybody, and all pressures would be felt as often: leave one of them"

@@ -8,7 +8,7 @@ impl Medium {
     /// Refuses what single precision does not hold.
     ///
     /// # Errors
-    /// [`Error::Scene`] with the number.
+    /// [`Error::Setting`] with the number.
     pub fn check(&self) -> Result<(), Error> {
         let (density, sound) = (self.density, self.sound);
         // By Tait's equation at twice the density.
@@ -27,31 +27,37 @@ impl Medium {
         }
         let single = f64::from(f32::MIN_POSITIVE)..=f64::from(f32::MAX);
         match numbers.into_iter().find(|(_, x)| !single.contains(x)) {
-            Some((what, x)) => Err(Error::Scene(format!(
-                "a fluid has density = {density:e}, spacing = {:e}, sound_speed = {sound:e}: {what} would be {x:.1e}, and single \
+            Some((what, x)) => Err(Error::Setting {
+                key: "density",
+                why: format!(
+                    "a fluid has density = {density:e}, spacing = {:e}, sound_speed = {sound:e}: {what} would be {x:.1e}, and single \
                  precision holds 1.2e-38 to 3.4e38: choose other numbers, or other units",
-                self.spacing
-            ))),
+                    self.spacing
+                ),
+            }),
             None => Ok(()),
         }
     }
     /// Refuses a periodic box in which one would meet two images of another: the nearest is met alone.
     ///
     /// # Errors
-    /// [`Error::Scene`] with the period.
+    /// [`Error::Setting`] with the period.
     pub fn fits(&self, bounds: &Bounds) -> Result<(), Error> {
         let (period, range) = (bounds.period(), self.range());
         // A box of as many spacings may be a rounding narrower.
         let narrow = |axis: &usize| period[*axis] > 0.0 && period[*axis] < 2.0 * range * (1.0 - 1e-9);
         match (0..3).find(narrow) {
-            Some(axis) => Err(Error::Scene(format!(
-                "the box is periodic along {} with a period of {}, and a fluid with support = {} reaches {range}: two images of one \
+            Some(axis) => Err(Error::Setting {
+                key: "support",
+                why: format!(
+                    "the box is periodic along {} with a period of {}, and a fluid with support = {} reaches {range}: two images of one \
                  would be in reach, of which one counts; make the box at least {} wide, or the reach shorter",
-                ["x", "y", "z"][axis],
-                period[axis],
-                self.support,
-                2.0 * range
-            ))),
+                    ["x", "y", "z"][axis],
+                    period[axis],
+                    self.support,
+                    2.0 * range
+                ),
+            }),
             None => Ok(()),
         }
     }

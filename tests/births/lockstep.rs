@@ -43,7 +43,7 @@ fn kernels_agree_with_their_references() {
             changed.extend(agreed(&mut simulation, 6, &plans.step, name));
         }
         for kernel in [
-            "bear",
+            "spawn",
             "guide",
             "drain 1",
             "fluid state",

@@ -116,7 +116,7 @@ pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
         step.evaluate();
         step.populate();
         for kernel in step.finished().expect("a plan").kernels {
-            let ours = ["bear", "rest", "guide", "drain"].iter().any(|name| kernel.name.starts_with(name));
+            let ours = ["spawn", "rest", "guide", "drain"].iter().any(|name| kernel.name.starts_with(name));
             if ours {
                 stages.push(staged(&kernel.name.clone(), few(MACHINE), bounds, alone(tabled(kernel))));
             }
@@ -129,12 +129,12 @@ pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
 
 /// A birth more in the table than are born.
 fn tabled(kernel: Kernel) -> Kernel {
-    if !["bear", "guide"].contains(&kernel.name.as_str()) {
+    if !["spawn", "guide"].contains(&kernel.name.as_str()) {
         return kernel;
     }
     let mut all = births();
     // A pending particle that is due; or an active one whose slot does not become free soon.
-    let kind = if kernel.name == "bear" { 1 } else { 3 };
+    let kind = if kernel.name == "spawn" { 1 } else { 3 };
     let id = (kind..FEW as u32).step_by(7).find(|id| all.iter().all(|birth| birth.id != *id));
     all.push(Birth { id: id.expect("another particle"), time: 0.3, guided: 9.0, ..all[0] });
     let table = std::sync::Arc::new(motes::life::table(&all));

@@ -259,7 +259,7 @@ error: unknown integrator "rk5"
    |
    | --set simulation.integrator=rk5
    |                             ^^^ did you mean "rk4"?
-   = known: `forward_euler`, `symplectic_euler`, `leapfrog`, `beeman`, `midpoint`, `heun`, `rk4`, `forest_ruth`, `pefrl`, `linear_backward_euler`, `backward_euler`, `linear_trapezoid`, `trapezoid`, `linear_implicit_midpoint`, `implicit_midpoint`
+   = known: {integrators}
 
 a.toml: 3 errors"#,
     );

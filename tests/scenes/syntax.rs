@@ -206,7 +206,7 @@ error: unknown force "�[31mred"
    |
  8 | kind = "\u001b[31mred"
    |        ^^^^^^^^^^^^^^^
-   = known: `gravity`, `uniform`, `drag`, `wind`, `vortex`, `attractor`, `boids`, `speed_limit`, `obstacle`, `solid`, `flee`, `chase`, `goal`, `wander`, `soft_turn`, `rod`, `vicsek`, `spring`, `strain_limit`, `tear`, `joint`, `fluid`, `air`
+   = known: {forces}
 
 a.toml: 2 errors"##,
     );

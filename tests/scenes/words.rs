@@ -63,7 +63,7 @@ bodies = [{ position = [0, 0, 0] }]
    |
  4 | integrator = "leapforg"
    |              ^^^^^^^^^^ did you mean "leapfrog"?
-   = known: `forward_euler`, `symplectic_euler`, `leapfrog`, `beeman`, `midpoint`, `heun`, `rk4`, `forest_ruth`, `pefrl`, `linear_backward_euler`, `backward_euler`, `linear_trapezoid`, `trapezoid`, `linear_implicit_midpoint`, `implicit_midpoint`
+   = known: {integrators}
 
 a.toml: 1 error"#,
     );
@@ -86,7 +86,7 @@ kind = "magnetism"
    |
  7 | kind = "magnetism"
    |        ^^^^^^^^^^^
-   = known: `gravity`, `uniform`, `drag`, `wind`, `vortex`, `attractor`, `boids`, `speed_limit`, `obstacle`, `solid`, `flee`, `chase`, `goal`, `wander`, `soft_turn`, `rod`, `vicsek`, `spring`, `strain_limit`, `tear`, `joint`, `fluid`, `air`
+   = known: {forces}
 
 a.toml: 1 error"#,
     );
