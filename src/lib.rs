@@ -22,6 +22,8 @@ pub mod primitives;
 pub mod render;
 pub mod rotation;
 #[cfg(feature = "scene")]
+pub mod run;
+#[cfg(feature = "scene")]
 pub mod scene;
 pub mod selftest;
 pub mod settings;

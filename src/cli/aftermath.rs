@@ -8,7 +8,7 @@ use motes::{Error, Setup, State};
 
 use super::failure::Failure;
 use super::flow;
-use super::output::written;
+use motes::run::written;
 
 /// So many neighbours are named.
 const NAMED: usize = 8;

@@ -15,12 +15,13 @@ Exit codes:
   7   the device was lost, ran out of memory or did not answer, or no thread could be started
   8   a result could not be written, or stands in the way of another's
   9   `compare` or `doctor` found a disagreement
-  75  stopped by Ctrl-C, SIGTERM or SIGHUP after everything up to there was written
+  75  stopped by Ctrl-C, SIGTERM, SIGHUP or --max-hours after everything up to there and a checkpoint were written
 
 Examples:
   motes run galaxy
   motes run my.toml -o results --set simulation.dt=0.01
   motes run galaxy --frames 240
+  motes resume out/galaxy
   motes compare galaxy --steps 20";
 
 /// Particles moved by forces, on any GPU, checked against a second opinion in f64.
@@ -35,6 +36,8 @@ pub struct Args {
 pub enum Command {
     /// Run a scene: numbers, snapshots, a plot and pictures go into a folder
     Run(RunArgs),
+    /// Go on with a run that was stopped or killed, from the newest checkpoint in its folder
+    Resume(ResumeArgs),
     /// Check a scene, and predict memory and time, without running it
     Check(SceneArgs),
     /// Print what one step of a scene does, kernel by kernel
@@ -102,7 +105,7 @@ pub struct RunArgs {
     /// The folder for results [default: out/NAME]
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,
-    /// Remove the results of an earlier run that the folder holds
+    /// Remove the results and checkpoints of an earlier run that the folder holds
     #[arg(long)]
     pub overwrite: bool,
     /// Go on from a state that an earlier run of the scene has written, snapshot_*.npz; steps and until still count from its start
@@ -117,6 +120,38 @@ pub struct RunArgs {
     /// Write the ledger of a fluid, fluid.csv, after every step
     #[arg(long)]
     pub ledger: bool,
+    /// Go on where the folder has a checkpoint of this run, and begin where it has none
+    #[arg(long, conflicts_with = "overwrite")]
+    pub resume: bool,
+    #[command(flatten)]
+    pub stop: StopArgs,
+    #[command(flatten)]
+    pub show: ShowArgs,
+}
+
+#[derive(Debug, ClapArgs)]
+pub struct ResumeArgs {
+    /// The folder of the run
+    pub folder: PathBuf,
+    #[command(flatten)]
+    pub device: DeviceArgs,
+    #[command(flatten)]
+    pub stop: StopArgs,
+    #[command(flatten)]
+    pub show: ShowArgs,
+}
+
+/// What ends a run before its last step.
+#[derive(Debug, ClapArgs)]
+pub struct StopArgs {
+    /// Stop after so many hours, with a checkpoint from which --resume and `motes resume` go on
+    #[arg(long, value_name = "H", value_parser = positive)]
+    pub max_hours: Option<f64>,
+}
+
+/// How a run shows itself.
+#[derive(Debug, ClapArgs)]
+pub struct ShowArgs {
     /// Print events as lines of JSON on standard output
     #[arg(long)]
     pub json: bool,

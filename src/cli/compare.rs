@@ -28,7 +28,7 @@ pub async fn compare(args: &CompareArgs) -> Result<(), Failure> {
         return far::sweep(args, &found).await;
     }
     let mut scene = load(args, &[])?;
-    let setup = engine::setup(&mut scene);
+    let setup = scene.setup();
     let verdicts = kernels(&found, &setup).await?;
     let far = far::errors(&found, &setup).await?;
     let over = steps(&found, &setup, args.steps).await?;

@@ -1,7 +1,6 @@
 //! Where a scene runs: an adapter of this machine, or the references when there is none.
 
 use motes::gpu::{self, Choice, Found};
-use motes::integrators::Adaptive;
 use motes::kernel::{Backend, Machine};
 use motes::scene::{Options, Scene, Source};
 use motes::{Cpu, Error, Gpu, Setup};
@@ -89,19 +88,4 @@ pub fn load_with(args: &SceneArgs, set: Option<String>) -> Result<Scene, Failure
     overrides.extend(args.until.map(|t| format!("simulation.until={t:?}")));
     let options = Options { allow_outside: args.allow_outside, ..Options::default() };
     Ok(Scene::load(&Source::find(&args.scene)?, &overrides, &options)?)
-}
-
-/// What a simulation is made of, out of a scene.
-pub fn setup(scene: &mut Scene) -> Setup {
-    Setup {
-        state: std::mem::take(&mut scene.particles),
-        forces: std::mem::take(&mut scene.forces),
-        integrator: match scene.adaptive_step {
-            Some(adaptive_step) => Box::new(Adaptive { integrator: scene.integrator(), adaptive_step }),
-            None => scene.integrator(),
-        },
-        dt: scene.dt,
-        bounds: scene.bounds,
-        solver: scene.solver,
-    }
 }

@@ -9,7 +9,6 @@ use serde_json::{Value, json};
 
 use super::args::CompareArgs;
 use super::compare::load;
-use super::engine;
 use super::failure::Failure;
 
 /// A tree has 2²¹ cells along each axis of the box of all: beyond this, the middle has but a few of them.
@@ -106,7 +105,7 @@ pub async fn sweep(args: &CompareArgs, found: &gpu::Found) -> Result<(), Failure
             let set = |key: &str, value: &str| format!("force.{gravity}.{key}={value}");
             let more = [set("over", "tree"), set("theta", &format!("{theta:?}")), set("multipoles", multipoles)];
             let mut scene = load(args, &more)?;
-            let setup = engine::setup(&mut scene);
+            let setup = scene.setup();
             if header {
                 out!(
                     "{}: {} particles, {}, {TARGETS} targets against direct summation in f64\n",
@@ -137,7 +136,7 @@ pub async fn sweep(args: &CompareArgs, found: &gpu::Found) -> Result<(), Failure
 /// Which force of the scene is gravity.
 fn gravity(args: &CompareArgs) -> Result<usize, Failure> {
     let mut scene = load(args, &[])?;
-    let setup = engine::setup(&mut scene);
+    let setup = scene.setup();
     let has = |law: motes::forces::Law| law.distant.sample.is_some();
     let found = setup.forces.iter().position(|force| force.laws().into_iter().any(has));
     found.ok_or_else(|| {

@@ -22,6 +22,7 @@ mod bench;
 mod births;
 mod check;
 mod compare;
+mod conclude;
 mod contradictions;
 mod course;
 mod doctor;
@@ -32,12 +33,7 @@ mod far;
 mod film;
 mod flow;
 mod fluid;
-mod from;
 mod jumps;
-mod ledger;
-mod looks;
-mod output;
-mod plot;
 mod progress;
 mod rounding;
 mod run;
@@ -48,7 +44,6 @@ mod stdout;
 mod stop;
 mod substeps;
 mod summary;
-mod table;
 
 use std::process::ExitCode;
 
@@ -87,6 +82,7 @@ async fn dispatch(command: Command) -> Result<(), Failure> {
     motes::cpu::threads()?;
     match command {
         Command::Run(args) => run::run(&args).await,
+        Command::Resume(args) => run::resume(&args).await,
         Command::Check(args) => check::check(&args).await,
         Command::Explain(args) => explain::explain(&args).await,
         Command::Compare(args) => compare::compare(&args).await,

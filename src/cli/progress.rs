@@ -1,13 +1,14 @@
 //! How a run shows itself: a bar on a terminal, lines elsewhere, JSON for programs, or nothing.
 
 use std::io::IsTerminal;
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
-use motes::Measure;
+use motes::{Measure, run};
 use serde_json::{Value, json};
 
-use super::args::RunArgs;
+use super::args::ShowArgs;
 
 /// The version of the JSON events.
 const SCHEMA: u32 = 1;
@@ -33,7 +34,7 @@ enum Kind {
 
 impl Progress {
     /// By the arguments, and by whether it is a terminal.
-    pub fn new(args: &RunArgs, begun: u64, steps: u64) -> Self {
+    pub fn new(args: &ShowArgs, begun: u64, steps: u64) -> Self {
         let kind = match (args.json, args.quiet, std::io::stderr().is_terminal()) {
             (true, ..) => Kind::Json,
             (_, true, _) => Kind::Quiet,
@@ -57,11 +58,6 @@ impl Progress {
             out!("{fields}");
         }
     }
-    /// What is worth to be known, for people and programs.
-    pub fn remark(&self, text: &str) {
-        self.say(&format!("note: {text}"));
-        self.event("remark", json!({ "text": text }));
-    }
     /// A line for people.
     pub fn say(&self, text: &str) {
         match &self.kind {
@@ -77,8 +73,25 @@ impl Progress {
             Kind::Json | Kind::Quiet => {}
         }
     }
-    /// So many steps are done.
-    pub fn at(&mut self, step: u64) {
+    /// The run is over; how long it took.
+    pub fn finish(&self) -> Duration {
+        if let Kind::Bar(bar) = &self.kind {
+            bar.finish_and_clear();
+        }
+        self.start.elapsed()
+    }
+}
+
+impl run::Progress for Progress {
+    fn remark(&mut self, text: &str) {
+        self.say(&format!("note: {text}"));
+        self.event("remark", json!({ "text": text }));
+    }
+    fn warning(&mut self, text: &str) {
+        self.say(&format!("warning: {text}"));
+        self.event("remark", json!({ "text": text }));
+    }
+    fn at(&mut self, step: u64) {
         match &self.kind {
             Kind::Bar(bar) => bar.set_position(step),
             Kind::Lines if self.last.is_none_or(|last| last.elapsed() > PAUSE) => {
@@ -94,32 +107,27 @@ impl Progress {
             _ => {}
         }
     }
-    /// A state was measured.
-    pub fn measured(&self, row: &Measure, first: &Measure) {
-        let error = row.drift_from(first);
+    fn measured(&mut self, row: &Measure, first: &Measure) {
         self.energy(row, first);
         self.event(
             "progress",
             json!({ "step": row.step, "time": row.time, "kinetic": row.kinetic, "potential": row.potential,
-                "total": row.total(), "energy_error": error }),
+                "total": row.total(), "energy_error": row.drift_from(first) }),
         );
     }
-    /// Whether a bar is shown on a terminal.
-    pub fn watched(&self) -> bool {
+    fn watched(&self) -> bool {
         matches!(self.kind, Kind::Bar(_))
     }
-    /// Shows how far the energy is off.
-    pub fn energy(&self, row: &Measure, first: &Measure) {
+    fn energy(&mut self, row: &Measure, first: &Measure) {
         if let Kind::Bar(bar) = &self.kind {
             bar.set_message(format!("energy error {:.1e}", row.drift_from(first)));
         }
     }
-    /// The run is over; how long it took.
-    pub fn finish(&self) -> Duration {
-        if let Kind::Bar(bar) = &self.kind {
-            bar.finish_and_clear();
-        }
-        self.start.elapsed()
+    fn frame(&mut self, frame: usize, step: u64, file: &Path) {
+        self.event("frame", json!({ "frame": frame, "step": step, "file": file }));
+    }
+    fn checkpoint(&mut self, step: u64, file: &Path) {
+        self.event("checkpoint", json!({ "step": step, "file": file }));
     }
 }
 
@@ -144,22 +152,5 @@ pub fn large(x: f64) -> String {
         x if x >= 1e6 => format!("{:.2} M", x / 1e6),
         x if x >= 1e3 => format!("{:.2} k", x / 1e3),
         x => format!("{x:.2}"),
-    }
-}
-
-/// A number as one would write it: to twelve digits, for what a sum or a product has rounded is none of its own.
-pub fn plain(x: f64) -> String {
-    let x = format!("{x:.11e}").parse().unwrap_or(x);
-    if x == 0.0 || (1e-4..1e7).contains(&x.abs()) { format!("{x}") } else { format!("{x:e}") }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::plain;
-
-    #[test]
-    fn numbers_are_written_as_one_would() {
-        let written = [7.0 * 0.2, 4e-6 * 0.1, 1e20, -0.00025, 0.0, 1600.0].map(plain);
-        assert_eq!(written, ["1.4", "4e-7", "1e20", "-0.00025", "0", "1600"]);
     }
 }

@@ -1,65 +1,68 @@
 //! Ctrl-C, SIGTERM and SIGHUP: the first one lets the batch end and the results be written, the second ends at once.
 
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
 
-/// Whether a signal asked the run to end.
-#[derive(Clone, Default)]
-pub struct Stop(Arc<AtomicBool>);
+use motes::run::Stop;
 
-impl Stop {
-    /// Listens from now on. Where that cannot be had, signals end the program as usual.
-    pub fn listen() -> Self {
-        let stop = Self::default();
-        let flag = stop.clone();
-        let ignored = hangup::is_ignored();
-        let _ = ctrlc::set_handler(move || {
-            if flag.0.swap(true, Ordering::Relaxed) {
-                std::process::exit(130);
-            }
-        });
-        if ignored {
-            hangup::ignore();
+use super::args::StopArgs;
+
+/// What ends a run early: from now on signals, and the limit of time, if there is one. Where signals cannot be had, they end the
+/// program as usual.
+pub fn listen(args: &StopArgs) -> Stop {
+    let longest = args.max_hours.and_then(|hours| Duration::try_from_secs_f64(3600.0 * hours).ok());
+    let stop = longest.map_or_else(Stop::default, Stop::after);
+    let asked = stop.clone();
+    let ignored = signals::hangup_is_ignored();
+    let _ = ctrlc::set_handler(move || {
+        if asked.ask() {
+            std::process::exit(130);
         }
-        stop
+    });
+    if ignored {
+        signals::ignore(signals::HANGUP);
     }
-    /// Whether to stop.
-    pub fn asked(&self) -> bool {
-        self.0.load(Ordering::Relaxed)
-    }
+    // A file that may not grow is an error of the call that writes it, which says so.
+    signals::ignore(signals::TOO_LARGE);
+    stop
 }
 
-/// `nohup` starts a program that a closed terminal shall not end.
+/// What is asked of the system.
 #[cfg(unix)]
-mod hangup {
+mod signals {
     use nix::sys::signal::{SigHandler, Signal, signal};
 
-    /// Whether the program was started with SIGHUP ignored.
+    pub const HANGUP: Signal = Signal::SIGHUP;
+    pub const TOO_LARGE: Signal = Signal::SIGXFSZ;
+
+    /// Whether the program was started with SIGHUP ignored: `nohup` starts a program that a closed terminal shall not end.
     #[expect(unsafe_code, reason = "the only way to ask; no handler of ours is installed by it")]
-    pub fn is_ignored() -> bool {
+    pub fn hangup_is_ignored() -> bool {
         // SAFETY: the default action and ignoring are no functions of this program.
-        let before = unsafe { signal(Signal::SIGHUP, SigHandler::SigIgn) };
+        let before = unsafe { signal(HANGUP, SigHandler::SigIgn) };
         // SAFETY: as above.
-        let restored = |handler| unsafe { signal(Signal::SIGHUP, handler) };
+        let restored = |handler| unsafe { signal(HANGUP, handler) };
         match before {
             Ok(SigHandler::SigIgn) => true,
             Ok(_) => restored(SigHandler::SigDfl).is_err(),
             Err(_) => false,
         }
     }
-    /// Ignores it again.
-    #[expect(unsafe_code, reason = "it puts back what was there when the program started")]
-    pub fn ignore() {
+    /// Ignores a signal.
+    #[expect(unsafe_code, reason = "no function of this program is called by it")]
+    pub fn ignore(what: Signal) {
         // SAFETY: ignoring is no function of this program.
-        let _ = unsafe { signal(Signal::SIGHUP, SigHandler::SigIgn) };
+        let _ = unsafe { signal(what, SigHandler::SigIgn) };
     }
 }
 
-/// Elsewhere there is no such signal.
+/// Elsewhere there are no such signals.
 #[cfg(not(unix))]
-mod hangup {
-    pub fn is_ignored() -> bool {
+mod signals {
+    pub const HANGUP: () = ();
+    pub const TOO_LARGE: () = ();
+
+    pub fn hangup_is_ignored() -> bool {
         false
     }
-    pub fn ignore() {}
+    pub fn ignore(_: ()) {}
 }

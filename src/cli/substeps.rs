@@ -80,8 +80,9 @@ pub async fn load(args: &SceneArgs, set: Option<String>) -> Result<Loaded, Failu
     Ok(loaded)
 }
 
-async fn judge(mut scene: Scene) -> Result<Loaded, Failure> {
-    let setup = engine::setup(&mut scene);
+/// The same of a scene that is loaded.
+pub async fn judge(mut scene: Scene) -> Result<Loaded, Failure> {
+    let setup = scene.setup();
     let (start, mut lines) = (setup.start()?, Vec::new());
     if let Some(start) = &start {
         let (said, notes) = fluid::remarks(&setup, start)?;

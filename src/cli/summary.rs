@@ -4,12 +4,11 @@ use std::time::Duration;
 
 use motes::Measure;
 use motes::life::Population;
-use motes::links::Links;
 use motes::measure::Flock;
+use motes::run::Looks;
 
 use super::advice::Conserved;
 use super::course;
-use super::looks::Looks;
 use super::progress::{duration, large};
 
 /// How the energy went. Where the total is next to nothing, as of a pendulum that starts at its pivot's height, changes are
@@ -73,8 +72,7 @@ pub fn population(of: Population) -> String {
     format!("{} active, {} removed, {} pending", of.active, of.removed, of.pending)
 }
 
-/// How many springs tore.
-pub fn torn(whole: usize, left: &Links) -> String {
-    let left = left.springs.len();
-    format!("{} of {whole} springs are torn; those that are left are in the files of links", whole - left)
+/// How many springs broke.
+pub fn broken(whole: usize, left: usize) -> String {
+    format!("{} of {whole} springs are torn; those that are left are in the files of links", whole.saturating_sub(left))
 }

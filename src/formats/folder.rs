@@ -1,5 +1,6 @@
 //! The folder that a run writes into: it belongs to one run at a time, and nothing in it is lost without being asked for.
 
+use std::collections::BTreeSet;
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -11,15 +12,15 @@ use crate::error::Error;
 const LOCK: &str = ".motes-lock";
 /// Where the pictures of a film are.
 const FRAMES: &str = "frames";
-/// What the resolved scene says in the line that tells of the run.
-const SIGNATURE: &str = "# Run by motes ";
 /// What stands before the name of the scene in that line.
 const NAMED: &str = ", as ";
 
 /// Files that a run writes under one name, beside the last good state.
 const NAMES: &[&str] = &["scene.toml", "energy.csv", "energy.svg", "flock.csv", "flow.csv", "fluid.csv"];
 /// Files of which it writes many, with the number of a step or a picture between these, beside states.
-const NUMBERED: &[(&str, &str)] = &[("links_", "csv"), ("picture_", "png"), ("frame_", "png")];
+const NUMBERED: &[(&str, &str)] = &[("links_", "csv"), ("picture_", "png"), ("frame_", "png"), CHECKPOINT];
+/// What a run goes on from.
+const CHECKPOINT: (&str, &str) = ("checkpoint_", "npz");
 /// States, and the last good one, in any format.
 const STATE: &str = "snapshot_";
 const LAST_GOOD: &str = "last_good";
@@ -36,6 +37,9 @@ pub struct Folder {
 }
 
 impl Folder {
+    /// What the resolved scene says in the line that tells of the run.
+    pub const SIGNATURE: &str = "# Run by motes ";
+
     /// Whether a run of the scene `name`, which reads the files `read`, may write into the folder. It may not where its
     /// results would replace a file that it reads, a file that no run has written, or, unless `overwrite` is set, those of
     /// another run.
@@ -85,6 +89,21 @@ impl Folder {
     /// # Errors
     /// [`Error::Output`] where [`Folder::examine`] refuses, another run holds the lock, or the folder cannot be made.
     pub fn open(path: &Path, name: &str, read: &[PathBuf], overwrite: bool) -> Result<Self, Error> {
+        let folder = Self::hold(path)?.named(name);
+        Self::examine(path, name, read, overwrite)?;
+        let earlier = earlier(path);
+        let mut old = results(path, &[Some(name), earlier.as_deref()]).map_err(|why| failed(path, &why))?;
+        // The signature goes last: what is left by a removal that was broken off is still known as results.
+        old.sort_by_key(|file| file == Path::new("scene.toml"));
+        removed(old.into_iter().map(|file| path.join(file)).chain(parts(path)))?;
+        Ok(folder)
+    }
+
+    /// Makes the folder and locks it for a run whose scene is not known yet; nothing in it is removed.
+    ///
+    /// # Errors
+    /// [`Error::Output`] where another run holds the lock, or the folder cannot be made.
+    pub fn hold(path: &Path) -> Result<Self, Error> {
         let fails = |why: &io::Error| failed(path, why);
         fs::create_dir_all(path).map_err(|why| fails(&why))?;
         let (lock, remark) = match locked(&path.join(LOCK)).map_err(|why| fails(&why))? {
@@ -98,19 +117,65 @@ impl Folder {
                 (None, Some(text))
             }
         };
-        let folder = Self { path: path.to_owned(), name: name.to_owned(), lock, remark };
-        Self::examine(path, name, read, overwrite)?;
-        let earlier = earlier(path);
-        let mut old = results(path, &[Some(name), earlier.as_deref()]).map_err(|why| fails(&why))?;
-        // The signature goes last: what is left by a removal that was broken off is still known as results.
-        old.sort_by_key(|file| file == Path::new("scene.toml"));
-        for file in old.into_iter().map(|file| path.join(file)) {
-            fs::remove_file(&file).map_err(|why| failed(&file, &why))?;
-        }
-        for file in parts(path) {
-            fs::remove_file(&file).map_err(|why| failed(&file, &why))?;
-        }
-        Ok(folder)
+        Ok(Self { path: path.to_owned(), name: String::new(), lock, remark })
+    }
+
+    /// The same for a run of this scene.
+    #[must_use]
+    pub fn named(mut self, name: &str) -> Self {
+        name.clone_into(&mut self.name);
+        self
+    }
+
+    /// The names of results that are there, but for checkpoints.
+    ///
+    /// # Errors
+    /// [`Error::Output`] when the folder cannot be read.
+    pub fn results(&self) -> Result<BTreeSet<String>, Error> {
+        let found = results(&self.path, &[Some(&self.name)]).map_err(|why| failed(&self.path, &why))?;
+        let names = found.iter().filter_map(|file| file.to_str()).filter(|name| checkpointed(name).is_none());
+        Ok(names.map(|name| name.replace('\\', "/")).collect())
+    }
+
+    /// Removes results but for these, checkpoints behind this step, and what is half written. Gives how many results were removed.
+    ///
+    /// # Errors
+    /// [`Error::Output`] when a file cannot be removed.
+    pub fn keep_only(&self, results: &BTreeSet<String>, step: u64) -> Result<usize, Error> {
+        let gone: Vec<_> = self.results()?.difference(results).map(|name| self.path.join(name)).collect();
+        let behind = |file: &PathBuf| number_of(file) > Some(step);
+        removed(self.checkpoints()?.into_iter().filter(behind).chain(parts(&self.path)))?;
+        let count = gone.len();
+        removed(gone.into_iter())?;
+        Ok(count)
+    }
+
+    /// The file of the checkpoint of a step.
+    ///
+    /// # Errors
+    /// As for [`Folder::file`].
+    pub fn checkpoint(&self, step: u64) -> Result<PathBuf, Error> {
+        self.file(&format!("{}{step:010}.{}", CHECKPOINT.0, CHECKPOINT.1))
+    }
+
+    /// The checkpoints that are there, the newest first.
+    ///
+    /// # Errors
+    /// [`Error::Output`] when the folder cannot be read.
+    pub fn checkpoints(&self) -> Result<Vec<PathBuf>, Error> {
+        let found = results(&self.path, &[]).map_err(|why| failed(&self.path, &why))?;
+        let mut found: Vec<_> = found.iter().map(|file| self.path.join(file)).collect();
+        found.retain(|file| number_of(file).is_some());
+        found.sort_by_key(|file| std::cmp::Reverse(number_of(file)));
+        Ok(found)
+    }
+
+    /// Removes checkpoints but for the newest of them.
+    ///
+    /// # Errors
+    /// [`Error::Output`] when a file cannot be removed.
+    pub fn keep_checkpoints(&self, most: usize) -> Result<(), Error> {
+        removed(self.checkpoints()?.into_iter().skip(most))
     }
 
     /// Where it is.
@@ -128,7 +193,7 @@ impl Folder {
     /// The line at the end of the resolved scene by which a later run knows what belongs to this one.
     #[must_use]
     pub fn signature(&self, device: &str) -> String {
-        format!("{SIGNATURE}{} on {device}{NAMED}{}\n", env!("CARGO_PKG_VERSION"), self.name)
+        format!("{}{} on {device}{NAMED}{}\n", Self::SIGNATURE, env!("CARGO_PKG_VERSION"), self.name)
     }
 
     /// The path of a result.
@@ -140,7 +205,7 @@ impl Folder {
         if is_result(name, &[Some(&self.name)]) {
             return Ok(path);
         }
-        refused(&path, "io/folder.rs does not list this name among those of results, which is a bug in motes")?;
+        refused(&path, "formats/folder.rs does not list this name among those of results, which is a bug in motes")?;
         Ok(path)
     }
 }
@@ -195,7 +260,7 @@ fn is_there(_: &File, path: &Path) -> bool {
 /// The name of the scene whose results are in the folder, where there are some; empty where an old run did not say it.
 fn earlier(path: &Path) -> Option<String> {
     let text = fs::read_to_string(path.join("scene.toml")).ok()?;
-    let line = text.lines().rev().find_map(|line| line.strip_prefix(SIGNATURE))?;
+    let line = text.lines().rev().find_map(|line| line.strip_prefix(Folder::SIGNATURE))?;
     Some(line.rsplit_once(NAMED).map_or_else(String::new, |(_, name)| name.to_owned()))
 }
 
@@ -244,11 +309,7 @@ fn is_result(name: &str, scenes: &[Option<&str>]) -> bool {
         None => (name, false),
     };
     let stem = |ending: &str| name.strip_suffix(ending).and_then(|stem| stem.strip_suffix('.'));
-    let numbered = |(before, ending): (&str, &str)| {
-        let digits = stem(ending).and_then(|stem| stem.strip_prefix(before));
-        (before == "frame_") == framed
-            && digits.is_some_and(|digits| !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit()))
-    };
+    let numbered = |kind: (&str, &str)| (kind.0 == "frame_") == framed && digits(name, kind).is_some();
     let states = || FORMATS.iter().filter(|format| format.write.is_some()).map(|format| format.name);
     let of_scene =
         |scene: &str| !scene.is_empty() && name.strip_prefix(scene).is_some_and(|end| ENDINGS.contains(&end));
@@ -256,6 +317,25 @@ fn is_result(name: &str, scenes: &[Option<&str>]) -> bool {
     let own = || NAMES.contains(&name) || last() || scenes.iter().flatten().any(|scene| of_scene(scene));
     let kinds = NUMBERED.iter().copied().chain(states().map(|ending| (STATE, ending)));
     kinds.into_iter().any(numbered) || !framed && own()
+}
+
+/// The digits between the two words of a name.
+fn digits<'a>(name: &'a str, (before, ending): (&str, &str)) -> Option<&'a str> {
+    let digits = name.strip_suffix(ending)?.strip_suffix('.')?.strip_prefix(before)?;
+    (!digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit())).then_some(digits)
+}
+
+/// The step of a checkpoint of this name.
+fn checkpointed(name: &str) -> Option<u64> {
+    digits(name, CHECKPOINT)?.parse().ok()
+}
+
+fn number_of(file: &Path) -> Option<u64> {
+    checkpointed(file.file_name()?.to_str()?)
+}
+
+fn removed(mut files: impl Iterator<Item = PathBuf>) -> Result<(), Error> {
+    files.try_for_each(|file| fs::remove_file(&file).map_err(|why| failed(&file, &why)))
 }
 
 fn failed(path: &Path, why: &io::Error) -> Error {

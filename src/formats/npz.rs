@@ -127,6 +127,19 @@ fn whole(x: f64) -> u64 {
 /// # Errors
 /// Those of `out`.
 pub fn write_npz(out: impl Write + Seek, state: &State, precision: Precision) -> io::Result<()> {
+    write_beside(out, state, precision, &[])
+}
+
+/// The same with more entries behind the arrays, by their names.
+///
+/// # Errors
+/// Those of `out`.
+pub(crate) fn write_beside(
+    out: impl Write + Seek,
+    state: &State,
+    precision: Precision,
+    more: &[(String, Vec<u8>)],
+) -> io::Result<()> {
     let count = state.len() as u64;
     let mut archive = NpzWriter::new(out);
     put(&mut archive, "time", &[], [state.time.to_le_bytes()], 0.0_f64)?;
@@ -144,6 +157,10 @@ pub fn write_npz(out: impl Write + Seek, state: &State, precision: Precision) ->
     }
     for (name, numbers) in state.kept.iter() {
         kept(&mut archive, name, numbers)?;
+    }
+    for (name, bytes) in more {
+        archive.zip_writer().start_file(name, stored(bytes.len() as u64 >= LARGE)).map_err(io::Error::other)?;
+        archive.zip_writer().write_all(bytes)?;
     }
     archive.zip_writer().finish().map(drop).map_err(io::Error::other)
 }
@@ -191,6 +208,17 @@ fn kept<W: Write + Seek>(archive: &mut NpzWriter<W>, name: &str, numbers: &[f64]
     put(archive, name, shape, numbers.iter().map(|x| x.to_le_bytes()), 0.0_f64)
 }
 
+/// Beyond it a ZIP entry needs its long form \[bytes\].
+const LARGE: u64 = 1 << 31;
+
+/// An entry without compression, and without a date.
+fn stored(large: bool) -> FileOptions {
+    FileOptions::default()
+        .compression_method(CompressionMethod::Stored)
+        .last_modified_time(DateTime::default())
+        .large_file(large)
+}
+
 /// Writes one array of little-endian numbers of the type of `_like`.
 fn put<W: Write + Seek, T: Serialize + AutoSerialize, const N: usize>(
     archive: &mut NpzWriter<W>,
@@ -199,11 +227,7 @@ fn put<W: Write + Seek, T: Serialize + AutoSerialize, const N: usize>(
     values: impl IntoIterator<Item = [u8; N]>,
     _like: T,
 ) -> io::Result<()> {
-    let large = shape.first().is_some_and(|count| *count >= (1 << 28)); // beyond 2 GiB a ZIP entry needs its long form
-    let options = FileOptions::default()
-        .compression_method(CompressionMethod::Stored)
-        .last_modified_time(DateTime::default())
-        .large_file(large);
+    let options = stored(shape.first().is_some_and(|count| *count >= LARGE / 8));
     let dtype = T::default_dtype();
     let entry = archive.array::<T>(name, options)?.dtype(dtype).shape(shape).write_header_only()?;
     let mut entry = BufWriter::with_capacity(PIECE, entry);

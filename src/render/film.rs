@@ -47,6 +47,15 @@ impl Film {
     pub fn contain(&mut self, tanks: Vec<Solid>) {
         self.picture.contain(tanks);
     }
+    /// The exposure of the last picture, if there was one.
+    #[must_use]
+    pub fn exposure(&self) -> Option<Exposure> {
+        self.exposure
+    }
+    /// Goes on behind a picture of this exposure.
+    pub fn go_on(&mut self, exposure: Exposure) {
+        self.exposure = Some(exposure);
+    }
     /// The exposure of the next picture, whose own would be this one.
     fn follow(&mut self, metered: Exposure) -> Exposure {
         let next = self.exposure.map_or(metered, |last| last.toward(metered, self.follow));

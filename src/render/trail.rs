@@ -62,6 +62,23 @@ impl Trail {
         let points = self.points[..moments * self.count].to_vec();
         Self { points, pushes: pushes.min(self.pushes), count: self.count, stride: self.stride }
     }
+    /// All that it holds, in numbers, of which [`Trail::of`] makes it again: how far apart kept moments are, how often it was pushed, and
+    /// the points.
+    #[must_use]
+    pub fn numbers(&self) -> Vec<f64> {
+        let points = self.points.iter().flat_map(DVec3::to_array);
+        [self.stride as f64, self.pushes as f64].into_iter().chain(points).collect()
+    }
+    /// The trail of so many particles that has these numbers, if they make one.
+    #[must_use]
+    pub fn of(count: usize, numbers: &[f64]) -> Option<Self> {
+        let (head, points) = numbers.split_at_checked(2)?;
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "counts, or saturated")]
+        let (stride, pushes) = (head[0] as u64, head[1] as u64);
+        let whole = stride > 0 && points.len().is_multiple_of(3 * count.max(1));
+        let points = points.chunks_exact(3).map(DVec3::from_slice).collect();
+        whole.then_some(Self { count, stride, pushes, points })
+    }
     /// All points: all particles at the first moment, at the second, and so on.
     pub fn points(&self) -> impl Iterator<Item = DVec3> {
         self.points.iter().copied()

@@ -14,6 +14,7 @@
 
 mod bounds;
 mod builtin;
+mod checkpoint;
 mod color;
 mod column;
 mod diagnostic;
@@ -48,9 +49,11 @@ use crate::integrators;
 use crate::kernel::{AdaptiveStep, Bounds, Solver};
 use crate::render;
 use crate::settings::Settings;
+use crate::simulation::Setup;
 use crate::state::State;
 
 pub use builtin::{Builtin, SCENES};
+pub use checkpoint::{Checkpoints, Every};
 pub use column::COLUMN_KEYS;
 pub use diagnostic::{Diagnostic, Diagnostics, Excerpt, Mended};
 pub use output::Output;
@@ -94,6 +97,8 @@ pub struct Scene {
     pub forces: Vec<Box<dyn Component>>,
     /// What is written.
     pub output: Output,
+    /// When a run keeps what it needs to go on.
+    pub checkpoint: Checkpoints,
     /// How pictures are made: the values of [`render::KEYS`].
     pub picture: Settings,
     /// The scene as TOML with every default filled in and every override applied. Loading it gives the same scene again.
@@ -137,6 +142,20 @@ impl Scene {
     pub fn integrator(&self) -> Box<dyn integrators::Integrator> {
         (self.integrator.build)(&self.integrator_settings)
     }
+    /// What a simulation of it is made of. Its particles and forces go there; the scene is left without.
+    pub fn setup(&mut self) -> Setup {
+        Setup {
+            state: std::mem::take(&mut self.particles),
+            forces: std::mem::take(&mut self.forces),
+            integrator: match self.adaptive_step {
+                Some(adaptive_step) => Box::new(integrators::Adaptive { integrator: self.integrator(), adaptive_step }),
+                None => self.integrator(),
+            },
+            dt: self.dt,
+            bounds: self.bounds,
+            solver: self.solver,
+        }
+    }
     /// Reads a scene. Each override is `key=value`: `simulation.dt=0.01`, `particles.0.count=100`, `force.0.g=2`; the value
     /// is TOML, or a text without its quotes. Files that an override names are sought where the scene's are.
     ///
@@ -170,6 +189,11 @@ impl Scene {
         Ok(scene)
     }
 
+    /// [`Scene::resolved`] with the files that it reads under names of their own, without folders; and where each of them is.
+    #[must_use]
+    pub fn packed(&self) -> (String, Vec<(String, PathBuf)>) {
+        resolved::packed(&self.resolved, &self.files)
+    }
     /// [`Scene::resolved`] for a file in a folder that exists: it names files by their way from there, so that it tells nothing
     /// of where both are.
     #[must_use]
@@ -277,6 +301,8 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
     particles.motions = motions;
     let output = output::read(one("output"), simulation.steps, &columns, report);
     output.write(&mut out);
+    let checkpoint = checkpoint::read(one("checkpoint"), report);
+    checkpoint.write(&mut out);
     let picture = match one("picture") {
         Some(table) => table.settings(render::KEYS, &[], report),
         None => Settings::defaults(render::KEYS),
@@ -299,6 +325,7 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
         groups,
         forces,
         output,
+        checkpoint,
         picture,
         resolved: out.0,
         files: Vec::new(),

@@ -93,3 +93,9 @@ pub(super) const OUTPUT: &[Own] = &[
     ),
     own("frames", "0", "pictures of a film, evenly spaced over the run; 0 for none"),
 ];
+pub(super) const CHECKPOINT: &[Own] = &[own(
+    "every",
+    "\"10 min\"",
+    "from one checkpoint to the next: \"10 min\" (or s, h) of work, \"5000 steps\", \"0.5 time\" of the scene, or \"never\"; a \
+     run that is stopped writes one in any case",
+)];

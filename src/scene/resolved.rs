@@ -114,6 +114,22 @@ pub(super) fn nearby(text: &str, files: &[PathBuf], folder: &Path) -> String {
     out
 }
 
+/// The same scene with files under names of their own, beside it; with these names, and where the files are.
+pub(super) fn packed(text: &str, files: &[PathBuf]) -> (String, Vec<(String, PathBuf)>) {
+    let (mut text, mut named) = (text.to_owned(), Vec::new());
+    for file in files {
+        let Some(from) = file.to_str().map(quoted).filter(|from| text.contains(from)) else { continue };
+        let end: String = file.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        let tame = |c: char| if c.is_ascii_alphanumeric() || "._-".contains(c) { c } else { '_' };
+        // The same name again for a file that has one of these.
+        let end = end.trim_start_matches(|c: char| c.is_ascii_digit() || c == '_');
+        let name = format!("{}_{}", named.len(), end.chars().map(tame).collect::<String>());
+        text = text.replace(&from, &quoted(&name));
+        named.push((name, file.clone()));
+    }
+    (text, named)
+}
+
 /// The way from a folder to a file, with slashes; none between two drives.
 fn way(folder: &Path, file: &Path) -> Option<String> {
     let (from, to): (Vec<_>, Vec<_>) = (folder.components().collect(), file.components().collect());

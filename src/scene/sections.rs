@@ -8,7 +8,7 @@ use crate::settings::Key;
 use crate::shapes::SHAPES;
 
 use super::own::{self, Own};
-use super::{bounds, column, drain, emitter, links, motion, particles, simulation, solver};
+use super::{bounds, checkpoint, column, drain, emitter, links, motion, particles, simulation, solver};
 
 /// A section.
 pub struct Section {
@@ -81,6 +81,11 @@ pub const SECTIONS: &[Section] = &[
         own: own::OUTPUT,
         ..Section::new("output", false, &[])
     },
+    Section {
+        about: "how often a run keeps all that it needs to go on",
+        own: own::CHECKPOINT,
+        ..Section::new("checkpoint", false, checkpoint::KEYS)
+    },
     Section { about: "how pictures are made", ..Section::new("picture", false, render::KEYS) },
 ];
 
@@ -107,7 +112,7 @@ impl Section {
 
 #[cfg(test)]
 mod tests {
-    use super::{SECTIONS, bounds, emitter, links, motion, simulation};
+    use super::{SECTIONS, bounds, checkpoint, emitter, links, motion, simulation};
     use crate::scene::{force, output};
 
     /// What a section reads by itself has its line in `own.rs`.
@@ -124,5 +129,6 @@ mod tests {
         assert_eq!(names("links"), links::OWN);
         assert_eq!(names("force"), force::OWN);
         assert_eq!(names("output"), output::OWN);
+        assert_eq!(names("checkpoint"), checkpoint::OWN);
     }
 }

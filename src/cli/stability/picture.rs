@@ -8,7 +8,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::Course;
 use crate::cli::args::StabilityArgs;
-use crate::cli::plot::{Area, FAINT, INK, fine, line, text, write};
+use motes::run::plot::{Area, FAINT, INK, fine, line, text, write};
 
 const SIZE: (u32, u32) = (1080, 1000);
 /// Pixels above what is drawn: a title, and a row of names.

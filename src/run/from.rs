@@ -2,13 +2,18 @@
 
 use std::path::Path;
 
-use motes::formats;
-use motes::scene::Scene;
-use motes::{Error, Setup};
+use crate::error::Error;
+use crate::formats;
+use crate::scene::Scene;
+use crate::simulation::Setup;
 
+use super::packed::FROM;
 use super::progress::plain;
 
-/// Puts the state of a file in the place of the scene's own.
+/// Puts the state of a file, which an earlier run of the scene has written, in the place of the scene's own.
+///
+/// # Errors
+/// [`Error::Input`] when the file is of other particles, holds no clock that is needed, or is at the end of the run.
 pub fn go_on(setup: &mut Setup, scene: &Scene, path: &Path) -> Result<(), Error> {
     let mut state = formats::read(path, &setup.columns()?)?;
     let refuse = |message: String| Err(Error::Input { file: path.to_owned(), message });
@@ -52,11 +57,11 @@ pub fn go_on(setup: &mut Setup, scene: &Scene, path: &Path) -> Result<(), Error>
 fn numbered(path: &Path) -> Option<u64> {
     let table = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv"));
     let name = path.file_stem()?.to_str()?;
-    name.strip_prefix("snapshot_").filter(|_| table)?.parse().ok()
+    name.trim_start_matches(FROM).strip_prefix("snapshot_").filter(|_| table)?.parse().ok()
 }
 
 /// What is to be said where a simulation begins at this step.
-pub fn remark(goes_on: bool, step: u64, time: f64) -> String {
+pub(super) fn remark(goes_on: bool, step: u64, time: f64) -> String {
     let way = if goes_on {
         "with all that its last step kept"
     } else {

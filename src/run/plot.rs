@@ -3,8 +3,9 @@
 use std::io::Write;
 use std::path::Path;
 
-use motes::formats::atomically;
-use motes::{Error, Measure};
+use crate::error::Error;
+use crate::formats::atomically;
+use crate::measure::Measure;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};

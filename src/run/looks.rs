@@ -1,6 +1,6 @@
 //! Looks at the energy between the states that are written: what is largest in a run is seldom there.
 
-use motes::Measure;
+use crate::measure::Measure;
 
 /// So many looks are taken in a run, about.
 const LOOKS: u64 = 64;
@@ -20,19 +20,19 @@ pub struct Looks {
 
 impl Looks {
     /// For a run of so many steps. Adaptive steps are left alone: a look would cut one in two.
-    pub fn new(steps: u64, adaptive: bool) -> Self {
+    pub(super) fn new(steps: u64, adaptive: bool) -> Self {
         Self { interval: if adaptive { 0 } else { (steps / LOOKS).max(APART) }, ..Self::default() }
     }
     /// The step of the next look.
-    pub fn next(&self, done: u64) -> u64 {
+    pub(super) fn next(&self, done: u64) -> u64 {
         done.checked_div(self.interval).map_or(u64::MAX, |looks| (looks + 1) * self.interval)
     }
     /// Whether one is taken at this step.
-    pub fn is_due(&self, done: u64) -> bool {
+    pub(super) fn is_due(&self, done: u64) -> bool {
         self.interval > 0 && done.is_multiple_of(self.interval)
     }
     /// Takes in a state.
-    pub fn take(&mut self, row: &Measure) {
+    pub(super) fn take(&mut self, row: &Measure) {
         self.kinetic = self.kinetic.max(row.kinetic);
         self.count += 1;
     }

@@ -1,0 +1,60 @@
+//! The end of a run: what it says of itself.
+
+use motes::run::{Book, Counts, Course, End, Flocks, Run};
+use serde_json::json;
+
+use super::advice::Conserved;
+use super::failure::Failure;
+use super::progress::Progress;
+use super::{course, film, summary};
+
+/// Tells how a run ended.
+pub fn conclude(run: &Run, end: End, conserved: &Conserved, progress: &Progress) -> Result<(), Failure> {
+    let took = progress.finish();
+    let (scene, output, count) = (run.scene(), &run.options().output, run.count());
+    if let Some(few) = run.pictures.last().map(|image| image.outside).filter(|few| *few > 0) {
+        progress.say(&format!("note: {few} of {count} particles are outside of the last picture"));
+    }
+    let film = run.film.as_ref().map_or_else(Vec::new, |film| film::lines(film, &scene.name, output, progress));
+    let rate = end.steps as f64 / end.stepping.as_secs_f64().max(1e-9);
+    let rows = run.energies.rows();
+    let (first, last) = (run.energies.first(), rows.last().copied().unwrap_or_default());
+    let worst = rows.iter().map(|row| row.drift_from(&first).abs()).fold(0.0, f64::max);
+    let clock = run.course.as_ref().and_then(Course::clock);
+    let flock = run.flocks.as_ref().and_then(Flocks::ends);
+    progress.event(
+        "finish",
+        json!({ "steps": last.step, "stopped": end.stopped, "seconds": took.as_secs_f64(),
+            "stepping_seconds": end.stepping.as_secs_f64(), "steps_per_second": rate,
+            "energy": last.total(), "energy_error": last.drift_from(&first), "worst_energy_error": worst,
+            "adaptive": course::event(clock), "order": flock.map(|(_, last)| last.order), "output": output }),
+    );
+    let say = |text: String| progress.conclude(&text);
+    if end.stopped {
+        let done = run.course.as_ref().map_or(0, Course::done);
+        say(format!("stopped at step {done} of {}; everything up to there is written", scene.steps));
+        if run.is_kept() {
+            say(format!("to go on: motes resume {}", output.display()));
+        }
+    }
+    say(summary::speed(end.steps, count, end.stepping, took));
+    clock.map(course::summary).into_iter().for_each(&say);
+    // Birds are driven: their energy has no meaning.
+    if conserved.energy || flock.is_none() {
+        say(summary::energy(rows, &run.looks, conserved));
+    }
+    summary::momentum(rows, conserved).into_iter().for_each(&say);
+    flock.map(|(first, last)| summary::flock_statistics(first, last)).into_iter().for_each(&say);
+    run.book.as_ref().and_then(Book::summary).into_iter().for_each(&say);
+    let (whole, left) = run.springs;
+    left.map(|left| summary::broken(whole, left)).into_iter().for_each(&say);
+    let population = Counts::last(&run.counts);
+    population.map(summary::population).into_iter().for_each(&say);
+    let more =
+        [(flock.is_some(), ", flock.csv"), (run.book.is_some(), ", fluid.csv"), (population.is_some(), ", flow.csv")];
+    let tables: String = more.iter().filter(|(is, _)| *is).fold("energy.csv".to_owned(), |all, (_, name)| all + name);
+    let picture = if run.pictures.wanted() { format!("{}.png, ", scene.name) } else { String::new() };
+    say(format!("results in {}: {picture}{tables}, energy.svg, scene.toml, {} states", output.display(), rows.len()));
+    film.into_iter().for_each(&say);
+    if end.stopped { Err(Failure::Stopped) } else { Ok(()) }
+}

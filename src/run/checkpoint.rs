@@ -1,0 +1,319 @@
+//! `checkpoint_*.npz`: all that a run needs to go on, in one file.
+//!
+//! It is the archive of the state, which `numpy.load` and `--from` read, with entries `run/…` beside the arrays: the scene with every
+//! value, the files that it reads, the lengths of tables, and what the host knows. Every entry has its checksum, and `run/run.toml` is
+//! the last of them, so that an archive that was cut is known.
+
+use std::collections::BTreeSet;
+use std::fs::{self, File};
+use std::io::{self, BufReader, Cursor, Read, Seek, SeekFrom};
+use std::path::{Path, PathBuf};
+
+use npyz::npz::NpzArchive;
+use npyz::zip::CompressionMethod;
+use npyz::zip::read::ZipFile;
+use toml::{Table as Toml, Value};
+
+use super::packed::{FROM, Packed};
+use super::table::Lengths;
+use crate::error::Error;
+use crate::formats::{Precision, atomically, npz};
+use crate::kernel::Columns;
+use crate::render::Exposure;
+use crate::state::State;
+
+/// The entries beside arrays begin with it.
+const RUN: &str = "run/";
+const HEAD: &str = "run.toml";
+const SCENE: &str = "scene.toml";
+const TRAIL: &str = "trail.f64";
+const KEPT: &str = "kept.f32";
+const FILM: &str = "film.npz";
+/// Files that the scene reads begin with it.
+const FILE: &str = "file_";
+/// The number of the format.
+const FORMAT: u64 = 1;
+
+/// What runs it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Place {
+    pub version: String,
+    pub device: String,
+    pub precision: Precision,
+}
+
+/// What the host knows of a run beside its state.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct Past {
+    /// Steps of dt at which the run began, and that are done.
+    pub begun: u64,
+    pub done: u64,
+    pub lengths: Lengths,
+    /// Results that were in the folder.
+    pub results: BTreeSet<String>,
+    /// The largest kinetic energy, and states that were measured.
+    pub kinetic: f64,
+    pub looks: u64,
+    /// The numbers of the trail.
+    pub trail: Vec<f64>,
+    pub film: Reel,
+}
+
+/// How far a film is.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct Reel {
+    pub done: u64,
+    pub outside: u64,
+    pub exposure: Option<Exposure>,
+    /// The state by which the camera was set up, and the pushes of the trail then.
+    pub first: Option<State>,
+    pub pushes: u64,
+    /// Steps, and pushes, of states that are to be drawn; their positions and velocities, one behind another.
+    pub steps: Vec<u64>,
+    pub numbers: Vec<f32>,
+}
+
+/// A checkpoint that was read, and found whole.
+#[derive(Debug)]
+pub struct Checkpoint {
+    file: PathBuf,
+    step: u64,
+    time: f64,
+    name: String,
+    pub(super) place: Place,
+    pub(super) packed: Packed,
+    pub(super) past: Past,
+    /// Where its files are, until this is dropped.
+    folder: tempfile::TempDir,
+}
+
+/// Writes a checkpoint. It is whole or not there, and no other file is touched.
+pub(super) fn write(
+    path: &Path,
+    name: &str,
+    (state, place): (&State, &Place),
+    packed: &Packed,
+    past: &Past,
+) -> Result<(), Error> {
+    // All 64 bits, as TOML has them.
+    let number = |x: u64| Value::Integer(x.cast_signed());
+    let list = |all: &mut dyn Iterator<Item = u64>| Value::Array(all.map(number).collect());
+    let film = &past.film;
+    let exposure = film.exposure.map(|Exposure { knee, white }| [knee.to_bits(), white.to_bits()]);
+    let head: Toml = [
+        ("format", number(FORMAT)),
+        ("version", place.version.as_str().into()),
+        ("device", place.device.as_str().into()),
+        ("double", (place.precision == Precision::Double).into()),
+        ("scene", name.into()),
+        ("also", packed.also.as_str().into()),
+        ("step", number(state.step)),
+        ("time", number(state.time.to_bits())),
+        ("begun", number(past.begun)),
+        ("done", number(past.done)),
+        ("kinetic", number(past.kinetic.to_bits())),
+        ("looks", number(past.looks)),
+        ("results", Value::Array(past.results.iter().map(|name| name.as_str().into()).collect())),
+        ("tables", Value::Table(past.lengths.iter().map(|(name, length)| (name.clone(), number(*length))).collect())),
+        ("film_done", number(film.done)),
+        ("film_outside", number(film.outside)),
+        ("film_exposure", list(&mut exposure.into_iter().flatten())),
+        ("film_pushes", number(film.pushes)),
+        ("film_steps", list(&mut film.steps.iter().copied())),
+    ]
+    .into_iter()
+    .map(|(key, value)| (key.to_owned(), value))
+    .collect();
+    let mut entries = vec![(SCENE.to_owned(), packed.scene.clone().into_bytes())];
+    entries.extend(packed.files.iter().map(|(name, bytes)| (format!("{FILE}{name}"), bytes.clone())));
+    entries.push((TRAIL.to_owned(), past.trail.iter().flat_map(|x| x.to_le_bytes()).collect()));
+    entries.push((KEPT.to_owned(), film.numbers.iter().flat_map(|x| x.to_le_bytes()).collect()));
+    atomically(path, |out| {
+        if let Some(state) = &film.first {
+            let mut bytes = Cursor::new(Vec::new());
+            npz::write_npz(&mut bytes, state, place.precision)?;
+            entries.push((FILM.to_owned(), bytes.into_inner()));
+        }
+        entries.push((HEAD.to_owned(), head.to_string().into_bytes()));
+        let entries: Vec<_> = entries.into_iter().map(|(name, bytes)| (format!("{RUN}{name}"), bytes)).collect();
+        npz::write_beside(out, state, place.precision, &entries)
+    })
+}
+
+impl Checkpoint {
+    /// Reads a checkpoint, all of it: every checksum is compared.
+    ///
+    /// # Errors
+    /// [`Error::Input`] with what is wrong with the file.
+    pub fn read(file: &Path) -> Result<Self, Error> {
+        read(file).map_err(|message| Error::Input { file: file.to_owned(), message })
+    }
+    /// The file.
+    #[must_use]
+    pub fn file(&self) -> &Path {
+        &self.file
+    }
+    /// The step and the time of its state.
+    #[must_use]
+    pub fn at(&self) -> (u64, f64) {
+        (self.step, self.time)
+    }
+    /// The name of its scene.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+    /// The text of its scene.
+    #[must_use]
+    pub fn scene(&self) -> &str {
+        &self.packed.scene
+    }
+    /// Where the files are that the scene reads, until this is dropped.
+    #[must_use]
+    pub fn folder(&self) -> &Path {
+        self.folder.path()
+    }
+    /// The state with which the run began, where that was not the scene's.
+    #[must_use]
+    pub fn from(&self) -> Option<PathBuf> {
+        let mut names = self.packed.files.iter().map(|(name, _)| name);
+        Some(self.folder().join(names.find(|name| name.starts_with(FROM))?))
+    }
+    /// Its state, of these columns.
+    pub(super) fn state(&self, columns: &Columns) -> Result<State, Error> {
+        npz::read(&self.file, columns)
+    }
+    /// The state by which the camera of the film was set up, if there is one.
+    pub(super) fn film(&self, columns: &Columns) -> Result<Option<State>, Error> {
+        let file = self.folder().join(FILM);
+        file.exists().then(|| npz::read(&file, columns)).transpose()
+    }
+}
+
+fn read(file: &Path) -> Result<Checkpoint, String> {
+    let words = |error: io::Error| error.to_string();
+    let opened = || File::open(file).map(BufReader::new).map_err(words);
+    let length = fs::metadata(file).map_err(words)?.len();
+    let mut raw = opened()?;
+    let mut archive = NpzArchive::new(opened()?).map_err(|error| format!("is no whole archive ({error})"))?;
+    let zip = archive.zip_archive();
+    let folder = tempfile::tempdir().map_err(words)?;
+    let (mut head, mut files) = (None, Vec::new());
+    let mut blobs = [(SCENE, Vec::new()), (TRAIL, Vec::new()), (KEPT, Vec::new())];
+    for number in 0..zip.len() {
+        let mut entry = zip.by_index(number).map_err(|error| format!("is damaged ({error})"))?;
+        let name = entry.name().to_owned();
+        let damaged = |why: &dyn std::fmt::Display| format!("is damaged: `{name}` {why}");
+        let same = named(&mut raw, entry.header_start()).is_ok_and(|own| own == name.as_bytes());
+        if !same || entry.compression() != CompressionMethod::Stored || entry.size() > length {
+            return Err(damaged(&"is not an entry of a checkpoint"));
+        }
+        let Some(own) = name.strip_prefix(RUN) else {
+            io::copy(&mut entry, &mut io::sink()).map_err(|error| damaged(&error))?;
+            continue;
+        };
+        let bytes = content(&mut entry).map_err(|error| damaged(&error))?;
+        let plain = !own.starts_with('.') && own.bytes().all(|c| c.is_ascii_alphanumeric() || b"._-".contains(&c));
+        if let Some((_, blob)) = blobs.iter_mut().find(|(known, _)| *known == own) {
+            *blob = bytes;
+        } else if own == HEAD {
+            head = Some(String::from_utf8(bytes).map_err(|error| damaged(&error))?);
+        } else if let (true, Some(own)) = (plain, own.strip_prefix(FILE)) {
+            fs::write(folder.path().join(own), &bytes).map_err(words)?;
+            files.push((own.to_owned(), bytes));
+        } else if own == FILM {
+            fs::write(folder.path().join(FILM), bytes).map_err(words)?;
+        } else {
+            return Err(damaged(&"is not an entry of a checkpoint"));
+        }
+    }
+    let head = head.ok_or("is cut, or no checkpoint: it has no entry `run/run.toml`")?;
+    let head: Toml = head.parse().map_err(|error: toml::de::Error| format!("is damaged: {}", error.message()))?;
+    let head = Head(head);
+    let format = head.number("format")?;
+    if format != FORMAT {
+        return Err(format!(
+            "is of format {format}, and this version reads {FORMAT}: go on with the version that wrote it"
+        ));
+    }
+    let [(_, scene), (_, trail), (_, numbers)] = blobs;
+    let scene = String::from_utf8(scene).map_err(|error| error.to_string())?;
+    let exposure = match head.list("film_exposure")?[..] {
+        [knee, white] => Some(Exposure { knee: f64::from_bits(knee), white: f64::from_bits(white) }),
+        _ => None,
+    };
+    let film = Reel {
+        done: head.number("film_done")?,
+        outside: head.number("film_outside")?,
+        exposure,
+        first: None,
+        pushes: head.number("film_pushes")?,
+        steps: head.list("film_steps")?,
+        numbers: numbers.chunks_exact(4).map(|four| f32::from_le_bytes([four[0], four[1], four[2], four[3]])).collect(),
+    };
+    let eight = |bytes: &[u8]| f64::from_le_bytes(std::array::from_fn(|k| bytes[k]));
+    let past = Past {
+        begun: head.number("begun")?,
+        done: head.number("done")?,
+        lengths: head.lengths("tables")?,
+        results: head.names("results")?,
+        kinetic: f64::from_bits(head.number("kinetic")?),
+        looks: head.number("looks")?,
+        trail: trail.chunks_exact(8).map(eight).collect(),
+        film,
+    };
+    let precision = if head.of("double", Value::as_bool)? { Precision::Double } else { Precision::Single };
+    let place = Place { version: head.text("version")?, device: head.text("device")?, precision };
+    Ok(Checkpoint {
+        file: file.to_owned(),
+        step: head.number("step")?,
+        time: f64::from_bits(head.number("time")?),
+        name: head.text("scene")?,
+        place,
+        packed: Packed { scene, also: head.text("also")?, files },
+        past,
+        folder,
+    })
+}
+
+/// The name of an entry where the entry itself is: the list at the end of an archive has it a second time, without a checksum.
+fn named(raw: &mut BufReader<File>, start: u64) -> io::Result<Vec<u8>> {
+    raw.seek(SeekFrom::Start(start))?;
+    let mut head = [0; 30];
+    raw.read_exact(&mut head)?;
+    let mut name = vec![0; usize::from(u16::from_le_bytes([head[26], head[27]]))];
+    raw.read_exact(&mut name)?;
+    Ok(name)
+}
+
+fn content(entry: &mut ZipFile<'_>) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    entry.read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+/// The table of `run.toml`.
+struct Head(Toml);
+
+impl Head {
+    fn of<'a, T>(&'a self, key: &str, what: impl FnOnce(&'a Value) -> Option<T>) -> Result<T, String> {
+        self.0.get(key).and_then(what).ok_or_else(|| format!("is damaged: `{key}` is missing"))
+    }
+    fn number(&self, key: &str) -> Result<u64, String> {
+        self.of(key, Value::as_integer).map(i64::cast_unsigned)
+    }
+    fn text(&self, key: &str) -> Result<String, String> {
+        self.of(key, Value::as_str).map(str::to_owned)
+    }
+    fn list(&self, key: &str) -> Result<Vec<u64>, String> {
+        let number = |value: &Value| value.as_integer().map(i64::cast_unsigned);
+        self.of(key, |value| value.as_array()?.iter().map(number).collect())
+    }
+    fn names(&self, key: &str) -> Result<BTreeSet<String>, String> {
+        self.of(key, |value| value.as_array()?.iter().map(|name| name.as_str().map(str::to_owned)).collect())
+    }
+    fn lengths(&self, key: &str) -> Result<Lengths, String> {
+        let one = |(name, length): (&String, &Value)| Some((name.clone(), length.as_integer()?.cast_unsigned()));
+        self.of(key, |value| value.as_table()?.iter().map(one).collect())
+    }
+}

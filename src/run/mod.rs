@@ -1,0 +1,369 @@
+//! Runs: a scene steps to its end, is written down at its outputs, and goes on after it was stopped or killed.
+//!
+//! ```no_run
+//! use motes::run::{Options, Run};
+//! use motes::scene::{self, Scene, Source};
+//! use motes::{Cpu, Simulation};
+//!
+//! # async fn example() -> Result<(), Box<dyn std::error::Error>> {
+//! let mut scene = Scene::load(&Source::find("kepler")?, &[], &scene::Options::default())?;
+//! let setup = scene.setup();
+//! let mut run = Run::new(scene, &setup, Options::into("out/kepler"))?;
+//! let mut simulation = Simulation::on(Cpu::new(setup.check()?)?, &setup)?;
+//! let end = run.drive(&mut simulation, &mut ()).await?;
+//! println!("{} steps; {} states are in out/kepler", end.steps, run.energies.rows().len());
+//! # Ok(())
+//! # }
+//! ```
+
+mod checkpoint;
+mod course;
+mod energy;
+mod film;
+mod flock;
+mod fluid;
+mod from;
+mod looks;
+mod outputs;
+mod packed;
+mod pictures;
+#[doc(hidden)]
+pub mod plot;
+mod population;
+mod progress;
+mod resume;
+mod schedule;
+mod states;
+mod stop;
+mod table;
+mod writer;
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use web_time::{Duration, Instant};
+
+pub use checkpoint::Checkpoint;
+pub use course::{Course, begun};
+pub use energy::Energies;
+pub use film::Film;
+pub use flock::Flocks;
+pub use fluid::Book;
+pub use from::go_on;
+pub use looks::Looks;
+pub use pictures::Pictures;
+pub use population::Counts;
+pub use progress::{Progress, plain};
+pub use resume::{Found, is_of};
+pub use states::{States, written};
+pub use stop::Stop;
+pub use table::{Lengths, Rows, Table};
+pub use writer::{Moment, Writer};
+
+use crate::error::Error;
+use crate::formats::{Folder, Precision};
+use crate::kernel::{Backend, Columns, Machine, POSITION};
+use crate::measure::Measure;
+use crate::render::{Picture, Scenery, Trail};
+use crate::scene::{Every, Scene};
+use crate::simulation::{Setup, Simulation};
+use crate::state::State;
+use packed::Packed;
+use schedule::Schedule;
+
+/// How long one batch of steps should take: a request to stop is heard between two.
+const BATCH: Duration = Duration::from_millis(250);
+/// Between two measurements of the energy for a bar that is watched, at least.
+const LOOK: Duration = Duration::from_secs(1);
+
+/// How a run is written down, beside what its scene says.
+#[derive(Debug, Clone)]
+pub struct Options {
+    /// The folder for results.
+    pub output: PathBuf,
+    /// Whether results of an earlier run that are there are removed.
+    pub overwrite: bool,
+    /// Whether the ledger of a fluid, `fluid.csv`, gets a row after every step.
+    pub ledger: bool,
+    /// How many pictures of a film are shown in a second.
+    pub fps: u16,
+    /// What it runs on, in words: adapter and driver.
+    pub device: String,
+    /// Double where the references run, whose numbers have 64 bits.
+    pub precision: Precision,
+    /// The file of the state with which it begins, where that is not the scene's: see [`go_on`].
+    pub from: Option<PathBuf>,
+    /// What ends it early.
+    pub stop: Stop,
+}
+
+impl Options {
+    /// Those of a run on a device, into this folder.
+    #[must_use]
+    pub fn into(output: impl Into<PathBuf>) -> Self {
+        Self {
+            output: output.into(),
+            overwrite: false,
+            ledger: false,
+            fps: 30,
+            device: "a device".to_owned(),
+            precision: Precision::Single,
+            from: None,
+            stop: Stop::default(),
+        }
+    }
+    /// What of it decides about results, a line each.
+    fn also(&self) -> String {
+        format!("fps = {}\nledger = {}\n", self.fps, self.ledger)
+    }
+}
+
+/// A run of a scene.
+pub struct Run {
+    scene: Scene,
+    options: Options,
+    /// Steps of dt at which it begins.
+    begun: u64,
+    count: usize,
+    columns: Columns,
+    packed: Packed,
+    /// Whether a law keeps history of pairs, which no state holds.
+    pairs: bool,
+    /// The folder, held until this is dropped.
+    folder: Option<Arc<Folder>>,
+    /// Where it goes on.
+    resumed: Option<Checkpoint>,
+    schedule: Schedule,
+    /// The energies.
+    pub energies: Energies,
+    /// Order and clusters, where a statistics radius is set.
+    pub flocks: Option<Flocks>,
+    /// How many particles are pending, active and removed.
+    pub counts: Counts,
+    /// The ledger of a fluid, if there is one.
+    pub book: Option<Book>,
+    /// Pictures of outputs.
+    pub pictures: Pictures,
+    /// The film, if one is asked for.
+    pub film: Option<Film>,
+    /// What was seen of the energies.
+    pub looks: Looks,
+    /// More writers, which take every output.
+    pub writers: Vec<Box<dyn Writer>>,
+    states: States,
+    /// How far it is.
+    pub course: Option<Course>,
+    /// Springs at the start, and what is left of them, where they may break.
+    pub springs: (usize, Option<usize>),
+    /// The last state that was read, and so the last that is known to be good.
+    pub last: Option<State>,
+}
+
+/// How a run ended.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct End {
+    /// Whether it was stopped before its last step; it can go on from the checkpoint that was written then.
+    pub stopped: bool,
+    /// Steps that were made since it began, or went on.
+    pub steps: u64,
+    /// How long these took, without measurements and files.
+    pub stepping: Duration,
+}
+
+impl Run {
+    /// A run of a scene whose setup this is.
+    ///
+    /// # Errors
+    /// [`Error::Output`] when the folder holds what must not be replaced, [`Error::Input`] when a file of the scene is gone, and what
+    /// is wrong with pictures.
+    pub fn new(scene: Scene, setup: &Setup, options: Options) -> Result<Self, Error> {
+        Folder::examine(&options.output, &scene.name, &scene.files, options.overwrite)?;
+        Self::of(scene, setup, options, None)
+    }
+    /// A run of a scene, into a folder that is held or will be.
+    fn of(scene: Scene, setup: &Setup, options: Options, folder: Option<Arc<Folder>>) -> Result<Self, Error> {
+        let packed = Packed::of(&scene, options.also(), options.from.as_deref())?;
+        let begun = course::begun(&scene, &setup.state);
+        let properties = || setup.forces.iter().map(|force| force.properties());
+        let standing = properties().filter_map(|of| of.pictured).collect();
+        let scenery = Scenery::of(&setup.state).within(&scene.bounds).beside(standing, &setup.state);
+        Picture::with(&scene.picture, &setup.state, &[], Trail::new(0), &scenery)?;
+        let radius = properties().find_map(|of| of.statistics_radius);
+        let count = setup.state.len();
+        let list = setup.problem(Machine::HOST)?.list;
+        Ok(Self {
+            begun,
+            count,
+            columns: setup.columns()?,
+            packed,
+            pairs: list.is_some_and(|list| list.words > 0),
+            folder,
+            resumed: None,
+            schedule: Schedule::new(scene.checkpoint.every, setup.state.step, setup.state.time),
+            energies: Energies::new(&scene.name),
+            flocks: radius.map(|radius| Flocks::new(radius, scene.bounds)),
+            counts: Counts::default(),
+            book: Book::of(setup)?,
+            pictures: Pictures::new(&scene, count, scenery),
+            film: Film::of(&scene, begun, options.fps),
+            looks: Looks::new(scene.steps, scene.adaptive_step.is_some()),
+            writers: Vec::new(),
+            states: States::new(&scene.output.formats, options.precision, scene.steps),
+            course: None,
+            springs: (setup.state.links.springs.len(), None),
+            last: None,
+            scene,
+            options,
+        })
+    }
+    /// The scene, without its particles and forces.
+    #[must_use]
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+    /// How many particles it has.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.count
+    }
+    /// Whether it can go on once it is stopped: not where a law keeps history of pairs.
+    #[must_use]
+    pub fn is_kept(&self) -> bool {
+        !self.pairs
+    }
+    /// How it is written down.
+    #[must_use]
+    pub fn options(&self) -> &Options {
+        &self.options
+    }
+    /// Steps a simulation of the scene to the end, and writes it down.
+    ///
+    /// # Errors
+    /// What goes wrong with the simulation, and [`Error::Output`] when a result cannot be written. The last checkpoint stays, if there
+    /// is one.
+    pub async fn drive<B: Backend>(
+        &mut self,
+        simulation: &mut Simulation<B>,
+        progress: &mut dyn Progress,
+    ) -> Result<End, Error> {
+        // Everything that can be refused was refused: from here on files are written.
+        let folder = self.open(progress)?;
+        if self.pairs && self.scene.checkpoint.every != Every::Never {
+            progress.remark(
+                "no checkpoints are written, and the run cannot go on once it is stopped: a law keeps history of pairs (slots), which a \
+                 state does not hold",
+            );
+        }
+        if simulation.steps() > 0 || simulation.goes_on() {
+            let time = simulation.clock().await?.map_or(simulation.steps() as f64 * self.scene.dt, |clock| clock.time);
+            progress.remark(&from::remark(simulation.goes_on(), simulation.steps(), time));
+        }
+        let mut course = Course::of(&self.scene, simulation).await?;
+        let begun = simulation.steps();
+        if let Some(from) = &self.resumed {
+            course.go_on(from.past.done);
+        } else {
+            self.write(simulation, &course, progress).await?;
+            self.shoot(simulation, &course, &folder, progress).await?;
+        }
+        self.schedule = Schedule::new(self.scene.checkpoint.every, simulation.steps(), course.time());
+        let stepping = self.advance(simulation, &mut course, &folder, progress).await?;
+        let stopped = course.done() < self.scene.steps;
+        if stopped {
+            // Before what only a run that is stopped here writes.
+            self.save(simulation, &course, progress).await?;
+        }
+        if self.energies.rows().last().is_none_or(|row| row.step != simulation.steps()) {
+            self.write(simulation, &course, progress).await?;
+        }
+        let steps = simulation.steps() - begun;
+        if let Some(film) = &mut self.film {
+            film.develop(simulation, (&self.pictures, &folder), progress).await?;
+            film.join(&folder)?;
+        }
+        for writer in self.all() {
+            writer.finish()?;
+        }
+        if !stopped {
+            self.sign(&folder, Some(simulation.steps()))?;
+            folder.keep_checkpoints(0)?;
+        }
+        self.course = Some(course);
+        Ok(End { stopped, steps, stepping })
+    }
+    /// Steps until the run ends or is stopped. Gives how long steps took.
+    async fn advance<B: Backend>(
+        &mut self,
+        simulation: &mut Simulation<B>,
+        course: &mut Course,
+        folder: &Folder,
+        progress: &mut dyn Progress,
+    ) -> Result<Duration, Error> {
+        let (steps, every, dt) = (self.scene.steps, self.scene.output.every, self.scene.dt);
+        let (mut batch, mut stepping) = (1, Duration::ZERO);
+        let (mut looked, mut look) = (Instant::now(), Duration::ZERO);
+        while course.done() < steps && !self.options.stop.asked(self.schedule.took) {
+            let (done, made) = (course.done(), simulation.steps());
+            let next = ((done / every + 1) * every).min(steps);
+            let frame = self.film.as_ref().and_then(Film::next).unwrap_or(steps);
+            let point = self.pictures.until_point(made).unwrap_or(u64::MAX);
+            let most = point.min(self.schedule.most(made, course.time(), dt));
+            let most = if self.options.ledger { 1 } else { most };
+            let start = Instant::now();
+            let target = next.min(frame).min(self.looks.next(done));
+            let some = course.advance(simulation, target, batch.min(most)).await?;
+            stepping += start.elapsed();
+            let factor = (BATCH.as_secs_f64() / start.elapsed().as_secs_f64().max(1e-6)).clamp(0.5, 4.0);
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "a size of batches, at least one"
+            )]
+            if some == batch || factor < 1.0 {
+                batch = ((batch as f64 * factor) as u64).clamp(1, 1 << 20);
+            }
+            if self.pictures.points_at(simulation.steps()) {
+                let positions = simulation.read(POSITION).await?;
+                let positions: Vec<_> = positions.iter().map(|x| x.as_dvec4().truncate()).collect();
+                self.pictures.trail.push(&positions);
+            }
+            progress.at(course.done());
+            if course.done() == next {
+                self.write(simulation, course, progress).await?;
+            } else if let (true, Some(_)) = (self.options.ledger, &self.book) {
+                self.enter(simulation, course, progress).await?;
+            } else if self.looks.is_due(course.done()) || progress.watched() && looked.elapsed() > LOOK.max(look * 20) {
+                // The energy between two outputs, and for a bar that is watched for a twentieth of the time at most.
+                let start = Instant::now();
+                let snapshot = simulation.snapshot().await?;
+                let row = Measure::of(&snapshot)?;
+                progress.energy(&row, &self.energies.first());
+                if self.looks.is_due(course.done()) {
+                    self.looks.take(&row);
+                }
+                self.last = Some(snapshot);
+                (looked, look) = (Instant::now(), start.elapsed());
+            }
+            self.shoot(simulation, course, folder, progress).await?;
+            if course.done() < steps && self.schedule.is_due(simulation.steps(), course.time()) {
+                self.save(simulation, course, progress).await?;
+            }
+        }
+        Ok(stepping)
+    }
+    /// Takes the present state for the film, if it is one of its frames.
+    async fn shoot<B: Backend>(
+        &mut self,
+        simulation: &mut Simulation<B>,
+        course: &Course,
+        folder: &Folder,
+        progress: &mut dyn Progress,
+    ) -> Result<(), Error> {
+        match &mut self.film {
+            Some(film) if film.next() == Some(course.done()) => {
+                film.shoot(simulation, course.done(), (&self.pictures, folder), progress).await
+            }
+            _ => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,60 @@
+//! A scene with all that it reads: what a checkpoint needs of it.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::error::Error;
+use crate::scene::Scene;
+
+/// The text of a scene, and the files that it names, under names of their own.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Packed {
+    /// Every value of the scene.
+    pub scene: String,
+    /// What else decides what a run writes, a line each.
+    pub also: String,
+    /// Names and contents.
+    pub files: Vec<(String, Vec<u8>)>,
+}
+
+/// The name of the state from which a run was begun.
+pub(super) const FROM: &str = "from_";
+
+impl Packed {
+    /// Reads the files of a scene, and the state with which it begins, if that is another.
+    pub(super) fn of(scene: &Scene, also: String, from: Option<&Path>) -> Result<Self, Error> {
+        let (text, named) = scene.packed();
+        let named = named.into_iter().chain(from.map(|path| (format!("{FROM}{}", tame(path)), path.to_owned())));
+        let read = |(name, path): (String, PathBuf)| {
+            let bytes = fs::read(&path).map_err(|why| Error::Input { file: path, message: why.to_string() })?;
+            Ok((name, bytes))
+        };
+        Ok(Self { scene: text, also, files: named.map(read).collect::<Result<_, Error>>()? })
+    }
+    /// What another has otherwise, in words; nothing where they are the same.
+    pub(super) fn difference(&self, other: &Self) -> Option<String> {
+        let lines = |packed: &Self| format!("{}\n{}", packed.scene, packed.also);
+        let (here, there) = (lines(self), lines(other));
+        let mut pairs = here.lines().zip(there.lines());
+        if let Some((here, there)) = pairs.find(|(here, there)| here != there) {
+            return Some(format!("`{here}` here, `{there}` there"));
+        }
+        if here != there {
+            return Some("one of them says more".to_owned());
+        }
+        let mut files = self.files.iter().zip(&other.files);
+        let file =
+            files.find(|(here, there)| here != there).map(|((name, _), _)| format!("the file {name} has changed"));
+        file.or_else(|| (self.files.len() != other.files.len()).then(|| "one of them begins from a state".to_owned()))
+    }
+}
+
+/// A name of letters, digits, points and lines out of a path.
+fn tame(path: &Path) -> String {
+    let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    // The same name again for a file that has one of these.
+    name.trim_start_matches(FROM)
+        .chars()
+        .map(|c| if c.is_ascii_alphanumeric() || "._-".contains(c) { c } else { '_' })
+        .collect()
+}

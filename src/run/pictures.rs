@@ -1,0 +1,116 @@
+//! `picture_*.png`, and the last of them under the name of the scene.
+
+use std::sync::Arc;
+
+use super::table::Lengths;
+use super::writer::{Moment, Writer};
+use crate::error::Error;
+use crate::formats::Folder;
+use crate::render::{Color, Image, Picture, Scenery, Trail, framed, group_color, pack};
+use crate::scene::{Group, Scene};
+use crate::settings::Settings;
+use crate::state::State;
+
+/// How many points a trail gets, about.
+const TRAIL: u64 = 1000;
+
+/// How states are drawn, and the last picture.
+#[derive(Debug)]
+pub struct Pictures {
+    name: String,
+    wanted: bool,
+    picture: Settings,
+    groups: Vec<Group>,
+    digits: usize,
+    /// Steps from one point of a trail to the next.
+    stride: u64,
+    folder: Option<Arc<Folder>>,
+    /// Where a few particles have been.
+    pub(super) trail: Trail,
+    /// What pictures show beside particles.
+    pub(super) scenery: Scenery,
+    last: Option<Image>,
+}
+
+impl Pictures {
+    /// Those that a scene asks for, of so many particles.
+    pub(super) fn new(scene: &Scene, count: usize, scenery: Scenery) -> Self {
+        // A trail is for pictures.
+        let drawn = scene.output.pictures || scene.output.frames > 0;
+        Self {
+            name: scene.name.clone(),
+            wanted: scene.output.pictures,
+            picture: framed(&scene.picture, &scene.bounds),
+            groups: scene.groups.clone(),
+            digits: scene.steps.to_string().len(),
+            stride: (scene.steps / TRAIL).max(1),
+            folder: None,
+            trail: Trail::new(if drawn { count } else { 0 }),
+            scenery,
+            last: None,
+        }
+    }
+    /// Whether each output is drawn.
+    #[must_use]
+    pub fn wanted(&self) -> bool {
+        self.wanted
+    }
+    /// The last picture.
+    #[must_use]
+    pub fn last(&self) -> Option<&Image> {
+        self.last.as_ref()
+    }
+    /// How many steps there are until the trail gets its next point; none where nothing is kept.
+    pub(super) fn until_point(&self, steps: u64) -> Option<u64> {
+        self.trail.wanted().then(|| self.stride - steps % self.stride)
+    }
+    /// Whether the trail gets a point after so many steps.
+    pub(super) fn points_at(&self, steps: u64) -> bool {
+        self.trail.wanted() && steps.is_multiple_of(self.stride)
+    }
+    /// The picture of a state, to be drawn, with this trail.
+    pub(super) fn of(&self, snapshot: &State, trail: Trail) -> Result<Picture, Error> {
+        let of = |id: usize| {
+            let found = self.groups.iter().position(|g| g.ids.start as usize <= id && id < g.ids.end as usize);
+            u32::try_from(found.unwrap_or(0)).unwrap_or(0)
+        };
+        let groups: Vec<u32> = (0..snapshot.len()).map(of).collect();
+        let mut picture = Picture::with(&self.picture, snapshot, &groups, trail, &self.scenery.at(snapshot.time))?;
+        // Colours that the scene gives count before those of the palette, unless another was asked for.
+        if !["speed", "heading"].contains(&self.picture.text("color")) && self.groups.iter().any(|g| g.color.is_some())
+        {
+            let color = |group: &u32| {
+                let own = self.groups.get(*group as usize).and_then(|g| g.color);
+                pack(own.unwrap_or_else(|| group_color(*group)))
+            };
+            picture.color = Color::Given(groups.iter().map(color).collect());
+        }
+        Ok(picture)
+    }
+}
+
+impl Writer for Pictures {
+    fn open(&mut self, folder: &Arc<Folder>, _: &Lengths) -> Result<(), Error> {
+        self.folder = Some(folder.clone());
+        Ok(())
+    }
+    fn take(&mut self, _: &Moment<'_>) -> Result<(), Error> {
+        Ok(())
+    }
+    fn picture(&mut self, moment: &Moment<'_>) -> Result<Option<Picture>, Error> {
+        self.wanted.then(|| self.of(moment.state, self.trail.clone())).transpose()
+    }
+    fn drawn(&mut self, step: u64, image: Image) -> Result<(), Error> {
+        if let Some(folder) = &self.folder {
+            image.save(&folder.file(&format!("picture_{step:0width$}.png", width = self.digits))?)?;
+        }
+        self.last = Some(image);
+        Ok(())
+    }
+    fn finish(&mut self) -> Result<(), Error> {
+        match (&self.last, &self.folder) {
+            (Some(image), Some(folder)) => image.save(&folder.file(&format!("{}.png", self.name))?),
+            _ => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,228 @@
+//! How a run is kept and goes on: checkpoints are written, the newest whole one is found, and results are cut back to it.
+
+use std::io::Write as _;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use web_time::Instant;
+
+use super::checkpoint::{self, Checkpoint, Past, Place};
+use super::course::Course;
+use super::film::Film;
+use super::progress::Progress;
+use super::table::Lengths;
+use super::{Options, Run};
+use crate::error::Error;
+use crate::formats::{Folder, atomically};
+use crate::kernel::Backend;
+use crate::render::Trail;
+use crate::scene::{Scene, Source};
+use crate::simulation::{Setup, Simulation};
+
+/// What the resolved scene says behind all else, once its run is complete.
+const COMPLETE: &str = "# Complete at step ";
+
+/// What a run that goes on finds in its folder.
+#[derive(Debug)]
+pub enum Found {
+    /// No results.
+    Nothing,
+    /// Results of a run that was ended before its first checkpoint.
+    Begun,
+    /// All results of a run, which ended at this step.
+    Complete(u64),
+    /// A checkpoint, the newest that is whole; and what is wrong with those that are newer.
+    Checkpoint(Box<Checkpoint>, Vec<Error>),
+}
+
+impl Found {
+    /// Looks into a folder that is held.
+    ///
+    /// # Errors
+    /// [`Error::Input`] when there are checkpoints, and none of them is whole.
+    pub fn of(folder: &Folder) -> Result<Self, Error> {
+        let text = std::fs::read_to_string(folder.path().join("scene.toml")).unwrap_or_default();
+        let complete = text.lines().rev().find_map(|line| line.strip_prefix(COMPLETE));
+        if let Some(step) = complete.and_then(|step| step.parse().ok()) {
+            return Ok(Self::Complete(step));
+        }
+        let mut damaged = Vec::new();
+        for file in folder.checkpoints()? {
+            match Checkpoint::read(&file) {
+                Ok(found) => return Ok(Self::Checkpoint(Box::new(found), damaged)),
+                Err(error) => damaged.push(error),
+            }
+        }
+        match damaged.into_iter().next() {
+            Some(Error::Input { file, message }) => Err(Error::Input {
+                file,
+                message: format!("{message}; no checkpoint in the folder is whole: begin anew with --overwrite"),
+            }),
+            Some(other) => Err(other),
+            None if text.is_empty() => Ok(Self::Nothing),
+            None => Ok(Self::Begun),
+        }
+    }
+}
+
+/// Whether the results in a folder are those of this scene.
+#[must_use]
+pub fn is_of(folder: &Folder, scene: &Scene) -> bool {
+    let text = std::fs::read_to_string(folder.path().join("scene.toml")).unwrap_or_default();
+    text.starts_with(&format!("{}\n{}", scene.resolved_in(folder.path()), Folder::SIGNATURE))
+}
+
+impl Checkpoint {
+    /// Where its scene is, for [`Scene::load`].
+    #[must_use]
+    pub fn source(&self) -> Source {
+        Source::Text {
+            name: format!("{}.toml", self.name()),
+            text: self.scene().to_owned(),
+            folder: self.folder().to_owned(),
+        }
+    }
+    /// How its run was started, with results in this folder.
+    #[must_use]
+    pub fn options(&self, output: impl Into<PathBuf>) -> Options {
+        let also: toml::Table = self.packed.also.parse().unwrap_or_default();
+        let fps = also.get("fps").and_then(toml::Value::as_integer).and_then(|fps| u16::try_from(fps).ok());
+        let ledger = also.get("ledger").and_then(toml::Value::as_bool).unwrap_or(false);
+        Options { ledger, fps: fps.unwrap_or(30), from: self.from(), ..Options::into(output) }
+    }
+}
+
+impl Run {
+    /// A run that goes on from a checkpoint in the folder, which is held; `setup` gets its state. Scene and options must be those
+    /// with which it was begun, as [`Checkpoint::source`] and [`Checkpoint::options`] give them.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] when the scene is another, [`Error::Input`] when the checkpoint does not fit it.
+    pub fn resume(
+        scene: Scene,
+        setup: &mut Setup,
+        options: Options,
+        (folder, from): (Folder, Checkpoint),
+    ) -> Result<Self, Error> {
+        let folder = folder.named(&scene.name);
+        let mut run = Self::of(scene, setup, options, Some(Arc::new(folder)))?;
+        if let Some(what) = run.packed.difference(&from.packed) {
+            return Err(Error::Scene(format!(
+                "the checkpoint {} is of another scene: {what}; `motes resume` goes on with the scene of the checkpoint, --overwrite \
+                 begins anew",
+                from.file().display()
+            )));
+        }
+        let state = from.state(&run.columns)?;
+        let unfit =
+            |error: Error| Error::Input { file: from.file().to_owned(), message: format!("cannot go on: {error}") };
+        setup.state.go_on_from(&state).map_err(unfit)?;
+        run.begun = from.past.begun;
+        run.film = Film::of(&run.scene, run.begun, run.options.fps);
+        run.resumed = Some(from);
+        Ok(run)
+    }
+    /// What runs it.
+    fn place(&self) -> Place {
+        let version = env!("CARGO_PKG_VERSION").to_owned();
+        Place { version, device: self.options.device.clone(), precision: self.options.precision }
+    }
+    /// What of version and device is another than when the checkpoint was written.
+    fn moved(&self, from: &Checkpoint) -> Option<String> {
+        let (was, is) = (&from.place, self.place());
+        let pairs = [("version", &was.version, &is.version), ("device", &was.device, &is.device)];
+        let other = |(what, was, is): (&str, &String, &String)| {
+            (was != is).then(|| format!("the {what} is {is}, and was {was}"))
+        };
+        let words: Vec<_> = pairs.into_iter().filter_map(other).collect();
+        (!words.is_empty())
+            .then(|| format!("{}: bits may be others than those of a run that was never stopped", words.join("; ")))
+    }
+    /// Opens folder and tables. Where the run goes on, it is cut back to what was there at the checkpoint.
+    pub(super) fn open(&mut self, progress: &mut dyn Progress) -> Result<Arc<Folder>, Error> {
+        let folder = match self.folder.take() {
+            Some(folder) => folder,
+            None => {
+                let (path, overwrite) = (&self.options.output, self.options.overwrite);
+                Arc::new(Folder::open(path, &self.scene.name, &self.scene.files, overwrite)?)
+            }
+        };
+        self.folder = Some(folder.clone());
+        if let Some(text) = folder.remark() {
+            progress.remark(text);
+        }
+        let from = self.resumed.take();
+        if from.is_none() {
+            self.sign(&folder, None)?;
+        }
+        let none = Lengths::new();
+        let lengths = from.as_ref().map_or(&none, |from| &from.past.lengths);
+        for writer in self.all() {
+            writer.open(&folder, lengths)?;
+        }
+        if let Some(from) = from {
+            self.go_on(&from, &folder, progress)?;
+            self.resumed = Some(from);
+        }
+        Ok(folder)
+    }
+    /// What the host knew at a checkpoint.
+    fn go_on(&mut self, from: &Checkpoint, folder: &Arc<Folder>, progress: &mut dyn Progress) -> Result<(), Error> {
+        let past = &from.past;
+        let gone = folder.keep_only(&past.results, from.at().0)?;
+        if gone > 0 {
+            progress.remark(&format!("{gone} results behind the checkpoint are removed, and will be written again"));
+        }
+        (self.looks.kinetic, self.looks.count) = (past.kinetic, past.looks);
+        if let Some(trail) = Trail::of(self.count, &past.trail).filter(|_| self.pictures.trail.wanted()) {
+            self.pictures.trail = trail;
+        }
+        if let Some(film) = &mut self.film {
+            film.resume(from, self.count, &self.columns, (&self.pictures, folder))?;
+        }
+        progress.remark(&format!("resumes from {}", from.file().display()));
+        if let Some(text) = self.moved(from) {
+            progress.remark(&text);
+        }
+        Ok(())
+    }
+    /// Writes the scene with every value, by which a later run knows what belongs to this one; and that it is complete.
+    pub(super) fn sign(&self, folder: &Folder, complete: Option<u64>) -> Result<(), Error> {
+        let (scene, signature) = (self.scene.resolved_in(folder.path()), folder.signature(&self.options.device));
+        let end = complete.map_or_else(String::new, |step| format!("{COMPLETE}{step}\n"));
+        atomically(&folder.file("scene.toml")?, |out| write!(out, "{scene}\n{signature}{end}"))
+    }
+    /// Writes a checkpoint of the present state, and removes those that are too old to be kept.
+    pub(super) async fn save<B: Backend>(
+        &mut self,
+        simulation: &mut Simulation<B>,
+        course: &Course,
+        progress: &mut dyn Progress,
+    ) -> Result<(), Error> {
+        let Some(folder) = self.folder.clone().filter(|_| !self.pairs) else { return Ok(()) };
+        let begun = Instant::now();
+        let state = simulation.snapshot().await?;
+        let mut lengths = Lengths::new();
+        for table in self.tables() {
+            table.settle()?;
+            lengths.insert(table.name().to_owned(), table.length());
+        }
+        let past = Past {
+            begun: self.begun,
+            done: course.done(),
+            lengths,
+            results: folder.results()?,
+            kinetic: self.looks.kinetic,
+            looks: self.looks.count,
+            trail: self.pictures.trail.numbers(),
+            film: self.film.as_ref().map(Film::kept).unwrap_or_default(),
+        };
+        let file = folder.checkpoint(state.step)?;
+        checkpoint::write(&file, &self.scene.name, (&state, &self.place()), &self.packed, &past)?;
+        folder.keep_checkpoints(self.scene.checkpoint.keep)?;
+        self.schedule.written(simulation.steps(), course.time(), begun);
+        progress.checkpoint(state.step, &file);
+        self.last = Some(state);
+        Ok(())
+    }
+}

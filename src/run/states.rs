@@ -1,0 +1,55 @@
+//! `snapshot_*`: states in every format that is numbers, and `links_*`: what is left of links that may break.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use super::table::Lengths;
+use super::writer::{Moment, Writer};
+use crate::error::Error;
+use crate::formats::{self, Folder, Format, Precision, atomically};
+use crate::state::State;
+
+/// Files of states.
+#[derive(Debug)]
+pub struct States {
+    formats: Vec<&'static Format>,
+    precision: Precision,
+    /// Of the numbers of steps.
+    digits: usize,
+    folder: Option<Arc<Folder>>,
+}
+
+impl States {
+    /// In these formats, for a run of so many steps.
+    pub(super) fn new(formats: &[&'static Format], precision: Precision, steps: u64) -> Self {
+        Self { formats: formats.to_vec(), precision, digits: steps.to_string().len(), folder: None }
+    }
+}
+
+impl Writer for States {
+    fn open(&mut self, folder: &Arc<Folder>, _: &Lengths) -> Result<(), Error> {
+        self.folder = Some(folder.clone());
+        Ok(())
+    }
+    fn take(&mut self, moment: &Moment<'_>) -> Result<(), Error> {
+        let (Some(folder), state, width) = (&self.folder, moment.state, self.digits) else { return Ok(()) };
+        for format in &self.formats {
+            let path = folder.file(&format!("snapshot_{:0width$}.{}", state.step, format.name))?;
+            written(&path, format, state, self.precision)?;
+        }
+        if let (Some(links), false) = (moment.links, self.formats.is_empty()) {
+            // `[[links]] file` reads it.
+            let path = folder.file(&format!("links_{:0width$}.csv", state.step))?;
+            atomically(&path, |out| formats::links::write(out, links))?;
+        }
+        Ok(())
+    }
+}
+
+/// Writes a state into a file of a format.
+///
+/// # Errors
+/// [`Error::Output`] when the file cannot be written.
+pub fn written(path: &Path, format: &Format, state: &State, precision: Precision) -> Result<(), Error> {
+    atomically(path, |out| format.write.map_or(Ok(()), |write| write(out, state, precision)))
+}

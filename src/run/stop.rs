@@ -1,0 +1,52 @@
+//! When a run ends before its last step.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use web_time::{Duration, Instant};
+
+/// What ends a run early: it finishes its batch of steps, writes a checkpoint and its last state, and can go on later. Clones share
+/// the request, so that a signal handler or another thread can ask.
+#[derive(Debug, Clone)]
+pub struct Stop {
+    asked: Arc<AtomicBool>,
+    since: Instant,
+    longest: Option<Duration>,
+}
+
+impl Default for Stop {
+    fn default() -> Self {
+        Self { asked: Arc::default(), since: Instant::now(), longest: None }
+    }
+}
+
+impl Stop {
+    /// One that also ends a run when so much time has passed since now.
+    #[must_use]
+    pub fn after(longest: Duration) -> Self {
+        Self { longest: Some(longest), ..Self::default() }
+    }
+    /// Asks the run to end. Gives whether that was asked before.
+    pub fn ask(&self) -> bool {
+        self.asked.swap(true, Ordering::Relaxed)
+    }
+    /// Whether the run is to end now, where its end will take this long.
+    #[must_use]
+    pub fn asked(&self, end: Duration) -> bool {
+        self.asked.load(Ordering::Relaxed) || self.longest.is_some_and(|longest| self.since.elapsed() + end >= longest)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_request_and_a_limit_of_time_end_a_run() {
+        let stop = Stop::default();
+        assert!(!stop.asked(Duration::from_hours(1)));
+        assert!(!stop.clone().ask() && stop.asked(Duration::ZERO) && stop.ask());
+        let stop = Stop::after(Duration::from_hours(1));
+        assert!(!stop.asked(Duration::from_mins(50)) && stop.asked(Duration::from_mins(60)));
+    }
+}
