@@ -29,8 +29,8 @@ const SCENE: &str = "scene.toml";
 const TRAIL: &str = "trail.f64";
 const KEPT: &str = "kept.f32";
 const FILM: &str = "film.npz";
-/// Files that the scene reads begin with it.
-const FILE: &str = "file_";
+/// Files that the scene reads are in folders of it.
+const FILE: &str = "files/";
 /// The number of the format.
 const FORMAT: u64 = 1;
 
@@ -213,14 +213,14 @@ fn read(file: &Path) -> Result<Checkpoint, String> {
             continue;
         };
         let bytes = content(&mut entry).map_err(|error| damaged(&error))?;
-        let plain = !own.starts_with('.') && own.bytes().all(|c| c.is_ascii_alphanumeric() || b"._-".contains(&c));
         if let Some((_, blob)) = blobs.iter_mut().find(|(known, _)| *known == own) {
             *blob = bytes;
         } else if own == HEAD {
             head = Some(String::from_utf8(bytes).map_err(|error| damaged(&error))?);
-        } else if let (true, Some(own)) = (plain, own.strip_prefix(FILE)) {
-            fs::write(folder.path().join(own), &bytes).map_err(words)?;
-            files.push((own.to_owned(), bytes));
+        } else if let Some((inner, end)) = own.strip_prefix(FILE).and_then(within) {
+            let inner = folder.path().join(inner);
+            fs::create_dir_all(&inner).and_then(|()| fs::write(inner.join(end), &bytes)).map_err(words)?;
+            files.push((own[FILE.len()..].to_owned(), bytes));
         } else if own == FILM {
             fs::write(folder.path().join(FILM), bytes).map_err(words)?;
         } else {
@@ -284,6 +284,14 @@ fn named(raw: &mut BufReader<File>, start: u64) -> io::Result<Vec<u8>> {
     let mut name = vec![0; usize::from(u16::from_le_bytes([head[26], head[27]]))];
     raw.read_exact(&mut name)?;
     Ok(name)
+}
+
+/// A folder and a file in it, which lead nowhere else.
+fn within(name: &str) -> Option<(&str, &str)> {
+    let (folder, end) = name.split_once('/')?;
+    let plain = !folder.is_empty() && folder.bytes().all(|c| c.is_ascii_alphanumeric());
+    let leads = end.is_empty() || end == "." || end == ".." || end.contains(['/', '\\', ':', '\0']);
+    (plain && !leads).then_some((folder, end))
 }
 
 fn content(entry: &mut ZipFile<'_>) -> io::Result<Vec<u8>> {

@@ -7,7 +7,6 @@ use crate::formats;
 use crate::scene::Scene;
 use crate::simulation::Setup;
 
-use super::packed::FROM;
 use super::progress::plain;
 
 /// Puts the state of a file, which an earlier run of the scene has written, in the place of the scene's own.
@@ -57,7 +56,7 @@ pub fn go_on(setup: &mut Setup, scene: &Scene, path: &Path) -> Result<(), Error>
 fn numbered(path: &Path) -> Option<u64> {
     let table = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv"));
     let name = path.file_stem()?.to_str()?;
-    name.trim_start_matches(FROM).strip_prefix("snapshot_").filter(|_| table)?.parse().ok()
+    name.strip_prefix("snapshot_").filter(|_| table)?.parse().ok()
 }
 
 /// What is to be said where a simulation begins at this step.

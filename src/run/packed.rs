@@ -17,14 +17,15 @@ pub(super) struct Packed {
     pub files: Vec<(String, Vec<u8>)>,
 }
 
-/// The name of the state from which a run was begun.
-pub(super) const FROM: &str = "from_";
+/// The folder of the state from which a run was begun.
+pub(super) const FROM: &str = "from/";
 
 impl Packed {
     /// Reads the files of a scene, and the state with which it begins, if that is another.
     pub(super) fn of(scene: &Scene, also: String, from: Option<&Path>) -> Result<Self, Error> {
         let (text, named) = scene.packed();
-        let named = named.into_iter().chain(from.map(|path| (format!("{FROM}{}", tame(path)), path.to_owned())));
+        let end = |path: &Path| path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        let named = named.into_iter().chain(from.map(|path| (format!("{FROM}{}", end(path)), path.to_owned())));
         let read = |(name, path): (String, PathBuf)| {
             let bytes = fs::read(&path).map_err(|why| Error::Input { file: path, message: why.to_string() })?;
             Ok((name, bytes))
@@ -47,14 +48,4 @@ impl Packed {
             files.find(|(here, there)| here != there).map(|((name, _), _)| format!("the file {name} has changed"));
         file.or_else(|| (self.files.len() != other.files.len()).then(|| "one of them begins from a state".to_owned()))
     }
-}
-
-/// A name of letters, digits, points and lines out of a path.
-fn tame(path: &Path) -> String {
-    let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-    // The same name again for a file that has one of these.
-    name.trim_start_matches(FROM)
-        .chars()
-        .map(|c| if c.is_ascii_alphanumeric() || "._-".contains(c) { c } else { '_' })
-        .collect()
 }

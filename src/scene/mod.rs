@@ -189,7 +189,7 @@ impl Scene {
         Ok(scene)
     }
 
-    /// [`Scene::resolved`] with the files that it reads under names of their own, without folders; and where each of them is.
+    /// [`Scene::resolved`] with the files that it reads in numbered folders beside it; and where each of them is.
     #[must_use]
     pub fn packed(&self) -> (String, Vec<(String, PathBuf)>) {
         resolved::packed(&self.resolved, &self.files)

@@ -114,16 +114,14 @@ pub(super) fn nearby(text: &str, files: &[PathBuf], folder: &Path) -> String {
     out
 }
 
-/// The same scene with files under names of their own, beside it; with these names, and where the files are.
+/// The same scene with each file in a folder of its own, beside it; with these names, and where the files are.
 pub(super) fn packed(text: &str, files: &[PathBuf]) -> (String, Vec<(String, PathBuf)>) {
     let (mut text, mut named) = (text.to_owned(), Vec::new());
     for file in files {
         let Some(from) = file.to_str().map(quoted).filter(|from| text.contains(from)) else { continue };
-        let end: String = file.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-        let tame = |c: char| if c.is_ascii_alphanumeric() || "._-".contains(c) { c } else { '_' };
-        // The same name again for a file that has one of these.
-        let end = end.trim_start_matches(|c: char| c.is_ascii_digit() || c == '_');
-        let name = format!("{}_{}", named.len(), end.chars().map(tame).collect::<String>());
+        let Some(end) = file.file_name().and_then(|end| end.to_str()) else { continue };
+        // Its own name in a folder of its own: messages, and laws, are named after it.
+        let name = format!("{}/{end}", named.len());
         text = text.replace(&from, &quoted(&name));
         named.push((name, file.clone()));
     }
