@@ -19,6 +19,7 @@ use super::table::Lengths;
 use crate::error::Error;
 use crate::formats::{Precision, atomically, npz};
 use crate::kernel::Columns;
+use crate::life::Life;
 use crate::render::Exposure;
 use crate::state::State;
 
@@ -67,6 +68,8 @@ pub(super) struct Reel {
     pub exposure: Option<Exposure>,
     /// The state by which the camera was set up, and the pushes of the trail then.
     pub first: Option<State>,
+    /// Whether that says which particles are active: files do not where all are.
+    pub life: bool,
     pub pushes: u64,
     /// Steps, and pushes, of states that are to be drawn; their positions and velocities, one behind another.
     pub steps: Vec<u64>,
@@ -118,6 +121,7 @@ pub(super) fn write(
         ("film_done", number(film.done)),
         ("film_outside", number(film.outside)),
         ("film_exposure", list(&mut exposure.into_iter().flatten())),
+        ("film_life", film.life.into()),
         ("film_pushes", number(film.pushes)),
         ("film_steps", list(&mut film.steps.iter().copied())),
     ]
@@ -186,7 +190,11 @@ impl Checkpoint {
     /// The state by which the camera of the film was set up, if there is one.
     pub(super) fn film(&self, columns: &Columns) -> Result<Option<State>, Error> {
         let file = self.folder().join(FILM);
-        file.exists().then(|| npz::read(&file, columns)).transpose()
+        let mut state = file.exists().then(|| npz::read(&file, columns)).transpose()?;
+        if let Some(state) = state.as_mut().filter(|state| self.past.film.life && state.life().is_empty()) {
+            state.set_life(0, Life::Active);
+        }
+        Ok(state)
     }
 }
 
@@ -247,6 +255,7 @@ fn read(file: &Path) -> Result<Checkpoint, String> {
         outside: head.number("film_outside")?,
         exposure,
         first: None,
+        life: head.of("film_life", Value::as_bool)?,
         pushes: head.number("film_pushes")?,
         steps: head.list("film_steps")?,
         numbers: numbers.chunks_exact(4).map(|four| f32::from_le_bytes([four[0], four[1], four[2], four[3]])).collect(),

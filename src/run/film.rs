@@ -190,6 +190,7 @@ impl Film {
             outside: self.outside.into(),
             exposure: self.reel.as_ref().and_then(render::Film::exposure),
             first: self.first.as_ref().map(|(state, _)| state.clone()),
+            life: self.first.as_ref().is_some_and(|(state, _)| !state.life().is_empty()),
             pushes: self.first.as_ref().map_or(0, |(_, pushes)| *pushes),
             steps: self.kept.iter().flat_map(|kept| [kept.step, kept.pushes]).collect(),
             numbers: numbers.collect(),

@@ -19,10 +19,31 @@ impl Drop for Running {
 }
 
 /// Enough particles that a good part of the time goes into checkpoints, and everything that a run writes.
-const SCENE: &str = "[simulation]\ndt = 0.01\nsteps = 240\n[[particles]]\nshape = \"box\"\ncount = 400\nlow = [-1, -1, -1]\nhigh = \
-    [1, 1, 1]\n[[force]]\nkind = \"wander\"\n[[force]]\nkind = \"boids\"\nradius = 0.3\n[[drain]]\nlow = [0.7, -2, -2]\nhigh = [2, 2, 2]\n\
-    [output]\nevery = 30\nformats = [\"csv\", \"npz\", \"png\"]\nframes = 9\n[picture]\nwidth = 32\nheight = 24\n\
-    [checkpoint]\nevery = \"2 steps\"\n";
+const SCENE: &str = r#"[simulation]
+dt = 0.01
+steps = 120
+[[particles]]
+shape = "box"
+count = 120
+size = [2, 2, 2]
+speed = 0.5
+[[force]]
+kind = "boids"
+[[force]]
+kind = "wander"
+[[drain]]
+radius = 1.4
+outside = true
+[output]
+every = 15
+formats = ["csv", "npz", "png"]
+frames = 9
+[picture]
+width = 32
+height = 24
+[checkpoint]
+every = "2 steps"
+"#;
 
 /// How long runs are killed: as many kills as fit.
 const SECONDS: u64 = 60;
@@ -45,9 +66,9 @@ fn no_run_is_lost_however_often_it_is_killed() {
             let mut command = motes(&["run", &scene, "-o", &out, "--backend", "cpu", "--resume", "-q"]);
             let child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().expect("the program starts");
             let mut child = Running(child);
-            // From its start until somewhat behind where half of a run takes it.
+            // From its start on, for a quarter of what a run takes in one go.
             let part = f64::from(random.next_u32()) / f64::from(u32::MAX);
-            let pause = whole.mul_f64(0.5 * part);
+            let pause = whole.mul_f64(0.25 * part);
             let begun = Instant::now();
             let ended = loop {
                 match child.0.try_wait().expect("a status") {

@@ -87,7 +87,8 @@ fn difference(got: &Path, want: &Path) -> Option<String> {
     } else {
         String::new()
     };
-    Some(format!("{} has other bytes{shown}", other.0))
+    let others: Vec<_> = got.iter().filter(|(name, bytes)| want[*name] != **bytes).map(|(name, _)| name).collect();
+    Some(format!("{others:?} have other bytes{shown}"))
 }
 
 /// Three bodies and their gravity, with everything that a run writes of them.
