@@ -38,7 +38,8 @@ pub async fn run(args: &RunArgs) -> Result<(), Failure> {
         match Found::of(&folder)? {
             Found::Checkpoint(from, damaged) => kept = Some((folder, from, damaged)),
             Found::Complete(step) if motes::run::is_of(&folder, &loaded.scene) => {
-                return complete(&output, step, &args.show);
+                complete(&output, step, &args.show);
+                return Ok(());
             }
             // What another run has left is refused as ever.
             Found::Begun => options.overwrite = motes::run::is_of(&folder, &loaded.scene),
@@ -58,7 +59,10 @@ pub async fn resume(args: &ResumeArgs) -> Result<(), Failure> {
     let folder = Folder::hold(&args.folder)?;
     let (from, damaged) = match Found::of(&folder)? {
         Found::Checkpoint(from, damaged) => (from, damaged),
-        Found::Complete(step) => return complete(&args.folder, step, &args.show),
+        Found::Complete(step) => {
+            complete(&args.folder, step, &args.show);
+            return Ok(());
+        }
         Found::Begun => {
             return refuse(
                 "the run was ended before its first checkpoint: `motes run SCENE -o DIR --resume` begins anew",
@@ -75,11 +79,10 @@ pub async fn resume(args: &ResumeArgs) -> Result<(), Failure> {
     start(loaded, options, Some((folder, from, damaged)), &args.device, &args.show).await
 }
 
-fn complete(folder: &Path, step: u64, show: &ShowArgs) -> Result<(), Failure> {
+fn complete(folder: &Path, step: u64, show: &ShowArgs) {
     if !show.quiet && !show.json {
         out!("the run in {} is complete, with step {step}: there is nothing to go on with", folder.display());
     }
-    Ok(())
 }
 
 async fn start(

@@ -14,9 +14,10 @@ pub fn listen(args: &StopArgs) -> Stop {
     let asked = stop.clone();
     let ignored = signals::hangup_is_ignored();
     let _ = ctrlc::set_handler(move || {
-        if asked.ask() {
+        if asked.is_asked() {
             std::process::exit(130);
         }
+        asked.ask();
     });
     if ignored {
         signals::ignore(signals::HANGUP);

@@ -70,16 +70,19 @@ fn panels(root: &Area, rows: &[Measure], title: &str) -> Result<(), String> {
 }
 
 /// Pixels, as the backend counts them.
+#[must_use]
 pub fn fine(pixels: i32) -> i32 {
     pixels * FINE.cast_signed()
 }
 
 /// Letters of so many pixels.
+#[must_use]
 pub fn text(size: i32) -> TextStyle<'static> {
     ("sans-serif", fine(size)).into_font().color(&INK)
 }
 
 /// A line as wide as so many pixels.
+#[must_use]
 pub fn line(color: RGBColor, width: u32) -> ShapeStyle {
     color.stroke_width(width * FINE)
 }

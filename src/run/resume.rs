@@ -140,12 +140,11 @@ impl Run {
     }
     /// Opens folder and tables. Where the run goes on, it is cut back to what was there at the checkpoint.
     pub(super) fn open(&mut self, progress: &mut dyn Progress) -> Result<Arc<Folder>, Error> {
-        let folder = match self.folder.take() {
-            Some(folder) => folder,
-            None => {
-                let (path, overwrite) = (&self.options.output, self.options.overwrite);
-                Arc::new(Folder::open(path, &self.scene.name, &self.scene.files, overwrite)?)
-            }
+        let folder = if let Some(folder) = self.folder.take() {
+            folder
+        } else {
+            let (path, overwrite) = (&self.options.output, self.options.overwrite);
+            Arc::new(Folder::open(path, &self.scene.name, &self.scene.files, overwrite)?)
         };
         self.folder = Some(folder.clone());
         if let Some(text) = folder.remark() {

@@ -26,14 +26,19 @@ impl Stop {
     pub fn after(longest: Duration) -> Self {
         Self { longest: Some(longest), ..Self::default() }
     }
-    /// Asks the run to end. Gives whether that was asked before.
-    pub fn ask(&self) -> bool {
-        self.asked.swap(true, Ordering::Relaxed)
+    /// Asks the run to end.
+    pub fn ask(&self) {
+        self.asked.store(true, Ordering::Relaxed);
+    }
+    /// Whether that was asked.
+    #[must_use]
+    pub fn is_asked(&self) -> bool {
+        self.asked.load(Ordering::Relaxed)
     }
     /// Whether the run is to end now, where its end will take this long.
     #[must_use]
     pub fn asked(&self, end: Duration) -> bool {
-        self.asked.load(Ordering::Relaxed) || self.longest.is_some_and(|longest| self.since.elapsed() + end >= longest)
+        self.is_asked() || self.longest.is_some_and(|longest| self.since.elapsed() + end >= longest)
     }
 }
 
@@ -45,8 +50,9 @@ mod tests {
     fn a_request_and_a_limit_of_time_end_a_run() {
         let stop = Stop::default();
         assert!(!stop.asked(Duration::from_hours(1)));
-        assert!(!stop.clone().ask() && stop.asked(Duration::ZERO) && stop.ask());
+        stop.clone().ask();
+        assert!(stop.asked(Duration::ZERO) && stop.is_asked());
         let stop = Stop::after(Duration::from_hours(1));
-        assert!(!stop.asked(Duration::from_mins(50)) && stop.asked(Duration::from_mins(60)));
+        assert!(!stop.asked(Duration::from_mins(50)) && stop.asked(Duration::from_hours(1)) && !stop.is_asked());
     }
 }

@@ -73,7 +73,8 @@ pub(super) fn read(table: Option<&Table<'_>>, report: &mut Report) -> Checkpoint
         match text {
             Some(given) => every = given,
             None => {
-                report.push(Fault::at(&entry.node.place, "`every` is no interval").label(format!("it must be {FORMS}")))
+                report
+                    .push(Fault::at(&entry.node.place, "`every` is no interval").label(format!("it must be {FORMS}")));
             }
         }
     }
