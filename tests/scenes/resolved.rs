@@ -125,6 +125,10 @@ formats = ["csv", "png"]
 frames = 0
 columns = []
 
+[checkpoint]
+every = "600.0 s"
+keep = 2
+
 [picture]
 "#;
     assert!(scene.resolved.starts_with(expected), "{}", scene.resolved);

@@ -1,6 +1,7 @@
-//! `[solver]`: what is out of reach is reported with its bounds, and what is not is kept.
+//! `[solver]` and `[checkpoint]`: what is out of reach is reported with its bounds, and what is not is kept.
 
 use motes::Solver;
+use motes::scene::{Checkpoints, Every};
 
 use crate::{SMALL, assert_report, load};
 
@@ -79,6 +80,26 @@ a.toml: 4 errors",
    |
    | --set solver.tolerance=1
    |                        ^ from 1e-6, which single precision reaches, to below 1
+
+a.toml: 1 error",
+    );
+}
+
+#[test]
+fn intervals_of_checkpoints() {
+    let of = |text: &str| load(&(SMALL.to_owned() + text), &[]).unwrap_or_else(|faults| panic!("{faults}")).checkpoint;
+    let every = |text: &str| of(&format!("[checkpoint]\nevery = \"{text}\"\nkeep = 3\n"));
+    assert_eq!(of(""), Checkpoints { every: Every::Wall(600.0), keep: 2 });
+    assert_eq!(every("90 s"), Checkpoints { every: Every::Wall(90.0), keep: 3 });
+    assert_eq!(every("0.5 time"), Checkpoints { every: Every::Time(0.5), keep: 3 });
+    assert_report(
+        &(SMALL.to_owned() + "[checkpoint]\nevery = \"0 steps\"\n"),
+        &[],
+        "error: `every` is no interval
+  --> a.toml:7:9
+   |
+ 7 | every = \"0 steps\"
+   |         ^^^^^^^^^ it must be a number and a unit: \"10 min\" (s, min or h) of work, \"5000 steps\", \"0.5 time\" of the scene, or \"never\"
 
 a.toml: 1 error",
     );
