@@ -93,7 +93,7 @@ fn the_same_in_many_submissions() {
         let want = bytes(&mut whole);
 
         let mut cut = simulation(&shared, entry.name);
-        cut.backend().adaptive_step(Duration::from_nanos(1), Duration::from_mins(1));
+        cut.backend().limit_submissions(Duration::from_nanos(1), Duration::from_mins(1));
         // The first submissions teach the queue how little fits.
         for _ in 0..5 {
             cut.step(1).expect("a step");

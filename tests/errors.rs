@@ -270,14 +270,14 @@ fn a_device_that_takes_too_long_says_so() {
     let shared = support::device();
     let setup = setup(support::cloud(8192, 1), vec![force("gravity", &[("softening", Value::Number(0.1))])], 0.1);
     let mut simulation = on_gpu(&shared, &setup).expect("a simulation");
-    simulation.backend().adaptive_step(Duration::from_millis(80), Duration::ZERO);
+    simulation.backend().limit_submissions(Duration::from_millis(80), Duration::ZERO);
     let said = simulation.step(1).and_then(|()| pollster::block_on(simulation.read(POSITION)).map(|_| ()));
     match said {
         Err(error @ Error::Timeout { seconds: 0, .. }) => assert_eq!(error.exit_code(), 7),
         other => panic!("an instant is not enough for 67 million meetings: {other:?}"),
     }
     // It was only slow, and is still there.
-    simulation.backend().adaptive_step(Duration::from_millis(80), Duration::from_mins(1));
+    simulation.backend().limit_submissions(Duration::from_millis(80), Duration::from_mins(1));
     assert_eq!(pollster::block_on(simulation.read(POSITION)).expect("positions").len(), 8192);
     pollster::block_on(simulation.check()).expect("all is well");
 }

@@ -68,8 +68,8 @@ impl Gpu {
         self.machine = machine;
     }
     /// Cuts submissions so that each takes about this long, and gives up waiting for one after `patience`.
-    pub fn adaptive_step(&mut self, submission: Duration, patience: Duration) {
-        self.queue.adaptive_step(submission, patience);
+    pub fn limit_submissions(&mut self, submission: Duration, patience: Duration) {
+        self.queue.limit_submissions(submission, patience);
     }
     /// Keeps the pipelines that there are, whatever is forgotten later.
     pub fn keep_pipelines(&mut self) {

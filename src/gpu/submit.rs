@@ -41,7 +41,7 @@ impl Queue {
             submissions: 0,
         }
     }
-    pub fn adaptive_step(&mut self, target: Duration, patience: Duration) {
+    pub fn limit_submissions(&mut self, target: Duration, patience: Duration) {
         (self.target, self.patience) = (target, patience);
         self.budget = FIRST;
     }

@@ -112,7 +112,7 @@ impl Camera {
 /// The same settings with all of a box in view, where it is closed all round and the frame is not given.
 #[must_use]
 pub fn framed(settings: &Settings, bounds: &Bounds) -> Settings {
-    let straight = bounds.dimensions == 2 && settings.text("style") == "fluid";
+    let straight = bounds.dimensions == 2 && super::styles::of(settings).style.is_fluid();
     let settings = &if straight { facing(settings) } else { settings.clone() };
     let axes = usize::try_from(bounds.dimensions).unwrap_or(3).min(3);
     if !settings.flag("auto_frame") || bounds.sides[..axes].contains(&Side::Open) {

@@ -48,8 +48,11 @@ async fn attempt<B: Backend>(
     choose: impl FnOnce(Exposure) -> Exposure,
 ) -> Result<Image, Error> {
     let frame = &picture.frame;
-    let expose = backend.compile(&picture.plan()?)?;
-    if let Color::Given(colors) = &picture.color {
+    let plan = picture.plan()?;
+    // A style may leave colours out.
+    let is_colored = plan.fields(frame.count).contains_key(COLOR.name);
+    let expose = backend.compile(&plan)?;
+    if let (Color::Given(colors), true) = (&picture.color, is_colored) {
         backend.write(COLOR.name, &Array::Uint(colors.clone()))?;
     }
     if frame.points > 0 {

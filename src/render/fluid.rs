@@ -37,7 +37,7 @@ impl Water {
         camera: &Camera,
         painted: bool,
     ) -> Self {
-        if settings.text("style") != "fluid" {
+        if !super::styles::of(settings).style.is_fluid() {
             return Self::default();
         }
         let given = settings.number("drop");

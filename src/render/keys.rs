@@ -43,9 +43,9 @@ pub const KEYS: &[Key] = &[
     ),
     Key::new(
         "style",
-        Kind::Choice(&["auto", "glow", "balls", "fluid"]),
+        Kind::Choice(super::styles::NAMES),
         word("auto"),
-        "particles as lights, as shaded balls, as the surface of a fluid, or as balls where they are few or large",
+        "how particles are drawn: as balls where they are few or large, as lights, as balls, as the surface of a fluid, or their mass along the line of sight",
     ),
     Key::new(
         "drop",

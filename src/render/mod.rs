@@ -37,6 +37,7 @@ mod solid;
 mod splat;
 mod streak;
 mod stroke;
+pub mod styles;
 mod tank;
 mod tear;
 mod tone;

@@ -12,9 +12,10 @@ use super::meter::Exposure;
 use super::palette::pack;
 use super::raster::{self, Fields};
 use super::scenery::Facets;
+use super::styles::{self, STYLES, Style, Subject};
 use super::{Camera, Color, Frame, Scenery, Solid, Trail, Water};
-use super::{blank, cover, drops, fluid, foam, halo, heading, hide, meter, paint, project, water};
-use super::{settle, shade, splat, streak, stroke, tear, tone, vertex};
+use super::{blank, cover, fluid, halo, heading, hide, meter, paint, project};
+use super::{shade, splat, streak, stroke, tear, tone, vertex};
 use crate::error::Error;
 use crate::kernel::Plan;
 use crate::settings::{Settings, Value};
@@ -32,6 +33,8 @@ pub struct Picture {
     /// Brightness of lights, as a multiple of the automatic one.
     pub exposure: f64,
     facets: Facets,
+    /// The style, by its name in the register.
+    style: &'static str,
     /// Whether some may not be active, which are not drawn.
     has_inactive: bool,
 }
@@ -75,10 +78,11 @@ impl Picture {
         }
         let count = u32::try_from(particles.len()).ok().filter(|n| *n > 0);
         let count = count.ok_or_else(|| Error::Scene("a picture needs one or more particles".to_owned()))?;
-        let (few, style) = (particles.len() <= FEW, settings.text("style"));
+        let (few, entry) = (particles.len() <= FEW, styles::of(settings));
+        let style = entry.style;
         let background = settings.text("background");
         let bright = ["dusk", "day"].contains(&background);
-        let wet = style == "fluid";
+        let wet = style.is_fluid();
         let walls: &[u32] = if wet { &scenery.held } else { &[] };
         let facets = Facets::new(scenery, count, settings.text("draw"), walls)?;
         // What is tied together is one thing, of one colour.
@@ -97,32 +101,24 @@ impl Picture {
         let water_only = color == Color::Given(vec![pack(fluid::DYE); particles.len()]);
         let water = Water::of(settings, particles, scenery, &camera, !water_only);
         let water = Water { edges: if wet { facets.edges() } else { 0 }, ..water };
+        // A stroke has more pixels than a point, and would run into the next one.
+        let part = if settings.number("tail") > 0.0 { 0.7 } else { 1.0 };
+        let apart = part * (width * height / f64::from(count)).sqrt();
+        let subject = Subject { particles, few, short, apart, scale: 0.5 * height / camera.extent };
         let frame = Frame {
             camera,
             count,
             width: super::frame::whole(width),
             height: super::frame::whole(height),
             heaviest: particles.mass().iter().copied().fold(0.0, f64::max),
-            marker: match style {
-                "auto" | "balls" if few => 0.025 * short / (1.0 + f64::from(count) / 16.0),
-                "balls" => 1.0,
-                _ => 0.0,
-            },
+            marker: style.marker(&subject),
             water,
             largest: if few { short / 4.0 } else { LARGEST_OF_MANY.min(short / 4.0) }.max(2.0),
-            solid: match style {
-                "glow" => NEVER,
-                "balls" | "fluid" => 0.0,
-                _ => solid(particles, 0.5 * height / camera.extent, few),
-            },
-            glow: {
-                // A stroke has more pixels than a point, and would run into the next one.
-                let part = if settings.number("tail") > 0.0 { 0.28 } else { 0.4 };
-                (part * (width * height / f64::from(count)).sqrt()).clamp(1.5, (short / 150.0).max(1.5))
-            },
+            solid: style.solid(&subject),
+            glow: style.glow(&subject),
             unit: unit(count),
             speeds: if let Color::Speed { slow, fast } = color { (slow, fast) } else { (0.0, 1.0) },
-            points: if wet { 0 } else { points(&trail) },
+            points: if style.has_trails() { points(&trail) } else { 0 },
             sky: match background {
                 "black" => 0.0,
                 "day" => 2.0,
@@ -152,12 +148,13 @@ impl Picture {
             trail,
             exposure: settings.number("exposure"),
             facets,
+            style: entry.name,
             has_inactive: !particles.life().is_empty(),
         })
     }
     /// The same picture with other trails.
     pub fn retrace(&mut self, trail: Trail) {
-        self.frame.points = if self.frame.water.is_there() { 0 } else { points(&trail) };
+        self.frame.points = if self.style().has_trails() { points(&trail) } else { 0 };
         self.trail = trail;
     }
     /// The same picture with solids elsewhere.
@@ -192,14 +189,11 @@ impl Picture {
         if !self.facets.is_empty() {
             self.stand(&mut plan)?;
         }
-        if self.frame.water.is_there() {
-            plan.add(foam::kernel(&self.frame)?);
-            plan.add(drops::kernel(&self.frame)?);
-            plan.add(drops::level(&self.frame)?);
-            plan.add(settle::kernel(&self.frame)?);
-            plan.add(water::kernel(&self.frame, &self.facets)?);
-            return Ok(plan);
-        }
+        self.style().light(self, &mut plan)?;
+        Ok(plan)
+    }
+    /// Balls, lights and trails.
+    pub(super) fn lights(&self, plan: &mut Plan) -> Result<(), Error> {
         if self.frame.solid < NEVER {
             plan.add(cover::kernel(&self.frame)?);
         }
@@ -209,7 +203,7 @@ impl Picture {
             plan.add(streak::kernel(&self.frame)?);
         }
         plan.add(meter::kernel(&self.frame)?);
-        Ok(plan)
+        Ok(())
     }
     /// Surfaces, lines and solids, before the particles that fly among them.
     fn stand(&self, plan: &mut Plan) -> Result<(), Error> {
@@ -236,12 +230,23 @@ impl Picture {
     /// When a shader does not compile.
     pub fn development(&self, exposure: Exposure) -> Result<Plan, Error> {
         let mut plan = Plan::default();
+        self.style().develop(self, exposure, &mut plan)?;
+        Ok(plan)
+    }
+    /// The halo around what is bright, and the tones of all.
+    pub(super) fn tones(&self, exposure: Exposure, plan: &mut Plan) -> Result<(), Error> {
         // Without light there is none to spread: what a device has not written is zero.
         if self.frame.bloom > 0.0 {
             plan.add(halo::kernel(&self.frame, exposure)?);
         }
         plan.add(tone::kernel(&self.frame, exposure)?);
-        Ok(plan)
+        Ok(())
+    }
+    fn style(&self) -> &'static dyn Style {
+        STYLES.iter().find(|entry| entry.name == self.style).map_or(STYLES[0].style, |entry| entry.style)
+    }
+    pub(super) fn facets(&self) -> &Facets {
+        &self.facets
     }
 }
 
@@ -262,19 +267,4 @@ fn points(trail: &Trail) -> u32 {
 /// do not overflow: each adds `unit` at most.
 fn unit(count: u32) -> f64 {
     f64::from(1_u32 << (u32::MAX / count).ilog2().min(16))
-}
-
-/// The radius from which on a particle is a ball. A picture in which like particles are balls here and lights there, as
-/// they are near or far, is no good: where the usual size is enough for balls, all that have one are.
-fn solid(particles: &State, scale: f64, few: bool) -> f64 {
-    let mut sizes: Vec<f64> = particles.size().iter().copied().filter(|radius| *radius > 0.0).collect();
-    if few {
-        return 0.5;
-    }
-    let middle = sizes.len() / 2;
-    if sizes.is_empty() {
-        return NEVER;
-    }
-    let usual = *sizes.select_nth_unstable_by(middle, f64::total_cmp).1 * scale;
-    if usual > 2.0 { 0.5 } else { 5.0 }
 }

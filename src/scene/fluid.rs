@@ -22,7 +22,7 @@ fn kind<'a>(table: &Table<'_>, key: &str, of: impl Fn(&str) -> Option<&'a [Key]>
 }
 
 /// What shapes and the force of a fluid share.
-fn shared<'a>(keys: &'a [Key]) -> impl Iterator<Item = &'static str> + use<'a> {
+fn shared(keys: &[Key]) -> impl Iterator<Item = &'static str> {
     keys.iter().filter(|key| key.of_fluid).map(|key| key.name)
 }
 

@@ -56,7 +56,7 @@ impl Stage {
         let mut simulation = simulation.borrow_mut();
         let count = simulation.count();
         let gpu = simulation.backend();
-        gpu.adaptive_step(Duration::from_millis(80), Duration::from_secs(5));
+        gpu.limit_submissions(Duration::from_millis(80), Duration::from_secs(5));
         gpu.compile(&plan).expect("a good plan");
         gpu.keep_pipelines();
         let clock = pollster::block_on(gpu.world()).expect("a clock");

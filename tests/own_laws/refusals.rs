@@ -264,7 +264,7 @@ fn a_driver_that_compiles_for_ever() {
     };
     let patient = |patience: Duration| {
         let mut gpu = Gpu::new(&shared.found.device, &shared.found.queue, 40).expect("a GPU");
-        gpu.adaptive_step(Duration::from_millis(80), patience);
+        gpu.limit_submissions(Duration::from_millis(80), patience);
         Simulation::on(gpu, &setup).map(|_| ())
     };
     match patient(Duration::ZERO) {

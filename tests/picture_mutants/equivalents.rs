@@ -51,6 +51,7 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("paint.wgsl", "pack4x8unorm(vec4f(map(part), 1.0));", "1.0", "1.5", CLAMPED),
     same("heading.wgsl", "color[i] = pack4x8unorm(", "1.0", "1.5", CLAMPED),
     same("splat.wgsl", "if q > 0.0 &&", ">", ">=", "where q is 0 the light is nothing"),
+    same("density.wgsl", "if q > 0.0 {", ">", ">=", "where q is 0 the mass is nothing"),
     same("streak.wgsl", "let steep = abs(way.y) > abs(way.x);", ">", ">=", "a diagonal can be walked either way"),
     same("streak.wgsl", "let low = i32(clamp(", "0.5", "0.75", WIDER),
     same("streak.wgsl", "let high = i32(clamp(", "0.5", "0.75", WIDER),

@@ -213,14 +213,26 @@ pub fn many() -> Vec<Scene> {
     });
     dazzling.exposure = Exposure { knee: 20.0, white: 60.0 };
     let faint = scene(&Wish { name: "faint", ..many }, |picture, _| picture.frame.unit = 8.0);
-    let crowd = scene(&Wish { name: "crowd", style: "balls", ..many }, |picture, particles| {
+    let dense = scene(&Wish { name: "dense", style: "balls", ..many }, |picture, particles| {
         masses(particles);
         sizes(particles, 0.1);
         picture.frame.marker = 1.4;
         picture.frame.solid = 1.0;
         picture.frame.slab = 0.9;
     });
-    vec![lights, dazzling, faint, crowd]
+    let mut column =
+        scene(&Wish { name: "mass along the line of sight", style: "density", ..many }, |picture, particles| {
+            masses(particles);
+            picture.frame.unit = 60.0;
+            picture.frame.glow = 5.0;
+        });
+    column.exposure = Exposure { knee: 9.0, white: 150.0 };
+    let massless =
+        scene(&Wish { name: "nothing along the line of sight", style: "density", ..many }, |picture, particles| {
+            (0..particles.len()).for_each(|id| particles.mass_mut()[id] = 0.0);
+            picture.frame.heaviest = 0.0;
+        });
+    vec![lights, dazzling, faint, dense, column, massless]
 }
 
 /// A picture so high that its largest ball and its lines are drawn by several layers of a dispatch, and of more than 2¹⁶

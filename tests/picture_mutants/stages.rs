@@ -69,7 +69,7 @@ impl Stage {
     /// enough to be seen: a ball for kernels of balls, a light for kernels of lights.
     fn padded(&self, name: &str, array: &Array, size: u64) -> Vec<u8> {
         let mut bytes = array.to_bytes();
-        let radius = if self.kernel.name == "splat" { 0.0 } else { 3.0 };
+        let radius = if ["splat", "density"].contains(&self.kernel.name.as_str()) { 0.0 } else { 3.0 };
         // A place in space for kernels that project it.
         let place = if self.kernel.name == "stroke" { [0.13, -0.11] } else { [20.3, 12.7] };
         let behind = Vec4::new(place[0], place[1], 0.1, radius);
@@ -96,7 +96,7 @@ pub fn canvas((device, queue): &(wgpu::Device, wgpu::Queue), count: usize) -> Ca
     let count = u32::try_from(count).expect("few");
     let mut gpu = Gpu::new(device, queue, count).expect("a GPU");
     gpu.pad(PAD);
-    gpu.adaptive_step(Duration::from_millis(80), Duration::from_secs(5));
+    gpu.limit_submissions(Duration::from_millis(80), Duration::from_secs(5));
     Rc::new(RefCell::new(gpu))
 }
 

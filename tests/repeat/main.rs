@@ -52,7 +52,7 @@ fn cut_submissions_change_nothing() {
     let mut gpu = gpu(&shared);
     let toy = Toy { outer: 4, inner: 3, most: [6, 5] };
     let program = gpu.compile(&toy.plan()).expect("a program");
-    gpu.adaptive_step(std::time::Duration::from_nanos(1), std::time::Duration::from_mins(1));
+    gpu.limit_submissions(std::time::Duration::from_nanos(1), std::time::Duration::from_mins(1));
     let before = gpu.submissions();
     // Each that takes longer than that makes the next ones shorter, down to single dispatches.
     (0..20).for_each(|_| gpu.run(&program, 2).expect("runs"));

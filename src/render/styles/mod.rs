@@ -1,0 +1,93 @@
+//! Styles: how particles are drawn. Each is one file, with shaders of its own where it needs them, and one line in the register below.
+
+use super::{Exposure, Picture};
+use crate::error::Error;
+use crate::kernel::Plan;
+use crate::settings::Settings;
+use crate::state::State;
+
+/// What a picture shows.
+pub struct Subject<'a> {
+    /// The particles.
+    pub particles: &'a State,
+    /// Whether they are so few that each is to be seen.
+    pub few: bool,
+    /// The shorter side of the picture \[pixels\].
+    pub short: f64,
+    /// How far apart particles would be, spread evenly over the picture \[pixels\].
+    pub apart: f64,
+    /// Pixels per length, at the centre.
+    pub scale: f64,
+}
+
+/// How particles are drawn.
+pub trait Style: Sync {
+    /// The radius at which the heaviest particle is drawn at least \[pixels\].
+    fn marker(&self, _of: &Subject) -> f64 {
+        0.0
+    }
+    /// The radius from which on a particle is a ball, and below it a light \[pixels\].
+    fn solid(&self, _of: &Subject) -> f64 {
+        super::frame::NEVER
+    }
+    /// The radius of a light \[pixels\].
+    fn glow(&self, of: &Subject) -> f64 {
+        (0.4 * of.apart).clamp(1.5, (of.short / 150.0).max(1.5))
+    }
+    /// Whether particles are drops of one surface.
+    fn is_fluid(&self) -> bool {
+        false
+    }
+    /// Whether particles leave trails.
+    fn has_trails(&self) -> bool {
+        true
+    }
+    /// From particles to light: adds what runs before the exposure is known.
+    ///
+    /// # Errors
+    /// When a shader does not compile.
+    fn light(&self, picture: &Picture, plan: &mut Plan) -> Result<(), Error> {
+        picture.lights(plan)
+    }
+    /// From light to pixels.
+    ///
+    /// # Errors
+    /// When a shader does not compile.
+    fn develop(&self, picture: &Picture, exposure: Exposure, plan: &mut Plan) -> Result<(), Error> {
+        picture.tones(exposure, plan)
+    }
+}
+
+/// A line of the register.
+pub struct Entry {
+    /// The scene's word for it.
+    pub name: &'static str,
+    /// One line for a list.
+    pub about: &'static str,
+    /// What it does.
+    pub style: &'static dyn Style,
+}
+
+macro_rules! register {
+    ($($module:ident: $type:ident, $about:literal;)*) => {
+        $(mod $module;)*
+        /// All styles.
+        pub const STYLES: &[Entry] = &[$(Entry { name: stringify!($module), about: $about, style: &$module::$type }),*];
+        /// Their names.
+        pub const NAMES: &[&str] = &[$(stringify!($module)),*];
+    };
+}
+
+register! {
+    auto: Auto, "balls where they are few or large, else lights";
+    glow: Glow, "lights that add up";
+    balls: Balls, "shaded balls";
+    fluid: Fluid, "the surface of a fluid";
+    density: Density, "the mass along the line of sight, on a logarithmic scale of colours";
+}
+
+/// The style that a scene's `[picture]` says.
+#[must_use]
+pub fn of(settings: &Settings) -> &'static Entry {
+    STYLES.iter().find(|entry| entry.name == settings.text("style")).unwrap_or(&STYLES[0])
+}
