@@ -1,5 +1,5 @@
 // How fast neighbours come or go, at most:  |μ| = s |v·r| / (r² + 0.01 s²), with s the smoothing length (Monaghan 1992). It adds to
-// the speed of sound where steps are told from both.
+// the speed of sound where steps follow from both.
 struct Sum { most: f32 }
 
 @group(3) @binding(2) var<storage, read_write> closing: array<f32>;

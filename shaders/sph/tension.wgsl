@@ -6,7 +6,7 @@ struct Sum { acceleration: vec3f }
 
 @group(3) @binding(0) var<uniform> params: Params;
 
-// Below the square of any distance; at one place there is no way from one to the other, and nobody pulls.
+// Below the square of any distance; at one place there is no way from one to the other, and no particle pulls.
 const NOTHING: f32 = 1e-30;
 
 fn acts_on(me: Particle) -> bool { return me.density > 0.0; }

@@ -150,7 +150,7 @@ pub fn time(host: &Host, problem: &Problem, part: f64) -> Result<f64, Error> {
 }
 
 impl Problem {
-    /// The same in steps of this adaptive_step.
+    /// The same in such steps.
     #[must_use]
     pub fn adapted(self, adaptive_step: Option<AdaptiveStep>) -> Self {
         Self { adaptive_step, ..self }

@@ -31,7 +31,7 @@ impl Cells {
         let grid = Grid::new(range, None, &Problem::new(count, machine).at(positions, bounds))?;
         Ok(Self::sort(&grid, bounds, positions.iter().copied(), |_| true, |_| false))
     }
-    /// Sorts those who are chosen by their ids, with some behind all others. A cell is found by the device's own arithmetic, so that who stands at
+    /// Sorts particles chosen by their ids, with some behind all others. A cell is found by the device's own arithmetic, so that a particle at
     /// its edge is on one side for both.
     pub(super) fn sort(
         grid: &Grid,
@@ -77,7 +77,7 @@ impl Cells {
         };
         (0..self.homes.len()).into_par_iter().map(number).max().unwrap_or(0)
     }
-    /// Calls with the id of everybody else that is within the range of a particle.
+    /// Calls with the ids of all others within the range of a particle.
     pub fn around(&self, i: usize, mut call: impl FnMut(usize)) {
         let home = self.homes[i];
         self.rows(home, |ids| {

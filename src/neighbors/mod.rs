@@ -1,4 +1,4 @@
-//! Who is near: a uniform grid, built on the device at each evaluation. It knows nothing of laws.
+//! Neighbours: a cell list, built on the device at each evaluation. It knows nothing of laws.
 
 mod build;
 mod cells;

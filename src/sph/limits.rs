@@ -1,6 +1,6 @@
 //! How long a step of a fluid may be (Monaghan 1992; Morris, Fox & Zhu 1997; Ihmsen et al. 2014):
 //! dt = min( C √(s / |a|), C s / (c + |μ| + 0.6 α c), s² / (8 ν), 0.4 C d / |v| ), with s the smoothing length, which is half of the
-//! support, and d the spacing. Where the speed of sound is told, speeds themselves are no limit.
+//! support, and d the spacing. Where the speed of sound is given, speeds themselves are no limit.
 
 use std::sync::Arc;
 
@@ -29,7 +29,7 @@ pub struct Limits {
     pub alpha: f64,
 }
 
-/// What the step_criteria of everybody are multiplied by.
+/// What the step criteria of all particles are multiplied by.
 #[derive(Clone, Copy)]
 struct Shares {
     acceleration: f64,
@@ -98,12 +98,12 @@ fn criterion(shares: &Shares, problem: &Problem) -> Result<Kernel, Error> {
     ];
     let uniforms = shader.block("the limits of a fluid", "params", &params)?;
     let pass = Pass { uniforms, ..Pass::new(shader, problem.count) };
-    let (shares, who) = (*shares, problem.clone());
+    let (shares, all) = (*shares, problem.clone());
     let reference = move |host: &Host| {
         let (velocity, acceleration) = (host.read(VELOCITY)?, host.read(ACCELERATION)?);
         let (closing, mut step_criteria) = (host.read(CLOSING)?, host.write::<Vec4>(STEP_CRITERIA)?);
         let is_active = host.is_active()?;
-        for (i, criterion) in step_criteria.iter_mut().enumerate().filter(|(i, _)| !who.is_held(*i)) {
+        for (i, criterion) in step_criteria.iter_mut().enumerate().filter(|(i, _)| !all.is_held(*i)) {
             *criterion = DVec4::new(
                 shares.acceleration * acceleration[i].truncate().length().sqrt(),
                 shares.signal * (shares.sound + closing[i]),

@@ -63,7 +63,7 @@ impl Medium {
     pub fn kernel(&self, r: DVec3) -> f64 {
         self.weight() * self.smoothing.bell(r.length() / self.range())
     }
-    /// What times r is the gradient of W at who stands r away: W′(r) / r.
+    /// What times r is the gradient of W at a particle r away: W′(r) / r.
     #[must_use]
     pub fn gradient(&self, r: DVec3) -> f64 {
         self.weight() / self.range().powi(2) * self.smoothing.decline(r.length() / self.range())

@@ -22,7 +22,7 @@ pub struct Friction {
 /// What pressure walls have.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Walls {
-    /// That of whoever asks (Akinci et al. 2012).
+    /// That of the fluid particle at the wall (Akinci et al. 2012).
     Mirror,
     /// That of the fluid around them, and what weighs between (Adami, Hu & Adams 2012).
     Extrapolate {

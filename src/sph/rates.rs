@@ -51,7 +51,7 @@ impl Rates {
     }
 }
 
-/// All others of the lattice whom one in its middle reaches.
+/// All others of the lattice that are in reach of one in its middle.
 fn lattice(medium: &Medium) -> Vec<DVec3> {
     let steps =
         || std::iter::successors(Some(-medium.support.ceil()), |x| (*x < medium.support.ceil()).then_some(x + 1.0));

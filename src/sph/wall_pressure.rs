@@ -1,4 +1,4 @@
-//! The pressure of walls, where it is not that of whoever asks.
+//! The pressure of walls, where it is not that of the fluid particle.
 
 use std::sync::Arc;
 
@@ -15,7 +15,7 @@ use crate::visit::{Law, Outcome, Particle, Search};
 const WALL_PRESSURE: &str = "wall_pressure";
 
 /// The kernels that find the pressure of walls (Adami, Hu & Adams 2012, eq. 27), and write it down beside that of the fluid. That
-/// equation has g − a of the wall's own acceleration a, where this has g: a step knows a place and a velocity of who is led, and no
+/// equation has g − a of the wall's own acceleration a, where this has g: a step knows a place and a velocity of a moving wall, and no
 /// more. What is left out is ρ a times the half of a support, at a wall that is led and speeds up.
 ///
 /// # Errors

@@ -31,11 +31,11 @@ fn pressure_is_the_slope_of_the_energy() {
         let forces = [smooth(&more)];
         let particles = cloud(60, flat, false);
         let energy = |particles: &State| {
-            let felt = accelerations_in(&open(flat), &forces, particles, 0.0);
-            felt.iter().zip(particles.mass()).map(|(a, m)| m * a.w).sum::<f64>()
+            let acting = accelerations_in(&open(flat), &forces, particles, 0.0);
+            acting.iter().zip(particles.mass()).map(|(a, m)| m * a.w).sum::<f64>()
         };
-        let felt = accelerations_in(&open(flat), &forces, &particles, 0.0);
-        let usual = (felt.iter().map(|a| a.truncate().length_squared()).sum::<f64>() / felt.len() as f64).sqrt();
+        let acting = accelerations_in(&open(flat), &forces, &particles, 0.0);
+        let usual = (acting.iter().map(|a| a.truncate().length_squared()).sum::<f64>() / acting.len() as f64).sqrt();
         assert!(usual > 1.0, "{usual}");
         let e = 1e-5;
         for id in [3, 17, 40] {
@@ -48,8 +48,8 @@ fn pressure_is_the_slope_of_the_energy() {
                 let slope = (moved(e) - moved(-e)) / (2.0 * e) / particles.mass()[id];
                 // e² / 6 of a third derivative, which is of the order of the acceleration over the square of the support:
                 // (1e-5 / 0.2)² = 2.5e-9, by γ² at most.
-                let off = (felt[id].truncate().dot(axis) + slope).abs();
-                assert!(off < 1e-6 * usual, "{id}: {} is not −{slope}", felt[id]);
+                let off = (acting[id].truncate().dot(axis) + slope).abs();
+                assert!(off < 1e-6 * usual, "{id}: {} is not −{slope}", acting[id]);
             }
         }
     }
@@ -68,8 +68,8 @@ fn momentum_is_kept_without_walls() {
     for flat in [false, true] {
         let particles = cloud(200, flat, false);
         for (more, turns) in [(vec![("viscosity", Number(0.0))], false), (vec![], true)] {
-            let felt = accelerations_in(&open(flat), &[fluid(&more)], &particles, 0.0);
-            let each = || felt.iter().zip(particles.mass()).map(|(a, m)| *m * a.truncate());
+            let acting = accelerations_in(&open(flat), &[fluid(&more)], &particles, 0.0);
+            let each = || acting.iter().zip(particles.mass()).map(|(a, m)| *m * a.truncate());
             let (total, size) = (each().sum::<DVec3>().length(), each().map(DVec3::length).sum::<f64>());
             // Sums of 200 in f64.
             assert!(total < 1e-13 * size && size > 0.0, "{total:e} of {size}");

@@ -1,8 +1,8 @@
-// Everybody meets who is listed, and notes down how strongly they push each other, V g r.
+// Each particle meets those listed, and notes down how strongly they push each other, V g r.
 @group(3) @binding(16) var<storage, read_write> pairs: array<vec4f>;
 
 override STRIDE: u32 = 1u;
-// The cells of the fluid: behind the last of them stand walls, and nobody.
+// The cells of the fluid: behind the last of them stand walls, and empty slots.
 override CELLS: u32 = 1u;
 const WORKGROUP: u32 = 64u;
 

@@ -1,4 +1,4 @@
-// Who is in range of whom, slot by slot: row 0 says of slot k how many are, and the n-th stands in row n, so that invocations side
+// Pairs in range, slot by slot: row 0 says of slot k how many are, and the n-th stands in row n, so that invocations side
 // by side read side by side.
 struct Sum { number: u32 }
 

@@ -1,12 +1,12 @@
 // How dense it is around a particle, how fast it gets denser, and what pressure does against that (Bender & Koschier 2015, with
-// walls after Akinci et al. 2012: they have my pressure, and nobody pushes them). With V = m / ρ₀, r from me to you, and g r the gradient of W at you:
+// walls after Akinci et al. 2012: they have my pressure, and are not pushed). With V = m / ρ₀, r from me to you, and g r the gradient of W at you:
 //   ρ / ρ₀ = Σ V W,  D = Σ V (v_you − v_me) · g r,  1 / α = (Σ V g r + Σ V g r, of walls) · Σ V g r + Σ V V' |g r|², without walls
 struct Sum { number: f32, change: f32, gradient: vec3f, walls: vec3f, squares: f32, neighbors: f32 }
 
 @group(3) @binding(2) var<storage, read_write> density: array<f32>;
 @group(3) @binding(3) var<storage, read_write> responses: array<Response>;
 
-// Of 1 / α times h²: who has less has nobody to push against.
+// Of 1 / α times h²: a particle with less has no neighbours to push against.
 const LEAST: f32 = 1e-6;
 
 fn acts_on(me: Particle) -> bool { return !is_held(me.index); }

@@ -86,7 +86,7 @@ impl<'a> Dfsph<'a> {
         let pairs = Pairs::fitting(&medium, &grid, problem);
         Ok(Self { medium, asked, problem, grid, pairs })
     }
-    /// Adds both solves to a plan in which all else that accelerates has been felt.
+    /// Adds both solves to a plan in which all other accelerations have been added.
     ///
     /// # Errors
     /// When a shader does not compile.
@@ -125,7 +125,7 @@ impl<'a> Dfsph<'a> {
         let wide = self.medium.support / 2.0;
         1.25 / if self.medium.dimensions == 2 { 2.75 * wide } else { 3.5 * wide * wide }
     }
-    /// Neighbours of somebody inside of the fluid; with fewer, compression by the velocity is left to the density.
+    /// Neighbours of a particle inside of the fluid; with fewer, compression by the velocity is left to the density.
     fn fewest(&self) -> f64 {
         if self.medium.dimensions == 2 { 7.0 } else { 20.0 }
     }
@@ -134,7 +134,7 @@ impl<'a> Dfsph<'a> {
         self.grid.field(field).1
     }
     /// The ids in the order of the grid: of the fluid, which stands before all others, where it is known how many that are. Else
-    /// some stand there too who are of walls, or not at all; what is known of slots says so.
+    /// wall particles stand there too, and empty slots; what is known of slots says so.
     fn slots(&self) -> impl Fn(&Host) -> Result<Vec<usize>, Error> + Send + Sync + use<> {
         let fluid = self.grid.of_those_ahead();
         move |host| {

@@ -7,7 +7,7 @@ use crate::neighbors::Grid;
 use crate::sph::Medium;
 use crate::visit::{Candidate, Law, Search};
 
-/// How many more neighbours there is room for than a fluid at rest has: somebody with more is told, and ends the run.
+/// How many more neighbours there is room for than a fluid at rest has: a particle with more is reported, and ends the run.
 const ROOM: u32 = 2;
 /// Rows, in whole lots of these.
 const LOT: u32 = 8;

@@ -8,7 +8,7 @@ use crate::kernel::{Kernel, World};
 use crate::sph::DENSITY;
 use crate::visit::{Candidate, Law, Outcome, Particle};
 
-/// Of 1 / α times h²: who has less has nobody to push against.
+/// Of 1 / α times h²: a particle with less has no neighbours to push against.
 const LEAST: f64 = 1e-6;
 
 #[derive(Default)]
