@@ -16,6 +16,30 @@ pub enum Value {
     Text(Cow<'static, str>),
     /// Yes or no.
     Flag(bool),
+    /// Coefficients of pairs of species.
+    Pairs(Vec<Pair>),
+}
+
+/// The coefficients of a pair of species.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pair {
+    /// The two, in any order.
+    pub species: [u32; 2],
+    /// The coefficients, by the names of their keys.
+    pub values: Vec<(String, f64)>,
+}
+
+impl Pair {
+    /// A coefficient; 0 where there is none of that name.
+    #[must_use]
+    pub fn number(&self, name: &str) -> f64 {
+        self.values.iter().find(|(known, _)| known == name).map_or(0.0, |(_, x)| *x)
+    }
+    /// Whether it has a number for every key, and nothing else.
+    fn fits(&self, keys: &[Key]) -> bool {
+        let has = |key: &Key| self.values.iter().any(|(name, _)| name == key.name);
+        self.values.len() == keys.len() && keys.iter().all(has)
+    }
 }
 
 /// What values a key accepts.
@@ -51,6 +75,9 @@ pub enum Kind {
     Sides,
     /// A colour by name or as "#ffcc88", or an empty text: none.
     Color,
+    /// Coefficients of each pair of species, by these keys, as in `[{ species = [0, 1], epsilon = 1.0 }, …]`. Every pair of species that
+    /// particles have is given once, in any order.
+    Pairs(&'static [Key]),
 }
 
 impl Kind {
@@ -64,6 +91,7 @@ impl Kind {
             Self::Vector | Self::Direction => matches!(value, Value::Vector(_)),
             Self::Choice(_) | Self::Motion | Self::File | Self::Sides | Self::Color => matches!(value, Value::Text(_)),
             Self::Flag => matches!(value, Value::Flag(_)),
+            Self::Pairs(keys) => matches!(value, Value::Pairs(rows) if rows.iter().all(|row| row.fits(keys))),
         }
     }
 }
@@ -174,6 +202,14 @@ impl Settings {
         match self.0.get(name) {
             Some(Value::Text(t)) => t,
             _ => "",
+        }
+    }
+    /// Coefficients of pairs of species.
+    #[must_use]
+    pub fn pairs(&self, name: &str) -> &[Pair] {
+        match self.0.get(name) {
+            Some(Value::Pairs(rows)) => rows,
+            _ => &[],
         }
     }
     /// Yes or no.

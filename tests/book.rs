@@ -26,6 +26,12 @@ fn forces() -> String {
         for key in entry.keys {
             let default = key.default.as_ref().map_or_else(|| "required".to_owned(), shown);
             let _ = writeln!(page, "| `{}` | {default} | {} |", key.name, key.about.replace('|', "\\|"));
+            if let motes::settings::Kind::Pairs(keys) = key.kind {
+                for of in keys {
+                    let default = of.default.as_ref().map_or_else(|| "required".to_owned(), shown);
+                    let _ = writeln!(page, "| `{}.{}` | {default} | {} |", key.name, of.name, of.about);
+                }
+            }
         }
     }
     page
@@ -37,6 +43,7 @@ fn shown(value: &motes::settings::Value) -> String {
         Value::Number(x) => format!("`{x}`"),
         Value::Vector(v) => format!("`[{}, {}, {}]`", v.x, v.y, v.z),
         Value::Flag(on) => format!("`{on}`"),
+        Value::Pairs(_) => "a table".to_owned(),
         Value::Text(text) if text.is_empty() => String::new(),
         Value::Text(text) => format!("`{text:?}`"),
     }

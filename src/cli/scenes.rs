@@ -1,7 +1,7 @@
 //! `motes scenes`
 
 use motes::scene::{SCENES, SECTIONS, Source};
-use motes::settings::{Key, Value};
+use motes::settings::{Key, Kind, Value};
 
 use super::args::ScenesArgs;
 use super::failure::Failure;
@@ -68,6 +68,9 @@ fn list(keys: &[Key]) {
     for key in keys {
         let default = key.default.as_ref().map_or_else(|| "must be given".to_owned(), shown);
         out!("    {:16} {default:20} {}", key.name, key.about);
+        if let Kind::Pairs(keys) = key.kind {
+            list(keys);
+        }
     }
 }
 
@@ -77,6 +80,7 @@ fn shown(value: &Value) -> String {
         Value::Vector(v) => format!("[{}, {}, {}]", v.x, v.y, v.z),
         Value::Text(t) => format!("\"{t}\""),
         Value::Flag(f) => f.to_string(),
+        Value::Pairs(rows) => format!("{} pairs", rows.len()),
     }
 }
 

@@ -62,6 +62,6 @@ pub fn scalar(value: &Value) -> Scalar {
         Value::Number(x) => Scalar::Float(*x),
         Value::Vector(v) => Scalar::Vector(*v),
         Value::Flag(on) => Scalar::Uint(u32::from(*on)),
-        Value::Text(_) => Scalar::Float(f64::NAN),
+        Value::Text(_) | Value::Pairs(_) => Scalar::Float(f64::NAN),
     }
 }

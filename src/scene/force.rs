@@ -3,14 +3,13 @@
 use std::path::Path;
 
 use crate::forces::{self, Component, Custom, Over};
-use crate::kernel::Scalar;
 use crate::motion::Motion;
 use crate::settings::{Kind, Settings, Value};
 use crate::tree::Opening;
-use crate::visit::{PairRow, PairTable};
 
 use super::files::Files;
 use super::held;
+use super::pairs;
 use super::report::{Fault, Place, Report};
 use super::resolved::{self, Writer};
 use super::tree::{Data, Entry};
@@ -47,7 +46,7 @@ fn read_own(table: &Table<'_>, wgsl: &Entry, files: &Files, report: &mut Report)
     table.settings(&[], &OWN[1..], report);
     let over = over(table, report);
     let params = table.get("params").map_or_else(Vec::new, |entry| params(entry, report));
-    let pairs = table.get("pairs").and_then(|entry| pairs(entry, report));
+    let pairs = table.get("pairs").and_then(|entry| pairs::of_any_names(&entry.node, report));
     let tables = table.get("tables").map_or_else(Vec::new, |entry| tables(entry, report));
     let into = table.get("into").map_or_else(|| vec!["acceleration".into()], |entry| into(entry, report));
     let name = value::text(&wgsl.node, "wgsl", "the name of a file", report)?;
@@ -157,36 +156,6 @@ fn params(entry: &Entry, report: &mut Report) -> Vec<(String, Value)> {
     list.iter().filter_map(|e| Some((e.key.clone(), param(e, report)?))).collect()
 }
 
-/// The parameters of pairs of species: `[{ species = [0, 1], epsilon = 1.0 }, …]`.
-fn pairs(entry: &Entry, report: &mut Report) -> Option<PairTable> {
-    const WANTED: &str = "a list of tables, as in [{ species = [0, 1], epsilon = 1.0 }]";
-    let Data::List(rows) = &entry.node.data else {
-        return value::refuse(&entry.node, "pairs", WANTED, report);
-    };
-    let row = |row: &super::tree::Node, report: &mut Report| {
-        let Data::Table(list) = &row.data else { return value::refuse(row, "pairs", WANTED, report) };
-        let Some(species) = list.iter().find(|entry| entry.key == "species") else {
-            report.push(Fault::at(&row.place, "a pair of species has no `species`").label("say species = [0, 1]"));
-            return None;
-        };
-        let Data::List(two) = &species.node.data else {
-            return value::refuse(&species.node, "species", "two whole numbers", report);
-        };
-        let whole = |node: &super::tree::Node, report: &mut Report| {
-            let number = value::number(node, "species", Kind::Whole, "a whole number from 0 on", report)?;
-            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a whole number of 32 bits")]
-            (0.0..=f64::from(u32::MAX)).contains(&number).then_some(number as u32)
-        };
-        let [a, b] = &two[..] else { return value::refuse(&species.node, "species", "two whole numbers", report) };
-        let species = [whole(a, report)?, whole(b, report)?];
-        let others = list.iter().filter(|entry| entry.key != "species");
-        let values = others.filter_map(|entry| Some((entry.key.clone(), forces::scalar(&param(entry, report)?))));
-        Some(PairRow { species, values: values.collect() })
-    };
-    let rows: Vec<_> = rows.iter().map(|node| row(node, report)).collect();
-    Some(PairTable { rows: rows.into_iter().collect::<Option<_>>()? })
-}
-
 /// Tables of data: `{ lookup = [0.0, 0.5, 1.0] }`, each an `array<f32>`.
 fn tables(entry: &Entry, report: &mut Report) -> Vec<crate::kernel::Table> {
     let Data::Table(list) = &entry.node.data else {
@@ -224,7 +193,7 @@ fn into(entry: &Entry, report: &mut Report) -> Vec<crate::kernel::Name> {
         .collect()
 }
 
-fn param(entry: &Entry, report: &mut Report) -> Option<Value> {
+pub(super) fn param(entry: &Entry, report: &mut Report) -> Option<Value> {
     let kind = match entry.node.data {
         Data::Integer(_) | Data::Float(_) => Kind::Number,
         Data::List(_) => Kind::Vector,
@@ -286,20 +255,8 @@ pub(super) fn adapted(forces: &[Box<dyn Component>], place: &Place, report: &mut
 
 /// The lines of a law's tables and columns.
 fn own_tables(law: &Custom, out: &mut Writer) {
-    let number = |scalar: &Scalar| match scalar {
-        Scalar::Float(x) => resolved::value(&Value::Number(*x)),
-        Scalar::Uint(n) => n.to_string(),
-        Scalar::Vector(v) => resolved::value(&Value::Vector(*v)),
-        Scalar::Uints(v) => format!("{v:?}"),
-        Scalar::Vector4(v) => format!("{v:?}"),
-    };
     if let Some(pairs) = &law.pairs {
-        let row = |row: &PairRow| {
-            let values =
-                row.values.iter().map(|(name, value)| format!(", {} = {}", resolved::bare(name), number(value)));
-            format!("{{ species = {:?}{} }}", row.species, values.collect::<String>())
-        };
-        out.line("pairs", &format!("[{}]", pairs.rows.iter().map(row).collect::<Vec<_>>().join(", ")));
+        out.line("pairs", &resolved::pairs(pairs));
     }
     if !law.tables.is_empty() {
         let words = |words: &[u32]| {

@@ -30,6 +30,7 @@ mod motion;
 mod output;
 mod overrides;
 mod own;
+mod pairs;
 mod particles;
 mod report;
 mod resolved;
@@ -282,6 +283,9 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
         links::read(table, &mut particles, &bounds, files, &mut out, report);
     }
 
+    for (table, force) in of_forces.iter().zip(&forces) {
+        pairs::complete(table, force.as_ref(), particles.species(), report);
+    }
     let mut flows = false;
     for (table, force) in of_forces.iter().zip(&forces) {
         flows |= fluid::check(table, force.as_ref(), (&bounds, &particles, flows), report);

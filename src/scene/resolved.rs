@@ -5,7 +5,9 @@ use std::path::{Component, Path, PathBuf};
 
 use glam::DVec3;
 
+use crate::kernel::Scalar;
 use crate::settings::{Key, Kind, Settings, Value};
+use crate::visit::{PairRow, PairTable};
 
 /// TOML on its way to be written. Numbers have the digits that read back to the same bits.
 #[derive(Default)]
@@ -59,7 +61,24 @@ pub(super) fn value(value: &Value) -> String {
         Value::Vector(v) => vector(*v),
         Value::Text(t) => quoted(t),
         Value::Flag(f) => f.to_string(),
+        Value::Pairs(rows) => pairs(&PairTable::from(rows.as_slice())),
     }
+}
+
+/// Parameters of pairs of species as TOML.
+pub(super) fn pairs(table: &PairTable) -> String {
+    let shown = |scalar: &Scalar| match scalar {
+        Scalar::Float(x) => number(*x),
+        Scalar::Uint(n) => n.to_string(),
+        Scalar::Vector(v) => vector(*v),
+        Scalar::Uints(v) => format!("{v:?}"),
+        Scalar::Vector4(v) => format!("{v:?}"),
+    };
+    let row = |row: &PairRow| {
+        let values = row.values.iter().map(|(name, value)| format!(", {} = {}", bare(name), shown(value)));
+        format!("{{ species = {:?}{} }}", row.species, values.collect::<String>())
+    };
+    format!("[{}]", table.rows.iter().map(row).collect::<Vec<_>>().join(", "))
 }
 
 /// A float with the digits that read back to the same bits.

@@ -6,9 +6,9 @@ use glam::DVec3;
 
 use crate::settings::{Kind, SIDES, Value};
 
-use super::color;
 use super::report::{Fault, Report, listed, nearest};
 use super::tree::{Data, Node};
+use super::{color, pairs};
 
 /// Above this whole numbers are no longer exact in f64.
 const LARGEST_WHOLE: f64 = 9_007_199_254_740_992.0;
@@ -32,6 +32,7 @@ pub(super) fn wanted(kind: Kind) -> String {
         Kind::File => "the name of a file".to_owned(),
         Kind::Sides => format!("some of {}, with blanks between them", listed(SIDES.iter().copied())),
         Kind::Color => color::WANTED.to_owned(),
+        Kind::Pairs(_) => pairs::WANTED.to_owned(),
     }
 }
 
@@ -62,6 +63,7 @@ pub(super) fn read(node: &Node, key: &str, kind: Kind, report: &mut Report) -> O
             Data::Text(name) => Some(Value::Text(Cow::Owned(name.clone()))),
             _ => refuse(node, key, &wanted(kind), report),
         },
+        Kind::Pairs(keys) => pairs::read(node, key, keys, report).map(Value::Pairs),
         Kind::Color => match &node.data {
             Data::Text(text) if text.is_empty() => Some(Value::Text(Cow::Borrowed(""))),
             _ => color::read(node, key, report).map(|rgb| Value::Text(Cow::Owned(color::shown(rgb)))),

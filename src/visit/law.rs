@@ -358,8 +358,16 @@ impl Law {
                     self.name, self.wgsl.file
                 )));
             };
-            tables.push((pairs.words(&self.name, binding, &present)?, binding.stride));
+            let words = pairs.words(&self.name, binding, &present)?;
+            let (uniform, stride) = (binding.access == Access::Uniform, binding.stride);
             let side = f64::from(pairs.side(&present));
+            if uniform {
+                let bytes: Vec<u8> = words.1.iter().flat_map(|word| word.to_le_bytes()).collect();
+                let binds = |pass: &&mut crate::kernel::Pass| pass.shader.reflection().binding(PAIR_TABLE).is_some();
+                kernel.passes.iter_mut().filter(binds).for_each(|pass| pass.uniforms.push((PAIR_TABLE, bytes.clone())));
+            } else {
+                tables.push((words, stride));
+            }
             let tells = |pass: &&mut crate::kernel::Pass| pass.shader.reflection().overrides.contains_key("SPECIES");
             kernel.passes.iter_mut().filter(tells).for_each(|pass| pass.constants.push(("SPECIES", side)));
         }

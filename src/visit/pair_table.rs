@@ -1,11 +1,14 @@
 //! Parameters of pairs of species: a symmetric table, whose every pair must be given.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use crate::error::Error;
-use crate::kernel::{Binding, Scalar, Table};
+use crate::kernel::{Access, Binding, Scalar, Table};
+use crate::settings::Pair;
 
-/// The name of the table in WGSL: `var<storage, read> pair_table: array<Pair>`. The row of species a and b stands at
+/// The name of the table in WGSL: `var<storage, read> pair_table: array<Pair>`, or, where a law has no storage buffer to spare,
+/// `var<uniform> pair_table: array<Pair, 64>` of 8 species. The row of species a and b stands at
 /// `a * species + b`, with `species` the number of rows on a side: `pair_index(a, b)` gives it.
 pub const PAIR_TABLE: &str = "pair_table";
 /// Species that a table may tell apart, at most.
@@ -27,7 +30,31 @@ pub struct PairRow {
     pub values: Vec<(String, Scalar)>,
 }
 
+impl PairRow {
+    /// The two species, the lower one first.
+    #[must_use]
+    pub fn pair(&self) -> [u32; 2] {
+        let [a, b] = self.species;
+        [a.min(b), a.max(b)]
+    }
+}
+
+impl From<&[Pair]> for PairTable {
+    fn from(pairs: &[Pair]) -> Self {
+        let values = |pair: &Pair| pair.values.iter().map(|(name, x)| (name.clone(), Scalar::Float(*x))).collect();
+        Self { rows: pairs.iter().map(|pair| PairRow { species: pair.species, values: values(pair) }).collect() }
+    }
+}
+
 impl PairTable {
+    /// The pairs of some species that it lacks, each with the lower one first.
+    #[must_use]
+    pub fn missing(&self, present: &[u32]) -> Vec<[u32; 2]> {
+        let present: BTreeSet<u32> = present.iter().copied().collect();
+        let given: BTreeSet<[u32; 2]> = self.rows.iter().map(PairRow::pair).collect();
+        let all = present.iter().flat_map(|a| present.range(a..).map(|b| [*a, *b]));
+        all.filter(|pair| !given.contains(pair)).collect()
+    }
     /// Rows on a side: one more than the highest species of the table or of the particles.
     #[must_use]
     pub fn side(&self, present: &[u32]) -> u32 {
@@ -65,13 +92,26 @@ impl PairTable {
                 bytes[place * size..(place + 1) * size].copy_from_slice(&packed);
             }
         }
-        let missing = present.iter().flat_map(|a| present.iter().map(move |b| [*a, *b]));
-        let missing: Vec<_> = missing.filter(|[a, b]| a <= b && !given[(a * side + b) as usize]).collect();
-        if let Some([a, b]) = missing.first() {
+        let missing = self.missing(present);
+        if !missing.is_empty() {
+            let rows: Vec<_> = missing.iter().map(|[a, b]| format!("{{ species = [{a}, {b}], … }}")).collect();
+            let pairs: Vec<_> = missing.iter().map(|[a, b]| format!("species {a} and {b}")).collect();
             return Err(Error::Scene(format!(
-                "`{law}` has no parameters for particles of species {a} and {b} ({} such pairs): add {{ species = [{a}, {b}], … }} to its pairs",
-                missing.len()
+                "`{law}` has no parameters for particles of {}: add {} to its pairs",
+                pairs.join(", of "),
+                rows.join(", ")
             )));
+        }
+        // A uniform block has the size that its shader says.
+        if binding.access == Access::Uniform {
+            let room = usize::try_from(binding.stride).unwrap_or(0);
+            if bytes.len() > room {
+                return Err(Error::Scene(format!(
+                    "`{law}` has a table over pairs of {side} species, and room for {}: number species from 0 on, or have fewer",
+                    (room / size.max(1)).isqrt()
+                )));
+            }
+            bytes.resize(room, 0);
         }
         let words =
             bytes.chunks_exact(4).map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]])).collect();
