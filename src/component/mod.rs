@@ -92,6 +92,8 @@ pub enum Stage {
     /// Where the length of the next step is found: kernels that fill [`STEP_CRITERIA`](crate::kernel::STEP_CRITERIA), from accelerations,
     /// positions and velocities at the end of a step.
     StepLimit,
+    /// Once at the start of each step, before the integrator's own kernels.
+    StartOfStep,
     /// Once at the end of each step.
     EndOfStep,
 }
@@ -130,8 +132,21 @@ pub struct Properties {
     pub integrators: &'static [&'static str],
     /// The distance that a particle may go in a step at most, where its method has such a bound \[length\].
     pub largest_move: Option<f64>,
+    /// Columns whose values have an upper limit: above it the component would be wrong.
+    pub largest: Vec<Largest>,
     /// What else one should know before it runs.
     pub caution: Option<&'static str>,
+}
+
+/// The largest value that a column may have.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Largest {
+    /// The column, a scalar.
+    pub column: &'static str,
+    /// The value, in the column's unit.
+    pub value: f64,
+    /// What sets it.
+    pub why: &'static str,
 }
 
 /// What a component says of itself in a problem.

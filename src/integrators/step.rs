@@ -123,6 +123,10 @@ impl<'a> Step<'a> {
         self.moved |= self.problem.has_inactive;
         self.add_all(life::kernels(&self.problem));
     }
+    /// What forces do at the start of a step.
+    pub fn open(&mut self) {
+        self.each(Stage::StartOfStep);
+    }
     /// What forces do once, before the first step.
     pub fn begin(&mut self) {
         self.each(Stage::Start);

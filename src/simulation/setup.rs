@@ -77,6 +77,7 @@ impl Setup {
         let mut step = Step::new(&self.forces, problem.clone());
         step.adaptive_step();
         step.lead();
+        step.open();
         self.integrator.step(&mut step);
         let columns = problem.columns.clone();
         let time = Step::time(&problem)?;
@@ -242,6 +243,22 @@ impl Setup {
         }
         Ok(())
     }
+    /// Refuses values that are above what a force can serve.
+    fn limited(&self) -> Result<(), Error> {
+        for limit in self.forces.iter().flat_map(|force| force.properties().largest) {
+            let values = self.state.scalar(limit.column).unwrap_or_default();
+            // As the device holds both.
+            #[expect(clippy::cast_possible_truncation, reason = "rounding to f32 is what the device does")]
+            let above = |x: &f64| (*x as f32) > limit.value as f32;
+            if let Some(place) = values.iter().position(above) {
+                return Err(Error::Scene(format!(
+                    "particle {place} has the {} {}, and a force here serves {} at most: {}",
+                    limit.column, values[place], limit.value, limit.why
+                )));
+            }
+        }
+        Ok(())
+    }
     /// Whether links may change as it runs.
     #[must_use]
     pub fn breaks(&self) -> bool {
@@ -277,6 +294,7 @@ impl Setup {
         }
         self.done()?;
         self.complete()?;
+        self.limited()?;
         self.fluids()?;
         if state.has_ids() {
             distinct(&state.ids()[..count.saturating_sub(state.free as usize)])?;
