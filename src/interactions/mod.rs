@@ -27,6 +27,7 @@ components! {
     soft_turn: SoftTurn, "a box with soft walls that turn back";
     vicsek: Vicsek, "each particle takes the mean heading around it, with noise, in the plane (Vicsek et al. 1995)";
     born_mayer: BornMayer, "ions: repulsion and dispersion by pair of species, and damped Coulomb forces of their charges (Born & Mayer 1932)";
+    contact: Contact, "spheres that touch: normal springs and dashpots, friction with history, torques (Cundall & Strack 1979)";
     spring: Spring, "springs and ropes, damped along themselves (Hooke 1678)";
     joint: Joint, "joints that resist bending: elastic rods, hair (Euler 1744)";
     fluid: Fluid, "a fluid by smoothed particle hydrodynamics, weakly compressible (Monaghan 1994); held particles are its walls";
