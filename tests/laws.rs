@@ -11,13 +11,13 @@ use motes::kernel::{Access, Machine, World};
 use motes::settings::{Kind, Settings, Value};
 use support::choices::{self, nudged};
 use support::machines;
-use support::states::{accelerations, evaluated, evaluated_after, force, one, vector, word};
+use support::states::{accelerations, evaluated, evaluated_after, force, one, torques, vector, word};
 
 const TIME: f64 = 0.83;
 
 /// Every force of the register in all its variants.
 fn every(mut look: impl FnMut(&str, &'static Entry, &Settings, Box<dyn Component>)) {
-    for entry in choices::entries() {
+    for entry in choices::lawful() {
         for settings in choices::variants(entry.keys) {
             look(&format!("{} {:?}", entry.name, settings.0), entry, &settings, (entry.build)(&settings));
         }
@@ -100,13 +100,16 @@ fn action_is_reaction() {
         }
         pairs += 1;
         let particles = support::cloud(40, 3);
-        let a = accelerations(&[force], &particles, TIME);
+        let force = [force];
+        let (a, torques) = (accelerations(&force, &particles, TIME), torques(&force, &particles, TIME));
         let (mut push, mut turn, mut size) = (DVec3::ZERO, DVec3::ZERO, 0.0);
         for ((a, x), m) in a.iter().zip(particles.position()).zip(particles.mass()) {
             push += *m * a.truncate();
             turn += *m * x.cross(a.truncate());
             size += m * a.truncate().length();
         }
+        turn += torques.iter().sum::<DVec3>();
+        size += torques.iter().map(|torque| torque.length()).sum::<f64>();
         // 40 sums of 40 terms, each rounded by 1e-16.
         let allowed = 40.0 * f64::EPSILON * size;
         assert!(push.length() < allowed && turn.length() < allowed, "{name}: {push} and {turn} of {size}");
@@ -122,7 +125,7 @@ fn other_species(value: &Value) -> Value {
 /// A key that is not read, or a name mistyped, changes nothing.
 #[test]
 fn every_key_is_read() {
-    for entry in choices::entries() {
+    for entry in choices::lawful() {
         let variants = choices::variants(entry.keys);
         let world = World { time: TIME, dt: 0.01, ..World::default() };
         let cloud = support::cloud(100, 3);
@@ -151,7 +154,10 @@ fn every_key_is_read() {
             // One variant in which it matters is enough: a softening says nothing to a spring.
             let all: Vec<_> = variants.iter().flat_map(|v| others(v).into_iter().map(move |o| (v, o))).collect();
             // Pairs in range are the same however they are found.
-            let only_word = key.name == "skin" || matches!(key.kind, Kind::Choice([_] | ["near", "list", "within"]));
+            // Spheres touch as far as their radii reach.
+            let touches = entry.name == "contact" && key.name == "range";
+            let only_word =
+                touches || key.name == "skin" || matches!(key.kind, Kind::Choice([_] | ["near", "list", "within"]));
             let read = all.iter().any(|(one, other)| at(one) != at(other));
             assert!(read || only_word, "{}: the key `{}` changes nothing", entry.name, key.name);
         }

@@ -59,4 +59,5 @@ pub const SCENES: &[Builtin] = scenes![
     "fish_school",
     "vicsek",
     "murmuration",
+    "salt",
 ];

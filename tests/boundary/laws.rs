@@ -1,7 +1,7 @@
 //! Forces in a periodic box: the nearest image, on every machine.
 
 use glam::{DVec3, DVec4};
-use motes::forces::{self, Component, Problem};
+use motes::forces::{Component, Problem};
 use motes::integrators::Step;
 use motes::kernel::Backend;
 use motes::lockstep::{Verdict, compare};
@@ -66,7 +66,7 @@ fn every_law_in_a_periodic_box() {
     }
     let lawless = |name: &str| force(name, &[]).laws().is_empty();
     let idle: Vec<_> =
-        forces::entries().map(|e| e.name).filter(|name| !busy.contains(name) && !lawless(name)).collect();
+        choices::entries().map(|e| e.name).filter(|name| !busy.contains(name) && !lawless(name)).collect();
     assert!(idle.is_empty(), "nothing changes: {idle:?}");
 }
 

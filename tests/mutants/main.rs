@@ -18,6 +18,7 @@ mod held;
 mod implicit;
 mod laws;
 mod lists;
+mod matter;
 mod memory;
 mod neighbors;
 mod open;
@@ -144,6 +145,7 @@ fn every_mutant_is_noticed() {
         pairs::EQUIVALENT,
         repeat::EQUIVALENT,
         columns::EQUIVALENT,
+        matter::EQUIVALENT,
     ]
     .concat();
     let ledger = Mutex::new(Ledger::new(&equivalents, OPEN));

@@ -205,6 +205,7 @@ pub fn all(shared: &Shared) -> Vec<Stage> {
     laws::firsts(&device, &mut stages);
     laws::corners(&device, &mut stages);
     columns::all(&device, &mut stages);
+    crate::matter::all(shared, &device, &mut stages);
     laws::planes(&device, &mut stages);
     crate::held::all(&device, &mut stages);
     crate::pairs::all(&device, &mut stages);

@@ -5,14 +5,23 @@ use std::borrow::Cow;
 use glam::DVec3;
 use motes::forces::{self, Component, Entry};
 use motes::motion::{Keyframe, Motion};
-use motes::settings::{Key, Kind, Settings, Value};
+use motes::settings::{Key, Kind, Pair, Settings, Value};
 
 /// Forces of several searches in a row, which take up what those before them left: they have tests of their own, in
 /// `tests/fluids` and `tests/mutants/fluids.rs`.
 const OWN: [&str; 1] = ["fluid"];
 
+/// Forces that want other states than a cloud of points: ions apart, spheres that touch. `tests/matter` and
+/// `tests/mutants/matter.rs` have these.
+const STATED: [&str; 3] = ["born_mayer", "contact", "nose_hoover"];
+
 /// The entries of the register of forces, without those that have tests of their own.
 pub fn entries() -> impl Iterator<Item = &'static Entry> {
+    lawful().filter(|entry| !STATED.contains(&entry.name))
+}
+
+/// The same, and those that want other states than a cloud: what every force must obey.
+pub fn lawful() -> impl Iterator<Item = &'static Entry> {
     forces::entries().filter(|entry| !OWN.contains(&entry.name))
 }
 
@@ -41,9 +50,22 @@ fn values(key: &Key) -> Vec<Value> {
         (Kind::Motion, _) => vec![Value::Text("".into())],
         (Kind::Species, Some(Value::Number(n))) => vec![Value::Text("all".into()), Value::Number(n + 1.0)],
         (Kind::Species, _) => vec![Value::Text("all".into()), Value::Number(1.0)],
+        (Kind::Pairs(keys), _) => vec![Value::Pairs(table(keys))],
         (_, None) => vec![nudged(key.kind, &default(key.kind))],
         (_, Some(value)) => vec![nudged(key.kind, value)],
     }
+}
+
+/// Coefficients of all pairs of species 0 to 2, in an order that is not sorted: other ones for each, that f32 holds.
+pub fn table(keys: &[Key]) -> Vec<Pair> {
+    let number = |a: u32, b: u32, place: usize| {
+        0.3 + 0.125 * f64::from(a + 2 * a.max(b)) / (1.0 + place as f64) + 0.0625 * f64::from(b)
+    };
+    let row = |[a, b]: [u32; 2]| {
+        let value = |(place, key): (usize, &Key)| (key.name.to_owned(), f64::from(number(a, b, place) as f32));
+        Pair { species: [a, b], values: keys.iter().enumerate().map(value).collect() }
+    };
+    [[2, 0], [1, 1], [0, 1], [2, 2], [0, 0], [2, 1]].map(row).to_vec()
 }
 
 /// The motion that forces may go along with: numbers that are neither 0 nor 1, begun before the run and not over soon.
@@ -77,6 +99,13 @@ pub fn nudged(kind: Kind, value: &Value) -> Value {
         Value::Flag(on) => Value::Flag(!on),
         Value::Text(_) if kind == Kind::Motion => Value::Text("swing".into()),
         Value::Text(word) => Value::Text(word.clone()),
+        Value::Pairs(table) => {
+            let mut table = table.clone();
+            for (_, x) in table.iter_mut().flat_map(|pair| &mut pair.values) {
+                *x = f64::from((*x * 1.3 + 0.17) as f32);
+            }
+            Value::Pairs(table)
+        }
     }
 }
 

@@ -125,6 +125,9 @@ pub fn numbers(column: &Column, count: usize, seed: u64) -> Array {
     let single = |v: DVec4| v.as_vec4().as_dvec4();
     let mut vector = || random.vector().extend(random.next());
     match column.kind {
+        Kind::Scalar if column.name == "radius" => {
+            Array::Float((0..len).map(|_| single(DVec4::splat(0.25) + 0.1 * vector()).x).collect())
+        }
         Kind::Scalar => Array::Float((0..len).map(|_| single(vector()).x).collect()),
         Kind::Quaternion => Array::Vec4((0..len).map(|_| single(vector().normalize())).collect()),
         Kind::Vector if column.name == "inertia" => {

@@ -2,7 +2,7 @@
 
 use motes::forces::{Component, Problem, Stage};
 use motes::gpu::Gpu;
-use motes::kernel::{Bounds, Kernel, Machine, Pass, Plan, Scalar};
+use motes::kernel::{Bounds, Columns, Kernel, Machine, Pass, Plan, Scalar};
 
 use super::Shared;
 
@@ -55,6 +55,7 @@ pub fn kernel(force: &dyn Component, count: usize, machine: &Machine) -> Kernel 
 
 /// The kernels of a force: those of its laws, those that keep velocities and positions lawful, and those that end a step.
 pub fn kernels(force: &dyn Component, problem: &Problem) -> Vec<Kernel> {
+    let problem = &problem.clone().of_columns(Columns::with(force.columns()).expect("columns"));
     let mut all: Vec<_> = force.laws().into_iter().map(|law| law.kernel(problem).expect("a kernel")).collect();
     let mut limits = Plan::default();
     force.stage(Stage::AfterKick, &mut limits, problem).expect("limits");

@@ -24,6 +24,7 @@ pub const SMALLER: &[(&str, &[&str])] = &[
     ("fish_school", &["particles.0.count=120"]),
     ("vicsek", &["particles.0.count=150"]),
     ("murmuration", &["particles.0.count=150"]),
+    ("salt", &["force.0.range=5"]),
 ];
 
 /// The overrides that make a scene small; none where it is small as it is.

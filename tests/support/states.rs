@@ -3,7 +3,7 @@
 use glam::{DVec3, DVec4};
 use motes::forces::{self, Component, Stage};
 use motes::integrators::{self, Integrator, Step};
-use motes::kernel::{ACCELERATION, Array, Backend, POSITION, SPECIES, VELOCITY, World};
+use motes::kernel::{ACCELERATION, Array, Backend, Column, Columns, POSITION, Role, SPECIES, Shape, VELOCITY, World};
 use motes::settings::{Settings, Value};
 use motes::{Bounds, Cpu, Setup, Simulation, State};
 
@@ -99,12 +99,32 @@ pub fn evaluated_after(
     world: World,
     before: &[DVec4],
 ) -> (Vec<DVec4>, [Vec<DVec4>; 2], Option<Array>) {
+    let cpu = run(forces, particles, world, before);
+    match [ACCELERATION, VELOCITY, POSITION].map(|field| cpu.host().get(field.name)) {
+        [Some(Array::Vec4(a)), Some(Array::Vec4(v)), Some(Array::Vec4(x))] => (a, [v, x], cpu.host().get("link")),
+        _ => panic!("forces give accelerations"),
+    }
+}
+
+/// The torques that the references of some forces say, in the same state; nothing where there are none.
+pub fn torques(forces: &[Box<dyn Component>], particles: &State, time: f64) -> Vec<DVec3> {
+    let before = vec![DVec4::ZERO; particles.len()];
+    let cpu = run(forces, particles, World { time, dt: 0.01, ..World::default() }, &before);
+    match cpu.host().get("torque") {
+        Some(Array::Vec4(torques)) => torques.iter().map(|torque| torque.truncate()).collect(),
+        _ => Vec::new(),
+    }
+}
+
+/// The references of some forces, run once.
+fn run(forces: &[Box<dyn Component>], particles: &State, world: World, before: &[DVec4]) -> Cpu {
     let count = u32::try_from(particles.len()).expect("few");
     let mut cpu = Cpu::new(count).expect("some");
     let problem = motes::forces::Problem::new(count, cpu.machine())
         .at(particles.position(), world.bounds)
         .tied(&particles.links, &particles.held)
-        .moved(&[super::choices::swing()], world.dt);
+        .moved(&[super::choices::swing()], world.dt)
+        .of_columns(Columns::with(forces.iter().flat_map(|force| force.columns())).expect("columns"));
     let mut step = Step::new(forces, problem.clone());
     step.evaluate();
     let mut plan = step.finished().expect("a plan");
@@ -121,10 +141,16 @@ pub fn evaluated_after(
     if cpu.host().contains(SPECIES.name) {
         cpu.write(SPECIES.name, &Array::Uint(particles.species().to_vec())).expect("species");
     }
+    let declared: Vec<Column> = forces.iter().flat_map(|force| force.columns()).collect();
+    let kept = |(column, _): &(&Column, u64)| column.role == Role::State && column.shape == Shape::Particle;
+    for (column, seed) in declared.iter().zip(41..).filter(kept) {
+        if cpu.host().contains(&column.name) {
+            let given = particles.get(&column.name).cloned();
+            let values = given.unwrap_or_else(|| super::columns::numbers(column, particles.len(), seed));
+            cpu.write(&column.name, &values).expect("a column");
+        }
+    }
     cpu.set_world(World { count, ..world }).expect("clock");
     cpu.run(&program, 1).expect("references run");
-    match [ACCELERATION, VELOCITY, POSITION].map(|field| cpu.host().get(field.name)) {
-        [Some(Array::Vec4(a)), Some(Array::Vec4(v)), Some(Array::Vec4(x))] => (a, [v, x], cpu.host().get("link")),
-        _ => panic!("forces give accelerations"),
-    }
+    cpu
 }

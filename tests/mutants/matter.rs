@@ -1,0 +1,156 @@
+//! Stages of ions on a lattice, of grains that touch, and of a thermostat.
+#![allow(clippy::cast_possible_truncation, reason = "numbers are rounded to what f32 holds")]
+
+use glam::{DVec3, Vec4};
+use motes::forces::{Component, Problem, Stage as Of};
+use motes::kernel::{Array, Backend, Columns, Kernel, Machine, POSITION, Plan};
+use motes::motion::{Held, Hold};
+use motes::settings::{Settings, Value};
+use motes::{Bounds, Gpu, Setup, Simulation, Solver};
+
+use crate::laws::resting;
+use crate::stages::{Device, FEW, Stage, fill, moving, stage};
+use crate::support::equivalents::{Equivalent, same};
+use crate::support::machines::alone;
+use crate::support::states::{force, integrator};
+use crate::support::{self, Random, Shared, choices};
+
+const ALWAYS_SET: &str = "the host sets every override";
+const EDGE: &str = "no pair lies exactly at the edge";
+
+pub const EQUIVALENT: &[Equivalent] = &[
+    same("nose_hoover.wgsl", "override DIMENSIONS: f32 = 3.0;", "3.0", "4.5", ALWAYS_SET),
+    same("nose_hoover.wgsl", "override REMOVED: f32 = 0.0;", "0.0", "1.0", ALWAYS_SET),
+    same("nose_hoover.wgsl", "override TEMPERATURE: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
+    same("nose_hoover.wgsl", "override TIME: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
+    same("contact.wgsl", "let touches = overlap > 0.0", ">", ">=", EDGE),
+    same("contact.wgsl", "if size > limit", ">", ">=", "at the limit it is the limit either way"),
+];
+
+fn number(x: f64) -> Value {
+    Value::Number(x)
+}
+
+fn few() -> u32 {
+    u32::try_from(FEW).expect("few")
+}
+
+/// Ions a little off the places of a lattice, one of them without mass.
+fn ions(device: &Device, stages: &mut Vec<Stage>) {
+    let entry = motes::forces::entry("born_mayer").expect("it");
+    let within = |settings: &Settings| settings.text("over") == "within";
+    for settings in choices::variants(entry.keys).into_iter().filter(within) {
+        let law = (entry.build)(&settings).laws().remove(0);
+        let mut simulation = resting(device, Machine::HOST, Bounds::default());
+        let mut random = Random::new(17);
+        let place = |i: usize| {
+            let cell = DVec3::new((i % 8) as f64, (i / 8 % 8) as f64, (i / 64) as f64);
+            0.8 * (cell + 0.2 * random.vector())
+        };
+        let places: Vec<DVec3> = (0..FEW).map(place).collect();
+        let mass = |i: usize| if i == 13 { 0.0 } else { 0.7 + 0.2 * (i % 3) as f64 };
+        let now: Vec<Vec4> = places.iter().enumerate().map(|(i, x)| x.extend(mass(i)).as_vec4()).collect();
+        simulation.write(POSITION, &now).expect("places");
+        let problem = Problem::new(few(), Machine::HOST).of_species(&support::species(FEW));
+        stages.push(stage("ions", simulation, law.kernel(&problem).expect("a kernel")));
+    }
+}
+
+/// Grains some steps on their way, of which two are at one place, some without mass touch, and some light ones.
+fn grains(device: &Device, stages: &mut Vec<Stage>) {
+    for (friction, spring) in [(0.4, 0.3), (0.03, 0.35), (0.3, 0.0), (0.2, 0.002)] {
+        let settings = [
+            ("range", number(1.0)),
+            ("skin", number(0.9)),
+            ("stiffness", number(300.0)),
+            ("restitution", number(0.6)),
+            ("friction", number(friction)),
+            ("tangential_stiffness", number(spring)),
+            ("tangential_damping", number(0.7)),
+        ];
+        let mut random = Random::new(5);
+        let mut state = motes::State::default();
+        for i in 0..FEW {
+            let cell = DVec3::new((i % 8) as f64, (i / 8 % 8) as f64, (i / 64) as f64);
+            let single = |v: DVec3| v.as_vec3().as_dvec3();
+            let mass = match i {
+                20 | 21 | 28 | 29 => 0.0,
+                40 | 41 | 48 | 49 => 0.3125,
+                _ => f64::from((1.0 + 0.4 * random.next()) as f32),
+            };
+            state.push(single(0.8 * cell + 0.06 * random.vector()), single(random.vector()), mass, 0.01);
+        }
+        let law: Box<dyn Component> = force("contact", &settings);
+        support::columns::give(&mut state, &law.columns(), 7);
+        let radii = (0..FEW).map(|i| 0.4375 + 0.015_625 * (i % 5) as f64).collect();
+        state.set("radius", Array::Float(radii)).expect("radii");
+        let (bounds, solver) = (Bounds::default(), Solver::default());
+        let setup =
+            Setup { state, forces: vec![law], integrator: integrator("leapfrog"), dt: 1.0 / 256.0, bounds, solver };
+        let mut gpu = Gpu::new(&device.0, &device.1, few()).expect("a GPU");
+        gpu.pad(5);
+        let machine = gpu.machine();
+        let mut simulation = Simulation::on(gpu, &setup).expect("a simulation");
+        simulation.step(5).expect("steps");
+        let mut places = pollster::block_on(simulation.read(POSITION)).expect("places");
+        // Elsewhere than where they were evaluated last, though on the same list.
+        for x in &mut places {
+            *x += (0.02 * random.vector()).as_vec3().extend(0.0);
+        }
+        // No farther from their places than the list knows.
+        let middle = 0.5 * (places[8] + places[9]);
+        places[8] = middle.truncate().extend(places[8].w);
+        places[9] = middle.truncate().extend(places[9].w);
+        simulation.backend().write_bytes(POSITION.name, 0, bytemuck::cast_slice(&places)).expect("places");
+        let plans = setup.plans(machine).expect("plans");
+        let kernel = plans.step.kernels.into_iter().find(|kernel| kernel.name == "contact").expect("a contact");
+        // An overlap is the small difference of radii and a distance.
+        stages.push(Stage::of("grains", simulation, alone(kernel)).slack(3.0));
+    }
+}
+
+/// Each kernel of a thermostat, where some particles are fixed and one has no mass; and one that has nothing to regulate.
+fn thermostats(device: &Device, stages: &mut Vec<Stage>) {
+    let settings = [("temperature", number(0.7)), ("time", number(0.4)), ("removed", number(6.0))];
+    let held = [3, 64, 130].map(|id| Held { id, by: Hold::Fixed });
+    let thermostat: Box<dyn Component> = force("nose_hoover", &settings);
+    for held in [&held[..], &[]] {
+        let problem = Problem::new(few(), Machine::HOST)
+            .tied(&motes::links::Links::default(), held)
+            .of_columns(Columns::with(thermostat.columns()).expect("columns"));
+        let mut plan = Plan::default();
+        thermostat.stage(Of::EndOfStep, &mut plan, &problem).expect("an end");
+        for kernel in plan.kernels {
+            // Many degrees of freedom, three quarters of one, none, and fewer.
+            for total in
+                [[150.0_f32, 60.0, 0.0, 0.0], [3.0, 2.25, 0.0, 0.0], [3.0, 2.0, 0.0, 0.0], [3.0, 1.0, 0.0, 0.0]]
+            {
+                let advances = kernel.names("thermostat_rate");
+                if total[1] > 50.0 || advances {
+                    stages.push(thermostat_at(device, &kernel, total));
+                }
+            }
+        }
+    }
+}
+
+fn thermostat_at(device: &Device, kernel: &Kernel, total: [f32; 4]) -> Stage {
+    let mut simulation = moving(device, FEW, None);
+    let mut places = pollster::block_on(simulation.read(POSITION)).expect("places");
+    places[13].w = 0.0;
+    simulation.write(POSITION, &places).expect("places");
+    let plan = alone(kernel.clone());
+    fill(&mut simulation, &plan);
+    let gpu = simulation.backend();
+    if gpu.size("thermostat_total") > 0 {
+        gpu.write_bytes("thermostat_total", 0, bytemuck::cast_slice(&total)).expect("a total");
+    }
+    Stage::of("thermostat", simulation, plan)
+}
+
+pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
+    ions(device, stages);
+    // A list of neighbours has more layers than few workgroups allow.
+    grains(&pollster::block_on(support::limited(shared, |_| {})), stages);
+    thermostats(device, stages);
+}
