@@ -57,7 +57,7 @@ fn no_run_is_lost_however_often_it_is_killed() {
     assert_eq!(code, 0, "{words}");
     let whole = start.elapsed();
     let (mut random, start) = (Pcg64Mcg::new(0x5eed_0bad_cafe), Instant::now());
-    let (mut kills, mut runs, mut resumed, mut longest) = (0, 0, 0, 0);
+    let (mut kills, mut runs, mut resumed, mut longest, mut written) = (0, 0, 0, 0, 0);
     while kills < wanted || wanted == 0 && start.elapsed() < Duration::from_secs(SECONDS) {
         let name = format!("run{runs}");
         let (scene, out) = (place.path("a.toml"), place.path(&name));
@@ -87,7 +87,9 @@ fn no_run_is_lost_however_often_it_is_killed() {
             child.0.wait().expect("it ends");
             kills += 1;
             of_run += 1;
-            resumed += usize::from(!place.checkpoints(&name).is_empty());
+            let parts = std::fs::read_dir(place.at(&name)).into_iter().flatten().flatten();
+            written += parts.filter(|entry| entry.file_name().to_string_lossy().ends_with(".part")).count().min(1);
+            resumed += usize::from(place.at(&name).is_dir() && !place.checkpoints(&name).is_empty());
         }
         longest = longest.max(of_run);
         if let Some(what) = difference(&place.at(&name), &place.at("whole")) {
@@ -97,8 +99,11 @@ fn no_run_is_lost_however_often_it_is_killed() {
         std::fs::remove_dir_all(place.at(&name)).expect("removed");
     }
     println!(
-        "{kills} kills of {runs} runs in {:?}, {resumed} with a checkpoint, {longest} of one run; none is lost",
+        "{kills} kills of {runs} runs in {:?}, {resumed} with a checkpoint, {written} inside of a write, {longest} of one run; none is lost",
         start.elapsed()
     );
-    assert!(resumed > 10 && runs > 0, "{kills} kills, {resumed} with a checkpoint, {runs} runs");
+    assert!(
+        resumed > 10 && written > 0 && runs > 0,
+        "{kills} kills, {resumed} with a checkpoint, {written} inside of a write"
+    );
 }
