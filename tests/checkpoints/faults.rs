@@ -51,6 +51,11 @@ fn a_run_that_is_stopped_goes_on_with_a_code_of_its_own() {
     assert_eq!(place.run("a.toml", "whole", &KEEP).0, 0);
     assert!(place.checkpoints("whole").is_empty(), "a complete run needs none");
     stopped(&place, "out");
+    // Rows and files behind the checkpoint are no part of it.
+    let mut energy = std::fs::read(place.at("out/energy.csv")).expect("a table");
+    energy.extend(b"99,0.5\n".repeat(2000));
+    std::fs::write(place.at("out/energy.csv"), energy).expect("written");
+    std::fs::write(place.at("out/snapshot_99.csv"), "step").expect("written");
     let (code, words) = place.resume("out", &[]);
     assert_eq!(code, 0, "{words}");
     assert!(words.contains("resumes from"), "{words}");
