@@ -50,8 +50,11 @@ pub fn conclude(run: &Run, end: End, conserved: &Conserved, progress: &Progress)
     left.map(|left| summary::broken(whole, left)).into_iter().for_each(&say);
     let population = Counts::last(&run.counts);
     population.map(summary::population).into_iter().for_each(&say);
-    let more =
-        [(flock.is_some(), ", flock.csv"), (run.book.is_some(), ", fluid.csv"), (population.is_some(), ", flow.csv")];
+    let more = [
+        (flock.is_some(), ", flock.csv"),
+        (run.book.is_some(), ", fluid.csv"),
+        (population.is_some(), ", population.csv"),
+    ];
     let tables: String = more.iter().filter(|(is, _)| *is).fold("energy.csv".to_owned(), |all, (_, name)| all + name);
     let picture = if run.pictures.wanted() { format!("{}.png, ", scene.name) } else { String::new() };
     say(format!("results in {}: {picture}{tables}, energy.svg, scene.toml, {} states", output.display(), rows.len()));

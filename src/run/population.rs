@@ -1,4 +1,4 @@
-//! `flow.csv`: how many particles are pending, active and removed, where that changes.
+//! `population.csv`: how many particles are pending, active and removed, where that changes.
 
 use std::sync::Arc;
 
@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::formats::Folder;
 use crate::life::Population;
 
-const NAME: &str = "flow.csv";
+const NAME: &str = "population.csv";
 const HEADER: &str = "step,time,pending,active,removed,spawned,mass";
 
 /// The last count, and the table.
