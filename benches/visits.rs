@@ -21,6 +21,7 @@ const SPAN: f64 = 0.6;
 const TURNS: usize = 5;
 
 /// A law of one of the files beside this one.
+#[derive(Clone)]
 struct Own(&'static str, &'static str, Over);
 
 impl Component for Own {

@@ -97,8 +97,21 @@ impl Backend for Cpu {
         self.host.set_world(world);
         Ok(())
     }
-    fn write(&mut self, name: &str, array: &Array) -> Result<(), Error> {
-        self.host.fill(name, array)
+    fn alike(&self, rows: u32) -> Result<Self, Error> {
+        Self::new(rows)
+    }
+    fn resize(&mut self, rows: u32) {
+        self.count = rows as usize;
+        for always in [POSITION.name, VELOCITY.name] {
+            self.host.insert(always, Array::Vec4(Vec::new()).zeros(self.count));
+        }
+    }
+    fn set_rows(&mut self, count: u32, free: u32) -> Result<(), Error> {
+        self.host.set_world(World { count, free, ..self.host.world() });
+        Ok(())
+    }
+    fn write_at(&mut self, name: &str, first: usize, array: &Array) -> Result<(), Error> {
+        self.host.fill(name, first, array)
     }
     fn forget(&mut self, name: &str) {
         self.host.remove(name);

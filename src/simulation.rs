@@ -3,6 +3,7 @@
 mod adaptive_step;
 mod alarm;
 mod columns;
+mod grow;
 mod inactive;
 mod initial_projection;
 mod lists;
@@ -13,6 +14,7 @@ mod restart;
 mod rows;
 mod setup;
 mod solves;
+mod spawn;
 mod ties;
 mod unwritten;
 
@@ -35,6 +37,15 @@ use restart::Carried;
 use rows::Rows;
 use ties::Ties;
 
+/// What a simulation is made from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Start {
+    /// A state of a caller's.
+    Anew,
+    /// What another simulation has in its rows, all of it.
+    Grown,
+}
+
 /// Particles that move.
 pub struct Simulation<B: Backend> {
     backend: B,
@@ -50,7 +61,11 @@ pub struct Simulation<B: Backend> {
     marks: alarm::Marks,
     /// Whether a step keeps a report of its solves, and one of those for pressure.
     reports: [bool; 2],
-    count: u32,
+    /// All but the state, with which a plan is written anew for more rows; and how often that was.
+    setup: Setup,
+    generation: u32,
+    /// Rows that were in use when a plan was first written for this run.
+    first_rows: u32,
     rows: Rows,
     store: Store,
     /// As the setup gave it, and whether springs may have broken since.
@@ -80,9 +95,17 @@ impl<B: Backend> Simulation<B> {
     ///
     /// # Errors
     /// When the setup makes no sense, a shader does not compile, the fields do not fit the device, or no thread can be started.
-    pub fn on(mut backend: B, setup: &Setup) -> Result<Self, Error> {
+    pub fn on(backend: B, setup: &Setup) -> Result<Self, Error> {
+        Self::going(backend, setup, Start::Anew)
+    }
+    fn going(mut backend: B, given: &Setup, how: Start) -> Result<Self, Error> {
         threads()?;
+        let padded = given.padded();
+        let setup = padded.as_ref().unwrap_or(given);
         let count = setup.check()?;
+        if padded.is_some() {
+            backend.resize(count);
+        }
         let plans = setup.plans(backend.machine())?;
         let (plan, marks) = (plans.step.to_string(), alarm::marks(&plans));
         let reports =
@@ -94,7 +117,8 @@ impl<B: Backend> Simulation<B> {
         let state = &setup.state;
         let store = Store::new(setup, &plans, count)?;
         let print = restart::print(&plans.step);
-        store.write(&mut backend, setup, restart::is_whole(print, state))?;
+        let whole = how == Start::Grown || restart::is_whole(print, &given.state);
+        store.write(&mut backend, setup, whole)?;
         let anchored = plans.all().any(|plan| plan.fields(count).contains_key(HOME.name));
         let anchored = if anchored { Store::anchor(&mut backend, setup)? } else { 0 };
         let carried = restart::carried(&plans, store.columns(), count);
@@ -113,8 +137,10 @@ impl<B: Backend> Simulation<B> {
             plan,
             marks,
             reports,
-            count,
-            rows: Rows::of(state),
+            setup: given.with_state(State::default()),
+            generation: 0,
+            first_rows: count.saturating_sub(setup.free()).max(1),
+            rows: Rows::of(state, count),
             store,
             ties,
             breaks,
@@ -130,7 +156,7 @@ impl<B: Backend> Simulation<B> {
             anchored,
         };
         made.unstop()?;
-        made.resume(setup, &plans)?;
+        made.resume(setup, &plans, how, whole)?;
         Ok(made)
     }
     /// Advances. May return before the device is done; reading waits.
@@ -161,12 +187,12 @@ impl<B: Backend> Simulation<B> {
         }
         Ok(())
     }
-    /// Reads a field, one element per particle.
+    /// Reads a field, one element for each row in use.
     ///
     /// # Errors
     /// When there is no such field, the device is lost, or it does not answer in time.
     pub async fn read<T: Element>(&mut self, field: Field<T>) -> Result<Vec<T>, Error> {
-        let array = self.backend.read(field.name, &T::array(Vec::new()), self.count as usize).await?;
+        let array = self.backend.read(field.name, &T::array(Vec::new()), self.rows.used() as usize).await?;
         Ok(T::view(&array).map_or_else(Vec::new, |values| values.iter().map(|v| T::narrow(*v)).collect()))
     }
     /// Writes a field from its first element on: a renderer's pull, a kinematic target. Where positions or velocities
@@ -175,8 +201,15 @@ impl<B: Backend> Simulation<B> {
     /// # Errors
     /// When there is no such field, it is shorter, or the device is lost.
     pub fn write<T: Element>(&mut self, field: Field<T>, values: &[T]) -> Result<(), Error> {
+        self.write_at(field, 0, values)
+    }
+    /// The same from one of its elements on.
+    ///
+    /// # Errors
+    /// When there is no such field, it ends before, or the device is lost.
+    pub fn write_at<T: Element>(&mut self, field: Field<T>, first: usize, values: &[T]) -> Result<(), Error> {
         self.begun &= field.name != POSITION.name && field.name != VELOCITY.name;
-        self.backend.write(field.name, &T::array(values.iter().map(|v| v.widen()).collect()))
+        self.backend.write_at(field.name, first, &T::array(values.iter().map(|v| v.widen()).collect()))
     }
     /// The state at the end of the last step, with the column `potential` and all that ties, moves, spawns and removes particles. It
     /// evaluates the forces once more, and leaves no trace of that in the run.
@@ -210,12 +243,18 @@ impl<B: Backend> Simulation<B> {
         self.check_list().await?;
         self.sound(&alarm)?;
         let mut state = state?;
-        self.ties.give(&mut state);
+        self.complete(&mut state).await?;
+        let mut state = self.compacted(state);
+        self.mark(&mut state);
+        Ok(state)
+    }
+    /// Gives to columns all that a state has beside them.
+    async fn complete(&mut self, state: &mut State) -> Result<(), Error> {
+        self.ties.give(state);
         let all = std::mem::replace(&mut state.links, self.links().await?);
         state.time = self.clock().await?.map_or(self.steps as f64 * self.dt, |clock| clock.time);
         state.step = self.steps;
-        self.keep(&mut state, &all).await?;
-        Ok(state)
+        self.keep(state, &all).await
     }
     /// One step, as `motes explain` prints it.
     #[must_use]
@@ -227,10 +266,20 @@ impl<B: Backend> Simulation<B> {
     pub fn steps(&self) -> u64 {
         self.steps
     }
-    /// Particles.
+    /// Rows in use: one for each particle, and those that have been free since one was removed. [`Simulation::ids`] tells them apart.
     #[must_use]
     pub fn count(&self) -> u32 {
-        self.count
+        self.rows.used()
+    }
+    /// Rows that there are: particles are spawned into free ones without a new plan. See [`State::capacity`].
+    #[must_use]
+    pub fn capacity(&self) -> u32 {
+        self.rows.capacity()
+    }
+    /// How often it has made room for more rows. Buffers of the device are others then.
+    #[must_use]
+    pub fn generation(&self) -> u32 {
+        self.generation
     }
     /// The backend.
     pub fn backend(&mut self) -> &mut B {
@@ -267,7 +316,8 @@ impl Simulation<Gpu> {
         self.steps += u64::from(steps);
         Ok(())
     }
-    /// A field's buffer, usable as a vertex buffer: draw without a copy. It stays the same for the simulation's life.
+    /// A field's buffer, usable as a vertex buffer: draw without a copy. It stays the same until the simulation makes room for
+    /// more rows, which [`Simulation::generation`] tells.
     #[must_use]
     pub fn buffer<T>(&self, field: Field<T>) -> Option<&wgpu::Buffer> {
         self.backend.buffer(field.name)

@@ -6,6 +6,7 @@ mod basic;
 mod ids;
 mod kept;
 mod life;
+mod room;
 
 use crate::error::Error;
 use crate::kernel::{Array, Column, Columns, Kind, Shape};
@@ -16,7 +17,11 @@ use crate::motion::{Held, Motion};
 use basic::BASIC;
 pub(crate) use ids::distinct;
 use kept::Kept;
-pub(crate) use kept::{EXTENT as KEPT_EXTENT, HOME as KEPT_HOME, KEPT, NEXT as KEPT_NEXT, STEP as KEPT_STEP};
+pub(crate) use kept::{
+    BROKEN as KEPT_BROKEN, EXTENT as KEPT_EXTENT, HOME as KEPT_HOME, KEPT, NEXT as KEPT_NEXT, ROOM as KEPT_ROOM,
+    ROWS as KEPT_ROWS, STEP as KEPT_STEP,
+};
+pub(crate) use room::{NONE, parked};
 
 /// Particles and all that a run needs to go on with them. Every array has one element per particle, in the order of ids. Units
 /// are the scene's own.
@@ -40,11 +45,11 @@ pub struct State {
     pub time: f64,
     /// Steps done.
     pub step: u64,
-    /// Rows for so many particles, so that some can be spawned and removed as it runs; `None`: one for each that there is, and a
-    /// simulation that makes room when it must.
+    /// Rows for so many particles, so that some can be spawned and removed as it runs without a new plan; `None`: one for each that
+    /// there is, and a simulation makes room when it must.
     pub capacity: Option<u32>,
-    /// How many of the last places are free rows.
-    pub(crate) free: u32,
+    /// How many of the last places are free rows, where these have been added.
+    pub(crate) free: Option<u32>,
     /// No particle has had an id from here on.
     pub(crate) next: u32,
     /// What the last step kept for the next one.
@@ -76,7 +81,7 @@ impl Default for State {
             time: 0.0,
             step: 0,
             capacity: None,
-            free: 0,
+            free: None,
             next: 0,
             kept: Kept::default(),
         }

@@ -2,5 +2,5 @@
 // what it leaves; they change places with each step, so that an evaluation more or less changes nothing.
 override SLOTS: u32 = 1u;
 
-fn pair_at(k: u32, n: u32) -> u32 { return n * 2u * SLOTS * world.count + k; }
-fn word_of(pair: u32, half: u32, word: u32) -> u32 { return pair + ((half & 1u) * SLOTS + word) * world.count; }
+fn pair_at(k: u32, n: u32) -> u32 { return n * 2u * SLOTS * world.capacity + k; }
+fn word_of(pair: u32, half: u32, word: u32) -> u32 { return pair + ((half & 1u) * SLOTS + word) * world.capacity; }

@@ -20,15 +20,15 @@ fn fit(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec
             if row != NONE && atomicLoad(&list_state[0].builds) > 1u { end = list_before[row].x; }
             var old = 0u;
             for (var n = 0u; n < head.x; n += 1u) {
-                let id = list[(1u + n / 4u) * world.count + k][n % 4u];
+                let id = list[(1u + n / 4u) * world.capacity + k][n % 4u];
                 while old < end {
-                    if list_before[(1u + old / 4u) * world.count + row][old % 4u] >= id { break; }
+                    if list_before[(1u + old / 4u) * world.capacity + row][old % 4u] >= id { break; }
                     old += 1u;
                 }
-                let known = old < end && list_before[(1u + old / 4u) * world.count + row][old % 4u] == id;
+                let known = old < end && list_before[(1u + old / 4u) * world.capacity + row][old % 4u] == id && row_before[id] != NONE;
                 for (var word = 0u; word < SLOTS; word += 1u) {
                     var value = 0.0;
-                    if known { value = history_before[(old * SLOTS + word) * world.count + row]; }
+                    if known { value = history_before[(old * SLOTS + word) * world.capacity + row]; }
                     history[word_of(pair_at(k, n), world.step, word)] = value;
                 }
             }

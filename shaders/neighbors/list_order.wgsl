@@ -11,7 +11,7 @@ const NONE: u32 = 0xffffffffu;
 fn lower(id: u32, than: vec4u) -> vec4u { return select(vec4u(0u), vec4u(1u), vec4u(id) < than); }
 
 fn put(k: u32, place: u32, id: u32) {
-    if id != NONE { list[(1u + place / 4u) * world.count + k][place % 4u] = id; }
+    if id != NONE { list[(1u + place / 4u) * world.capacity + k][place % 4u] = id; }
 }
 
 // A row without room for all is empty: the run ends with an error that names its particle.
@@ -35,10 +35,10 @@ fn order(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: v
         if group.z == 0u { head(k, found); }
         let end = length(found);
         if 4u * group.z < end {
-            let mine = list_found[(1u + group.z) * world.count + k];
+            let mine = list_found[(1u + group.z) * world.capacity + k];
             var place = vec4u(0u);
             for (var n = 0u; n < end; n += 4u) {
-                let others = list_found[(1u + n / 4u) * world.count + k];
+                let others = list_found[(1u + n / 4u) * world.capacity + k];
                 place += lower(others.x, mine) + lower(others.y, mine) + lower(others.z, mine) + lower(others.w, mine);
             }
             put(k, place.x, mine.x);

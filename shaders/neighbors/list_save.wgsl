@@ -17,15 +17,16 @@ fn save(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
         let head = list[k];
         if group.z == 0u {
             list_before[k] = head;
-            if head.y != NONE { row_before[head.y] = k; }
+            // A row that got another particle since has no row before.
+            if head.y != NONE { row_before[head.y] = select(k, NONE, list_origin[head.y].w == 0.0); }
             // Which particle of that id, not row, had none.
             if list_origin[k].w == 0.0 { row_before[k] = NONE; }
         }
         let first = 4u * group.z;
-        if first < head.x { list_before[(1u + group.z) * world.count + k] = list[(1u + group.z) * world.count + k]; }
+        if first < head.x { list_before[(1u + group.z) * world.capacity + k] = list[(1u + group.z) * world.capacity + k]; }
         for (var n = first; n < min(first + 4u, head.x); n += 1u) {
             for (var word = 0u; word < SLOTS; word += 1u) {
-                history_before[(n * SLOTS + word) * world.count + k] = history[word_of(pair_at(k, n), world.step, word)];
+                history_before[(n * SLOTS + word) * world.capacity + k] = history[word_of(pair_at(k, n), world.step, word)];
             }
         }
     }

@@ -12,7 +12,7 @@ const EMPTY: u32 = 0xffffffffu;
 
 fn acts_on(me: Particle) -> bool { return true; }
 
-fn put(slot: u32, n: u32, id: u32) { list_found[(1u + n / 4u) * world.count + slot][n % 4u] = id; }
+fn put(slot: u32, n: u32, id: u32) { list_found[(1u + n / 4u) * world.capacity + slot][n % 4u] = id; }
 
 fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
     // The grid looks a little farther than the reach. Positions as they are decide, and not their images in the box.

@@ -14,7 +14,7 @@ var<workgroup> parts: array<Item, WORKGROUP>;
 fn reduce(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let block = folded(group, groups);
     let first = block * extent.block;
-    let end = min(first + extent.block, extent.elements);
+    let end = end_of(first);
     var total = neutral(extent.neutral);
     for (var i = first + lane; i < end; i += WORKGROUP) { total = combine(total, items[i]); }
     for (var width = WORKGROUP; width > 1u; width /= 2u) {

@@ -49,14 +49,14 @@ fn draw(i: u32, layer: u32, a: Seen, b: Seen, age: f32) {
 fn streaks(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let s = folded(group, groups) * WORKGROUP + lane;
     if s < frame.points {
-        let i = s % world.count;
+        let i = s % world.capacity;
         let past = trail[s];
         var next = position[i];
-        if s + world.count < frame.points { next = trail[s + world.count]; }
+        if s + world.capacity < frame.points { next = trail[s + world.capacity]; }
         if !broken(past) && !broken(next) {
             let a = see(past.xyz);
             let b = see(next.xyz);
-            let age = f32(s / world.count + 1u) / f32(frame.points / world.count);
+            let age = f32(s / world.capacity + 1u) / f32(frame.points / world.capacity);
             if a.visible && b.visible { draw(i, group.z, a, b, age); }
         }
     }

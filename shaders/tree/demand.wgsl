@@ -10,9 +10,9 @@
 @group(2) @binding(5) var<storage, read> tree_shape: array<vec4f>; // w: longest side
 
 override GROUP: u32;
-// The nodes whose pulls are added: of one level, the first, and how many there are.
+// The nodes whose pulls are added: of one level, the first, and how many levels above the leaves that is.
 override FIRST: u32;
-override NODES: u32;
+override ABOVE: u32;
 // G / α, and the part of G M / (r² + l²) that counts as a force.
 override STRICTNESS: f32;
 override PART: f32;
@@ -28,7 +28,7 @@ fn size(a: vec3f) -> f32 {
 // A part of what the sizes of all pulls at a place add up to, about.
 fn pulls(x: vec3f) -> f32 {
     var sum = 0.0;
-    for (var n = FIRST; n < FIRST + NODES; n++) {
+    for (var n = FIRST; n < FIRST + nodes_of(ABOVE); n++) {
         let r = shortest(tree_center[n].xyz - x);
         let side = tree_shape[n].w;
         let square = dot(r, r) + side * side;

@@ -10,6 +10,12 @@ const WORKGROUP: u32 = 64u;
 @compute @workgroup_size(WORKGROUP)
 fn key(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let i = folded(group, groups) * WORKGROUP + lane;
+    if i >= world.count && i < world.capacity {
+        // Free rows come last.
+        tree_upper[i] = 0xffffffffu;
+        tree_key[i] = 0xffffffffu;
+        tree_id[i] = i;
+    }
     if i < world.count {
         let cube = tree_cube[0];
         // A place that is no number is in some cell: the watch finds it.

@@ -1,7 +1,6 @@
 // Leaf j is what the bodies from LEAF j on are together.
 @group(2) @binding(6) var<storage, read> tree_body: array<vec4f>;
 
-override LEAF: u32;
 const WORKGROUP: u32 = 64u;
 
 // One body: a node without an extent.
@@ -13,7 +12,7 @@ fn body(k: u32) -> Node {
 @compute @workgroup_size(WORKGROUP)
 fn leaf(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let j = folded(group, groups) * WORKGROUP + lane;
-    if j < level.nodes {
+    if j < nodes_of(0u) {
         let first = j * LEAF;
         let end = min(first + LEAF, world.count);
         var node = body(first);

@@ -3,8 +3,8 @@
 // put together by the parallel axis theorem, so that nothing is the difference of large sums:
 // Σ m y yᵀ = those of both + m₁ m₂ / M d dᵀ, with d from one centre to the other.
 struct Node { mass: f32, center: vec3f, first: vec3f, second: vec3f, low: vec3f, high: vec3f }
-// The nodes of one level: where they begin, how many there are, and how many there are on the level below.
-struct Level { unused_word: u32, first: u32, nodes: u32, below: u32 }
+// The nodes of one level: where they begin, and how many levels above the leaves that is.
+struct Level { unused_word: u32, first: u32, above: u32 }
 
 @group(2) @binding(0) var<uniform> level: Level;
 @group(2) @binding(1) var<storage, read_write> tree_center: array<vec4f>; // center, reach

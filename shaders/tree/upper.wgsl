@@ -8,5 +8,5 @@ const WORKGROUP: u32 = 64u;
 @compute @workgroup_size(WORKGROUP)
 fn upper(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let i = folded(group, groups) * WORKGROUP + lane;
-    if i < world.count { tree_key[i] = tree_upper[tree_id[i]]; }
+    if i < world.capacity { tree_key[i] = tree_upper[tree_id[i]]; }
 }

@@ -34,7 +34,7 @@ fn listed(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: 
         if head.y != NONE && acts_on(me) {
             var sum = Sum();
             for (var n = 0u; n < head.x; n += 4u) {
-                let ids = list[(1u + n / 4u) * world.count + k];
+                let ids = list[(1u + n / 4u) * world.capacity + k];
                 consider(k, ids.x, n, head.x, me, &sum);
                 consider(k, ids.y, n + 1u, head.x, me, &sum);
                 consider(k, ids.z, n + 2u, head.x, me, &sum);

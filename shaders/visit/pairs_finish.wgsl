@@ -9,7 +9,7 @@ fn pairs_finish(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gr
     if i < world.count {
         var total = parts[i];
         for (var layer = 1u; layer < LAYERS; layer += 1u) {
-            merge(&total, parts[layer * world.count + i]);
+            merge(&total, parts[layer * world.capacity + i]);
         }
         add(i, total);
         check_turns(particle(i));

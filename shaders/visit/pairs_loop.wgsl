@@ -22,7 +22,7 @@ fn pairs(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: v
     var total_d = resume(group.z, i + 3u * WORKGROUP);
 
     let first = span.first + group.z * span.slice;
-    let end = min(first + span.slice, span.end);
+    let end = min(min(first + span.slice, span.end), world.count);
     for (var start = first; start < end; start += BLOCK) {
         var sum_a = Sum();
         var sum_b = Sum();

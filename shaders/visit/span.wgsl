@@ -14,7 +14,7 @@ override WHOLE: bool = true;
 
 fn resume(layer: u32, i: u32) -> Sum {
     if WHOLE || span.first == 0u || i >= world.count { return Sum(); }
-    return parts[layer * world.count + i];
+    return parts[layer * world.capacity + i];
 }
 
 fn deliver(layer: u32, i: u32, sum: Sum) {
@@ -22,7 +22,7 @@ fn deliver(layer: u32, i: u32, sum: Sum) {
     if WHOLE {
         add(i, sum);
     } else {
-        parts[layer * world.count + i] = sum;
+        parts[layer * world.capacity + i] = sum;
     }
 }
 

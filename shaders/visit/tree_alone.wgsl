@@ -8,7 +8,7 @@ const WORKGROUP: u32 = 32u;
 fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let mine = tree.first / GROUP + folded(group, groups);
     let k = mine * GROUP + lane;
-    if k < tree.end {
+    if k < last_target() {
         let me = target_of(k);
         let here = place_of(mine, mine * GROUP);
         let own = leaf_of(mine);
@@ -28,7 +28,7 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
         var spent = GROUP;
         while bodies > 0u || more && spent <= MOST {
             if bodies > 0u {
-                if slot != k && slot < tree.count {
+                if slot != k && slot < world.count {
                     let you = target_of(slot);
                     gather(me, you, shortest(you.position - me.position), &near);
                 }

@@ -7,12 +7,12 @@ const LANES: u32 = 8u;
 fn meet_other(slot: u32, mine: u32, me: Particle, you: Particle, sum: ptr<function, Sum>) {
     var met = *sum;
     gather(me, you, shortest(you.position - me.position), &met);
-    if slot != mine && slot < tree.count { *sum = met; }
+    if slot != mine && slot < world.count { *sum = met; }
 }
 
 fn meet_others(slot: u32, mine: u32, a: Particle, b: Particle, c: Particle, d: Particle,
                sum_a: ptr<function, Sum>, sum_b: ptr<function, Sum>, sum_c: ptr<function, Sum>, sum_d: ptr<function, Sum>) {
-    let you = target_of(min(slot, tree.count - 1u));
+    let you = target_of(min(slot, world.count - 1u));
     meet_other(slot, mine, a, you, sum_a);
     meet_other(slot, mine + LANES, b, you, sum_b);
     meet_other(slot, mine + 2u * LANES, c, you, sum_c);

@@ -4,7 +4,7 @@
 //
 // Nodes have a heap's numbers: 1 is the root, 2 n and 2 n + 1 are below n, and leaves stand `height` levels below the root.
 // A dispatch has the targets first ≤ k < end. With `again` it goes on where another one of the same targets had to stop.
-struct Tree { unused_word: u32, first: u32, end: u32, count: u32, leaves: u32, height: u32, widened: f32, again: u32 }
+struct Tree { unused_word: u32, first: u32, end: u32, height: u32, widened: f32, again: u32 }
 
 @group(2) @binding(0) var<uniform> tree: Tree;
 @group(2) @binding(1) var<storage, read> tree_id: array<u32>;
@@ -31,6 +31,10 @@ fn moments(group: Group, r: vec3f) -> vec3f {
 // be, and a quarter of the longest side of the box, squared.
 struct Place { first: u32, middle: vec3f, half_side: vec3f, demand: f32, wide: f32 }
 
+// Rows that are in use have leaves, and are targets.
+fn leaves() -> u32 { return (world.count + LEAF - 1u) / LEAF; }
+fn last_target() -> u32 { return min(tree.end, world.count); }
+
 // What a node holds.
 fn group_at(node: u32) -> Group {
     let m = tree_mass[node];
@@ -48,7 +52,7 @@ fn place_at(group: u32, first: u32, low: vec3f, high: vec3f) -> Place {
 fn place_of(group: u32, first: u32) -> Place {
     var low = tree_body[first].xyz;
     var high = low;
-    for (var k = first + 1u; k < min(first + GROUP, tree.count); k += 1u) {
+    for (var k = first + 1u; k < min(first + GROUP, world.count); k += 1u) {
         low = min(low, tree_body[k].xyz);
         high = max(high, tree_body[k].xyz);
     }
@@ -74,7 +78,7 @@ fn apart(place: Place, x: vec3f) -> f32 {
 // The least distance from any of the targets to a place, squared.
 fn nearest(place: Place, x: vec3f) -> f32 {
     var least = squared_size(shortest(x - tree_body[place.first].xyz));
-    for (var k = place.first + 1u; k < min(place.first + GROUP, tree.count); k += 1u) {
+    for (var k = place.first + 1u; k < min(place.first + GROUP, world.count); k += 1u) {
         least = min(least, squared_size(shortest(x - tree_body[k].xyz)));
     }
     return least;
@@ -98,7 +102,7 @@ fn target_of(slot: u32) -> Particle {
 
 // A node stands on the level of `depth`, and has particles.
 fn exists(node: u32, depth: u32) -> bool {
-    return ((node - (1u << depth)) << (tree.height - depth)) < tree.leaves;
+    return ((node - (1u << depth)) << (tree.height - depth)) < leaves();
 }
 
 fn deliver(me: Particle, sum: Sum) {

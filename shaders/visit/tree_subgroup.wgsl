@@ -4,9 +4,9 @@
 @compute @workgroup_size(WORKGROUP)
 fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(subgroup_invocation_id) place: u32) {
     let mine = tree.first / GROUP + folded(group, groups);
-    let there = mine * GROUP < tree.end;
+    let there = mine * GROUP < last_target();
     let first = select(tree.first, mine * GROUP, there);
-    let last = tree.count - 1u;
+    let last = world.count - 1u;
     let k = first + place;
     let a = target_of(min(k, last));
     let b = target_of(min(k + LANES, last));
@@ -91,10 +91,10 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
         tree_kept[kept + place + 2u * LANES] = Kept(sum_c, 0u);
         tree_kept[kept + place + 3u * LANES] = Kept(sum_d, 0u);
         if !search.more {
-            if k < tree.end && acts_on(a) { deliver(a, sum_a); }
-            if k + LANES < tree.end && acts_on(b) { deliver(b, sum_b); }
-            if k + 2u * LANES < tree.end && acts_on(c) { deliver(c, sum_c); }
-            if k + 3u * LANES < tree.end && acts_on(d) { deliver(d, sum_d); }
+            if k < last_target() && acts_on(a) { deliver(a, sum_a); }
+            if k + LANES < last_target() && acts_on(b) { deliver(b, sum_b); }
+            if k + 2u * LANES < last_target() && acts_on(c) { deliver(c, sum_c); }
+            if k + 3u * LANES < last_target() && acts_on(d) { deliver(d, sum_d); }
         }
     }
     check_turns(a);

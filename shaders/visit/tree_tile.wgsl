@@ -36,7 +36,7 @@ fn meet_bodies(me: Particle, mine: u32, some: u32, sum: ptr<function, Sum>) {
     var part = Sum();
     for (var i = 0u; i < some; i += 1u) {
         let p = places[i];
-        if slots[i] != mine && slots[i] < tree.count { gather(me, Particle(ids[i], p.xyz, p.w), shortest(p.xyz - me.position), &part); }
+        if slots[i] != mine && slots[i] < world.count { gather(me, Particle(ids[i], p.xyz, p.w), shortest(p.xyz - me.position), &part); }
     }
     merge(sum, part);
 }
@@ -44,7 +44,7 @@ fn meet_bodies(me: Particle, mine: u32, some: u32, sum: ptr<function, Sum>) {
 @compute @workgroup_size(WORKGROUP)
 fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let mine = tree.first / GROUP + folded(group, groups);
-    let last = tree.count - 1u;
+    let last = world.count - 1u;
     let k = mine * GROUP + lane;
     let me = target_of(min(k, last));
     let here = place_of(mine, min(mine * GROUP, last));
@@ -105,6 +105,6 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
             meet_bodies(me, k, full * LEAF, &sum);
         }
     }
-    if k < tree.end && acts_on(me) { deliver(me, sum); }
+    if k < last_target() && acts_on(me) { deliver(me, sum); }
     check_turns(me);
 }

@@ -17,7 +17,7 @@ use crate::kernel::{Kernel, Problem, Side};
 pub fn kernels(problem: &Problem) -> Result<Vec<Kernel>, Error> {
     let mut kernels = Vec::new();
     if problem.bounds.has(Side::Periodic) {
-        kernels.push(periodic::kernel(problem.count)?);
+        kernels.push(periodic::kernel(problem.capacity)?);
     }
     if problem.bounds.has(Side::Reflecting) {
         kernels.push(reflecting::kernel(problem)?);

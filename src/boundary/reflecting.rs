@@ -36,7 +36,7 @@ pub fn kernel(problem: &Problem) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    Ok(Kernel { tables, ..Kernel::new("reflecting", shader, Vec::new(), problem.count, Arc::new(reference)) })
+    Ok(Kernel { tables, ..Kernel::new("reflecting", shader, Vec::new(), problem.capacity, Arc::new(reference)) })
 }
 
 /// The way of a particle to and fro between two sides, unrolled, is a straight line: where on it x is, and whether the

@@ -21,7 +21,7 @@ pub fn acceleration_at(
     host.insert(POSITION.name, Array::Vec4(vec![position.extend(1.3)]));
     host.insert(VELOCITY.name, Array::Vec4(vec![DVec4::ZERO]));
     host.insert(ACCELERATION.name, Array::Vec4(vec![DVec4::ZERO]));
-    host.set_world(World { time, dt: 1.0, step, count: 1, bounds });
+    host.set_world(World { time, dt: 1.0, step, count: 1, free: 0, bounds });
     reference(&host)?;
     Ok(host.read(ACCELERATION)?.first().copied().unwrap_or_default())
 }
@@ -48,7 +48,7 @@ fn in_the_plane(name: &str, reference: &Reference, setup: &Setup) -> Result<(), 
     host.insert(SPECIES.name, Array::Uint(particles.species()[..some].to_vec()));
     host.insert(ACCELERATION.name, Array::Vec4(vec![DVec4::ZERO; some]));
     let count = u32::try_from(some).unwrap_or(0);
-    host.set_world(World { time: 0.0, dt: setup.dt, step: 0, count, bounds: setup.bounds });
+    host.set_world(World { time: 0.0, dt: setup.dt, step: 0, count, free: 0, bounds: setup.bounds });
     reference(&host)?;
     let across = host.read(ACCELERATION)?.iter().map(|a| a.z).find(|z| z.abs() > 0.0);
     across.map_or(Ok(()), |z| {

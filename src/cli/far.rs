@@ -21,7 +21,7 @@ pub fn remarks(setup: &Setup, machine: Machine) -> Result<Vec<String>, Failure> 
     let problem = setup.problem(machine)?;
     let from = visit::crossing(&machine);
     let remark = |law: motes::forces::Law| match (law.over, law.chosen(&problem)) {
-        (Over::Tree { auto: true, .. }, Over::Pairs) => Some(if problem.count < from {
+        (Over::Tree { auto: true, .. }, Over::Pairs) => Some(if problem.capacity < from {
             format!(
                 "`{}` is summed directly over all pairs: a tree is faster from about {from} particles on here",
                 law.name

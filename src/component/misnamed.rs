@@ -5,6 +5,7 @@ use crate::error::Error;
 use crate::kernel::Plan;
 
 /// A component that cannot be built, and why.
+#[derive(Clone)]
 struct Misnamed(String);
 
 /// Such a component.

@@ -18,8 +18,9 @@ use crate::solids::Standing;
 use crate::sph::{Continuum, Rates};
 use crate::visit::Law;
 
-/// A component: an interaction, a constraint or an updater.
-pub trait Component: Send + Sync {
+/// A component: an interaction, a constraint or an updater. A simulation keeps a copy, with which it writes its plan anew when it
+/// makes room for more particles.
+pub trait Component: Copied + Send + Sync {
     /// The columns that it reads or writes beside those of all simulations.
     fn columns(&self) -> Vec<Column> {
         Vec::new()
@@ -57,6 +58,24 @@ pub trait Component: Send + Sync {
             Stage::Carry { earlier } => carry(self.laws(), earlier, plan, problem),
             _ => Ok(()),
         }
+    }
+}
+
+/// What makes a copy of a component in a box; whatever is `Clone` has it.
+pub trait Copied {
+    /// The copy.
+    fn copied(&self) -> Box<dyn Component>;
+}
+
+impl<T: Component + Clone + 'static> Copied for T {
+    fn copied(&self) -> Box<dyn Component> {
+        Box::new(self.clone())
+    }
+}
+
+impl Clone for Box<dyn Component> {
+    fn clone(&self) -> Self {
+        (**self).copied()
     }
 }
 

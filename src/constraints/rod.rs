@@ -31,6 +31,7 @@ pub const KEYS: &[Key] = &[];
 /// larger of the length and the distance from the origin, and speeds know nothing of it. A chain that turns by about a radian
 /// in one drift is not found again: its particles then are no numbers, which stops the run. In a scene it stands behind the
 /// forces that limit speeds or move particles out of solids, because the last word is right.
+#[derive(Clone)]
 pub struct Rod;
 
 impl Rod {

@@ -32,6 +32,7 @@ pub const KEYS: &[Key] = &[
 /// `solid`: a sphere, a box, a plane or a capsule, still or moving, that lets no particle in, or out. After every drift a particle too
 /// near to its surface is put there; normal velocity bounces (Newton 1687), friction takes tangential velocity (Coulomb
 /// 1785), both in the frame of the surface. Held particles are left alone. It accelerates no particle by itself.
+#[derive(Clone)]
 pub struct Solid(Settings);
 
 /// What a kernel is made of.
@@ -120,7 +121,7 @@ impl Component for Solid {
         let wall = self.wall(problem)?;
         let (frame, bounds) = (wall.frame(0.0), problem.bounds);
         let projection: Projection = Box::new(move |kind, x| {
-            let world = World { time: 0.0, dt: 0.0, step: 0, count: 1, bounds };
+            let world = World { time: 0.0, dt: 0.0, step: 0, count: 1, free: 0, bounds };
             if wall.species.is(kind) { x + wall.meet(&frame, x, DVec3::ZERO, 0.0, &world).0 } else { x }
         });
         Ok(Resolved { initial_projection: Some(projection), ..Resolved::default() })
@@ -192,7 +193,7 @@ fn kernel(wall: Wall, problem: &Problem, factor: f64) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    let mut kernel = Kernel::new("solid", shader, constants, problem.count, Arc::new(reference));
+    let mut kernel = Kernel::new("solid", shader, constants, problem.capacity, Arc::new(reference));
     kernel.passes.iter_mut().for_each(|pass| pass.uniforms.push(("params", params.clone())));
     Ok(Kernel { sizes, tables, ..kernel })
 }

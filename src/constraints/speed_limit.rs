@@ -18,6 +18,7 @@ pub const KEYS: &[Key] = &[
 ];
 
 /// `speed_limit`: after every kick, v ← v clamp(|v|, least, most) / |v|. It accelerates no particle by itself.
+#[derive(Clone)]
 pub struct SpeedLimit(Settings);
 
 impl SpeedLimit {
@@ -61,7 +62,7 @@ pub fn kernel(problem: &Problem, [least, most]: [f64; 2], species: Only) -> Resu
     let values = [("least", Scalar::Float(least)), ("most", Scalar::Float(most)), ("species", species.scalar())];
     let params = shader.reflection().binding("params");
     let params = params.map_or(Ok(Vec::new()), |binding| binding.packed.pack("speed_limit", &values))?;
-    let pass = Pass { uniforms: vec![("params", params)], ..Pass::new(shader, problem.count) };
+    let pass = Pass { uniforms: vec![("params", params)], ..Pass::new(shader, problem.capacity) };
     let problem = problem.clone();
     let reference = move |host: &Host| {
         let view = crate::visit::View::of(host)?;

@@ -24,6 +24,7 @@ const LIMITED: Field<Vec4> = Field::new("limited");
 /// `strain_limit`: after each drift, ends of springs longer than (1 + strain) L are brought nearer (Provot 1995), all at once
 /// and in several sweeps, with the velocity that this takes. The centre of mass and its momentum stay, held particles too;
 /// energy is taken. What the sweeps do not reach stays longer: the limit is approached, and not promised.
+#[derive(Clone)]
 pub struct StrainLimit {
     strain: f64,
     sweeps: u64,
@@ -46,8 +47,8 @@ impl StrainLimit {
             crate::shader!("constraints/strain_limit.wgsl"),
         ])?;
         let constants = [problem.constants(&shader), vec![("STRAIN", self.strain)]].concat();
-        let work = u64::from(problem.count) + u64::from(problem.network.ends());
-        let pass = Pass { constants, work, ..Pass::new(shader, problem.count) };
+        let work = u64::from(problem.capacity) + u64::from(problem.network.ends());
+        let pass = Pass { constants, work, ..Pass::new(shader, problem.capacity) };
         let (strain, whole) = (self.strain, problem.clone());
         let reference = move |host: &Host| {
             let view = visit::View::of(host)?;
@@ -88,7 +89,7 @@ fn apply(problem: &Problem, factor: f64) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    Ok(Kernel::new("limited", shader, vec![("FACTOR", factor)], problem.count, Arc::new(reference)))
+    Ok(Kernel::new("limited", shader, vec![("FACTOR", factor)], problem.capacity, Arc::new(reference)))
 }
 
 impl Component for StrainLimit {

@@ -6,6 +6,7 @@ use crate::settings::Value;
 use crate::visit::PairTable;
 
 /// A user's law. It has no reference, so the CPU backend cannot run it and nothing checks it.
+#[derive(Clone)]
 pub struct Custom {
     /// Its name in the plan.
     pub name: String,

@@ -19,6 +19,12 @@ impl Buffers {
     pub fn new(device: wgpu::Device, count: u32) -> Self {
         Self { device, count, padding: 0, indirect: BTreeSet::new(), named: BTreeMap::new() }
     }
+    pub fn resize(&mut self, count: u32) {
+        self.count = count;
+    }
+    pub fn padding(&self) -> u64 {
+        self.padding
+    }
     pub fn pad(&mut self, elements: u64) {
         self.padding = elements;
     }

@@ -203,8 +203,29 @@ impl Backend for Gpu {
         let bytes = self.packed.pack("World", &world.members())?;
         self.write_bytes("world", 0, &bytes)
     }
-    fn write(&mut self, name: &str, array: &Array) -> Result<(), Error> {
-        self.write_bytes(name, 0, &array.to_bytes())
+    fn alike(&self, rows: u32) -> Result<Self, Error> {
+        let mut gpu = Self::new(&self.device, &self.queue.wgpu(), rows)?;
+        gpu.machine = self.machine;
+        gpu.buffers.pad(self.buffers.padding());
+        gpu.queue.like(&self.queue);
+        Ok(gpu)
+    }
+    fn resize(&mut self, rows: u32) {
+        self.count = rows;
+        self.buffers.resize(rows);
+    }
+    fn set_rows(&mut self, count: u32, free: u32) -> Result<(), Error> {
+        self.world = World { count, free, ..self.world };
+        for (name, value) in [("count", count), ("capacity", self.world.capacity())] {
+            let member = self.packed.members.iter().find(|member| member.name == name);
+            let offset = member.map_or(0, |member| member.offset) as u64;
+            self.write_bytes("world", offset, &value.to_le_bytes())?;
+        }
+        Ok(())
+    }
+    fn write_at(&mut self, name: &str, first: usize, array: &Array) -> Result<(), Error> {
+        let each = array.zeros(1).to_bytes().len() as u64;
+        self.write_bytes(name, each * first as u64, &array.to_bytes())
     }
     fn forget(&mut self, name: &str) {
         self.buffers.forget(name);

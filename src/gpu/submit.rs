@@ -45,6 +45,13 @@ impl Queue {
         (self.target, self.patience) = (target, patience);
         self.budget = FIRST;
     }
+    pub fn wgpu(&self) -> wgpu::Queue {
+        self.inner.clone()
+    }
+    /// Takes over what is known of the device.
+    pub fn like(&mut self, other: &Self) {
+        (self.target, self.patience, self.budget) = (other.target, other.patience, other.budget);
+    }
     pub fn submissions(&self) -> u64 {
         self.submissions
     }

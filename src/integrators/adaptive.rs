@@ -5,6 +5,7 @@ use super::{Integrator, Step};
 use crate::kernel::{AdaptiveStep, Column};
 
 /// Another integrator, in steps as long as forces allow.
+#[derive(Clone)]
 pub struct Adaptive {
     /// What makes a step; an explicit method.
     pub integrator: Box<dyn Integrator>,

@@ -4,6 +4,7 @@
 use super::{Explicit, Form, Implicit, Integrator, Step};
 
 /// `backward_euler`
+#[derive(Clone)]
 pub struct BackwardEuler;
 
 impl Integrator for BackwardEuler {

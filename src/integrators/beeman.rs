@@ -9,6 +9,7 @@ use crate::error::Error;
 use crate::kernel::{ACCELERATION, Column, Field, Host, Kernel, Kind, Shader, VELOCITY};
 
 /// `beeman`
+#[derive(Clone)]
 pub struct Beeman;
 
 /// The acceleration at the start of the step before. xyz

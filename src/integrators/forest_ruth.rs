@@ -3,6 +3,7 @@
 use super::{Integrator, Step};
 
 /// `forest_ruth`
+#[derive(Clone)]
 pub struct ForestRuth;
 
 /// θ = 1 / (2 − ∛2)

@@ -3,6 +3,7 @@
 use super::{Integrator, Step};
 
 /// `forward_euler`
+#[derive(Clone)]
 pub struct ForwardEuler;
 
 impl Integrator for ForwardEuler {

@@ -3,6 +3,7 @@
 use super::{Integrator, Step};
 
 /// `heun`
+#[derive(Clone)]
 pub struct Heun;
 
 impl Integrator for Heun {

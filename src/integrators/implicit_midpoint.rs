@@ -4,6 +4,7 @@
 use super::{Explicit, Form, Implicit, Integrator, Step};
 
 /// `implicit_midpoint`
+#[derive(Clone)]
 pub struct ImplicitMidpoint;
 
 impl Integrator for ImplicitMidpoint {

@@ -4,6 +4,7 @@
 use super::{Integrator, Step};
 
 /// `leapfrog`
+#[derive(Clone)]
 pub struct Leapfrog;
 
 impl Integrator for Leapfrog {

@@ -3,6 +3,7 @@
 use super::{Explicit, Form, Implicit, Integrator, Step};
 
 /// `linear_backward_euler`
+#[derive(Clone)]
 pub struct LinearBackwardEuler;
 
 impl Integrator for LinearBackwardEuler {

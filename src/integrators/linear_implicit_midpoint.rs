@@ -3,6 +3,7 @@
 use super::{Explicit, Form, Implicit, Integrator, Step};
 
 /// `linear_implicit_midpoint`
+#[derive(Clone)]
 pub struct LinearImplicitMidpoint;
 
 impl Integrator for LinearImplicitMidpoint {

@@ -3,6 +3,7 @@
 use super::{Explicit, Form, Implicit, Integrator, Step};
 
 /// `linear_trapezoid`
+#[derive(Clone)]
 pub struct LinearTrapezoid;
 
 impl Integrator for LinearTrapezoid {

@@ -3,6 +3,7 @@
 use super::{Integrator, Step};
 
 /// `midpoint`
+#[derive(Clone)]
 pub struct Midpoint;
 
 impl Integrator for Midpoint {

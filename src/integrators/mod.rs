@@ -14,7 +14,7 @@ use crate::kernel::{AdaptiveStep, Column};
 use crate::settings::{Key, Settings};
 
 /// How particles are advanced by one step.
-pub trait Integrator: Send + Sync {
+pub trait Integrator: Copied + Send + Sync {
     /// The order of convergence, for forces that depend on position and time alone.
     fn order(&self) -> u32;
     /// The order when a force depends on velocity too. Kicks take the velocity at hand, so for the symplectic ones it is 1.
@@ -49,6 +49,24 @@ pub trait Integrator: Send + Sync {
     fn start(&self, _step: &mut Step) {}
     /// One step.
     fn step(&self, step: &mut Step);
+}
+
+/// What makes a copy of an integrator in a box; whatever is `Clone` has it.
+pub trait Copied {
+    /// The copy.
+    fn copied(&self) -> Box<dyn Integrator>;
+}
+
+impl<T: Integrator + Clone + 'static> Copied for T {
+    fn copied(&self) -> Box<dyn Integrator> {
+        Box::new(self.clone())
+    }
+}
+
+impl Clone for Box<dyn Integrator> {
+    fn clone(&self) -> Self {
+        (**self).copied()
+    }
 }
 
 /// A line of the register.

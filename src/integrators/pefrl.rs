@@ -5,6 +5,7 @@
 use super::{Integrator, Step};
 
 /// `pefrl`
+#[derive(Clone)]
 pub struct Pefrl;
 
 const XI: f64 = 0.178_617_895_844_809_1;

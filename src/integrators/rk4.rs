@@ -3,6 +3,7 @@
 use super::{Integrator, Step};
 
 /// `rk4`
+#[derive(Clone)]
 pub struct RungeKutta4;
 
 impl Integrator for RungeKutta4 {

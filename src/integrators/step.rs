@@ -57,7 +57,7 @@ impl<'a> Step<'a> {
         let mut laws = self.laws(|_| true);
         // The first law need not add to what has been cleared.
         if self.apart || !laws.first_mut().is_some_and(clear::with) {
-            self.add(clear::kernel(self.problem.count));
+            self.add(clear::kernel(self.problem.capacity));
         }
         self.clear_sums(false);
         self.add_laws(laws);
@@ -71,7 +71,7 @@ impl<'a> Step<'a> {
     }
     /// No acceleration yet, and no other sum.
     fn clear(&mut self) {
-        self.add(clear::kernel(self.problem.count));
+        self.add(clear::kernel(self.problem.capacity));
         self.clear_sums(false);
     }
     /// Adds what some of the forces say, chosen by their places.
@@ -160,7 +160,7 @@ impl<'a> Step<'a> {
     }
     /// x ← x + c v dt
     fn go(&mut self, factor: f64) {
-        let count = self.problem.count;
+        let count = self.problem.capacity;
         match self.kicked.take_if(|_| !self.apart) {
             Some(kick) => self.add(kick_drift::kernel(count, kick, factor)),
             None => self.add(drift::kernel(count, factor)),
@@ -182,7 +182,7 @@ impl<'a> Step<'a> {
     /// Keeps where the step starts, x₀ and v₀, and every column that is advanced.
     pub fn save(&mut self) {
         self.staged = true;
-        self.add(runge_kutta::save(self.problem.count));
+        self.add(runge_kutta::save(self.problem.capacity));
         self.save_pairs();
     }
     /// Adds `weight` times the slopes (v, a) to their sum, and goes on to x₀ + c v dt, v₀ + c a dt.
@@ -190,7 +190,7 @@ impl<'a> Step<'a> {
         self.moved = true;
         self.slopes();
         self.stage_pairs(true, weight, factor);
-        self.add(runge_kutta::stage(self.problem.count, weight, factor));
+        self.add(runge_kutta::stage(self.problem.capacity, weight, factor));
         self.stage_pairs(false, weight, factor);
     }
     /// Adds the last slopes with `weight`, and goes from x₀, v₀ the whole step with the weighted sum, and back into the
@@ -199,7 +199,7 @@ impl<'a> Step<'a> {
         self.staged = false;
         self.slopes();
         self.finish_pairs(true, weight);
-        self.add(runge_kutta::finish(self.problem.count, weight));
+        self.add(runge_kutta::finish(self.problem.capacity, weight));
         self.finish_pairs(false, weight);
         self.limit();
         self.enclose();
@@ -232,7 +232,7 @@ impl<'a> Step<'a> {
     /// A kick that no drift has taken up is a dispatch of its own.
     fn flush(&mut self) {
         if let Some(factor) = self.kicked.take() {
-            self.add(kick::kernel(self.problem.count, factor));
+            self.add(kick::kernel(self.problem.capacity, factor));
         }
     }
     fn append(&mut self, plan: Plan) {
@@ -252,7 +252,7 @@ impl<'a> Step<'a> {
     /// The number of particles.
     #[must_use]
     pub fn count(&self) -> u32 {
-        self.problem.count
+        self.problem.capacity
     }
     /// Adds a kernel of the integrator's own. An error is given at the end.
     pub fn add(&mut self, kernel: Result<Kernel, Error>) {

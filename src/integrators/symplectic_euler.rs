@@ -3,6 +3,7 @@
 use super::{Integrator, Step};
 
 /// `symplectic_euler`
+#[derive(Clone)]
 pub struct SymplecticEuler;
 
 impl Integrator for SymplecticEuler {

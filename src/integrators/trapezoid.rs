@@ -3,6 +3,7 @@
 use super::{Explicit, Form, Implicit, Integrator, Step};
 
 /// `trapezoid`
+#[derive(Clone)]
 pub struct Trapezoid;
 
 impl Integrator for Trapezoid {

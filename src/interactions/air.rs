@@ -27,6 +27,7 @@ pub const KEYS: &[Key] = &[
 
 /// `air`: drag against the motion of each triangle through the air, and lift across it, by the part of the area that faces
 /// the wind (Ling, Damodaran & Gay 1996): ½ ρ w² A (C_D |cos α| along, C_L cos α sin α across).
+#[derive(Clone)]
 pub struct Air(Settings);
 
 impl Air {

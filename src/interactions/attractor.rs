@@ -23,6 +23,7 @@ const PROFILES: &[&str] = &["point", "harmonic", "logarithmic"];
 
 /// `attractor`: `point` φ = −k / √(d² + ε²); `harmonic` φ = k d² / 2; `logarithmic` φ = k ln(d² + ε²) / 2, which has a flat
 /// rotation curve (Binney & Tremaine 2008, §2.3.2).
+#[derive(Clone)]
 pub struct Attractor(Settings);
 
 impl Attractor {

@@ -30,6 +30,7 @@ pub const KEYS: &[Key] = &[
 /// `boids`: separation, alignment and cohesion (Reynolds 1987), each as steering (Reynolds 1999), bounded one by one and in
 /// all. Separation and cohesion are directions, wished for at full speed; alignment is a mean velocity, wished for as it is.
 /// A bird without neighbours flies straight on. Forces are not mutual: momentum is not kept.
+#[derive(Clone)]
 pub struct Boids(Settings);
 
 /// What one sees of the others.

@@ -31,6 +31,7 @@ const COEFFICIENTS: &[Key] = &[
 /// (Born & Mayer, Z. Phys. 75, 1, 1932; Huggins & Mayer, J. Chem. Phys. 1, 643, 1933; Fennell & Gezelter, J. Chem. Phys. 124,
 /// 234104, 2006). The potential energy holds the self-energy of each charge in the neutral sphere about it, so that a crystal has
 /// its Madelung energy.
+#[derive(Clone)]
 pub struct BornMayer(Settings);
 
 /// An energy, and its slope along the distance.

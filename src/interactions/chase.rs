@@ -19,6 +19,7 @@ pub const KEYS: &[Key] = &[
 ];
 
 /// `chase`: predators steer to the middle of all prey in range. It does not act on prey: see `flee`.
+#[derive(Clone)]
 pub struct Chase(Settings);
 
 impl Chase {

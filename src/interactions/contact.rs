@@ -26,6 +26,7 @@ pub const KEYS: &[Key] = &[
 /// winds up, bounded by Coulomb's friction (Cundall & Strack, Géotechnique 29, 47, 1979; Luding, Granular Matter 10, 235, 2008).
 /// Spheres have their `radius`, and turn by the torques, with their `inertia`. The dashpot is that which makes the
 /// coefficient of restitution what is asked for, whatever the masses. Springs hold energy that is not measured.
+#[derive(Clone)]
 pub struct Contact(Settings);
 
 /// What a particle gets of all its contacts.

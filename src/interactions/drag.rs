@@ -16,6 +16,7 @@ pub const KEYS: &[Key] = &[
 ];
 
 /// `drag`: a = −(γ + c |u|) u with u = v − wind; per unit mass, so that a light and a heavy particle slow down alike.
+#[derive(Clone)]
 pub struct Drag(Settings);
 
 impl Drag {

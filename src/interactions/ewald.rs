@@ -143,7 +143,7 @@ pub fn kernels(
     problem: &Problem,
 ) -> Result<[Kernel; 2], Error> {
     let waves = Arc::new(waves());
-    let count = problem.count;
+    let count = problem.capacity;
     let number = u32::try_from(waves.len()).unwrap_or(u32::MAX);
     let block = count.div_ceil(BLOCKS).clamp(*BLOCK.start(), *BLOCK.end());
     let blocks = count.div_ceil(block).max(1);

@@ -18,6 +18,7 @@ pub const KEYS: &[Key] = &[
 ];
 
 /// `flee`: away from every predator in range, the more the nearer it is. It does not act on predators.
+#[derive(Clone)]
 pub struct Flee(Settings);
 
 impl Flee {

@@ -18,6 +18,7 @@ pub const KEYS: &[Key] = &[
 ];
 
 /// `goal`: steers to a place, and slows down on arrival (Reynolds 1999). An `attractor` pulls, and lets pass by.
+#[derive(Clone)]
 pub struct Goal(Settings);
 
 impl Goal {

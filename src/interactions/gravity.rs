@@ -25,6 +25,7 @@ pub const KEYS: &[Key] = &[
 
 /// `gravity`: a = G m r / (r² + ε²)^(3/2), or the spline of GADGET, which is exact beyond 2.8 ε
 /// (PKDGRAV has the same spline, and calls half of its support ε).
+#[derive(Clone)]
 pub struct Gravity(Settings);
 
 impl Gravity {

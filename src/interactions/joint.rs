@@ -17,6 +17,7 @@ pub const KEYS: &[Key] = &[Key::new(
 
 /// `joint`: E = ½ k θ² at every joint, with θ the angle by which the way turns there: a discrete elastica (Euler 1744), without
 /// twist, has k = EI / ds at its inner joints and 2 EI / ds where it is clamped.
+#[derive(Clone)]
 pub struct Joint;
 
 impl Joint {

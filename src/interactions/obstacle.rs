@@ -30,6 +30,7 @@ const MARCHES: usize = 8;
 /// `obstacle`: steers round a sphere, a box or a plane that lies ahead, along the normal of where one would touch it (after
 /// Reynolds 1999), the more the nearer that is and the more straight on; a particle that touches it or is inside pushes straight out
 /// with all its force.
+#[derive(Clone)]
 pub struct Obstacle(Settings);
 
 impl Obstacle {

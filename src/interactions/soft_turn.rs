@@ -17,6 +17,7 @@ pub const KEYS: &[Key] = &[
 
 /// `soft_turn`: a particle near a side of the box is turned back by a constant acceleration; energy is kept. A wall that is
 /// to hold a particle of speed v wants an acceleration of v² / 2 margin.
+#[derive(Clone)]
 pub struct SoftTurn(Settings);
 
 impl SoftTurn {

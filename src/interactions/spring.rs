@@ -18,6 +18,7 @@ pub const KEYS: &[Key] = &[Key::new(
 
 /// `spring`: Hooke's law along every link, F = k (l − L) + c dl/dt, with the damping along the spring alone: pairs that move
 /// or turn as a whole are not damped. A rope pulls, and is slack while it is shorter than L.
+#[derive(Clone)]
 pub struct Spring;
 
 impl Spring {

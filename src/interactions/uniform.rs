@@ -12,6 +12,7 @@ pub const KEYS: &[Key] = &[
 ];
 
 /// `uniform`: a = g, φ = −g · x, with φ = 0 at the origin.
+#[derive(Clone)]
 pub struct Uniform(Settings);
 
 impl Uniform {

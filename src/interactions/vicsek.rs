@@ -28,6 +28,7 @@ const KINDS: &[&str] = &["angular", "vectorial"];
 /// Cohen & Shochet, PRL 75, 1226, 1995; vectorial noise: Grégoire & Chaté, PRL 92, 025702, 2004). It is a rule for whole
 /// steps: under `forward_euler` places change by the old heading, as in the paper; under `symplectic_euler` by the new one,
 /// which is another model, with other numbers. Under other integrators it is neither.
+#[derive(Clone)]
 pub struct Vicsek(Settings);
 
 /// The headings in range, and how many.

@@ -19,6 +19,7 @@ pub const KEYS: &[Key] = &[
 ];
 
 /// `vortex`: a = γ (u − v), with u the flow of a Kaufmann vortex, `|u| = Γ r / 2π (r² + r_c²)`.
+#[derive(Clone)]
 pub struct Vortex(Settings);
 
 impl Vortex {

@@ -18,6 +18,7 @@ pub const KEYS: &[Key] = &[
 
 /// `wander`: a random walk of velocities, a = σ n / √dt with n a random direction; in the plane where all is in the plane.
 /// The numbers are counted by id, step and seed: the same ones on every device, and in every stage of a step.
+#[derive(Clone)]
 pub struct Wander(Settings);
 
 impl Wander {

@@ -19,6 +19,7 @@ pub const KEYS: &[Key] = &[
 ];
 
 /// `wind`: a = γ (u − v), with u = (1 + s sin 2π (t / T − d / λ)) U and d the way along the wind: gusts travel downwind.
+#[derive(Clone)]
 pub struct Wind(Settings);
 
 impl Wind {

@@ -50,11 +50,32 @@ pub trait Backend {
     /// # Errors
     /// When the device is lost.
     fn set_world(&mut self, world: World) -> Result<(), Error>;
+    /// Another one of the same kind on the same device, for so many rows of particles, without any field.
+    ///
+    /// # Errors
+    /// When there are none.
+    fn alike(&self, rows: u32) -> Result<Self, Error>
+    where
+        Self: Sized;
+    /// Makes fields from now on for so many rows of particles.
+    fn resize(&mut self, rows: u32);
+    /// Sets how many rows are in use, and how many are free behind them.
+    ///
+    /// # Errors
+    /// When the device is lost.
+    fn set_rows(&mut self, count: u32, free: u32) -> Result<(), Error>;
+    /// Fills a field from one of its elements on.
+    ///
+    /// # Errors
+    /// When there is no such field, or it ends before.
+    fn write_at(&mut self, name: &str, first: usize, array: &Array) -> Result<(), Error>;
     /// Fills a field from its first element on.
     ///
     /// # Errors
     /// When there is no such field, or it is shorter.
-    fn write(&mut self, name: &str, array: &Array) -> Result<(), Error>;
+    fn write(&mut self, name: &str, array: &Array) -> Result<(), Error> {
+        self.write_at(name, 0, array)
+    }
     /// Drops a field; the next plan that names it makes a new one. A program that was compiled before keeps the old one.
     fn forget(&mut self, name: &str);
     /// Reads a field: `len` elements of the kind of `like`.

@@ -112,6 +112,16 @@ impl Array {
             _ => {}
         }
     }
+    /// Puts elements of the same kind in place of those from one on; those beyond the end are left out.
+    pub fn replace(&mut self, first: usize, other: &Self) {
+        match (self, other) {
+            (Self::Vec4(a), Self::Vec4(b)) => a.iter_mut().skip(first).zip(b).for_each(|(a, b)| *a = *b),
+            (Self::Vec3(a), Self::Vec3(b)) => a.iter_mut().skip(first).zip(b).for_each(|(a, b)| *a = *b),
+            (Self::Float(a), Self::Float(b)) => a.iter_mut().skip(first).zip(b).for_each(|(a, b)| *a = *b),
+            (Self::Uint(a), Self::Uint(b)) => a.iter_mut().skip(first).zip(b).for_each(|(a, b)| *a = *b),
+            _ => {}
+        }
+    }
     /// Groups of so many elements, in this order.
     #[must_use]
     pub fn picked(&self, order: &[usize], group: usize) -> Self {

@@ -48,28 +48,25 @@ impl Host {
     pub fn remove(&mut self, name: &str) {
         self.arrays.remove(name);
     }
-    /// Fills an array from its first element on.
+    /// Fills an array from one of its elements on.
     ///
     /// # Errors
     /// When there is none of that name and kind, or it is shorter.
-    pub fn fill(&mut self, name: &str, values: &Array) -> Result<(), Error> {
+    pub fn fill(&mut self, name: &str, first: usize, values: &Array) -> Result<(), Error> {
         let array = self.arrays.get_mut(name).ok_or_else(|| missing(name))?;
         let array = array.get_mut().map_err(|_| aliased(name))?;
-        if array.len() < values.len() {
-            return Err(Error::Device(format!(
-                "the field `{name}` has {} elements, not {}",
-                array.len(),
-                values.len()
-            )));
+        let end = first.saturating_add(values.len());
+        if array.len() < end {
+            return Err(Error::Device(format!("the field `{name}` has {} elements, not {end}", array.len())));
         }
         match (Arc::make_mut(array), values) {
-            (Array::Vec4(to), Array::Vec4(from)) => to[..from.len()].copy_from_slice(from),
-            (Array::Vec3(to), Array::Vec3(from)) => to[..from.len()].copy_from_slice(from),
+            (Array::Vec4(to), Array::Vec4(from)) => to[first..end].copy_from_slice(from),
+            (Array::Vec3(to), Array::Vec3(from)) => to[first..end].copy_from_slice(from),
             (Array::Vec4(to), Array::Vec3(from)) => {
-                to.iter_mut().zip(from).for_each(|(to, from)| *to = from.extend(0.0));
+                to[first..end].iter_mut().zip(from).for_each(|(to, from)| *to = from.extend(0.0));
             }
-            (Array::Float(to), Array::Float(from)) => to[..from.len()].copy_from_slice(from),
-            (Array::Uint(to), Array::Uint(from)) => to[..from.len()].copy_from_slice(from),
+            (Array::Float(to), Array::Float(from)) => to[first..end].copy_from_slice(from),
+            (Array::Uint(to), Array::Uint(from)) => to[first..end].copy_from_slice(from),
             _ => return Err(missing(name)),
         }
         Ok(())

@@ -13,8 +13,10 @@ use crate::motion::{self, Held, Motion};
 /// guesses of speed alone: particles may go anywhere.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Problem {
-    /// How many particles.
-    pub count: u32,
+    /// Rows of particles, in use and free: as many as buffers hold and dispatches cover.
+    pub capacity: u32,
+    /// Rows in use when the plan is written. Shapes of searches and cuts of sums are chosen by it, so that free rows change no bit.
+    pub particles: u32,
     /// Whether ids are a column, apart from rows.
     pub has_ids: bool,
     /// What the plan will run on.
@@ -69,7 +71,8 @@ impl Problem {
     #[must_use]
     pub fn new(count: u32, machine: Machine) -> Self {
         Self {
-            count,
+            capacity: count,
+            particles: count,
             has_ids: false,
             machine,
             bounds: Bounds::default(),
@@ -118,8 +121,8 @@ impl Problem {
     /// The same with these links, between these held ones.
     #[must_use]
     pub fn tied(self, links: &Links, held: &[Held]) -> Self {
-        let mask = if held.is_empty() { Vec::new() } else { motion::mask(self.count, held) };
-        let (held, network) = (Arc::new(motion::sorted(held)), Arc::new(Network::new(self.count, links)));
+        let mask = if held.is_empty() { Vec::new() } else { motion::mask(self.capacity, held) };
+        let (held, network) = (Arc::new(motion::sorted(held)), Arc::new(Network::new(self.capacity, links)));
         Self { network, held, mask: Arc::new(mask), ..self }
     }
     /// The same with these motions, in steps of `dt`.
@@ -137,6 +140,11 @@ impl Problem {
     #[must_use]
     pub fn active(&self) -> Source {
         if self.has_inactive { crate::shader!("life/active.wgsl") } else { crate::shader!("life/all_active.wgsl") }
+    }
+    /// The same, of which so many rows at the end are free.
+    #[must_use]
+    pub fn with_free(self, free: u32) -> Self {
+        Self { particles: self.capacity.saturating_sub(free).max(1), ..self }
     }
     /// The same with ids apart from rows, or not.
     #[must_use]
@@ -183,7 +191,7 @@ impl Problem {
     /// How many are of a species; of none in particular: all.
     #[must_use]
     pub fn count_of(&self, species: Option<u32>) -> u32 {
-        let Some(wanted) = species.filter(|_| !self.species.is_empty()) else { return self.count };
+        let Some(wanted) = species.filter(|_| !self.species.is_empty()) else { return self.particles };
         self.species.iter().find(|(kind, _)| *kind == wanted).map_or(0, |(_, count)| *count)
     }
     /// The `override`s of a shader that the problem decides.

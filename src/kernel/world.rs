@@ -12,22 +12,30 @@ pub struct World {
     pub dt: f64,
     /// Steps done.
     pub step: u32,
-    /// Particles.
+    /// Rows in use: particles, and those between them that have been removed.
     pub count: u32,
+    /// Free rows behind those.
+    pub free: u32,
     /// Where they may be.
     pub bounds: Bounds,
 }
 
 impl World {
+    /// All rows.
+    #[must_use]
+    pub fn capacity(&self) -> u32 {
+        self.count.saturating_add(self.free)
+    }
     /// The members of `World`, by name.
     #[must_use]
-    pub fn members(&self) -> [(&'static str, Scalar); 10] {
+    pub fn members(&self) -> [(&'static str, Scalar); 11] {
         let sides = self.bounds.sides.map(|side| side as u32);
         [
             ("time", Scalar::Float(self.time)),
             ("dt", Scalar::Float(self.dt)),
             ("step", Scalar::Uint(self.step)),
             ("count", Scalar::Uint(self.count)),
+            ("capacity", Scalar::Uint(self.capacity())),
             ("low", Scalar::Vector(self.bounds.low)),
             ("dimensions", Scalar::Uint(self.bounds.dimensions)),
             ("high", Scalar::Vector(self.bounds.high)),
@@ -44,6 +52,7 @@ impl World {
             dt: packed.float(bytes, "dt"),
             step: packed.uint(bytes, "step"),
             count: packed.uint(bytes, "count"),
+            free: packed.uint(bytes, "capacity").saturating_sub(packed.uint(bytes, "count")),
             ..self
         }
     }

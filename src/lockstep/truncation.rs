@@ -36,7 +36,7 @@ pub async fn truncation(
     problem: &Problem,
     targets: usize,
 ) -> Result<Vec<Truncation>, Error> {
-    let last = gpu.read(ACCELERATION.name, &Array::Vec4(Vec::new()), problem.count as usize).await?;
+    let last = gpu.read(ACCELERATION.name, &Array::Vec4(Vec::new()), problem.capacity as usize).await?;
     let mut all = Vec::new();
     for force in forces {
         let law = force.laws().into_iter().find(|law| law.tree(problem).is_some());
@@ -83,7 +83,7 @@ async fn beside(gpu: &mut Gpu, plan: &Plan, law: &str, all: &[DVec4], problem: &
     gpu.write(ACCELERATION.name, &zeros)?;
     let program = gpu.compile(&Plan::of([law.clone()]))?;
     gpu.run(&program, 1)?;
-    let own = gpu.read(ACCELERATION.name, &zeros, problem.count as usize).await?;
+    let own = gpu.read(ACCELERATION.name, &zeros, problem.capacity as usize).await?;
     let Array::Vec4(own) = own else { return Ok(vec![DVec4::ZERO; all.len()]) };
     Ok(all.iter().zip(own).map(|(all, own)| *all - own).collect())
 }
@@ -92,7 +92,7 @@ async fn beside(gpu: &mut Gpu, plan: &Plan, law: &str, all: &[DVec4], problem: &
 async fn host(gpu: &mut Gpu, plan: &Plan, problem: &Problem) -> Result<Host, Error> {
     let mut host = Host::default();
     for kernel in &plan.kernels {
-        for (name, bytes, kind, _) in fields(kernel, problem.count) {
+        for (name, bytes, kind, _) in fields(kernel, problem.capacity) {
             if !host.contains(&name) && gpu.size(&name) >= bytes {
                 host.insert(&name, kind.like(&gpu.bytes(&name, 0, bytes).await?));
             }
@@ -100,7 +100,7 @@ async fn host(gpu: &mut Gpu, plan: &Plan, problem: &Problem) -> Result<Host, Err
     }
     for name in [crate::kernel::POSITION.name, crate::kernel::VELOCITY.name] {
         if !host.contains(name) {
-            let bytes = 16 * u64::from(problem.count);
+            let bytes = 16 * u64::from(problem.capacity);
             host.insert(name, Array::Vec4(Vec::new()).like(&gpu.bytes(name, 0, bytes).await?));
         }
     }

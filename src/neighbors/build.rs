@@ -60,12 +60,12 @@ impl Grid {
             vec![crate::shader!("world.wgsl"), crate::shader!("fields.wgsl"), crate::shader!("neighbors/cell.wgsl")];
         all.extend_from_slice(files);
         let shader = Shader::join(&all)?;
-        let block = shader.reflection().binding("grid").map(|b| self.uniform(b, 0, problem.count)).transpose()?;
+        let block = shader.reflection().binding("grid").map(|b| self.uniform(b, 0, problem.capacity)).transpose()?;
         let fields = [STARTS, SORTED_ID, SORTED_POSITION, SORTED_VELOCITY].map(|name| self.field(name));
         let uniforms = block.into_iter().map(|bytes| ("grid", bytes)).collect();
         let mut constants = problem.constants(&shader);
         constants.extend(self.constants(&shader));
-        Ok(Pass { constants, uniforms, ..Pass::new(shader, problem.count) }.on(&fields))
+        Ok(Pass { constants, uniforms, ..Pass::new(shader, problem.capacity) }.on(&fields))
     }
 
     /// The file with `fn present() -> u32`, how many stand in its slots; a shader that joins it joins `neighbors/starts.wgsl` too,

@@ -94,7 +94,7 @@ impl Grid {
         for side in sides {
             (volume, axes) = (volume * side, axes + 1);
         }
-        let width = (volume * occupancy / f64::from(problem.count)).powf(1.0 / f64::from(axes.max(1)));
+        let width = (volume * occupancy / f64::from(problem.particles)).powf(1.0 / f64::from(axes.max(1)));
         // One over it is to be a number too.
         let width = if width.is_finite() && width > 0.0 { width.clamp(1e-37, 1e37) } else { 1.0 };
         Self::of_cells(format!("cells of {occupancy:?}"), width, None, (width, [1; 3], 1.0), problem)
@@ -187,7 +187,7 @@ impl Grid {
     #[must_use]
     pub fn ahead(&self, problem: &Problem) -> u32 {
         let held = if self.apart { u32::try_from(problem.held.len()).unwrap_or(u32::MAX) } else { 0 };
-        problem.count.saturating_sub(held)
+        problem.capacity.saturating_sub(held)
     }
     /// Whether a period has so few cells that those on both sides of me are the same.
     #[must_use]

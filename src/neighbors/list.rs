@@ -17,7 +17,7 @@ pub const LIST_STATE: &str = "list_state";
 /// The words of that.
 pub const LIST_STATE_WORDS: usize = 4;
 /// Where particles were when it was built.
-pub(crate) const LIST_ORIGIN: &str = "list_origin";
+pub const LIST_ORIGIN: &str = "list_origin";
 /// History of pairs, word by word: see `shaders/neighbors/history.wgsl`.
 pub const HISTORY: &str = "history";
 /// No particle.
@@ -91,14 +91,22 @@ impl List {
     pub fn words(&self, count: u32) -> u64 {
         2 * u64::from(count) * u64::from(self.shape.capacity) * u64::from(self.shape.words)
     }
-    /// What pairs remember, by both ids, as this step finds it.
-    fn remembered(&self, list: &[u32], history: &[f64], world: &World) -> BTreeMap<[u32; 2], Vec<f64>> {
-        let (count, slots, half) = (world.count as usize, self.shape.words as usize, (world.step & 1) as usize);
+    /// What pairs remember, by both rows, as this step finds it; a row that has got another particle has none.
+    fn remembered(
+        &self,
+        list: &[u32],
+        history: &[f64],
+        world: &World,
+        stayed: impl Fn(u32) -> bool,
+    ) -> BTreeMap<[u32; 2], Vec<f64>> {
+        let (count, slots, half) = (world.capacity() as usize, self.shape.words as usize, (world.step & 1) as usize);
         let mut pairs = BTreeMap::new();
-        for (k, head) in list.chunks_exact(4).take(count).enumerate() {
+        for (k, head) in list.chunks_exact(4).take(world.count as usize).enumerate() {
             for n in 0..head[0].min(self.shape.capacity) as usize {
                 let word = |w: usize| history.get(Self::word([k, n, half, w], slots, count)).copied().unwrap_or(0.0);
-                if let Some(other) = list.get(Self::place(k, n, count)) {
+                if let Some(other) =
+                    list.get(Self::place(k, n, count)).filter(|other| stayed(head[1]) && stayed(**other))
+                {
                     pairs.insert([head[1], *other], (0..slots).map(word).collect());
                 }
             }
@@ -141,7 +149,9 @@ impl List {
         let mut history = (slots > 0).then(|| host.writing::<f32>(HISTORY)).transpose()?;
         // The first list has none before it.
         let before = history.as_ref().filter(|_| *builds > 1);
-        let known = before.map(|history| self.remembered(&list, history, &host.world())).unwrap_or_default();
+        let stayed = |row: u32| origin.get(row as usize).is_some_and(|from| from.w > 0.0);
+        let known = before.map(|history| self.remembered(&list, history, &host.world(), stayed)).unwrap_or_default();
+        let stride = host.world().capacity() as usize;
         let half = (host.world().step & 1) as usize;
         for k in 0..count {
             let (id, row) = order.get(k).zip(rows.get(k)).map_or((NONE, &[][..]), |(id, row)| (*id, row));
@@ -150,11 +160,11 @@ impl List {
             let number = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
             list[4 * k..4 * k + 4].copy_from_slice(&[number(kept), id, 0, 0]);
             for (n, other) in row[..kept].iter().enumerate() {
-                list[Self::place(k, n, count)] = *other;
+                list[Self::place(k, n, stride)] = *other;
                 let pair = known.get(&[id, *other]);
                 for w in 0..slots {
                     let value = pair.map_or(0.0, |words| words[w]);
-                    history.iter_mut().for_each(|all| all[Self::word([k, n, half, w], slots, count)] = value);
+                    history.iter_mut().for_each(|all| all[Self::word([k, n, half, w], slots, stride)] = value);
                 }
             }
             *longest = number(row.len()).max(*longest);

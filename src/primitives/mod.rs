@@ -16,7 +16,7 @@ pub use counting_sort::counting_sort;
 pub use fill::fill;
 pub use histogram::histogram;
 pub use radix_sort::radix_sort;
-pub use reduce::{Items, Operation, reduce};
+pub use reduce::{Items, Operation, reduce, rows};
 pub use scan::scan;
 
 use crate::error::Error;

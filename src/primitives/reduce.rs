@@ -19,6 +19,14 @@ pub enum Operation {
     Max,
 }
 
+/// Which elements hold something.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Which {
+    All,
+    /// Those of rows that are in use.
+    Rows,
+}
+
 /// What the elements are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Items {
@@ -67,40 +75,78 @@ pub fn reduce(
     elements: u32,
     machine: &Machine,
 ) -> Result<Kernel, Error> {
+    reduction(operation, items, field, into, elements, machine, Which::All)
+}
+
+/// The same over the rows that are in use, of so many: behind those the field holds nothing.
+///
+/// # Errors
+/// As [`reduce`].
+pub fn rows(
+    operation: Operation,
+    items: Items,
+    field: &Name,
+    into: &Name,
+    elements: u32,
+    machine: &Machine,
+) -> Result<Kernel, Error> {
+    reduction(operation, items, field, into, elements, machine, Which::Rows)
+}
+
+fn reduction(
+    operation: Operation,
+    items: Items,
+    field: &Name,
+    into: &Name,
+    elements: u32,
+    machine: &Machine,
+    which: Which,
+) -> Result<Kernel, Error> {
     bounded("a reduction", elements)?;
     let what = match items {
         Items::Vec4 => crate::shader!("primitives/reduce_vec4.wgsl"),
         Items::Uint => crate::shader!("primitives/reduce_uint.wgsl"),
     };
-    let sources = [what, operation.source(), crate::shader!("primitives/reduce.wgsl")];
+    let sources = |which: Which| {
+        let end = match which {
+            Which::All => crate::shader!("primitives/reduce_all.wgsl"),
+            Which::Rows => crate::shader!("primitives/reduce_rows.wgsl"),
+        };
+        [what.clone(), operation.source(), end, crate::shader!("primitives/reduce.wgsl")]
+    };
     let neutral = operation.neutral(items);
-    let reduction = |from: &Name, to: &Name, elements: u32, block: u32| {
+    let reduction = |from: &Name, to: &Name, elements: u32, block: u32, which: Which| {
         let fields = [("items", from.clone()), ("results", to.clone())];
         let extent = [("elements", elements), ("block", block), ("neutral", neutral)];
-        Ok::<_, Error>(workgroups(pass(&sources, 1, elements, &fields, &extent)?, elements.div_ceil(block).max(1)))
+        Ok::<_, Error>(workgroups(
+            pass(&sources(which), 1, elements, &fields, &extent)?,
+            elements.div_ceil(block).max(1),
+        ))
     };
     // Barriers cost a processor that plays a GPU more, so that its blocks are longer.
     let block = if machine.software { 1 << 15 } else { 1 << 12 };
     let blocks = elements.div_ceil(block);
     let parts: Name = format!("{into}_parts").into();
     let passes = if blocks <= 1 {
-        vec![reduction(field, into, elements, block)?]
+        vec![reduction(field, into, elements, block, which)?]
     } else {
-        vec![reduction(field, &parts, elements, block)?, reduction(&parts, into, blocks, blocks)?]
+        vec![reduction(field, &parts, elements, block, which)?, reduction(&parts, into, blocks, blocks, Which::All)?]
     };
     Ok(Kernel {
         name: format!("{} {field}", operation.name()),
         passes,
-        reference: Some(reference(operation, items, field, into, elements)),
+        reference: Some(reference(operation, items, field, into, elements, which)),
         sizes: vec![(field.clone(), elements.into()), (into.clone(), 1), (parts.clone(), blocks.max(1).into())],
         scratch: vec![parts],
         tables: Vec::new(),
     })
 }
 
-fn reference(operation: Operation, items: Items, field: &Name, into: &Name, elements: u32) -> Reference {
+fn reference(operation: Operation, items: Items, field: &Name, into: &Name, elements: u32, which: Which) -> Reference {
     let (field, into, elements) = (field.clone(), into.clone(), elements as usize);
     Arc::new(move |host: &Host| {
+        let used = if which == Which::Rows { host.world().count as usize } else { usize::MAX };
+        let elements = elements.min(used);
         match items {
             Items::Uint => {
                 let from = host.reading::<u32>(&field)?;

@@ -76,7 +76,7 @@ impl Picture {
                 "a picture of {width} × {height} pixels is too large: each side may have {SIDE}, and all of it {AREA}"
             )));
         }
-        let count = u32::try_from(particles.len()).ok().filter(|n| *n > 0);
+        let count = u32::try_from(particles.rows()).ok().filter(|n| *n > 0);
         let count = count.ok_or_else(|| Error::Scene("a picture needs one or more particles".to_owned()))?;
         let (few, entry) = (particles.len() <= FEW, styles::of(settings));
         let style = entry.style;
@@ -149,7 +149,7 @@ impl Picture {
             exposure: settings.number("exposure"),
             facets,
             style: entry.name,
-            has_inactive: !particles.life().is_empty(),
+            has_inactive: !particles.life().is_empty() || particles.capacity.is_some(),
         })
     }
     /// The same picture with other trails.

@@ -45,7 +45,7 @@ pub fn slopes(body: &Body, problem: &Problem) -> Result<Kernel, Error> {
     };
     let slopes = kernel("slopes", body, crate::shader!("rotation/slopes.wgsl"), None, problem, Arc::new(reference))?;
     // They are made anew each time, whatever they were.
-    let count = u64::from(problem.count);
+    let count = u64::from(problem.capacity);
     Ok(Kernel { sizes: vec![(body.rate(), count), (body.acceleration(), count)], ..slopes })
 }
 

@@ -77,6 +77,23 @@ impl Store {
         backend.write(HOME.name, &Array::Vec4(homes))?;
         Ok(count)
     }
+    /// Whether a buffer is on the device.
+    pub fn is_bound(&self, buffer: &str) -> bool {
+        self.bound.contains(buffer)
+    }
+    /// Gives rows of a column that no plan binds other values; its initial one, where none are given.
+    pub fn put(&mut self, column: &Column, values: Option<&Array>, rows: &[u32], capacity: u32) {
+        if values.is_none() && !self.idle.contains_key(&column.name) {
+            return;
+        }
+        let each = column.shape.len(1);
+        let all = self.idle.entry(column.name.clone()).or_insert_with(|| column.array(capacity as usize));
+        all.resize(each * capacity as usize, column.initial.unwrap_or_default());
+        let given = values.cloned().unwrap_or_else(|| column.array(rows.len()));
+        for (n, row) in rows.iter().enumerate() {
+            all.replace(each * *row as usize, &given.picked(&[n], each));
+        }
+    }
     /// All columns.
     pub fn columns(&self) -> &Columns {
         &self.columns
@@ -120,9 +137,9 @@ impl<B: Backend> Simulation<B> {
         let column = self.store.named(name)?.clone();
         if !self.store.lies_on_device(&column) {
             return match self.store.idle.get(&column.name) {
-                Some(values) => Ok(values.clone()),
-                None if column.name == ID.name => Ok(Array::Uint((0..self.count).collect())),
-                None if column.role == Role::State => Ok(column.array(self.count as usize)),
+                Some(values) => Ok(self.of_rows(&column, values)),
+                None if column.name == ID.name => Ok(Array::Uint((0..self.count()).collect())),
+                None if column.role == Role::State => Ok(column.array(self.count() as usize)),
                 None => Err(Error::Scene(format!(
                     "nothing computes the column `{name}`: add a force that writes it, or leave it out"
                 ))),
@@ -138,7 +155,7 @@ impl<B: Backend> Simulation<B> {
     /// [`Error::Scene`] when there is no such column, or the values are of another kind or number; or what the device says.
     pub async fn write_column(&mut self, name: &str, values: &Array) -> Result<(), Error> {
         let column = self.store.named(name)?.clone();
-        let wanted = column.array(self.count as usize);
+        let wanted = column.array(self.count() as usize);
         if std::mem::discriminant(&wanted) != std::mem::discriminant(values) || wanted.len() != values.len() {
             return Err(Error::Scene(format!(
                 "the column `{name}` is {} and takes {} values: these are {}, {} of them",
@@ -149,7 +166,9 @@ impl<B: Backend> Simulation<B> {
             )));
         }
         if !self.store.lies_on_device(&column) {
-            self.store.idle.insert(column.name.clone(), values.clone());
+            let mut all = values.clone();
+            all.resize(column.shape.len(self.capacity() as usize), column.initial.unwrap_or_default());
+            self.store.idle.insert(column.name.clone(), all);
             return Ok(());
         }
         let buffer = column.place.buffer.clone();
@@ -163,11 +182,17 @@ impl<B: Backend> Simulation<B> {
         };
         self.backend.write(&buffer, &elements)
     }
+    /// The values of rows in use.
+    fn of_rows(&self, column: &Column, values: &Array) -> Array {
+        let mut values = values.clone();
+        values.resize(column.shape.len(self.count() as usize), column.initial.unwrap_or_default());
+        values
+    }
     /// The elements of a buffer of columns.
     async fn elements(&mut self, buffer: &str) -> Result<Array, Error> {
         let missing = || Error::Device(format!("there is no field `{buffer}`"));
         let like = self.store.columns.element(buffer).ok_or_else(missing)?;
-        let len = self.store.columns.len_of(buffer, self.count as usize).ok_or_else(missing)?;
+        let len = self.store.columns.len_of(buffer, self.count() as usize).ok_or_else(missing)?;
         self.backend.read(buffer, &like, len).await
     }
     /// Reads all columns that a state keeps, and others of these names.
@@ -186,7 +211,7 @@ impl<B: Backend> Simulation<B> {
                 }
                 buffers.get(buffer).map(|elements| Columns::unpacked(column, elements))
             } else if column.role == Role::State {
-                self.store.idle.get(&column.name).cloned()
+                self.store.idle.get(&column.name).map(|values| self.of_rows(column, values))
             } else {
                 Some(self.read_column(&column.name).await?)
             };

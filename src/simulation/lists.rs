@@ -5,8 +5,9 @@ use glam::DVec3;
 use super::{Setup, Simulation};
 use crate::error::Error;
 use crate::forces::{Law, Problem};
-use crate::kernel::{Array, Backend, Element};
+use crate::kernel::{Array, Backend, Element, ListShape};
 use crate::neighbors::{Cells, LIST_STATE, LIST_STATE_WORDS};
+use crate::state::KEPT_ROOM;
 use crate::visit;
 
 /// The same problem with a list that has room for half as many neighbours more than any particle has at the start.
@@ -21,8 +22,13 @@ pub(super) fn counted(setup: &Setup, problem: Problem) -> Result<Problem, Error>
     let most = Cells::new(&places, setup.bounds, shape.reach())?.most();
     // Pending particles are not counted: there is as much room as where nothing is known, at least.
     let most = if problem.has_inactive { most.max(visit::UNCOUNTED) } else { most };
-    let count = problem.count;
-    Ok(problem.listed(Some(shape.with_room(most, count))))
+    let count = problem.capacity;
+    let shape = shape.with_room(most, count);
+    // A run that goes on, or has got more rows, keeps the room that it had.
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
+    let room = setup.state.kept.get(KEPT_ROOM).and_then(|list| list.first()).map_or(0, |room| *room as u32);
+    let capacity = shape.capacity.max(room.div_ceil(4).saturating_mul(4));
+    Ok(problem.listed(Some(ListShape { capacity, ..shape })))
 }
 
 impl<B: Backend> Simulation<B> {

@@ -23,8 +23,8 @@ impl<B: Backend> Simulation<B> {
         render::shoot(&mut self.backend, film).await
     }
     fn fits(&self, picture: &Picture) -> Result<(), Error> {
-        if picture.frame.count != self.count {
-            let (made, have) = (picture.frame.count, self.count);
+        if picture.frame.count != self.capacity() {
+            let (made, have) = (picture.frame.count, self.capacity());
             return Err(Error::Scene(format!(
                 "a picture of {made} particles cannot be drawn of {have}: make a new one"
             )));

@@ -11,12 +11,15 @@ impl<B: Backend> Simulation<B> {
         let words = if self.inactive > 0 { self.read(LIFE).await? } else { Vec::new() };
         Ok(words.into_iter().filter_map(Life::of).collect())
     }
-    /// How many are pending, active and removed. Particles due at the start are spawned when the first step begins.
+    /// How many are pending, active and removed; those whose rows are free count no more. Particles due at the start are spawned when the first step begins.
     ///
     /// # Errors
     /// What reading says.
     pub async fn population(&mut self) -> Result<Population, Error> {
-        let count = self.count as usize;
-        Ok(Population::of(&self.is_active().await?, count))
+        let free = |row: &usize| self.rows.is_free(u32::try_from(*row).unwrap_or(u32::MAX));
+        let rows: Vec<usize> = (0..self.count() as usize).filter(|row| !free(row)).collect();
+        let life = self.is_active().await?;
+        let life: Vec<Life> = rows.iter().filter_map(|row| life.get(*row).copied()).collect();
+        Ok(Population::of(&life, rows.len()))
     }
 }

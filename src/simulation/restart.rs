@@ -8,7 +8,7 @@
 
 use glam::{DVec3, DVec4};
 
-use super::{Plans, Setup, Simulation};
+use super::{Plans, Setup, Simulation, Start};
 use crate::boundary;
 use crate::error::Error;
 use crate::integrators::{SOLVE_REPORT, kept_rates};
@@ -16,10 +16,11 @@ use crate::kernel::{
     ALARM, Array, Backend, Column, Columns, HOME, ID, LARGEST_CRITERION, LIFE, Plan, QUIET, Role, STEP_CLOCK,
     STEP_CLOCK_WORDS, STEP_CRITERIA, TICKS, World, extent, split,
 };
+use crate::life::Life;
 use crate::links::Links;
 use crate::motion;
 use crate::sph::{DFSPH_ERRORS, DFSPH_REPORT};
-use crate::state::{KEPT, KEPT_EXTENT, KEPT_HOME, KEPT_STEP, State};
+use crate::state::{KEPT, KEPT_BROKEN, KEPT_EXTENT, KEPT_HOME, KEPT_ROOM, KEPT_ROWS, KEPT_STEP, State};
 
 /// How far time and step may disagree, as a part of a step: 2³² steps of a time in double precision.
 const AGREEMENT: f64 = 1e-6;
@@ -33,6 +34,8 @@ pub(super) struct Carried {
     len: usize,
     /// Whether it holds only for the positions and velocities of the state.
     rate: bool,
+    /// Elements of each row; 0 where it is no matter of rows.
+    each: usize,
 }
 
 /// Those of some plans.
@@ -41,17 +44,25 @@ pub(super) fn carried(plans: &Plans, columns: &Columns, count: u32) -> Vec<Carri
         plans.all().flat_map(|plan| plan.fields(count).into_iter()).collect();
     let particles = count as usize;
     let (four, real, whole) = (Array::Vec4(Vec::new()), Array::Float(Vec::new()), Array::Uint(Vec::new()));
-    let one = |field: &str, like: &Array, rate| Carried { field: field.to_owned(), like: like.clone(), len: 0, rate };
-    let mut all = vec![one("kept_acceleration", &four, true)];
+    let one = |field: &str, like: &Array, rate| Carried {
+        field: field.to_owned(),
+        like: like.clone(),
+        len: 0,
+        rate,
+        each: 0,
+    };
+    let mut all = vec![Carried { each: 1, ..one("kept_acceleration", &four, true) }];
     for buffer in kept_rates(columns) {
         if let (Some(like), Some(len)) = (columns.element(&buffer), columns.len_of(&buffer, particles)) {
-            all.push(Carried { len, ..one(&format!("{KEPT}{buffer}"), &like, true) });
+            let each = columns.len_of(&buffer, 2).unwrap_or(0) - columns.len_of(&buffer, 1).unwrap_or(0);
+            all.push(Carried { len, each, ..one(&format!("{KEPT}{buffer}"), &like, true) });
         }
     }
     let words = [ALARM.name, STEP_CLOCK.name, SOLVE_REPORT, DFSPH_REPORT];
     all.extend(words.map(|name| one(name, &whole, false)));
     all.push(one(DFSPH_ERRORS, &real, false));
-    all.extend([STEP_CRITERIA.name, LARGEST_CRITERION.name].map(|name| one(name, &four, true)));
+    all.push(Carried { each: 1, ..one(STEP_CRITERIA.name, &four, true) });
+    all.push(one(LARGEST_CRITERION.name, &four, true));
     all.retain(|one| fields.contains_key(&one.field));
     for one in all.iter_mut().filter(|one| one.len == 0) {
         let bytes = one.like.zeros(1).to_bytes().len() as u64;
@@ -61,21 +72,38 @@ pub(super) fn carried(plans: &Plans, columns: &Columns, count: u32) -> Vec<Carri
 }
 
 impl Carried {
+    /// Its numbers for these rows.
+    fn picked(&self, list: &[f64], order: &[usize]) -> Vec<f64> {
+        self.array(list).map_or_else(Vec::new, |array| numbers(&array.picked(order, self.each)))
+    }
     /// What its numbers are called in a state.
     fn name(&self) -> String {
         if self.field.starts_with(KEPT) { self.field.clone() } else { format!("{KEPT}{}", self.field) }
     }
     /// Its elements, out of the numbers of a state.
     fn array(&self, numbers: &[f64]) -> Option<Array> {
-        let array = match &self.like {
+        let mut array = match &self.like {
             Array::Vec4(_) => Array::Vec4(numbers.chunks_exact(4).map(DVec4::from_slice).collect()),
             Array::Vec3(_) => Array::Vec3(numbers.chunks_exact(3).map(DVec3::from_slice).collect()),
             Array::Float(_) => Array::Float(numbers.to_vec()),
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "words, or saturated")]
             Array::Uint(_) => Array::Uint(numbers.iter().map(|x| *x as u32).collect()),
         };
+        // Free rows have nothing.
+        if self.each > 0 && array.len() < self.len {
+            array.resize(self.len, [0.0; 4]);
+        }
         (array.len() == self.len).then_some(array)
     }
+}
+
+/// Groups of so many numbers, of which the first are rows, with the places of these; without groups of rows that have none.
+fn renumbered(numbers: &[f64], width: usize, rows: usize, place: impl Fn(f64) -> Option<f64>) -> Vec<f64> {
+    let group = |group: &[f64]| {
+        let places: Option<Vec<f64>> = group[..rows].iter().map(|row| place(*row)).collect();
+        Some([&places?[..], &group[rows..]].concat())
+    };
+    numbers.chunks_exact(width).filter_map(group).flatten().collect()
 }
 
 /// The numbers of an array, one behind another.
@@ -240,16 +268,15 @@ impl<B: Backend> Simulation<B> {
         self.goes_on
     }
     /// Fills what a step keeps for the next one.
-    pub(super) fn resume(&mut self, setup: &Setup, plans: &Plans) -> Result<(), Error> {
+    pub(super) fn resume(&mut self, setup: &Setup, plans: &Plans, how: Start, whole: bool) -> Result<(), Error> {
         let state = &setup.state;
-        if self.list.is_some_and(|list| list.words > 0) && state.step > 0 {
+        if self.list.is_some_and(|list| list.words > 0) && state.step > 0 && how == Start::Anew {
             return Err(Error::Scene(format!(
                 "the state is at step {}, and a law keeps history of pairs (slots), which a state does not hold: run it in one go, or \
                  take `state.begin_anew()`, with which all pairs are new",
                 state.step
             )));
         }
-        let whole = is_whole(self.print, state);
         let mut arrays = Vec::new();
         for one in &self.carried {
             let numbers = state.kept.get(&one.name()).filter(|_| whole);
@@ -270,8 +297,9 @@ impl<B: Backend> Simulation<B> {
             }
             self.backend.write(STEP_CLOCK.name, &Array::Uint(words))?;
         }
-        let (step, count, bounds) = (setup.done()?, self.count, setup.bounds);
-        self.backend.set_world(World { time: state.time, dt, step, count, bounds })?;
+        let (step, count, bounds) = (setup.done()?, self.rows.used(), setup.bounds);
+        let free = self.rows.capacity() - count;
+        self.backend.set_world(World { time: state.time, dt, step, count, free, bounds })?;
         if step > 0 || state.time > 0.0 || self.goes_on {
             let wake = self.backend.compile(&plans.wake(self.goes_on))?;
             self.backend.run(&wake, 1)?;
@@ -300,8 +328,44 @@ impl<B: Backend> Simulation<B> {
         state.keep_broken(all);
         let (low, high) = self.extent;
         state.kept.put(KEPT_EXTENT, low.to_array().into_iter().chain(high.to_array()).collect());
+        if self.rows.are_open() {
+            state.kept.put(KEPT_ROWS, vec![f64::from(self.first_rows)]);
+            state.kept.put(KEPT_ROOM, self.list.map(|list| f64::from(list.capacity)).into_iter().collect());
+        }
+        Ok(())
+    }
+    /// Says of a state that this step has made it.
+    pub(super) fn mark(&self, state: &mut State) {
         let mark = mark(self.print, state);
         state.kept.put(KEPT_STEP, mark);
-        Ok(())
+    }
+    /// The same state without rows that are free, or whose particle has been removed, where ids are apart from rows.
+    pub(super) fn compacted(&self, state: State) -> State {
+        if !self.rows.are_open() {
+            return state;
+        }
+        let life = state.life();
+        let is_there = |row: &usize| {
+            let free = self.rows.is_free(u32::try_from(*row).unwrap_or(u32::MAX));
+            !free && life.get(*row).copied().unwrap_or_default() != Life::Removed
+        };
+        let order: Vec<usize> = (0..state.len()).filter(is_there).collect();
+        let mut picked = state.picked(&order);
+        let mut places = vec![None; state.len()];
+        order.iter().zip(0..).for_each(|(row, place)| places[*row] = Some(f64::from(place)));
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it is a row")]
+        let place = |row: f64| places.get(row as usize).copied().flatten();
+        for (name, numbers) in state.kept.iter() {
+            let carried = self.carried.iter().find(|one| one.each > 0 && one.name() == name);
+            let numbers = match (name, carried) {
+                (_, Some(one)) => one.picked(numbers, &order),
+                (KEPT_HOME, _) => renumbered(numbers, 7, 1, place),
+                (KEPT_BROKEN, _) => renumbered(numbers, 3, 2, place),
+                _ => numbers.to_vec(),
+            };
+            picked.kept.put(name, numbers);
+        }
+        (picked.capacity, picked.next) = (Some(self.capacity()), self.rows.next());
+        picked
     }
 }

@@ -5,15 +5,16 @@ use glam::DVec3;
 use super::{columns, inactive, initial_projection, lists, unwritten};
 use crate::boundary;
 use crate::error::Error;
-use crate::forces::{Component, Problem, Stage};
+use crate::forces::{Component, Over, Problem, Stage};
 use crate::integrators::{Integrator, Step};
 use crate::kernel::{Array, Bounds, Column, Columns, ListShape, Machine, Plan, Solver, claims};
 use crate::life;
 use crate::motion::{self, Hold};
 use crate::sph::{Start, Still};
-use crate::state::{State, distinct};
+use crate::state::{KEPT_ROWS, NONE, State, distinct};
 
 /// What a simulation is made of.
+#[derive(Clone)]
 pub struct Setup {
     /// What moves, and where it starts.
     pub state: State,
@@ -65,6 +66,9 @@ impl Setup {
     /// # Errors
     /// When the setup makes no sense, or a shader does not compile.
     pub fn plans(&self, machine: Machine) -> Result<Plans, Error> {
+        if let Some(padded) = self.padded() {
+            return padded.plans(machine);
+        }
         let problem = self.problem(machine)?;
         self.weigh(&problem)?;
         let list = problem.list;
@@ -86,6 +90,25 @@ impl Setup {
         claims(&plans.all(), &columns)?;
         unwritten::check(&plans, &columns)?;
         Ok(plans)
+    }
+    /// The same with free rows, where its state has a capacity and none of them yet.
+    pub(super) fn padded(&self) -> Option<Self> {
+        self.state.padded().map(|state| self.with_state(state))
+    }
+    /// The same with another state.
+    #[must_use]
+    pub fn with_state(&self, state: State) -> Self {
+        let (forces, integrator) = (self.forces.clone(), self.integrator.clone());
+        Self { state, forces, integrator, dt: self.dt, bounds: self.bounds, solver: self.solver }
+    }
+    /// Rows that were free when a plan was first written for this run.
+    pub(super) fn free(&self) -> u32 {
+        let rows = u32::try_from(self.state.len()).unwrap_or(u32::MAX);
+        let kept =
+            self.state.kept.get(KEPT_ROWS).and_then(|list| list.first()).filter(|_| self.state.capacity.is_some());
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
+        let kept = kept.map(|used| rows.saturating_sub(*used as u32));
+        kept.unwrap_or_else(|| self.state.free_rows())
     }
     /// Refuses what does not go with steps of different lengths.
     fn bear(&self) -> Result<(), Error> {
@@ -116,9 +139,14 @@ impl Setup {
     /// # Errors
     /// When the setup makes no sense.
     pub fn problem(&self, machine: Machine) -> Result<Problem, Error> {
+        if let Some(padded) = self.padded() {
+            return padded.problem(machine);
+        }
+        let rows = self.state.len().saturating_sub(self.state.free_rows() as usize);
         let problem = Problem::new(self.check()?, machine).at(self.state.position(), self.bounds);
         let problem = Problem { extent: self.extent(), ..problem }
-            .of_species(self.state.species())
+            .with_free(self.free())
+            .of_species(&self.state.species()[..rows])
             .tied(&self.state.all_links(), &self.state.held)
             .moved(&self.state.motions, self.dt)
             .with_life(&self.state.births, &self.state.drains, self.state.has_inactive())
@@ -259,6 +287,34 @@ impl Setup {
         }
         Ok(())
     }
+    /// Refuses particles with numbers that are none, and columns that are not complete.
+    pub(super) fn particles(&self) -> Result<(), Error> {
+        let state = &self.state;
+        let (position, velocity, mass, size) = (state.position(), state.velocity(), state.mass(), state.size());
+        let count = position.len();
+        let fits = |x: f64| x.abs() <= f64::from(f32::MAX);
+        let bad = (0..count).find(|i| {
+            let vectors = [position[*i], velocity[*i]];
+            let (mass, size) = (mass[*i], size[*i]);
+            let good = vectors.iter().all(|v| v.to_array().into_iter().all(fits)) && fits(mass) && fits(size);
+            !(good && mass >= 0.0 && size >= 0.0)
+        });
+        if let Some(bad) = bad {
+            return Err(Error::Scene(format!(
+                "particle {bad} has a number that is NaN, infinite or beyond single precision, or a negative mass or size"
+            )));
+        }
+        self.complete()?;
+        self.limited()
+    }
+    /// Whether no particle changes what accelerates another.
+    pub(super) fn accelerates_each_alone(&self) -> bool {
+        let alone = |force: &dyn Component| {
+            let laws = force.laws();
+            !laws.is_empty() && laws.iter().all(|law| matches!(law.over, Over::Each))
+        };
+        self.forces.iter().all(|force| alone(force.as_ref()))
+    }
     /// Whether links may change as it runs.
     #[must_use]
     pub fn breaks(&self) -> bool {
@@ -272,7 +328,7 @@ impl Setup {
     pub fn check(&self) -> Result<u32, Error> {
         let state = &self.state;
         let State { links, held, motions, births, drains, .. } = state;
-        let (position, velocity, mass, size) = (state.position(), state.velocity(), state.mass(), state.size());
+        let (position, velocity, mass) = (state.position(), state.velocity(), state.mass());
         let (count, life) = (position.len(), &state.life());
         let single = f64::from(f32::MIN_POSITIVE)..=f64::from(f32::MAX);
         if !single.contains(&self.dt) {
@@ -280,24 +336,13 @@ impl Setup {
                 format!("dt is {}: it must be above 0, and no smaller or larger than single precision holds", self.dt);
             return Err(Error::Scene(text));
         }
-        let fits = |x: f64| x.abs() <= f64::from(f32::MAX);
-        let bad = (0..count).find(|i| {
-            let vectors = [position[*i], velocity[*i]];
-            let (mass, size) = (mass[*i], size[*i]);
-            let good = vectors.iter().all(|v| v.to_array().into_iter().all(fits)) && fits(mass) && fits(size);
-            !(good && mass >= 0.0 && size >= 0.0)
-        });
-        if let Some(bad) = bad {
-            return Err(Error::Scene(format!(
-                "particle {bad} has a number that is NaN, infinite or beyond single precision, or a negative mass or size"
-            )));
-        }
+        self.particles()?;
         self.done()?;
-        self.complete()?;
-        self.limited()?;
         self.fluids()?;
         if state.has_ids() {
-            distinct(&state.ids()[..count.saturating_sub(state.free as usize)])?;
+            let ids = state.ids();
+            let given = ids.iter().copied().zip(0..).filter(|(id, place)| *id != NONE || state.is_active(*place));
+            distinct(&given.map(|(id, _)| id).collect::<Vec<_>>())?;
         }
         links.check(mass)?;
         self.solver.check()?;
@@ -320,7 +365,7 @@ impl Setup {
         let held: Vec<u32> = held.iter().map(|held| held.id).collect();
         links.check_rods([position, velocity], &held, &still, |r| self.bounds.shortest(r))?;
         boundary::holds(&self.bounds, position, velocity)?;
-        u32::try_from(count)
+        u32::try_from(state.rows())
             .ok()
             .filter(|n| *n > 0)
             .ok_or_else(|| Error::Scene(format!("there are {count} particles: a simulation takes 1 to {}", u32::MAX)))

@@ -1,5 +1,7 @@
 //! What ties, moves, spawns and removes the particles of a simulation.
 
+use std::collections::BTreeSet;
+
 use super::Simulation;
 use crate::error::Error;
 use crate::kernel::{Array, Backend, Element};
@@ -25,6 +27,22 @@ impl Ties {
         let (links, held, motions) = (state.all_links().into_owned(), held.clone(), motions.clone());
         Self { links, held, motions, births: births.clone(), drains: drains.clone() }
     }
+    /// Where particles are removed.
+    pub fn drains(&self) -> &[Drain] {
+        &self.drains
+    }
+    /// The rows of particles that are tied, fixed or kinematic.
+    pub fn bound(&self) -> BTreeSet<u32> {
+        let springs = self.links.springs.iter().flat_map(|link| link.ends);
+        let rods = self.links.rods.iter().flat_map(|rod| rod.ends);
+        let corners =
+            self.links.joints.iter().map(|joint| joint.ids).chain(self.links.triangles.iter().copied()).flatten();
+        springs.chain(rods).chain(corners).chain(self.held.iter().map(|held| held.id)).collect()
+    }
+    /// The rows of particles that go straight on after their births.
+    pub fn guided(&self) -> impl Iterator<Item = u32> {
+        self.births.iter().filter(|birth| birth.guided > 0.0).map(|birth| birth.id)
+    }
     /// Gives it to a state; the links are as they were at the start, with springs that had broken before.
     pub fn give(&self, state: &mut State) {
         (state.links, state.held) = (self.links.clone(), self.held.clone());
@@ -49,7 +67,7 @@ impl<B: Backend> Simulation<B> {
         if !self.breaks {
             return Ok(self.ties.links.clone());
         }
-        let network = Network::new(self.count, &self.ties.links);
+        let network = Network::new(self.capacity(), &self.ties.links);
         let ends = network.ends() as usize;
         let table = self.backend.read(LINK, &Array::Uint(Vec::new()), ends * WORDS).await?;
         Ok(self.ties.links.intact(&network, u32::view(&table).map_or(&[], Vec::as_slice)))

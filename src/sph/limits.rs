@@ -97,7 +97,7 @@ fn criterion(shares: &Shares, problem: &Problem) -> Result<Kernel, Error> {
         ("speed", Scalar::Float(shares.speed)),
     ];
     let uniforms = shader.block("the limits of a fluid", "params", &params)?;
-    let pass = Pass { uniforms, ..Pass::new(shader, problem.count) };
+    let pass = Pass { uniforms, ..Pass::new(shader, problem.capacity) };
     let (shares, all) = (*shares, problem.clone());
     let reference = move |host: &Host| {
         let (velocity, acceleration) = (host.read(VELOCITY)?, host.read(ACCELERATION)?);

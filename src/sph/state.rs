@@ -29,7 +29,7 @@ pub fn state(medium: &Medium, problem: &Problem) -> Result<Kernel, Error> {
     let mut constants = grid.constants(&shader);
     constants.extend(shader.reflection().known(&medium.constants()));
     let fields = [SORTED_ID, FLOW, STARTS].map(|name| grid.field(name));
-    let pass = Pass { constants, ..Pass::new(shader, problem.count) }.on(&fields);
+    let pass = Pass { constants, ..Pass::new(shader, problem.capacity) }.on(&fields);
     let (starts, cells) = (grid.field(STARTS).1, u64::from(grid.bins()));
     let (me, all) = (*medium, problem.clone());
     let reference = move |host: &Host| {

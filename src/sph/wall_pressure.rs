@@ -54,7 +54,7 @@ pub fn wall_pressure(medium: &Medium, weight: DVec3, problem: &Problem) -> Resul
     };
     let write = Kernel {
         name: "fluid wall state".to_owned(),
-        passes: vec![Pass::new(shader, problem.count).on(&fields)],
+        passes: vec![Pass::new(shader, problem.capacity).on(&fields)],
         reference: Some(Arc::new(reference)),
         sizes: Vec::new(),
         scratch: Vec::new(),

@@ -62,7 +62,7 @@ impl<B: Backend> Oscillator<B> {
     /// When the device is lost.
     pub async fn step(&mut self, dt: f64) -> Result<DMat3, Error> {
         let backend = self.simulation.backend();
-        backend.set_world(World { time: 0.0, dt, step: 0, count: 1, bounds: Bounds::default() })?;
+        backend.set_world(World { time: 0.0, dt, step: 0, count: 1, free: 0, bounds: Bounds::default() })?;
         // Three axes that know nothing of each other are three oscillators: one begins with x, one with v, one with a.
         let state = [(POSITION.name, DVec3::X.extend(1.0)), (VELOCITY.name, DVec4::Y), (ACCELERATION.name, DVec4::Z)];
         for (name, value) in state {

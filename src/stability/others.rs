@@ -37,7 +37,7 @@ pub fn each(setup: &Setup) -> (f64, f64) {
         _ => None,
     });
     let count = u32::try_from(particles.len()).unwrap_or(u32::MAX);
-    let world = World { time: 0.0, dt: setup.dt, step: 0, count, bounds: setup.bounds };
+    let world = World { time: 0.0, dt: setup.dt, step: 0, count, free: 0, bounds: setup.bounds };
     let mut host = Host::default();
     let masses = particles.position().iter().zip(particles.mass()).map(|(x, mass)| x.extend(*mass));
     host.insert(POSITION.name, Array::Vec4(masses.collect()));

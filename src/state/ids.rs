@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::collections::BTreeSet;
 
-use super::{KEPT_NEXT, State};
+use super::{KEPT_NEXT, NONE, State};
 use crate::error::Error;
 use crate::kernel::{Array, ID};
 
@@ -45,7 +45,7 @@ impl State {
     #[must_use]
     pub fn next_id(&self) -> u32 {
         let beyond = match self.whole(ID.name) {
-            Some(ids) => ids.iter().max().map_or(0, |id| id.saturating_add(1)),
+            Some(ids) => ids.iter().filter(|id| **id != NONE).max().map_or(0, |id| id.saturating_add(1)),
             None => u32::try_from(self.len()).unwrap_or(u32::MAX),
         };
         beyond.max(self.next)

@@ -23,6 +23,11 @@ pub(crate) const STEP: &str = "kept_step";
 /// What goes on where positions and velocities are changed by a caller: it says nothing of them.
 const LASTING: [&str; 3] = [HOME, BROKEN, "kept_step_clock"];
 
+/// How many rows were in use when the plan was written, by which cells are chosen too.
+pub(crate) const ROWS: &str = "kept_rows";
+/// How many neighbours of a particle the list had room for.
+pub(crate) const ROOM: &str = "kept_room";
+
 /// The id from which on no particle has had one, in files.
 pub(crate) const NEXT: &str = "kept_next_id";
 

@@ -40,6 +40,7 @@ impl State {
         let idle = |word: &u32| *word != Life::Active.word();
         !self.births.is_empty()
             || !self.drains.is_empty()
+            || self.capacity.is_some()
             || self.whole(LIFE.name).is_some_and(|words| words.iter().any(idle))
     }
     /// How many are pending, active and removed.

@@ -8,7 +8,7 @@ use super::{
 };
 use crate::error::Error;
 use crate::kernel::{Field, Host, Kernel, Name, POSITION, Pass, Problem, Scalar, Shader, Source};
-use crate::primitives::{Items, Operation, radix_sort, reduce};
+use crate::primitives::{Items, Operation, radix_sort, rows};
 
 /// What is not needed any more when a tree is built: all trees share it. First the corners of the box of all.
 pub(super) const LEAST: Field<glam::Vec4> = Field::new("tree_least");
@@ -37,7 +37,7 @@ impl Tree {
         let (machine, count) = (&problem.machine, self.count);
         let position = Name::from(POSITION.name);
         let corner =
-            |operation, into: &'static str| reduce(operation, Items::Vec4, &position, &into.into(), count, machine);
+            |operation, into: &'static str| rows(operation, Items::Vec4, &position, &into.into(), count, machine);
         let sort = |bits| radix_sort(&KEY.name.into(), &self.field(TREE_ID).1, count, bits, machine);
         let mut kernels = vec![
             corner(Operation::Min, LEAST.name)?,
@@ -51,11 +51,13 @@ impl Tree {
             self.levels()?,
         ];
         if let Opening::Relative { alpha, g, .. } = self.opening {
-            let mut pass = self.each(&[crate::shader!("tree/demand.wgsl")], self.groups())?;
-            let (first, nodes) = self.level(self.height().saturating_sub(PULLS));
+            let mut pass = self.each(&[LIVE, crate::shader!("tree/demand.wgsl")], self.groups())?;
+            let above = self.height().saturating_sub(PULLS);
+            let (first, _) = self.level(above);
             pass.constants.extend(problem.constants(&pass.shader));
             pass.constants.extend([("GROUP", f64::from(GROUP)), ("STRICTNESS", g / alpha), ("PART", g * PART)]);
-            pass.constants.extend([("FIRST", first), ("NODES", nodes)].map(|(name, n)| (name, f64::from(n))));
+            pass.constants
+                .extend([("FIRST", first), ("ABOVE", above), ("LEAF", LEAF)].map(|(name, n)| (name, f64::from(n))));
             pass.work = 3 * u64::from(count);
             kernels.push(self.kernel("demand", pass, reference::demand));
         }
@@ -85,7 +87,7 @@ impl Tree {
         Kernel {
             name: format!("{name} {}", self.name()),
             passes: vec![pass],
-            reference: Some(Arc::new(move |host: &Host| reference(&tree, host))),
+            reference: Some(Arc::new(move |host: &Host| reference(&tree.of_rows(host.world().count), host))),
             sizes: [corners.to_vec(), self.sizes()].concat(),
             scratch: Vec::new(),
             tables: Vec::new(),
@@ -105,21 +107,16 @@ impl Tree {
     /// The leaves, and each level above them.
     fn levels(&self) -> Result<Kernel, Error> {
         let node = crate::shader!("tree/node.wgsl");
-        let leaf = self.each(&[node.clone(), crate::shader!("tree/leaf.wgsl")], 1)?;
-        let inner = self.each(&[node, crate::shader!("tree/inner.wgsl")], 1)?;
+        let leaf = self.each(&[node.clone(), LIVE, crate::shader!("tree/leaf.wgsl")], 1)?;
+        let inner = self.each(&[node, LIVE, crate::shader!("tree/inner.wgsl")], 1)?;
         let mut passes = Vec::new();
         for above in 0..=self.height() {
             let (first, nodes) = self.level(above);
-            let below = if above == 0 { 0 } else { self.level(above - 1).1 };
             let pass = if above == 0 { &leaf } else { &inner };
-            let values =
-                [("first", first), ("nodes", nodes), ("below", below)].map(|(name, n)| (name, Scalar::Uint(n)));
+            let values = [("first", first), ("above", above)].map(|(name, n)| (name, Scalar::Uint(n)));
             let block = pass.shader.reflection().binding("level");
             let block = block.map_or(Ok(Vec::new()), |b| b.packed.pack("level", &values))?;
-            let mut constants = vec![("OPENING", self.stretch()), ("CORE", self.core)];
-            if above == 0 {
-                constants.push(("LEAF", f64::from(LEAF)));
-            }
+            let constants = vec![("OPENING", self.stretch()), ("CORE", self.core), ("LEAF", f64::from(LEAF))];
             passes.push(Pass {
                 constants,
                 uniforms: vec![("level", block)],
@@ -132,4 +129,5 @@ impl Tree {
     }
 }
 
+const LIVE: Source = crate::shader!("tree/live.wgsl");
 const HILBERT: Source = crate::shader!("tree/hilbert.wgsl");

@@ -31,17 +31,24 @@ pub struct Tree {
     pub opening: Opening,
     /// A node is opened, too, where any place in its box may be nearer than this \[length\]: there the law has no expansion.
     pub core: f64,
-    /// Particles in it.
+    /// Rows that it has room for.
     pub count: u32,
+    /// Rows in it: those in use.
+    pub used: u32,
 }
 
 impl Tree {
     /// Over all particles of a problem.
     #[must_use]
     pub fn new(opening: Opening, core: f64, problem: &Problem) -> Self {
-        Self { opening, core, count: problem.count }
+        Self { opening, core, count: problem.capacity, used: problem.capacity }
     }
-    /// How many leaves there are.
+    /// The same over the rows that are in use.
+    #[must_use]
+    pub fn of_rows(&self, used: u32) -> Self {
+        Self { used: used.min(self.count), ..self.clone() }
+    }
+    /// How many leaves there is room for.
     #[must_use]
     pub fn leaves(&self) -> u32 {
         self.count.div_ceil(LEAF).max(1)
@@ -65,7 +72,7 @@ impl Tree {
     #[must_use]
     pub fn level(&self, above: u32) -> (u32, u32) {
         let wide = 1_u64 << (self.height().saturating_sub(above));
-        let nodes = u64::from(self.count.div_ceil(LEAF)).div_ceil(1 << above.min(self.height()));
+        let nodes = u64::from(self.used.div_ceil(LEAF)).div_ceil(1 << above.min(self.height()));
         // Below 2³²: there are four particles for each leaf.
         [wide, nodes].map(|n| u32::try_from(n).unwrap_or(u32::MAX)).into()
     }
@@ -85,7 +92,7 @@ impl Tree {
         let level = n.checked_ilog2().unwrap_or(0);
         let bodies = u64::from(LEAF) << self.height().saturating_sub(level);
         let first = u64::from(n.saturating_sub(1 << level)) * bodies;
-        let place = |k: u64| usize::try_from(k.min(self.count.into())).unwrap_or(usize::MAX);
+        let place = |k: u64| usize::try_from(k.min(self.used.into())).unwrap_or(usize::MAX);
         place(first)..place(first + bodies)
     }
     /// How far a node of side 1 reaches.

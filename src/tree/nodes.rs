@@ -27,7 +27,7 @@ impl<'a> Nodes<'a> {
     pub fn of(tree: &Tree, host: &'a Host) -> Result<Self, Error> {
         let vectors = |name| host.reading::<Vec4>(&tree.field(name).1);
         Ok(Self {
-            tree: tree.clone(),
+            tree: tree.of_rows(host.world().count),
             ids: host.reading(&tree.field(TREE_ID).1)?,
             bodies: vectors(TREE_BODY)?,
             center: vectors(TREE_CENTER)?,

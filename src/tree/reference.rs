@@ -27,7 +27,7 @@ pub(super) fn keys(tree: &Tree, host: &Host) -> Result<(), Error> {
     let cube = cube.first().map_or(Vec4::ZERO, |c| c.as_vec4());
     let (mut lower, mut upper) = (host.write(KEY)?, host.write(UPPER)?);
     let mut ids = host.writing::<u32>(&tree.field(TREE_ID).1)?;
-    for (i, position) in position.iter().enumerate().take(tree.count as usize) {
+    for (i, position) in position.iter().enumerate().take(tree.used as usize) {
         let away = (position.as_vec4().truncate() - cube.truncate()) * cube.w;
         #[expect(
             clippy::cast_possible_truncation,
@@ -39,6 +39,10 @@ pub(super) fn keys(tree: &Tree, host: &Host) -> Result<(), Error> {
         lower[i] = u32::try_from(key & ((1 << curve::LOWER) - 1)).unwrap_or(0);
         upper[i] = u32::try_from(key >> curve::LOWER).unwrap_or(0);
         ids[i] = u32::try_from(i).unwrap_or(u32::MAX);
+    }
+    // Free rows come last.
+    for i in tree.used as usize..tree.count as usize {
+        (lower[i], upper[i], ids[i]) = (u32::MAX, u32::MAX, u32::try_from(i).unwrap_or(u32::MAX));
     }
     Ok(())
 }
@@ -53,7 +57,9 @@ pub(super) fn upper(tree: &Tree, host: &Host) -> Result<(), Error> {
 
 pub(super) fn carry(tree: &Tree, host: &Host) -> Result<(), Error> {
     let (ids, position) = (host.reading::<u32>(&tree.field(TREE_ID).1)?, host.read(POSITION)?);
-    for (body, id) in host.writing::<Vec4>(&tree.field(TREE_BODY).1)?.iter_mut().zip(ids.iter()) {
+    for (body, id) in
+        host.writing::<Vec4>(&tree.field(TREE_BODY).1)?.iter_mut().zip(ids.iter()).take(tree.used as usize)
+    {
         *body = position.get(*id as usize).copied().unwrap_or(DVec4::ZERO);
     }
     Ok(())
@@ -99,7 +105,7 @@ pub(super) fn demand(tree: &Tree, host: &Host) -> Result<(), Error> {
         PART * g * (first as usize..(first + nodes) as usize).map(pull).sum::<f64>()
     };
     let mut demand = host.writing::<f32>(&tree.field(TREE_DEMAND).1)?;
-    let groups = ids.chunks(GROUP as usize).zip(bodies.iter().step_by(GROUP as usize));
+    let groups = ids[..tree.used as usize].chunks(GROUP as usize).zip(bodies.iter().step_by(GROUP as usize));
     for (demand, (group, body)) in demand.iter_mut().zip(groups) {
         let last = group.iter().filter_map(|id| acceleration.get(*id as usize)).map(|a| a.truncate().length());
         let least = last.fold(f64::INFINITY, f64::min);

@@ -35,6 +35,7 @@ const CHANGE: Field<f32> = Field::new("thermostat_change");
 /// it, which is reversible (Martyna, Tuckerman, Tobias & Klein, Mol. Phys. 87, 1117, 1996), so that
 /// K + U + N k T (τ² ξ² / 2 + η), with η the integral of ξ, swings by dt² and does not drift. Few or harmonic particles do not visit all
 /// states that they should (Hoover 1985): a single oscillator keeps to its torus.
+#[derive(Clone)]
 pub struct NoseHoover {
     temperature: f64,
     time: f64,
@@ -60,7 +61,7 @@ impl NoseHoover {
         if !problem.network.rods.is_empty() {
             return refuse("counts three degrees of freedom of a particle, and rods take some of them: leave out the rods");
         }
-        let free = (0..problem.count as usize).filter(|id| !problem.is_held(*id)).count();
+        let free = (0..problem.capacity as usize).filter(|id| !problem.is_held(*id)).count();
         let freedoms = free as f64 * f64::from(problem.bounds.dimensions) - self.removed;
         if freedoms <= 0.0 {
             return Err(Error::Scene(format!(
@@ -73,7 +74,7 @@ impl NoseHoover {
     /// Kernels of a part of a step.
     fn part(&self, factor: f64, problem: &Problem) -> Result<Vec<Kernel>, Error> {
         let (field, total): (Name, Name) = (KINETIC.name.into(), TOTAL.name.into());
-        let mut sum = reduce(Operation::Sum, Items::Vec4, &field, &total, problem.count, &problem.machine)?;
+        let mut sum = reduce(Operation::Sum, Items::Vec4, &field, &total, problem.capacity, &problem.machine)?;
         sum.name = "thermostat total".into();
         Ok(vec![kinetic(problem)?, sum, self.advance(factor, problem)?, scale(problem)?])
     }
@@ -115,7 +116,7 @@ impl NoseHoover {
 fn each(name: &str, file: Source, problem: &Problem, reference: Reference) -> Result<Kernel, Error> {
     let (holding, tables) = problem.holding();
     let shader = Shader::join(&[crate::shader!("world.wgsl"), holding, file])?;
-    let passes = vec![Pass::new(shader, problem.count)];
+    let passes = vec![Pass::new(shader, problem.capacity)];
     let sizes = vec![(CHANGE.name.into(), 1)];
     Ok(Kernel { name: name.to_owned(), passes, reference: Some(reference), sizes, scratch: Vec::new(), tables })
 }

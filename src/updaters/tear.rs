@@ -17,6 +17,7 @@ pub const KEYS: &[Key] = &[
 ];
 
 /// `tear`: at the end of a step, springs and ropes that are longer than (1 + strain) L break, for ever. Their energy is gone.
+#[derive(Clone)]
 pub struct Tear(f64);
 
 impl Tear {
@@ -64,8 +65,8 @@ impl Component for Tear {
             crate::shader!("updaters/tear.wgsl"),
         ])?;
         let constants = [problem.constants(&shader), vec![("STRAIN", self.0)]].concat();
-        let work = u64::from(problem.count) + u64::from(problem.network.ends());
-        let pass = Pass { constants, work, ..Pass::new(shader, problem.count) };
+        let work = u64::from(problem.capacity) + u64::from(problem.network.ends());
+        let pass = Pass { constants, work, ..Pass::new(shader, problem.capacity) };
         let (name, reference, passes) = (format!("tear STRAIN={}", self.0), Some(self.reference()), vec![pass]);
         let (sizes, scratch, tables) = (Vec::new(), Vec::new(), Vec::new());
         plan.add(visit::bind(Kernel { name, passes, reference, sizes, scratch, tables }, Over::Links, problem));

@@ -20,7 +20,7 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
     let mut constants = problem.constants(&shader);
     constants.extend(law.mark());
     let sizes = law.alarm();
-    let pass = Pass { constants, uniforms, ..Pass::new(shader, problem.count) };
+    let pass = Pass { constants, uniforms, ..Pass::new(shader, problem.capacity) };
     Ok(Kernel {
         name: law.name,
         passes: vec![pass],

@@ -68,7 +68,7 @@ impl Law {
             });
             Ok(())
         };
-        let pass = Pass { constants, uniforms, ..Pass::new(shader, problem.count) };
+        let pass = Pass { constants, uniforms, ..Pass::new(shader, problem.capacity) };
         Ok(Kernel {
             name: format!("{} rows", self.name),
             passes: vec![pass],

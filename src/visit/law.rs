@@ -436,7 +436,7 @@ impl Law {
                 )));
             }
             if column.shape != crate::kernel::Shape::Particle {
-                sizes.push((column.name.clone(), column.shape.len(problem.count as usize) as u64));
+                sizes.push((column.name.clone(), column.shape.len(problem.capacity as usize) as u64));
             }
         }
         kernel.sizes.extend(sizes);

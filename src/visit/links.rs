@@ -82,8 +82,8 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
         Over::Triangles => network.triangle_start.last(),
         _ => network.link_start.last(),
     };
-    let work = u64::from(problem.count) + u64::from(elements.copied().unwrap_or(0));
-    let pass = Pass { constants, uniforms, work, ..Pass::new(shader, problem.count) };
+    let work = u64::from(problem.capacity) + u64::from(elements.copied().unwrap_or(0));
+    let pass = Pass { constants, uniforms, work, ..Pass::new(shader, problem.capacity) };
     let sizes = law.alarm();
     let reference = match &law.tied {
         Some(reference) => Some(reference(tables)),

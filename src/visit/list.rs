@@ -42,7 +42,7 @@ pub fn shared(laws: &[Law], problem: &Problem) -> Result<Option<ListShape>, Erro
         shape = Some(ListShape { range: known.range.max(range), words: known.words.max(slots), ..known });
     }
     let shape = shape.map(|shape| ListShape { skin: reach - shape.range, ..shape });
-    Ok(shape.map(|shape| shape.with_room(UNCOUNTED, problem.count)))
+    Ok(shape.map(|shape| shape.with_room(UNCOUNTED, problem.capacity)))
 }
 
 /// The kernel of a law over the list, with so many words of history.
@@ -85,8 +85,8 @@ pub fn kernel(law: Law, range: f64, slots: u32, problem: &Problem) -> Result<Ker
     }
     let mut passes = Vec::new();
     let mut first = 0;
-    while first < problem.count {
-        let rows = ROWS.min(problem.count - first);
+    while first < problem.capacity {
+        let rows = ROWS.min(problem.capacity - first);
         let mut pass =
             Pass { constants: constants.clone(), uniforms: uniforms.clone(), ..Pass::new(shader.clone(), 0) };
         if first > 0 {
@@ -97,6 +97,6 @@ pub fn kernel(law: Law, range: f64, slots: u32, problem: &Problem) -> Result<Ker
         first += rows;
     }
     let mut sizes = law.alarm();
-    sizes.extend([(LIST.into(), list.elements(problem.count)), (HISTORY.into(), list.words(problem.count))]);
+    sizes.extend([(LIST.into(), list.elements(problem.capacity)), (HISTORY.into(), list.words(problem.capacity))]);
     Ok(Kernel { name: law.name, passes, reference: law.reference, sizes, scratch: Vec::new(), tables: Vec::new() })
 }

@@ -104,7 +104,7 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
     if let Over::Nearest { count } = law.over {
         constants.push(("COUNT", f64::from(count)));
     }
-    let mut targets = problem.count;
+    let mut targets = problem.capacity;
     if let Some(search) = &law.search {
         targets = search.targets(problem);
         constants.extend(shader.reflection().known(&search.constants));

@@ -69,14 +69,14 @@ fn join(visit: Source, law: &Law, problem: &Problem) -> Result<Arc<Shader>, Erro
 }
 
 pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
-    let (count, machine) = (problem.count, &problem.machine);
+    let (count, machine) = (problem.capacity, &problem.machine);
     law.requires_meetings()?;
     law.over.range().map_or(Ok(()), checked)?;
     let shader = join(variant(machine), &law, problem)?;
     let reflection = shader.reflection();
     let (targets, block) = (reflection.constant("TARGETS"), reflection.constant("BLOCK"));
     let sources = law.sources(SOURCES, targets, machine.software);
-    let cut = Cut::new(count, targets, block, machine, sources);
+    let cut = Cut::new(problem.particles, targets, block, machine, sources);
     let params = law.uniforms(&shader)?;
     let mut common = problem.constants(&shader);
     common.extend(law.over.range().map(|range| ("RANGE", range)));
@@ -133,7 +133,7 @@ mod tests {
         let cpu = Machine { software: true, subgroup: 8, invocations: 1, ..Machine::HOST };
         for machine in [gpu, cpu] {
             for count in [1, 2, 127, 128, 129, 1000, 4096, 65_537, 1 << 20, 8_388_608, 134_217_728] {
-                let cut = Cut::new(count, 4, 128, &machine, SOURCES);
+                let cut = Cut::new(problem.particles, 4, 128, &machine, SOURCES);
                 assert_eq!(cut.slice % 128, 0, "{cut:?}");
                 assert!((1..=LAYERS).contains(&cut.layers) && cut.slice > 0 && cut.slice <= SOURCES, "{cut:?}");
                 let met = cut.sources().min(u64::from(count)) * u64::from(count);

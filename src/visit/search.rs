@@ -52,7 +52,7 @@ impl Law {
 impl Search {
     /// Particles that search: the first so many of those in the grid.
     pub(super) fn targets(&self, problem: &Problem) -> u32 {
-        if self.fixed { problem.count } else { self.grid.ahead(problem) }
+        if self.fixed { problem.capacity } else { self.grid.ahead(problem) }
     }
     /// Binds the fields of the grid, and ends a search where particles do that are not fixed.
     pub(super) fn bind(&self, kernel: &mut Kernel) {

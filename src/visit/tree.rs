@@ -39,7 +39,7 @@ impl Over {
     #[must_use]
     pub fn chosen(self, problem: &Problem) -> Self {
         match self {
-            Self::Tree { auto: true, .. } if problem.count < crossing(&problem.machine) => Self::Pairs,
+            Self::Tree { auto: true, .. } if problem.particles < crossing(&problem.machine) => Self::Pairs,
             other => other,
         }
     }
@@ -137,7 +137,7 @@ pub fn kernel(law: Law, tree: &Tree, problem: &Problem) -> Result<Kernel, Error>
         constants.push(("MOST", f64::from(machine.turns)));
         groups = groups.min(u32::try_from(KEPT / kept.stride / u64::from(GROUP)).unwrap_or(groups)).max(1);
     }
-    let rounds = rounds(tree, machine).min((MOST / problem.count.div_ceil(groups * GROUP).max(1)).max(MORE));
+    let rounds = rounds(tree, machine).min((MOST / problem.capacity.div_ceil(groups * GROUP).max(1)).max(MORE));
     let rest = if rounds == 0 {
         None
     } else {
@@ -146,8 +146,8 @@ pub fn kernel(law: Law, tree: &Tree, problem: &Problem) -> Result<Kernel, Error>
     };
     let mut passes = Vec::new();
     let mut first = 0;
-    while first < problem.count {
-        let end = problem.count.min(first.saturating_add(groups * GROUP));
+    while first < problem.capacity {
+        let end = problem.capacity.min(first.saturating_add(groups * GROUP));
         let walk = |again: u32| -> Result<Pass, Error> {
             let mut uniforms = params.clone();
             if let Some(binding) = shader.reflection().binding("tree") {
@@ -200,7 +200,7 @@ fn meetings(tree: &Tree, problem: &Problem) -> f64 {
         Opening::Relative { .. } => 0.6,
     };
     // Far groups are those of a few shells on each level; one costs about as much as three meetings.
-    (700.0 + 180.0 * levels / theta.powi(2)).min(f64::from(problem.count))
+    (700.0 + 180.0 * levels / theta.powi(2)).min(f64::from(problem.particles))
 }
 
 /// The block `tree` of a shader, for some targets, by their places along the curve.
@@ -208,8 +208,6 @@ fn uniform(tree: &Tree, binding: &Binding, targets: Range<u32>, again: u32) -> R
     let values = [
         ("first", Scalar::Uint(targets.start)),
         ("end", Scalar::Uint(targets.end)),
-        ("count", Scalar::Uint(tree.count)),
-        ("leaves", Scalar::Uint(tree.leaves())),
         ("height", Scalar::Uint(tree.height())),
         ("widened", Scalar::Float(1.0 / tree.opening.theta() - 1.0)),
         ("again", Scalar::Uint(again)),

@@ -81,9 +81,9 @@ pub fn reference(
     Arc::new(move |host| {
         let view = View::of(host)?;
         let (bodies, world) = (view.particles(), host.world());
-        let tree = Tree { opening, core, count: world.count };
+        let tree = Tree { opening, core, count: world.capacity(), used: world.count };
         let nodes = Nodes::of(&tree, host)?;
-        if nodes.ids().iter().any(|id| *id as usize >= bodies.len()) {
+        if nodes.ids().iter().take(tree.used as usize).any(|id| *id as usize >= bodies.len()) {
             return Err(Error::Scene(format!("the tree {opening} is not one of these {} particles", bodies.len())));
         }
         let meet = |me: &Particle, met: &Met| -> DVec4 {
@@ -98,7 +98,7 @@ pub fn reference(
             });
             near.sum::<DVec4>() + far.sum::<DVec4>()
         };
-        let slots: Vec<usize> = (0..tree.count as usize).collect();
+        let slots: Vec<usize> = (0..tree.used as usize).collect();
         let sums: Vec<(usize, DVec4)> = slots
             .par_chunks(GROUP as usize)
             .enumerate()

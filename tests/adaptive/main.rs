@@ -27,6 +27,7 @@ const SPACING: f64 = 0.1;
 const LENGTH: f64 = 0.1;
 
 /// A force that does nothing and limits nothing: steps end where the run stops.
+#[derive(Clone)]
 struct Free;
 
 impl Component for Free {
@@ -42,6 +43,7 @@ impl Component for Free {
 }
 
 /// The limits of a fluid without sound, and nothing else of it.
+#[derive(Clone)]
 struct Silent;
 
 impl Silent {

@@ -6,6 +6,7 @@ mod ledger;
 mod lockstep;
 mod refusals;
 mod schedule;
+mod spawn;
 #[path = "../support/mod.rs"]
 mod support;
 

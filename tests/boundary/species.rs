@@ -11,6 +11,7 @@ use crate::setup;
 use crate::support;
 
 /// Pushes by species.
+#[derive(Clone)]
 struct Sorting;
 
 impl Component for Sorting {

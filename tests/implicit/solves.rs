@@ -128,6 +128,7 @@ fn newton_converges_on_a_cloth() {
 }
 
 /// A spring whose Jacobian is exact, as it should not be.
+#[derive(Clone)]
 struct Exact;
 
 impl Component for Exact {

@@ -40,6 +40,7 @@ const TICKS: u32 = 1 << 24;
 pub const NONE: u32 = u32::MAX;
 
 /// Wants so many steps for viscosity.
+#[derive(Clone)]
 struct Thick(f64);
 
 impl Component for Thick {

@@ -20,6 +20,7 @@ use crate::support::{Random, Shared};
 use crate::{fluids as stages_of_fluids, held};
 
 /// The limits of a fluid without sound.
+#[derive(Clone)]
 struct Silent;
 
 impl Silent {

@@ -199,7 +199,7 @@ fn most(plan: &mut Plan, most: f64) {
 fn halves(plan: &mut Plan, problem: &Problem) {
     let (grid, _) = law(MOVING, ONE).grid(problem).expect("a range").expect("a grid");
     let whole = plan.kernels[1].passes.remove(0);
-    for (first, end) in [(0, 64), (64, problem.count)] {
+    for (first, end) in [(0, 64), (64, problem.capacity)] {
         let mut pass = whole.clone();
         let block = pass.shader.reflection().binding("grid").expect("a block").clone();
         pass.uniforms.retain(|(name, _)| *name != "grid");

@@ -267,6 +267,7 @@ fn first_step(device: &Device, kernel: &Kernel) -> Stage {
 }
 
 /// A law that reads everything that a visit passes to it: the other particle, its index too, and where it is.
+#[derive(Clone)]
 struct Curious;
 
 impl Component for Curious {

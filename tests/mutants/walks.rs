@@ -85,6 +85,7 @@ fn gravity(words: [&'static str; 2], theta: f64, alpha: f64) -> Box<dyn Componen
 }
 
 /// A law that adds up whole numbers, so that another pair, or a pair evaluated another way, is seen whatever it weighs.
+#[derive(Clone)]
 struct Counted(Opening);
 
 impl Component for Counted {

@@ -9,6 +9,7 @@ use crate::support::states::integrator;
 use crate::support::{Shared, machines};
 
 /// Counts the pairs of each particle, and adds their ids and the eighths of the way to them; all below 2²⁴.
+#[derive(Clone)]
 pub struct Whole(pub Over);
 
 const WHOLE: &str = "fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {

@@ -16,6 +16,7 @@ const PART: f64 = 1.0 / 1_048_576.0;
 const RANGE: f64 = 0.31;
 
 /// Counts the steps that each pair has been in range without a break, and the ids that it has seen on the way.
+#[derive(Clone)]
 struct Steps {
     skin: f64,
 }
@@ -129,6 +130,7 @@ fn a_map_by_ids_remembers_the_same() {
 }
 
 /// A contact: a spring along the way, and one across it that is wound up by sliding.
+#[derive(Clone)]
 struct Contact;
 
 impl Component for Contact {
@@ -206,6 +208,7 @@ fn what_cannot_remember_is_refused() {
     };
     let text = refusal(vec![Box::new(Contact), Box::new(Steps { skin: 0.1 })]);
     assert!(text.contains("`steps` the second of them") && text.contains("slots for one"), "{text}");
+    #[derive(Clone)]
     struct Forgetful;
     impl Component for Forgetful {
         fn laws(&self) -> Vec<Law> {

@@ -21,6 +21,7 @@ use crate::{Curious, variants};
 const PART: f64 = 1.0 / 1_048_576.0;
 
 /// The whole law, so weak that particles move on.
+#[derive(Clone)]
 struct Weak(Over);
 
 impl Component for Weak {

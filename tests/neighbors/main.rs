@@ -29,6 +29,7 @@ use support::states::integrator;
 use support::{Shared, machines};
 
 /// A law that looks at everything that a visit passes to it, and vanishes at no edge.
+#[derive(Clone)]
 pub struct Curious(pub Over);
 
 impl Component for Curious {

@@ -55,6 +55,7 @@ fn the_shortest_and_the_longest_ranges_search() {
 }
 
 /// Half of a law.
+#[derive(Clone)]
 struct Half(Over);
 
 impl Component for Half {

@@ -39,7 +39,7 @@ fn sound(grid: &Grid, problem: &Problem) {
     assert!(ends.clone().all(f32::is_finite), "{grid:?} for {problem:?}");
     assert!(grid.per_cell.as_vec3().min_element() >= f32::MIN_POSITIVE, "{grid:?} for {problem:?}");
     let candidates = grid.candidates(problem);
-    assert!(candidates >= 1.0 && candidates <= f64::from(problem.count), "{candidates} for {problem:?}");
+    assert!(candidates >= 1.0 && candidates <= f64::from(problem.capacity), "{candidates} for {problem:?}");
 }
 
 #[test]

@@ -41,6 +41,7 @@ fn force(me: Particle) -> vec4f {
 }";
 
 /// A law with other text in place of that which looks at its turns.
+#[derive(Clone)]
 struct Changed {
     law: Custom,
     turns: String,

@@ -110,6 +110,7 @@ fn a_free_chain_keeps_momentum_and_spin() {
 }
 
 /// The first particle is pulled, and no other.
+#[derive(Clone)]
 struct Pull;
 
 impl Component for Pull {

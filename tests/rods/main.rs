@@ -24,6 +24,7 @@ const G: f64 = 9.81;
 const HELD: f64 = 4096.0;
 
 /// Weight of all that is not held.
+#[derive(Clone)]
 struct Weight;
 
 impl Component for Weight {

@@ -14,6 +14,7 @@ pub const FIELD: f64 = 1.7;
 
 /// `charge` leaks away by a sum; `angle` swings about 0 by a state, which a sum turns back; `dose` adds up x, in the last
 /// component of the same buffers; `tracer` is carried along with sin x.
+#[derive(Clone)]
 pub struct Columned;
 
 const LEAKS: &str = "@group(3) @binding(0) var<storage, read> charge: array<f32>;
@@ -82,6 +83,7 @@ impl Component for Columned {
 }
 
 /// Rigid bodies, on whose dipoles along their first axes a field along z may act.
+#[derive(Clone)]
 pub struct Bodies {
     pub field: bool,
 }
@@ -104,6 +106,7 @@ impl Component for Bodies {
 }
 
 /// What has several values for each particle, and what is of the whole system; each goes on by a state.
+#[derive(Clone)]
 pub struct Grouped;
 
 impl Component for Grouped {

@@ -47,6 +47,7 @@ pub fn gravity(over: &'static str, settings: Settings) -> Box<dyn Component> {
 }
 
 /// One law as a force.
+#[derive(Clone)]
 pub struct Alone(pub Law);
 
 impl Component for Alone {

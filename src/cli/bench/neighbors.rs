@@ -23,6 +23,7 @@ const DT: f64 = 0.01;
 const FORCED: u32 = 100_000;
 
 /// FLAME GPU's benchmark of neighbours, one agent per unit of volume.
+#[derive(Clone)]
 struct Circles(Over);
 
 impl Component for Circles {

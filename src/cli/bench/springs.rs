@@ -55,6 +55,7 @@ pub fn bench(args: &BenchArgs, found: &gpu::Found) -> Result<serde_json::Value, 
 }
 
 /// The symplectic Euler method with a dispatch for every kernel.
+#[derive(Clone)]
 struct Apart;
 
 impl Integrator for Apart {

@@ -100,7 +100,7 @@ impl Step<'_> {
     /// A drift with what is carried along. From its middle particles do not go on, but from its start the whole way: where they come
     /// to is rounded once.
     pub(super) fn drift_carrying(&mut self, factor: f64) {
-        let (count, kicked) = (self.problem.count, self.kicked.take());
+        let (count, kicked) = (self.problem.capacity, self.kicked.take());
         self.add(copy(count, "start", POSITION, START_POSITION));
         self.kicked = kicked;
         self.go(0.5 * factor);
@@ -178,9 +178,9 @@ impl Step<'_> {
     /// solve leaves positions at the end; the others are kicked and drift, as by symplectic Euler.
     pub(super) fn solved_pairs(&mut self, factor: f64, until: f64) {
         if self.carries() {
-            self.add(update::reach(self.problem.count, 0.5 * factor));
+            self.add(update::reach(self.problem.capacity, 0.5 * factor));
             self.carry(factor, until - 0.5 * factor);
-            self.add(update::reach(self.problem.count, factor));
+            self.add(update::reach(self.problem.capacity, factor));
         }
         self.kick_pairs(factor);
         self.drift_pairs(factor);
@@ -188,7 +188,7 @@ impl Step<'_> {
     /// From the middle of the step to its end, with the rates that the middle has; velocities are those of the middle still.
     pub(super) fn extrapolated_pairs(&mut self) {
         if self.carries() {
-            self.add(update::reach(self.problem.count, 0.75));
+            self.add(update::reach(self.problem.capacity, 0.75));
             self.carry(0.5, 0.75);
         }
         self.drift_pairs(0.5);

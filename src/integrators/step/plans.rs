@@ -22,7 +22,7 @@ impl<'a> Step<'a> {
             self.evaluate();
         }
         self.dt_criteria();
-        self.add(watch::kernel(self.problem.count));
+        self.add(watch::kernel(self.problem.capacity));
         self.watch_pairs();
         self.finished()
     }
@@ -41,7 +41,7 @@ impl<'a> Step<'a> {
         self.populate();
         // Particles just spawned take part in the criterion for their first step.
         self.dt_criteria();
-        self.add(watch::kernel(self.problem.count));
+        self.add(watch::kernel(self.problem.capacity));
         self.watch_pairs();
         self.finished()
     }
@@ -77,7 +77,7 @@ impl<'a> Step<'a> {
     /// # Errors
     /// The first thing that went wrong while they were written.
     pub fn measurement(forces: &'a [Box<dyn Component>], problem: Problem) -> Result<(Plan, Plan), Error> {
-        let count = problem.count;
+        let count = problem.capacity;
         let mut before = Self::new(forces, problem.clone());
         before.add(keep::keep(count));
         before.keep_rates(false);

@@ -70,7 +70,7 @@ impl Step<'_> {
     /// is: [`settle`](Step::settle) brings them to where they may be.
     pub fn solve(&mut self, by: Implicit) {
         let which = implicit(self.forces);
-        let (count, factor, solver) = (self.problem.count, by.part, self.problem.solver);
+        let (count, factor, solver) = (self.problem.capacity, by.part, self.problem.solver);
         self.add(copy(count, "start", POSITION, START_POSITION));
         self.add(copy(count, "start", VELOCITY, START_VELOCITY));
         let explicit = which.iter().any(|enters| !enters);
@@ -132,8 +132,8 @@ impl Step<'_> {
     /// v ← 2 v − v₀.
     pub fn extrapolate(&mut self) {
         self.extrapolated_pairs();
-        self.add(update::reach(self.problem.count, 1.0));
-        self.add(update::extrapolate(self.problem.count));
+        self.add(update::reach(self.problem.capacity, 1.0));
+        self.add(update::extrapolate(self.problem.capacity));
     }
     /// Velocities and positions become what they may be, after a part of the step.
     pub fn settle(&mut self, factor: f64) {
@@ -146,7 +146,7 @@ impl Step<'_> {
     /// The accelerations before implicit laws add theirs.
     fn again(&mut self, explicit: bool) {
         if explicit {
-            self.add(copy(self.problem.count, "restore explicit", EXPLICIT, ACCELERATION));
+            self.add(copy(self.problem.capacity, "restore explicit", EXPLICIT, ACCELERATION));
         } else {
             self.clear();
         }

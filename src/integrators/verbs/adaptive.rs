@@ -21,7 +21,7 @@ const DIGITS: u32 = 11;
 /// The maximum of all dt criteria.
 pub fn measure(problem: &Problem) -> Result<Kernel, Error> {
     let (all, most) = (STEP_CRITERIA.name.into(), LARGEST_CRITERION.name.into());
-    let kernel = reduce(Operation::Max, Items::Vec4, &all, &most, problem.count, &problem.machine)?;
+    let kernel = reduce(Operation::Max, Items::Vec4, &all, &most, problem.capacity, &problem.machine)?;
     Ok(Kernel { name: "largest criterion".to_owned(), ..kernel })
 }
 
@@ -119,6 +119,6 @@ pub fn limiting_particle(adaptive_step: &AdaptiveStep, problem: &Problem) -> Res
         }
         Ok(())
     };
-    let kernel = Kernel::new("limiting particle", shader, Vec::new(), problem.count, Arc::new(reference));
+    let kernel = Kernel::new("limiting particle", shader, Vec::new(), problem.capacity, Arc::new(reference));
     Ok(Kernel { sizes: sizes(), tables: tables(adaptive_step, problem.dt), ..kernel })
 }

@@ -105,7 +105,7 @@ fn drain(problem: &Problem, drain: Drain, number: u32) -> Result<Kernel, Error> 
         }
         Ok(())
     };
-    let pass = Pass { uniforms: vec![("params", params)], ..Pass::new(shader, problem.count) };
+    let pass = Pass { uniforms: vec![("params", params)], ..Pass::new(shader, problem.capacity) };
     Ok(Kernel {
         name: format!("drain {number}"),
         passes: vec![pass],
@@ -158,5 +158,5 @@ fn rest(problem: &Problem) -> Result<Kernel, Error> {
         acceleration.iter_mut().enumerate().filter(|(id, _)| !is_active(*id)).for_each(|(_, a)| *a = DVec4::ZERO);
         Ok(())
     };
-    Ok(Kernel::new("rest", shader, Vec::new(), problem.count, Arc::new(reference)))
+    Ok(Kernel::new("rest", shader, Vec::new(), problem.capacity, Arc::new(reference)))
 }

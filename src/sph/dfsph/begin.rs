@@ -42,6 +42,6 @@ pub fn kernel(of: &Dfsph<'_>) -> Result<Kernel, Error> {
         Ok(())
     };
     let files = [crate::shader!("sph/dfsph/begin.wgsl")];
-    let kernel = of.plain("fluid begin", &files, &[], of.problem.count, Arc::new(reference))?;
+    let kernel = of.plain("fluid begin", &files, &[], of.problem.capacity, Arc::new(reference))?;
     Ok(with(kernel, &[("FEWEST", fewest), ("WARM", WARM), ("RELAXATION", relaxes)]))
 }

@@ -29,7 +29,7 @@ pub fn collect(of: &Dfsph<'_>) -> Result<Kernel, Error> {
         Ok(())
     };
     let files = [crate::shader!("sph/dfsph/collect.wgsl")];
-    of.plain("fluid collect", &files, &[], of.problem.count, Arc::new(reference))
+    of.plain("fluid collect", &files, &[], of.problem.capacity, Arc::new(reference))
 }
 
 /// The second begins: what the density will be at the end of the step.

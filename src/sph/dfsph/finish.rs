@@ -28,5 +28,5 @@ pub fn kernel(of: &Dfsph<'_>) -> Result<Kernel, Error> {
         Ok(())
     };
     let files = [crate::shader!("sph/dfsph/finish.wgsl")];
-    of.plain("fluid finish", &files, &[], of.problem.count, Arc::new(reference))
+    of.plain("fluid finish", &files, &[], of.problem.capacity, Arc::new(reference))
 }

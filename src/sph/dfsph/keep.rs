@@ -48,5 +48,5 @@ pub fn kernel(of: &Dfsph<'_>) -> Result<Kernel, Error> {
         Ok(())
     };
     let files = [crate::shader!("sph/dfsph/keep.wgsl")];
-    of.plain("fluid keep", &files, &[], of.problem.count.max(2), Arc::new(reference))
+    of.plain("fluid keep", &files, &[], of.problem.capacity.max(2), Arc::new(reference))
 }

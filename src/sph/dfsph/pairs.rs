@@ -31,7 +31,7 @@ impl Pairs {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 6 spacings: below 2000")]
         let rows = (std::f64::consts::PI * ball).ceil() as u32 * ROOM;
         let pairs = Self { rows: rows.next_multiple_of(LOT), stride: grid.ahead(problem).max(1) };
-        let fits = PAIR * pairs.elements() <= problem.machine.bindable && problem.count <= SLOTS;
+        let fits = PAIR * pairs.elements() <= problem.machine.bindable && problem.capacity <= SLOTS;
         fits.then_some(pairs)
     }
     fn elements(self) -> u64 {

@@ -27,7 +27,7 @@ const SELDOM: u64 = 8;
 /// When a shader does not compile, or a field does not fit.
 pub fn kernel(list: List, problem: &Problem) -> Result<Kernel, Error> {
     let grid = list.grid.kernel(problem, false)?;
-    let count = problem.count;
+    let count = problem.capacity;
     let search = search(&list, problem)?;
     let order = order(&list, problem)?;
     let mut builds: Vec<Pass> = grid.passes.into_iter().chain(search).collect();
@@ -89,7 +89,7 @@ fn search(list: &List, problem: &Problem) -> Result<Vec<Pass>, Error> {
     let shader = Shader::join(&sources)?;
     let mut constants = problem.constants(&shader);
     constants.extend([("REACH", list.shape.reach()), ("ROOM", f64::from(list.shape.capacity))]);
-    near::passes(&list.grid, &Pass { constants, ..Pass::new(shader, 0) }, problem.count, problem)
+    near::passes(&list.grid, &Pass { constants, ..Pass::new(shader, 0) }, problem.capacity, problem)
 }
 
 fn state() -> Source {
@@ -107,7 +107,7 @@ fn moved(list: &List, problem: &Problem) -> Result<Pass, Error> {
     ])?;
     let mut constants = problem.constants(&shader);
     constants.push(("LIMIT", list.limit()));
-    Ok(Pass { constants, ..Pass::new(shader, problem.count) })
+    Ok(Pass { constants, ..Pass::new(shader, problem.capacity) })
 }
 
 /// Keeps the history of pairs, and gives it to them again.
@@ -121,9 +121,9 @@ fn history(list: &List, problem: &Problem) -> Result<[Pass; 2], Error> {
         ];
         let shader = Shader::join(&[&ground[..], &[file]].concat())?;
         let constants = vec![("SLOTS", f64::from(list.shape.words))];
-        let threads = Threads { count: problem.count, layers };
-        let work = u64::from(problem.count) * u64::from(list.shape.capacity);
-        Ok(Pass { constants, threads, work, ..Pass::new(shader, problem.count) })
+        let threads = Threads { count: problem.capacity, layers };
+        let work = u64::from(problem.capacity) * u64::from(list.shape.capacity);
+        Ok(Pass { constants, threads, work, ..Pass::new(shader, problem.capacity) })
     };
     let save = pass(crate::shader!("neighbors/list_save.wgsl"), list.shape.capacity / 4)?;
     Ok([save, pass(crate::shader!("neighbors/list_match.wgsl"), 1)?])
@@ -143,8 +143,8 @@ fn order(list: &List, problem: &Problem) -> Result<Pass, Error> {
     let mut constants = problem.constants(&shader);
     constants.extend(list.grid.constants(&shader));
     constants.push(("ROOM", f64::from(list.shape.capacity)));
-    let threads = Threads { count: problem.count, layers: list.shape.capacity / 4 };
-    let work = u64::from(problem.count) * u64::from(list.shape.capacity);
-    let pass = Pass { constants, threads, work, ..Pass::new(shader, problem.count) };
+    let threads = Threads { count: problem.capacity, layers: list.shape.capacity / 4 };
+    let work = u64::from(problem.capacity) * u64::from(list.shape.capacity);
+    let pass = Pass { constants, threads, work, ..Pass::new(shader, problem.capacity) };
     Ok(pass.on(&[list.grid.field(STARTS)]))
 }

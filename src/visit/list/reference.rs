@@ -47,7 +47,7 @@ pub fn remembering<S: Default>(
     Arc::new(move |host: &Host| {
         let view = View::of(host)?;
         let (bodies, world) = (view.particles(), host.world());
-        let count = bodies.len();
+        let (count, stride) = (bodies.len(), world.capacity() as usize);
         let list = host.reading::<u32>(LIST)?;
         let mut history = host.writing::<f32>(HISTORY)?;
         let was = history.to_vec();
@@ -57,7 +57,7 @@ pub fn remembering<S: Default>(
             let Some(me) = bodies.get(id as usize).filter(|_| id != NONE) else { return Ok(None) };
             let mut sum = S::default();
             let mut words = Vec::new();
-            let ids: Vec<u32> = (0..end as usize).map_while(|n| list.get(List::place(k, n, count)).copied()).collect();
+            let ids: Vec<u32> = (0..end as usize).map_while(|n| list.get(List::place(k, n, stride)).copied()).collect();
             let mut next = vec![vec![0.0; slots]; ids.len()];
             for you in bodies.iter().filter(|you| you.is_active() && you.index != me.index) {
                 let way = you.position - me.position;
@@ -67,7 +67,7 @@ pub fn remembering<S: Default>(
                 let missing = || Error::Device(format!("the list of particle {id} lacks particle {}", you.index));
                 let n = ids.binary_search(&u32::try_from(you.index).unwrap_or(NONE)).map_err(|_| missing())?;
                 let last: Vec<f64> =
-                    (0..slots).filter_map(|w| was.get(List::word([k, n, half, w], slots, count)).copied()).collect();
+                    (0..slots).filter_map(|w| was.get(List::word([k, n, half, w], slots, stride)).copied()).collect();
                 gather(
                     me,
                     you,
@@ -78,7 +78,7 @@ pub fn remembering<S: Default>(
                 );
             }
             for (n, pair) in next.iter().enumerate() {
-                let place = |w: usize| List::word([k, n, 1 - half, w], slots, count);
+                let place = |w: usize| List::word([k, n, 1 - half, w], slots, stride);
                 words.extend(pair.iter().enumerate().map(|(w, value)| (place(w), *value)));
             }
             let mut outcome = Outcome::default();

@@ -51,7 +51,7 @@ impl Part {
         }
     }
     fn elements(&self, problem: &Problem) -> usize {
-        self.shape.len(problem.count as usize)
+        self.shape.len(problem.capacity as usize)
     }
     fn slots(&self) -> usize {
         if let Shape::Slots(k) = self.shape { k as usize } else { 1 }

@@ -115,7 +115,7 @@ pub fn advance(system: &System<'_>, turned: bool, limit: u32, part: f64) -> Resu
         crate::shader!("integrators/solve_total.wgsl"),
         crate::shader!("integrators/solve_advance.wgsl"),
     ])?;
-    let kernel = system.sized(Kernel::new("advance", shader, Vec::new(), system.problem.count, reference(run)));
+    let kernel = system.sized(Kernel::new("advance", shader, Vec::new(), system.problem.capacity, reference(run)));
     let kernel = with(kernel, &[("TOLERANCE", tolerance), ("LIMIT", limit), ("PART", part)]);
     Ok(on_states(system.in_runs(kernel)?, turned))
 }

@@ -88,7 +88,7 @@ const SOFTWARE: u32 = 16;
 impl System<'_> {
     /// How many particles a workgroup takes in an iteration, and how many workgroups there are.
     pub fn cut(&self) -> (u32, u32) {
-        let (count, machine) = (self.problem.count, &self.problem.machine);
+        let (count, machine) = (self.problem.capacity, &self.problem.machine);
         let starts = &self.problem.network.link_start;
         let degree = starts.windows(2).map(|w| w[1] - w[0]).max().filter(|_| self.links.is_some()).unwrap_or(0);
         let most = if machine.software { SOFTWARE } else { (machine.invocations / WORKGROUP).max(1) };
@@ -113,7 +113,7 @@ impl System<'_> {
             all.extend_from_slice(files);
             (Shader::join(&all)?, Vec::new())
         };
-        let mut kernel = Kernel::new(name, shader.clone(), Vec::new(), self.problem.count, reference);
+        let mut kernel = Kernel::new(name, shader.clone(), Vec::new(), self.problem.capacity, reference);
         kernel.passes[0].constants = self.problem.constants(&shader);
         kernel.passes[0].uniforms = uniforms;
         let kernel = self.sized(kernel);
@@ -145,7 +145,7 @@ impl System<'_> {
 /// A kernel of one dispatch over all particles, of files that know rows.
 fn plain(name: &str, system: &System<'_>, source: Source, reference: Reference) -> Result<Kernel, Error> {
     let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("integrators/solve_row.wgsl"), source])?;
-    Ok(system.sized(Kernel::new(name, shader, Vec::new(), system.problem.count, reference)))
+    Ok(system.sized(Kernel::new(name, shader, Vec::new(), system.problem.capacity, reference)))
 }
 
 /// The same with a name of constants, so that two that differ in them are two.

@@ -1,0 +1,67 @@
+//! Free rows: a state with room for particles to come.
+
+use glam::DVec3;
+
+use super::State;
+use crate::kernel::{Array, Columns, ID, LIFE, Shape, extent};
+use crate::life::Life;
+use crate::visit::random::{fraction, pcg4d};
+
+/// The id of a free row.
+pub(crate) const NONE: u32 = u32::MAX;
+
+/// What tells places of free rows from other random numbers.
+const SALT: [u32; 3] = [0x6672_6565, 0, 0];
+
+impl State {
+    /// Rows of a simulation that is made of it.
+    #[must_use]
+    pub fn rows(&self) -> usize {
+        self.len().max(self.capacity.map_or(0, |rows| rows as usize))
+    }
+    /// The same with free rows behind its particles, where it has a capacity and none of them yet: removed, and without mass. They stand
+    /// somewhere between the particles, no two in one place.
+    pub(crate) fn padded(&self) -> Option<Self> {
+        if self.capacity.is_none() || self.free.is_some() {
+            return None;
+        }
+        let (count, rows) = (self.len(), self.rows());
+        let free = rows - count;
+        let extent = extent(self.position());
+        let (kept, next) = (self.kept.clone(), self.next_id());
+        let mut state = self.clone();
+        let ids = self.ids().iter().copied().chain(std::iter::repeat_n(NONE, free)).collect();
+        let life = self.life();
+        let life = (0..count).map(|place| life.get(place).copied().unwrap_or_default().word());
+        let life = life.chain(std::iter::repeat_n(Life::Removed.word(), free)).collect();
+        let declared: Vec<_> = state.declared().cloned().collect();
+        for column in declared.iter().filter(|column| !matches!(column.shape, Shape::System(_))) {
+            if let Some(values) = state.get_mut(&column.name) {
+                values.resize(column.shape.len(rows), column.initial.unwrap_or_default());
+            }
+        }
+        let known = Columns::default();
+        for (name, words) in [(ID.name, ids), (LIFE.name, life)] {
+            if let Some(column) = known.get(name) {
+                state.put(column, Some(Array::Uint(words)));
+            }
+        }
+        for (row, x) in state.position_mut().iter_mut().enumerate().skip(count) {
+            *x = parked(extent, u32::try_from(row).unwrap_or(u32::MAX));
+        }
+        state.mass_mut()[count..].fill(0.0);
+        (state.kept, state.next, state.free) = (kept, next, Some(u32::try_from(free).unwrap_or(u32::MAX)));
+        Some(state)
+    }
+    /// How many of the last rows are free.
+    pub(crate) fn free_rows(&self) -> u32 {
+        self.free.unwrap_or(0)
+    }
+}
+
+/// Where a free row stands within some corners \[length\]: attraction without softening knows no two particles in one place, be one of
+/// them without mass.
+pub(crate) fn parked((low, high): (DVec3, DVec3), row: u32) -> DVec3 {
+    let [x, y, z, _] = pcg4d([row, SALT[0], SALT[1], SALT[2]]).map(fraction);
+    low + (high - low) * DVec3::new(x, y, z)
+}
