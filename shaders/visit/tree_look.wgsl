@@ -18,7 +18,7 @@ struct Search { waits: vec2u, node: u32, depth: u32, levels: u32, more: bool, li
 fn highest() -> u32 { return (tree.height + 2u) % 3u + 1u; }
 
 // The only group there is has no far group.
-fn begun() -> Search { return Search(vec2u(), 1u, 0u, highest(), leaves() > GROUP / LEAF, vec2u(), 0u); }
+fn begun() -> Search { return Search(vec2u(), 1u, 0u, highest(), all_leaves() > GROUP / LEAF, vec2u(), 0u); }
 
 // Where a search stands: the node, 0 where it is done, and what waits.
 fn stands(s: Search) -> vec3u { return vec3u(select(0u, s.node, s.more), s.waits); }

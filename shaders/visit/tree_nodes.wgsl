@@ -32,7 +32,7 @@ fn moments(group: Group, r: vec3f) -> vec3f {
 struct Place { first: u32, middle: vec3f, half_side: vec3f, demand: f32, wide: f32 }
 
 // Rows that are in use have leaves, and are targets.
-fn leaves() -> u32 { return (world.count + LEAF - 1u) / LEAF; }
+fn all_leaves() -> u32 { return (world.count + LEAF - 1u) / LEAF; }
 fn last_target() -> u32 { return min(tree.end, world.count); }
 
 // What a node holds.
@@ -102,7 +102,7 @@ fn target_of(slot: u32) -> Particle {
 
 // A node stands on the level of `depth`, and has particles.
 fn exists(node: u32, depth: u32) -> bool {
-    return ((node - (1u << depth)) << (tree.height - depth)) < leaves();
+    return ((node - (1u << depth)) << (tree.height - depth)) < all_leaves();
 }
 
 fn deliver(me: Particle, sum: Sum) {

@@ -5,13 +5,12 @@ use glam::DVec3;
 use super::State;
 use crate::kernel::{Array, Columns, ID, LIFE, Shape, extent};
 use crate::life::Life;
-use crate::visit::random::{fraction, pcg4d};
 
 /// The id of a free row.
 pub(crate) const NONE: u32 = u32::MAX;
 
-/// What tells places of free rows from other random numbers.
-const SALT: [u32; 3] = [0x6672_6565, 0, 0];
+/// Whole multiples of these, folded into a unit cube, fill it evenly (Roberts 2018, R₃): no two are the same.
+const EVENLY: DVec3 = DVec3::new(0.819_172_513_396_164_4, 0.671_043_606_703_789_2, 0.549_700_477_901_970_3);
 
 impl State {
     /// Rows of a simulation that is made of it.
@@ -62,6 +61,5 @@ impl State {
 /// Where a free row stands within some corners \[length\]: attraction without softening knows no two particles in one place, be one of
 /// them without mass.
 pub(crate) fn parked((low, high): (DVec3, DVec3), row: u32) -> DVec3 {
-    let [x, y, z, _] = pcg4d([row, SALT[0], SALT[1], SALT[2]]).map(fraction);
-    low + (high - low) * DVec3::new(x, y, z)
+    low + (high - low) * (0.5 + f64::from(row) * EVENLY).fract()
 }

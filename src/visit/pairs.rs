@@ -133,7 +133,7 @@ mod tests {
         let cpu = Machine { software: true, subgroup: 8, invocations: 1, ..Machine::HOST };
         for machine in [gpu, cpu] {
             for count in [1, 2, 127, 128, 129, 1000, 4096, 65_537, 1 << 20, 8_388_608, 134_217_728] {
-                let cut = Cut::new(problem.particles, 4, 128, &machine, SOURCES);
+                let cut = Cut::new(count, 4, 128, &machine, SOURCES);
                 assert_eq!(cut.slice % 128, 0, "{cut:?}");
                 assert!((1..=LAYERS).contains(&cut.layers) && cut.slice > 0 && cut.slice <= SOURCES, "{cut:?}");
                 let met = cut.sources().min(u64::from(count)) * u64::from(count);

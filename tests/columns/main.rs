@@ -113,7 +113,7 @@ fn check(shared: &Shared, plan: &Plan, count: usize, machine: Machine, what: &st
     gpu.pretend(machine);
     gpu.compile(plan).expect("a program");
     let number = u32::try_from(count).expect("few");
-    gpu.set_world(World { time: 0.0, dt: 1e-3, step: 0, count: number, bounds: motes::Bounds::default() })
+    gpu.set_world(World { time: 0.0, dt: 1e-3, step: 0, count: number, free: 0, bounds: motes::Bounds::default() })
         .expect("a world");
     let place = cloud.position().iter().zip(cloud.mass()).map(|(x, m)| x.extend(*m));
     gpu.write(POSITION.name, &Array::Vec4(place.collect())).expect("positions");
@@ -187,7 +187,7 @@ fn each_particle_updates_its_columns() {
     let mut gpu = machines::gpu(&shared, count);
     gpu.compile(&plan).expect("a program");
     let number = u32::try_from(count).expect("few");
-    gpu.set_world(World { time: 0.0, dt: 1e-3, step: 0, count: number, bounds: motes::Bounds::default() })
+    gpu.set_world(World { time: 0.0, dt: 1e-3, step: 0, count: number, free: 0, bounds: motes::Bounds::default() })
         .expect("a world");
     let cloud = support::cloud(count, 3);
     let place = cloud.position().iter().zip(cloud.mass()).map(|(x, m)| x.extend(*m));

@@ -56,7 +56,7 @@ fn both_orders_of_a_pair_find_its_row() {
         gpu.pretend(machine);
         gpu.compile(&plan).expect("a program");
         let number = u32::try_from(count).expect("few");
-        gpu.set_world(World { time: 0.0, dt: 1e-3, step: 0, count: number, bounds: motes::Bounds::default() })
+        gpu.set_world(World { time: 0.0, dt: 1e-3, step: 0, count: number, free: 0, bounds: motes::Bounds::default() })
             .expect("a world");
         let place = cloud.position().iter().zip(cloud.mass()).map(|(x, m)| x.extend(*m));
         gpu.write(POSITION.name, &Array::Vec4(place.collect())).expect("positions");

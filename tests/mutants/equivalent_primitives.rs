@@ -41,7 +41,7 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("radix_tile", "row < 8u", "<", "<=", CLEARED_BEFORE),
     same("radix_tile", "row < 8u", "8u", "9u", CLEARED_BEFORE),
     same("_tile", "reach < WORKGROUP", "<", "<=", "no element has 256 before it"),
-    same("primitives/reduce", "let end = min(first + extent.block,", "+", "-", FIRST_DOES_ALL),
+    same("primitives/reduce_", "min(block + extent.block,", "+", "-", FIRST_DOES_ALL),
     same("primitives/", "width > 1u", ">", ">=", NOTHING_LEFT),
     same("primitives/", "if lane < width {", "<", "<=", NOT_READ),
     same("primitives/", "if lane < half {", "<", "<=", NOT_READ),

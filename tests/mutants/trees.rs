@@ -33,16 +33,33 @@ pub const EQUIVALENT: &[Equivalent] = &[
 
 /// Every kernel of a tree but the sorts and reductions, each amid what those before it left, its own results away.
 fn build(device: &Device, opening: Opening, core: f64, bodies: &[Vec4], last: &[Vec4], stages: &mut Vec<Stage>) {
+    with_free(device, opening, core, (bodies, last, 0), stages);
+}
+
+/// The same, of which so many rows at the end are free.
+fn with_free(
+    device: &Device,
+    opening: Opening,
+    core: f64,
+    (bodies, last, free): (&[Vec4], &[Vec4], u32),
+    stages: &mut Vec<Stage>,
+) {
     let mut simulation = moving(device, bodies.len(), Some(MACHINE));
     simulation.write(POSITION, bodies).expect("bodies");
     simulation.write(ACCELERATION, last).expect("their last accelerations");
     let count = u32::try_from(bodies.len()).expect("few");
+    simulation.backend().set_rows(count - free, free).expect("rows");
     let problem = Problem::new(count, MACHINE);
     let shared = Rc::new(RefCell::new(simulation));
     for kernel in Tree::new(opening, core, &problem).kernels(&problem).expect("kernels") {
         let plan = alone(kernel.clone());
         let program = shared.borrow_mut().backend().compile(&plan).expect("a program");
-        if kernel.passes.iter().any(|p| p.shader.sources().iter().any(|s| s.file.starts_with("shaders/tree/"))) {
+        if kernel.passes.iter().any(|p| {
+            p.shader
+                .sources()
+                .iter()
+                .any(|s| s.file.starts_with("shaders/tree/") || s.file.ends_with("reduce_rows.wgsl"))
+        }) {
             let mut random = Random::new(29);
             for name in kernel.writes() {
                 let mut simulation = shared.borrow_mut();
@@ -79,6 +96,9 @@ pub fn all(shared: &Shared, stages: &mut Vec<Stage>) {
     quiet[1000] = Vec4::ZERO;
     build(device, relative, 0.0, &bodies(2080), &quiet, stages);
     build(device, geometric, 0.3, &bodies(500), &last[..500], stages);
+    // Leaves, groups and levels of which some are free.
+    with_free(device, relative, 0.0, (&bodies(500), &last[..500], 131), stages);
+    with_free(device, geometric, 0.3, (&bodies(203), &last[..203], 74), stages);
     // A few with next to no last acceleration, in some directions none, and one group with none at all.
     let mut last: Vec<Vec4> = last.iter().take(77).map(|a| 1e-25 * *a).collect();
     (0..77).step_by(2).for_each(|i| last[i].x = 0.0);

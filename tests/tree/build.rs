@@ -133,7 +133,8 @@ fn nodes_are_what_their_bodies_are() {
 #[test]
 fn leaves_and_levels_part_the_bodies() {
     for count in SIZES.into_iter().chain([0, 65_537, 1 << 27]) {
-        let tree = Tree { opening: GEOMETRIC, core: 0.0, count: u32::try_from(count).expect("few") };
+        let count = u32::try_from(count).expect("few");
+        let tree = Tree { opening: GEOMETRIC, core: 0.0, count, used: count };
         for above in (0..=tree.height()).rev().take(12) {
             let (first, nodes) = tree.level(above);
             let mut next = 0;
@@ -146,7 +147,7 @@ fn leaves_and_levels_part_the_bodies() {
                 assert_eq!(tree.is_leaf(n), above == 0, "{count}: {n}");
                 next = range.end;
             }
-            assert_eq!(next, count, "level {above} over the leaves");
+            assert_eq!(next, count as usize, "level {above} over the leaves");
             assert!(nodes == first || !tree.exists(first + nodes), "{count}: {nodes} on level {above}");
             assert!(u64::from(first + nodes) <= tree.nodes());
         }

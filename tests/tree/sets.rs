@@ -94,6 +94,7 @@ impl Built {
     /// All that is read of a tree, on the host.
     pub fn host(&mut self) -> Host {
         let mut host = Host::default();
+        host.set_world(World { count: self.count, ..World::default() });
         let mut insert = |built: &mut Self, name: &'static str, kind: Array| {
             let array = kind.like(&built.bytes(name));
             host.insert(&built.tree.field(name).1.clone(), array);
