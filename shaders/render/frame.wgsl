@@ -7,6 +7,7 @@ struct Frame {
     scale: f32,    // pixels per length, at the centre
     up: vec3f,
     heaviest: f32, // the largest mass
+    mean: f32,     // the mean mass
     back: vec3f,   // towards the eye
     marker: f32,   // radius at which the heaviest is drawn at least [pixels]
     width: u32,

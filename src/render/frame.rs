@@ -33,6 +33,8 @@ pub struct Frame {
     pub height: u32,
     /// The largest mass \[mass\].
     pub heaviest: f64,
+    /// The mean mass \[mass\].
+    pub mean: f64,
     /// The radius at which the heaviest particle is drawn at least \[pixels\].
     pub marker: f64,
     /// The radius at which a ball is drawn at most \[pixels\].
@@ -149,6 +151,7 @@ impl Frame {
             ("scale", float(self.scale())),
             ("up", Scalar::Vector(camera.up)),
             ("heaviest", float(self.heaviest)),
+            ("mean", float(self.mean)),
             ("back", Scalar::Vector(camera.back)),
             ("marker", float(self.marker)),
             ("width", Scalar::Uint(self.width)),

@@ -101,16 +101,18 @@ impl Picture {
         let water_only = color == Color::Given(vec![pack(fluid::DYE); particles.len()]);
         let water = Water::of(settings, particles, scenery, &camera, !water_only);
         let water = Water { edges: if wet { facets.edges() } else { 0 }, ..water };
-        // A stroke has more pixels than a point, and would run into the next one.
-        let part = if settings.number("tail") > 0.0 { 0.7 } else { 1.0 };
-        let apart = part * (width * height / f64::from(count)).sqrt();
-        let subject = Subject { particles, few, short, apart, scale: 0.5 * height / camera.extent };
+        let apart = (width * height / f64::from(count)).sqrt();
+        let has_tails = settings.number("tail") > 0.0;
+        let subject = Subject { particles, few, short, apart, has_tails, scale: 0.5 * height / camera.extent };
+        // A film has one frame for all: what is spawned later is in it.
+        let masses = || particles.mass().iter().copied().chain(particles.births.iter().map(|birth| birth.mass));
         let frame = Frame {
             camera,
             count,
             width: super::frame::whole(width),
             height: super::frame::whole(height),
-            heaviest: particles.mass().iter().copied().fold(0.0, f64::max),
+            heaviest: masses().fold(0.0, f64::max),
+            mean: masses().sum::<f64>() / f64::from(count),
             marker: style.marker(&subject),
             water,
             largest: if few { short / 4.0 } else { LARGEST_OF_MANY.min(short / 4.0) }.max(2.0),

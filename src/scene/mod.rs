@@ -314,6 +314,8 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
     out.header("[picture]");
     out.settings(render::KEYS, &picture);
 
+    let remarks = simulation.remark.iter().cloned().chain(fluid::contradictions(sections));
+    let remarks = remarks.chain(render::styles::remark(&picture)).collect();
     Scene {
         name: String::new(),
         about: String::new(),
@@ -333,7 +335,7 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
         picture,
         resolved: out.0,
         files: Vec::new(),
-        remarks: simulation.remark.into_iter().chain(fluid::contradictions(sections)).collect(),
+        remarks,
     }
 }
 

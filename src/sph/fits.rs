@@ -14,21 +14,21 @@ impl Medium {
         // By Tait's equation at twice the density.
         let pressure = self.stiffness() * 2f64.powi(i32::try_from(self.exponent).unwrap_or(15));
         let mut numbers = vec![
-            ("the mass of a particle", self.mass()),
-            ("the square of the density", density * density),
-            ("the slope of the kernel", self.weight() / self.range().powi(2)),
+            ("spacing", "the mass of a particle", self.mass()),
+            ("density", "the square of the density", density * density),
+            ("spacing", "the slope of the kernel", self.weight() / self.range().powi(2)),
         ];
         if sound > 0.0 {
             numbers.extend([
-                ("the square of sound_speed", sound * sound),
-                ("the pressure at twice the density", pressure),
-                ("the same over the square of the density", pressure / (density * density)),
+                ("sound_speed", "the square of sound_speed", sound * sound),
+                ("sound_speed", "the pressure at twice the density", pressure),
+                ("sound_speed", "the same over the square of the density", pressure / (density * density)),
             ]);
         }
         let single = f64::from(f32::MIN_POSITIVE)..=f64::from(f32::MAX);
-        match numbers.into_iter().find(|(_, x)| !single.contains(x)) {
-            Some((what, x)) => Err(Error::Setting {
-                key: "density",
+        match numbers.into_iter().find(|(.., x)| !single.contains(x)) {
+            Some((key, what, x)) => Err(Error::Setting {
+                key,
                 why: format!(
                     "a fluid has density = {density:e}, spacing = {:e}, sound_speed = {sound:e}: {what} would be {x:.1e}, and single \
                  precision holds 1.2e-38 to 3.4e38: choose other numbers, or other units",

@@ -108,3 +108,41 @@ fn birds_are_dark_before_a_bright_sky() {
     assert!(bird < 90 && sky > 150, "{bird} before {sky}");
     assert!(bright(image, 0.0, -0.9) > bright(image, 0.0, 0.9), "brighter where the sun has set");
 }
+
+/// Keys that a style does not use are said, and no others.
+#[test]
+fn keys_without_effect_are_remarked() {
+    let remark = |style: &'static str, key: &'static str, value: Value| {
+        let word = Value::Text(style.into());
+        motes::render::styles::remark(&Settings::defaults(motes::render::KEYS).with("style", word).with(key, value))
+    };
+    let day = || Value::Text("day".into());
+    assert!(remark("density", "background", day()).is_some_and(|text| text.contains("`background`")));
+    assert!(remark("glow", "foam", Value::Number(1.0)).is_some_and(|text| text.contains("`foam`")));
+    assert_eq!(remark("glow", "background", day()), None);
+    assert_eq!(remark("fluid", "foam", Value::Number(1.0)), None);
+}
+
+/// A film has one frame: a heavy particle that is spawned later does not overflow the canvas, and one of many light ones is not lost.
+#[test]
+fn density_holds_all_mass_that_will_be() {
+    use motes::life::{Birth, Life};
+    let mut particles = State::default();
+    (0..40).for_each(|_| particles.push(glam::DVec3::ZERO, glam::DVec3::ZERO, 1e-3, 0.0));
+    particles.push(glam::DVec3::ZERO, glam::DVec3::ZERO, 0.0, 0.0);
+    particles.set_life(40, Life::Pending);
+    let birth = Birth { id: 40, time: 1.0, velocity: glam::DVec3::ZERO, mass: 1e3, guided: 0.0, emitter: 0 };
+    particles.births = vec![birth];
+    let settings = Settings::defaults(motes::render::KEYS).with("style", Value::Text("density".into()));
+    let picture = Picture::new(&settings, &particles, &[], Trail::default()).expect("a picture");
+    let frame = &picture.frame;
+    // What all of them add on one pixel, each rounded up.
+    let all = 0.5 * frame.unit * (40.0 * 1e-3 + 1e3) / frame.mean + 41.0;
+    assert!(all < f64::from(u32::MAX), "{all:e}");
+    // One of many light ones beside a heavy one is seen.
+    let mut particles = State::default();
+    (0..20_000).for_each(|_| particles.push(glam::DVec3::ZERO, glam::DVec3::ZERO, 1.0, 0.0));
+    particles.push(glam::DVec3::ZERO, glam::DVec3::ZERO, 1e6, 0.0);
+    let frame = Picture::new(&settings, &particles, &[], Trail::default()).expect("a picture").frame;
+    assert!(0.5 * frame.unit / frame.mean > 100.0, "{}", frame.mean);
+}

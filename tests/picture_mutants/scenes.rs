@@ -230,7 +230,7 @@ pub fn many() -> Vec<Scene> {
     let massless =
         scene(&Wish { name: "nothing along the line of sight", style: "density", ..many }, |picture, particles| {
             (0..particles.len()).for_each(|id| particles.mass_mut()[id] = 0.0);
-            picture.frame.heaviest = 0.0;
+            picture.frame.mean = 0.0;
         });
     vec![lights, dazzling, faint, dense, column, massless]
 }

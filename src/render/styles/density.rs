@@ -19,6 +19,9 @@ impl Style for Density {
     fn glow(&self, of: &Subject) -> f64 {
         (2.5 * of.apart).clamp(2.0, (of.short / 40.0).max(2.0))
     }
+    fn unused(&self) -> &'static [&'static str] {
+        &["background", "color", "tail", "drop", "clarity", "foam"]
+    }
     fn has_trails(&self) -> bool {
         false
     }
@@ -33,9 +36,9 @@ impl Style for Density {
     }
 }
 
-/// The part of the brightest light that a particle of some mass is.
+/// How many times the light of the mean mass a particle is; where nothing has mass, particles are counted.
 fn part(frame: &Frame, mass: f64) -> f64 {
-    if frame.heaviest > 0.0 { mass / frame.heaviest } else { 1.0 }
+    if frame.mean > 0.0 { mass / frame.mean } else { 1.0 }
 }
 
 fn projected(frame: &Frame) -> Result<Kernel, Error> {
@@ -46,7 +49,7 @@ fn projected(frame: &Frame) -> Result<Kernel, Error> {
         let (position, seen) = (host.read(POSITION)?, host.read(PROJECTED)?);
         let mut canvas = host.write(CANVAS)?;
         for (x, p) in position.iter().zip(seen.iter()).filter(|(_, p)| p.w == 0.0) {
-            let (place, light) = (p.truncate().truncate(), frame.unit * part(&frame, x.w));
+            let (place, light) = (p.truncate().truncate(), 0.5 * frame.unit * part(&frame, x.w));
             let (columns, rows) = frame.touched(place - frame.glow, place + frame.glow);
             for (x, y) in rows.flat_map(|y| columns.clone().map(move |x| (x, y))) {
                 let q = 1.0 - ((middle(x, y) - place) / frame.glow).length_squared();

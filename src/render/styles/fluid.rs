@@ -15,6 +15,9 @@ impl Style for Fluid {
     fn is_fluid(&self) -> bool {
         true
     }
+    fn unused(&self) -> &'static [&'static str] {
+        &["tail"]
+    }
     fn has_trails(&self) -> bool {
         false
     }

@@ -16,6 +16,8 @@ pub struct Subject<'a> {
     pub short: f64,
     /// How far apart particles would be, spread evenly over the picture \[pixels\].
     pub apart: f64,
+    /// Whether each particle is drawn as a stroke from where it was.
+    pub has_tails: bool,
     /// Pixels per length, at the centre.
     pub scale: f64,
 }
@@ -32,11 +34,17 @@ pub trait Style: Sync {
     }
     /// The radius of a light \[pixels\].
     fn glow(&self, of: &Subject) -> f64 {
-        (0.4 * of.apart).clamp(1.5, (of.short / 150.0).max(1.5))
+        // A stroke has more pixels than a point, and would run into the next one.
+        let part = if of.has_tails { 0.28 } else { 0.4 };
+        (part * of.apart).clamp(1.5, (of.short / 150.0).max(1.5))
     }
     /// Whether particles are drops of one surface.
     fn is_fluid(&self) -> bool {
         false
+    }
+    /// Keys of `[picture]` that say nothing in this style.
+    fn unused(&self) -> &'static [&'static str] {
+        &["drop", "clarity", "foam"]
     }
     /// Whether particles leave trails.
     fn has_trails(&self) -> bool {
@@ -84,6 +92,22 @@ register! {
     balls: Balls, "shaded balls";
     fluid: Fluid, "the surface of a fluid";
     density: Density, "the mass along the line of sight, on a logarithmic scale of colours";
+}
+
+/// Which keys of a picture say nothing in its style, though they have other values than without a word.
+#[must_use]
+pub fn remark(settings: &Settings) -> Option<String> {
+    let entry = of(settings);
+    let defaults = Settings::defaults(super::KEYS);
+    let idle = entry.style.unused().iter().filter(|key| settings.0.get(*key) != defaults.0.get(*key));
+    let idle: Vec<_> = idle.map(|key| format!("`{key}`")).collect();
+    (!idle.is_empty()).then(|| {
+        format!(
+            "a picture with style = \"{}\" does without {}: leave it out, or choose another style",
+            entry.name,
+            idle.join(", ")
+        )
+    })
 }
 
 /// The style that a scene's `[picture]` says.
