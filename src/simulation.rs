@@ -71,7 +71,7 @@ pub struct Simulation<B: Backend> {
     /// As the setup gave it, and whether springs may have broken since.
     ties: Ties,
     breaks: bool,
-    /// How many may be born or die: everybody, or nobody.
+    /// How many may be spawned or removed: all, or none.
     inactive: u32,
     dt: f64,
     /// How long steps are, where they are not all alike.
@@ -196,7 +196,7 @@ impl<B: Backend> Simulation<B> {
         Ok(T::view(&array).map_or_else(Vec::new, |values| values.iter().map(|v| T::narrow(*v)).collect()))
     }
     /// Writes a field from its first element on: a renderer's pull, a kinematic target. Where positions or velocities
-    /// change, the next step begins with the forces that are felt there.
+    /// change, the next step begins with the forces there.
     ///
     /// # Errors
     /// When there is no such field, it is shorter, or the device is lost.

@@ -324,15 +324,6 @@ const PERSONS: [[&str; 2]; 8] = [
     ["to", "ld"],
 ];
 
-/// Lines of folders that are still to be rewritten, at most: these numbers only fall.
-const PERSONS_LEFT: [(&str, usize); 5] = [
-    ("src/simulation", 12),
-    ("src/visit", 20),
-    ("tests/births", 1),
-    ("tests/neighbors", 12),
-    ("tests/walls/starts.rs", 1),
-];
-
 /// Particles are things, in sources, tests, pages, scenes and the history: also in parts of names.
 #[test]
 fn particles_are_no_persons() {
@@ -345,23 +336,14 @@ fn particles_are_no_persons() {
         all.push(File { path: path.to_owned(), text: std::fs::read_to_string(root.join(path)).expect("a text") });
     }
     let persons = PERSONS.map(|parts| parts.concat());
-    let (mut faults, mut left) = (Vec::new(), [0; PERSONS_LEFT.len()]);
+    let mut faults = Vec::new();
     for file in &all {
-        let folder = PERSONS_LEFT.iter().position(|(folder, _)| file.path.starts_with(folder));
         for (line, n) in file.text.lines().zip(1..) {
             let line = line.to_lowercase();
-            let Some(word) = line.split(|c: char| !c.is_alphabetic()).find(|w| persons.iter().any(|p| p == w)) else {
-                continue;
-            };
-            match folder {
-                Some(folder) => left[folder] += 1,
-                None => faults.push(format!("{}:{n}: `{word}`", file.path)),
+            let mut parts = line.split(|c: char| !c.is_alphabetic());
+            if let Some(word) = parts.find(|w| persons.iter().any(|p| p == w)) {
+                faults.push(format!("{}:{n}: `{word}`", file.path));
             }
-        }
-    }
-    for ((folder, most), left) in PERSONS_LEFT.into_iter().zip(left) {
-        if left > most {
-            faults.push(format!("{folder}: {left} lines, and {most} were left"));
         }
     }
     assert_none("particles are things: write `particle i`, `neighbours`, `all pairs`, `none`, …", &faults);

@@ -36,7 +36,7 @@ impl<B: Backend> Simulation<B> {
     pub async fn check(&mut self) -> Result<(), Error> {
         let alarm = self.alarm().await?;
         let [done, .., fast, particle] = [alarm[0], alarm[1], alarm[3], alarm[4]];
-        // Who runs away is lost in the end: what came first is told.
+        // What runs away is lost in the end: the first cause is reported.
         let [.., cut, endless] = alarm;
         // Sums that lack neighbours make numbers that are none, and speeds that run away.
         if cut == u32::MAX && endless == u32::MAX {

@@ -5,7 +5,7 @@ use crate::forces::{Component, Over};
 use crate::integrators::Integrator;
 use crate::state::State;
 
-/// Whether forces and an integrator know who lives. Who waits or is dead is in no grid, has no mass, and is put to rest after
+/// Whether forces and an integrator serve inactive particles. Such a particle is in no cell list, has no mass, and is put to rest after
 /// every evaluation: that serves searches of a grid, what acts on each alone, and attraction by mass. It does not serve ties.
 ///
 /// # Errors
@@ -17,7 +17,7 @@ pub fn serves(particles: &State, forces: &[Box<dyn Component>], integrator: &dyn
     let refuse = |text: String| Err(Error::Scene(text));
     if integrator.is_implicit() {
         return refuse(
-            "where particles are born or die, no implicit integrator steps: its equations hold everybody. Choose leapfrog".to_owned(),
+            "where particles are spawned or removed, no implicit integrator steps: its equations hold all particles. Choose leapfrog".to_owned(),
         );
     }
     for force in forces {
@@ -34,8 +34,8 @@ pub fn serves(particles: &State, forces: &[Box<dyn Component>], integrator: &dyn
                 _ if force.properties().ignores_massless => {}
                 _ => {
                     return refuse(format!(
-                        "`{name}` over \"{over}\" meets everybody, and where particles are born or die, some do not live: say over = \
-                         \"near\", which meets who is in its grid"
+                        "`{name}` over \"{over}\" evaluates all pairs, and where particles are spawned or removed, some are inactive: say over = \
+                         \"near\", which evaluates active particles alone"
                     ));
                 }
             }

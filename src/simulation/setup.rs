@@ -190,7 +190,7 @@ impl Setup {
         self.forces.iter().try_for_each(|force| force.stage(Stage::Start, &mut plan, &problem))?;
         Ok(!plan.is_empty())
     }
-    /// How its fluid starts, if there is one: how dense it is before the first step, by a look at everybody, which takes as
+    /// How its fluid starts, if there is one: how dense it is before the first step, by direct summation, which takes as
     /// long as some steps on the host.
     ///
     /// # Errors
@@ -200,7 +200,7 @@ impl Setup {
         let problem = self.problem(Machine::HOST)?;
         let mut media = self.forces.iter().map(|force| Ok(force.resolved(&problem)?.fluid));
         let Some(fluid) = media.find_map(Result::<_, Error>::transpose).transpose()? else { return Ok(None) };
-        // Who waits or is dead is in nobody's way; a scene has the ids of those last.
+        // Inactive particles are in no way; a scene has the ids of those last.
         let living: Vec<usize> = (0..self.state.len()).filter(|id| self.state.is_active(*id)).collect();
         let of = |list: &[DVec3]| -> Vec<DVec3> { living.iter().map(|id| list[*id]).collect() };
         let initial_projection::Projected { places, moved } = initial_projection::projected(self, &problem)?;
@@ -225,7 +225,7 @@ impl Setup {
         start.check().map_err(solids)?;
         Ok(Some(start))
     }
-    /// Who begins where a solid lets nobody be, by id, and how far it is put out of there \[length\].
+    /// Which particles begin where a solid lets none be, and how far each is put out of there \[length\].
     ///
     /// # Errors
     /// When the setup makes no sense.
@@ -238,7 +238,7 @@ impl Setup {
         let count = self.forces.iter().filter(|force| force.properties().makes_fluid).count();
         if count > 1 {
             return Err(Error::Scene(format!(
-                "there are {count} forces that make a fluid of everybody, and all pressures would be felt as often: leave one of them"
+                "there are {count} forces that make a fluid of all particles, and all pressures would act as often: leave one of them"
             )));
         }
         Ok(())

@@ -22,7 +22,7 @@ use crate::tree::Tree;
 pub struct Law {
     /// Its name, for `motes explain` and messages.
     pub name: String,
-    /// Who meets whom.
+    /// Which pairs are evaluated.
     pub over: Over,
     /// Its WGSL. Over `each` it has `fn force(me: Particle) -> vec4f`; over all others it has `fn gather` and `fn finish`,
     /// see `shaders/visit/span.wgsl`, and may have `fn acts_on(me: Particle) -> bool` to be left out of a search. Over `list` with slots
@@ -59,7 +59,7 @@ pub struct Distant {
     pub wgsl: Option<Source>,
     /// The reference that walks the same tree as the device.
     pub walk: Option<Reference>,
-    /// What some targets feel of everybody.
+    /// The accelerations of some targets by direct summation.
     pub sample: Option<Sample>,
     /// Whether it sees all images in a periodic box, so that nothing jumps half a box away.
     pub images: bool,
@@ -275,7 +275,7 @@ impl Law {
         self.distant.images = true;
         self
     }
-    /// Whom it visits for such a problem.
+    /// What it visits for such a problem.
     #[must_use]
     pub fn chosen(&self, problem: &Problem) -> Over {
         match self.over {

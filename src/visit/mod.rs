@@ -1,4 +1,4 @@
-//! Who meets whom. A law says what happens; a visit says between whom, and joins the law's WGSL with its own.
+//! Which pairs are evaluated. A law says what happens; a visit says between which particles, and joins the law's WGSL with its own.
 
 mod each;
 mod jacobian;

@@ -1,4 +1,4 @@
-//! Everybody meets who is within a range, through the grid.
+//! All pairs within a range, through the cell list.
 
 use super::{Law, Over};
 use crate::error::Error;

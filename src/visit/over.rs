@@ -1,4 +1,4 @@
-//! Who meets whom.
+//! Which pairs are evaluated.
 
 use crate::tree::Opening;
 
@@ -7,14 +7,14 @@ use crate::tree::Opening;
 pub enum Over {
     /// Each particle alone.
     Each,
-    /// Everybody meets everybody else, at its nearest image.
+    /// All pairs, each at its nearest image.
     Pairs,
-    /// Everybody looks at everybody else and meets who is nearer than a range: what [`Near`](Over::Near) does, by force.
+    /// All pairs within a range, by brute force: what [`Near`](Over::Near) finds through a cell list.
     Within {
         /// The range \[length\].
         range: f64,
     },
-    /// Everybody meets everybody else that is nearer than a range, found through a grid.
+    /// All pairs within a range, found through a cell list.
     Near {
         /// The range \[length\].
         range: f64,
@@ -31,25 +31,25 @@ pub enum Over {
         /// Words of history that the law keeps for each pair.
         slots: u32,
     },
-    /// Everybody meets the so many that are nearest to it, the lower id first where two are equally near.
+    /// Each particle with so many that are nearest to it, the lower id first where two are equally near.
     Nearest {
         /// How many.
         count: u32,
     },
-    /// Everybody meets everybody else, far groups of them taken as one, found through a tree.
+    /// All pairs, far groups approximated as one, found through a tree.
     Tree {
         /// When a group is too near for that.
         opening: Opening,
         /// A group is too near, too, where any of it may be nearer than this \[length\].
         core: f64,
-        /// Only where that is faster than that everybody meets everybody.
+        /// Only where that is faster than direct summation.
         auto: bool,
     },
-    /// Everybody meets those that it is linked to.
+    /// Each particle with those that it is linked to.
     Links,
-    /// Everybody looks at the joints that it is a part of.
+    /// Each particle with the joints that it is a part of.
     Joints,
-    /// Everybody looks at the triangles that it is a corner of.
+    /// Each particle with the triangles that it is a corner of.
     Triangles,
 }
 

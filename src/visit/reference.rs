@@ -1,4 +1,4 @@
-//! The visits' references: they visit everybody, so that they cannot share a fault of the grid.
+//! The references of visits: they look at all pairs, so that they cannot share a fault of the cell list.
 
 use std::sync::Arc;
 
@@ -111,7 +111,7 @@ fn meeting<S: Default>(
     })
 }
 
-/// What chosen targets feel of everybody, by their ids: acceleration, and their share of the potential per unit mass.
+/// The accelerations of chosen targets by direct summation, by their rows, and their shares of the potential per unit mass.
 pub type Sample = Arc<dyn Fn(&Host, &[usize]) -> Result<Vec<DVec4>, Error> + Send + Sync>;
 
 /// The same as [`meetings`] of a law that adds up, for some targets alone.
@@ -119,13 +119,13 @@ pub fn sample(rule: Arc<impl Fn(&Particle, &Particle, DVec3, &World) -> DVec4 + 
     Arc::new(move |host, targets| {
         let view = View::of(host)?;
         let (bodies, world) = (view.particles(), host.world());
-        let felt = |id: &usize| -> Option<DVec4> {
+        let summed = |id: &usize| -> Option<DVec4> {
             let me = bodies.get(*id)?;
             let others = bodies.iter().filter(|you| you.index != me.index);
             let met = others.map(|you| rule(me, you, world.bounds.shortest(you.position - me.position), &world));
             Some(met.sum::<DVec4>() * DVec4::new(1.0, 1.0, 1.0, 0.5))
         };
-        Ok(targets.par_iter().filter_map(felt).collect())
+        Ok(targets.par_iter().filter_map(summed).collect())
     })
 }
 

@@ -36,7 +36,7 @@ fn faults_of_scenes_name_their_place() {
         ("[[drain]]\nshape = \"cone\"\n", "\"cone\"", "a.toml:7:9"),
         (
             "[[drain]]\n[[force]]\nkind = \"boids\"\nrange = 1\nover = \"within\"\n",
-            "meets everybody, and where particles are born or die, some do not live",
+            "evaluates all pairs, and where particles are spawned or removed, some are inactive",
             "a.toml:6:1",
         ),
     ];

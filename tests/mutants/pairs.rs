@@ -50,8 +50,8 @@ fn setup(integrator: &str) -> Setup {
     particles.links = motes::links::Links::default();
     let fixed = (0..FEW as u32).filter(|id| id % 7 == 3);
     particles.held = fixed.map(|id| Held { id, by: Hold::Fixed }).collect();
-    let is_active: Vec<Life> = (0..FEW).map(|id| if id % 7 == 5 { Life::Removed } else { Life::Active }).collect();
-    particles.set_lives(&is_active).expect("one for each");
+    let life: Vec<Life> = (0..FEW).map(|id| if id % 7 == 5 { Life::Removed } else { Life::Active }).collect();
+    particles.set_lives(&life).expect("one for each");
     let forces: Vec<Box<dyn Component>> =
         vec![Box::new(Columned), Box::new(Bodies { field: false }), Box::new(Grouped)];
     let columns: Vec<Column> = forces.iter().flat_map(|force| force.columns()).collect();

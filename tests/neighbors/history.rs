@@ -53,19 +53,19 @@ impl Component for Steps {
 
 type Map = BTreeMap<(usize, usize), [f64; 2]>;
 
-/// One step of the reference: what pairs remember, and what is felt.
+/// One step of the reference: what pairs remember, and the accelerations.
 fn remembered(known: &Map, places: &[DVec3], bounds: &Bounds) -> (Map, Vec<Vec4>) {
-    let (mut map, mut felt) = (Map::new(), vec![DVec4::ZERO; places.len()]);
+    let (mut map, mut acting) = (Map::new(), vec![DVec4::ZERO; places.len()]);
     for i in 0..places.len() {
         let near = |j: &usize| *j != i && bounds.within(places[*j] - places[i], RANGE);
         for j in (0..places.len()).filter(near) {
             let [steps, ids] = known.get(&(i, j)).copied().unwrap_or_default();
             let left = if steps + 1.0 < 9.0 { ids + (j % 7) as f64 } else { 0.0 };
             map.insert((i, j), [steps + 1.0, left]);
-            felt[i] += PART * DVec4::new(steps + 1.0, ids, 1.0, 0.0);
+            acting[i] += PART * DVec4::new(steps + 1.0, ids, 1.0, 0.0);
         }
     }
-    (map, felt.into_iter().map(DVec4::as_vec4).collect())
+    (map, acting.into_iter().map(DVec4::as_vec4).collect())
 }
 
 fn flock() -> State {
@@ -104,14 +104,14 @@ fn a_map_by_ids_remembers_the_same() {
                 let active = |i: usize| before.as_ref().is_none_or(|life| life[i] == 1);
                 let place = |(i, x): (usize, &Vec4)| if active(i) { x.truncate().as_dvec3() } else { DVec3::NAN };
                 let places: Vec<DVec3> = positions(&mut simulation).iter().enumerate().map(place).collect();
-                let (next, felt) = remembered(&known, &places, &bounds);
+                let (next, acting) = remembered(&known, &places, &bounds);
                 let after = pollster::block_on(simulation.read(motes::LIFE)).ok();
                 let got = accelerations(&mut simulation);
                 for i in 0..places.len() {
-                    // A drain takes what was felt.
+                    // A drain takes the acceleration.
                     let gone = after.as_ref().is_some_and(|life| life[i] != 1);
                     let of = format!("{bounds}, {variant}, step {step}, particle {i}");
-                    assert!(gone || got[i] == felt[i], "{of}: {} is not {}", got[i], felt[i]);
+                    assert!(gone || got[i] == acting[i], "{of}: {} is not {}", got[i], acting[i]);
                 }
                 longest = next.values().map(|[steps, _]| *steps).fold(longest, f64::max);
                 known = next;

@@ -118,8 +118,8 @@ fn the_list_and_the_law_agree_with_brute_force() {
             places[0] += step;
             simulation.write(POSITION, &places[..1]).expect("places");
             let way = bounds.shortest(step.truncate().as_dvec3()).length();
-            let felt = places[0] != places[0] - step && way > 0.5 * skin * range;
-            assert_eq!(agree(&mut simulation, &plan, &of), felt, "{of}: a particle moved");
+            let rebuilt = places[0] != places[0] - step && way > 0.5 * skin * range;
+            assert_eq!(agree(&mut simulation, &plan, &of), rebuilt, "{of}: a particle moved");
         }
     }
 }
@@ -183,7 +183,7 @@ fn births_and_deaths_are_brute_force_to_the_bit() {
         let setup = setup(&particles, bounds, Box::new(Weak(list(0.23, 0.2))), 7e-3);
         let mut simulation = on(&shared, machine, &setup);
         let plan = evaluation(&setup, machine);
-        let mut is_active = Vec::new();
+        let mut population = Vec::new();
         for _ in 0..15 {
             simulation.step(8).expect("steps");
             pollster::block_on(simulation.check()).expect("no alarm");
@@ -191,9 +191,12 @@ fn births_and_deaths_are_brute_force_to_the_bit() {
             agree(&mut simulation, &plan, variant);
             let want = wanted(&mut simulation, &bounds, 0.23);
             same(&accelerations(&mut simulation), &want, variant);
-            is_active.push(pollster::block_on(simulation.population()).expect("a population"));
+            population.push(pollster::block_on(simulation.population()).expect("a population"));
         }
-        assert!(is_active.iter().any(|p| p.pending > 0) && is_active.iter().any(|p| p.removed > 20), "{is_active:?}");
+        assert!(
+            population.iter().any(|p| p.pending > 0) && population.iter().any(|p| p.removed > 20),
+            "{population:?}"
+        );
     }
 }
 

@@ -1,4 +1,4 @@
-//! Neighbours: the grid against its reference, and searches through it against those that visit everybody.
+//! Neighbours: the grid against its reference, and searches through it against brute force.
 #![allow(
     clippy::cast_sign_loss,
     clippy::cast_possible_truncation,
@@ -71,7 +71,7 @@ fn simulation(gpu: Gpu, place: &Place, force: Box<dyn Component>) -> Simulation<
 }
 
 #[test]
-fn the_grid_and_the_search_agree_with_those_who_visit_everybody() {
+fn the_grid_and_the_search_agree_with_brute_force() {
     let shared = support::device();
     for place in places::all() {
         for (name, machine) in variants(&shared) {

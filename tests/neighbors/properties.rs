@@ -1,4 +1,4 @@
-//! Anywhere, in any box, at any range: searches meet exactly those that a look at everybody finds.
+//! Anywhere, in any box, at any range: searches meet exactly those that brute force finds.
 
 use glam::DVec3;
 use motes::forces::Over;

@@ -33,9 +33,8 @@ fn scene(count: usize, name: &str) -> Setup {
         particles.held = fixed.map(|id| Held { id, by: Hold::Fixed }).collect();
     }
     if count > 7 && !integrator(name).is_implicit() {
-        let is_active: Vec<Life> =
-            (0..count).map(|id| if id % 7 == 5 { Life::Removed } else { Life::Active }).collect();
-        particles.set_lives(&is_active).expect("one for each");
+        let life: Vec<Life> = (0..count).map(|id| if id % 7 == 5 { Life::Removed } else { Life::Active }).collect();
+        particles.set_lives(&life).expect("one for each");
     }
     give(&mut particles, &columns(), 17);
     setup(&particles, forces(), name, 0.07)

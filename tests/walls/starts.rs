@@ -97,7 +97,7 @@ fn what_is_no_fluid_is_refused() {
     let mut two = scene(false, "", &block("size = [0.6, 0.6, 0.6]"));
     two.forces.extend(scene(false, "", &block("size = [0.6, 0.6, 0.6]")).forces);
     let error = two.check().expect_err("two fluids").to_string();
-    assert!(error.contains("2 forces that make a fluid of everybody"), "{error}");
+    assert!(error.contains("2 forces that make a fluid of all particles"), "{error}");
     let none = setup("[simulation]\ndt = 1\nsteps = 1\n[[particles]]\nbodies = [{ position = [0, 0, 0], mass = 0 }]\n");
     assert_eq!(none.start().expect("no fluid"), None);
 }
