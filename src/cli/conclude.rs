@@ -4,12 +4,18 @@ use motes::run::{Book, Counts, Course, End, Flocks, Run};
 use serde_json::json;
 
 use super::advice::Conserved;
+use super::args::{BackendChoice, DeviceArgs};
 use super::failure::Failure;
 use super::progress::Progress;
 use super::{course, film, summary};
 
 /// Tells how a run ended.
-pub fn conclude(run: &Run, end: End, conserved: &Conserved, progress: &Progress) -> Result<(), Failure> {
+pub fn conclude(
+    run: &Run,
+    end: End,
+    conserved: &Conserved,
+    (progress, device): (&Progress, &DeviceArgs),
+) -> Result<(), Failure> {
     let took = progress.finish();
     let (scene, output, count) = (run.scene(), &run.options().output, run.count());
     if let Some(few) = run.pictures.last().map(|image| image.outside).filter(|few| *few > 0) {
@@ -34,7 +40,7 @@ pub fn conclude(run: &Run, end: End, conserved: &Conserved, progress: &Progress)
         let done = run.course.as_ref().map_or(0, Course::done);
         say(format!("stopped at step {done} of {}; everything up to there is written", scene.steps));
         if run.is_kept() {
-            say(format!("to go on: motes resume {}", output.display()));
+            say(format!("to go on: motes resume {}{}", output.display(), on(device)));
         }
     }
     say(summary::speed(end.steps, count, end.stepping, took));
@@ -60,4 +66,15 @@ pub fn conclude(run: &Run, end: End, conserved: &Conserved, progress: &Progress)
     say(format!("results in {}: {picture}{tables}, energy.svg, scene.toml, {} states", output.display(), rows.len()));
     film.into_iter().for_each(&say);
     if end.stopped { Err(Failure::Stopped) } else { Ok(()) }
+}
+
+/// The arguments of a command that runs on the same.
+fn on(device: &DeviceArgs) -> String {
+    let backend = match device.backend {
+        BackendChoice::Auto => "",
+        BackendChoice::Gpu => " --backend gpu",
+        BackendChoice::Cpu => " --backend cpu",
+    };
+    let adapter = device.adapter.as_ref().map_or_else(String::new, |name| format!(" --adapter {name:?}"));
+    format!("{backend}{adapter}")
 }

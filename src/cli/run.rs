@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use motes::formats::{Folder, Precision};
 use motes::kernel::Backend;
 use motes::run::{Checkpoint, End, Found, Options, Progress as _, Run};
-use motes::scene::{self, Scene};
+use motes::scene::{self, Every, Scene};
 use motes::simulation::{PressureSolves, Solves};
 use motes::stability::Verdict;
 use motes::{Cpu, Error, Setup, Simulation};
@@ -32,7 +32,7 @@ pub async fn run(args: &RunArgs) -> Result<(), Failure> {
     let output = args.output.clone().unwrap_or_else(|| PathBuf::from("out").join(&loaded.scene.name));
     let (ledger, fps, from) = (args.ledger, args.fps, args.from.clone());
     let mut options = Options { ledger, fps, from, overwrite: args.overwrite, ..Options::into(&output) };
-    let mut kept = None;
+    let (mut kept, mut remarks) = (None, Vec::new());
     if args.resume && output.is_dir() {
         let folder = Folder::hold(&output)?;
         match Found::of(&folder)? {
@@ -41,13 +41,36 @@ pub async fn run(args: &RunArgs) -> Result<(), Failure> {
                 complete(&output, step, &args.show);
                 return Ok(());
             }
+            Found::Begun if motes::run::is_of(&folder, &loaded.scene) => {
+                remarks.push(begins_anew(folder, &loaded)?);
+                options.overwrite = true;
+            }
             // What another run has left is refused as ever.
-            Found::Begun => options.overwrite = motes::run::is_of(&folder, &loaded.scene),
-            Found::Complete(_) | Found::Nothing => {}
+            Found::Begun | Found::Complete(_) | Found::Nothing => {}
         }
     }
     options.stop = stop::listen(&args.stop);
-    start(loaded, options, kept, &args.scene.device, &args.show).await
+    start(loaded, options, (kept, remarks), &args.scene.device, &args.show).await
+}
+
+/// What is said where a run that left no checkpoint begins anew, and its results are removed: only where the next one may have one.
+fn begins_anew(folder: Folder, loaded: &Loaded) -> Result<String, Error> {
+    let folder = folder.named(&loaded.scene.name);
+    let count = folder.results()?.len();
+    let why = if motes::run::keeps_pairs(&loaded.setup)? {
+        "a law keeps history of pairs (slots), and no checkpoint of it can be written"
+    } else if loaded.scene.checkpoint.every == Every::Never {
+        "`[checkpoint] every` is \"never\", and none was written"
+    } else {
+        return Ok(format!(
+            "{count} results of this scene are removed, and the run begins anew: it was ended before its first checkpoint"
+        ));
+    };
+    let message = format!(
+        "the folder holds {count} results of a run of this scene, which cannot go on: {why}; --overwrite in place of --resume removes \
+         them and begins anew"
+    );
+    Err(Error::Output { file: folder.path().to_owned(), message })
 }
 
 /// Goes on with a run.
@@ -76,7 +99,7 @@ pub async fn resume(args: &ResumeArgs) -> Result<(), Failure> {
         motes::run::go_on(&mut loaded.setup, &loaded.scene, &path)?;
     }
     let options = Options { stop: stop::listen(&args.stop), ..from.options(&args.folder) };
-    start(loaded, options, Some((folder, from, damaged)), &args.device, &args.show).await
+    start(loaded, options, (Some((folder, from, damaged)), Vec::new()), &args.device, &args.show).await
 }
 
 fn complete(folder: &Path, step: u64, show: &ShowArgs) {
@@ -88,7 +111,7 @@ fn complete(folder: &Path, step: u64, show: &ShowArgs) {
 async fn start(
     Loaded { scene, mut setup, verdict, .. }: Loaded,
     mut options: Options,
-    kept: Option<Kept>,
+    (kept, mut remarks): (Option<Kept>, Vec<String>),
     device: &DeviceArgs,
     show: &ShowArgs,
 ) -> Result<(), Failure> {
@@ -97,7 +120,6 @@ async fn start(
     options.device = engine.describe();
     options.precision = if let Engine::Cpu(_) = engine { Precision::Double } else { Precision::Single };
     let conserved = conserved(&setup)?;
-    let mut remarks = Vec::new();
     let mut run = if let Some((folder, from, damaged)) = kept {
         remarks.extend(
             damaged.iter().map(|error| format!("a checkpoint is not whole, and an older one is taken: {error}")),
@@ -125,7 +147,7 @@ async fn start(
     };
     let result = match driven {
         Ok(Driven { end, solves, pressures }) => {
-            let concluded = conclude::conclude(&run, end, &conserved, &progress);
+            let concluded = conclude::conclude(&run, end, &conserved, (&progress, device));
             solves::tell(&progress, solves, pressures);
             concluded
         }

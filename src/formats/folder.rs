@@ -137,14 +137,13 @@ impl Folder {
         Ok(names.map(|name| name.replace('\\', "/")).collect())
     }
 
-    /// Removes results but for these, checkpoints behind this step, and what is half written. Gives how many results were removed.
+    /// Removes results but for these, and what is half written. Gives how many results were removed.
     ///
     /// # Errors
     /// [`Error::Output`] when a file cannot be removed.
-    pub fn keep_only(&self, results: &BTreeSet<String>, step: u64) -> Result<usize, Error> {
+    pub fn keep_only(&self, results: &BTreeSet<String>) -> Result<usize, Error> {
         let gone: Vec<_> = self.results()?.difference(results).map(|name| self.path.join(name)).collect();
-        let behind = |file: &PathBuf| number_of(file) > Some(step);
-        removed(self.checkpoints()?.into_iter().filter(behind).chain(parts(&self.path)))?;
+        removed(parts(&self.path).into_iter())?;
         let count = gone.len();
         removed(gone.into_iter())?;
         Ok(count)
@@ -170,12 +169,12 @@ impl Folder {
         Ok(found)
     }
 
-    /// Removes checkpoints but for the newest of them.
+    /// Removes checkpoints up to this step but for the newest of them. Those behind it were passed over, and stay.
     ///
     /// # Errors
     /// [`Error::Output`] when a file cannot be removed.
-    pub fn keep_checkpoints(&self, most: usize) -> Result<(), Error> {
-        removed(self.checkpoints()?.into_iter().skip(most))
+    pub fn keep_checkpoints(&self, most: usize, step: u64) -> Result<(), Error> {
+        removed(self.checkpoints()?.into_iter().filter(|file| number_of(file) <= Some(step)).skip(most))
     }
 
     /// Where it is.

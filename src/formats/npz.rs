@@ -138,7 +138,7 @@ pub(crate) fn write_beside(
     out: impl Write + Seek,
     state: &State,
     precision: Precision,
-    more: &[(String, Vec<u8>)],
+    more: &[(String, &[u8])],
 ) -> io::Result<()> {
     let count = state.len() as u64;
     let mut archive = NpzWriter::new(out);

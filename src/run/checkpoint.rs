@@ -128,18 +128,19 @@ pub(super) fn write(
     .into_iter()
     .map(|(key, value)| (key.to_owned(), value))
     .collect();
-    let mut entries = vec![(SCENE.to_owned(), packed.scene.clone().into_bytes())];
-    entries.extend(packed.files.iter().map(|(name, bytes)| (format!("{FILE}{name}"), bytes.clone())));
-    entries.push((TRAIL.to_owned(), past.trail.iter().flat_map(|x| x.to_le_bytes()).collect()));
-    entries.push((KEPT.to_owned(), film.numbers.iter().flat_map(|x| x.to_le_bytes()).collect()));
+    let (head, entry) = (head.to_string(), |name: &str| format!("{RUN}{name}"));
+    let trail: Vec<u8> = past.trail.iter().flat_map(|x| x.to_le_bytes()).collect();
+    let kept: Vec<u8> = film.numbers.iter().flat_map(|x| x.to_le_bytes()).collect();
+    let mut entries = vec![(entry(SCENE), packed.scene.as_bytes())];
+    entries.extend(packed.files.iter().map(|(name, bytes)| (format!("{RUN}{FILE}{name}"), bytes.as_slice())));
+    entries.extend([(entry(TRAIL), trail.as_slice()), (entry(KEPT), &kept)]);
+    let mut first = Cursor::new(Vec::new());
     atomically(path, |out| {
         if let Some(state) = &film.first {
-            let mut bytes = Cursor::new(Vec::new());
-            npz::write_npz(&mut bytes, state, place.precision)?;
-            entries.push((FILM.to_owned(), bytes.into_inner()));
+            npz::write_npz(&mut first, state, place.precision)?;
+            entries.push((entry(FILM), first.get_ref()));
         }
-        entries.push((HEAD.to_owned(), head.to_string().into_bytes()));
-        let entries: Vec<_> = entries.into_iter().map(|(name, bytes)| (format!("{RUN}{name}"), bytes)).collect();
+        entries.push((entry(HEAD), head.as_bytes()));
         npz::write_beside(out, state, place.precision, &entries)
     })
 }
@@ -150,7 +151,11 @@ impl Checkpoint {
     /// # Errors
     /// [`Error::Input`] with what is wrong with the file.
     pub fn read(file: &Path) -> Result<Self, Error> {
-        read(file).map_err(|message| Error::Input { file: file.to_owned(), message })
+        Self::examine(file).map_err(|fault| fault.of(file))
+    }
+    /// The same, with what kind of fault it is.
+    pub(super) fn examine(file: &Path) -> Result<Self, Unread> {
+        read(file)
     }
     /// The file.
     #[must_use]
@@ -198,14 +203,52 @@ impl Checkpoint {
     }
 }
 
-fn read(file: &Path) -> Result<Checkpoint, String> {
-    let words = |error: io::Error| error.to_string();
+/// Why a checkpoint is not read.
+#[derive(Debug)]
+pub(super) enum Unread {
+    /// It is cut or damaged: an older one may be whole.
+    Damaged(String),
+    /// The machine does not read it, or this version: nothing is known of it.
+    Refused(String),
+}
+
+impl Unread {
+    /// The same of this file, for people.
+    pub(super) fn of(self, file: &Path) -> Error {
+        let (Self::Damaged(message) | Self::Refused(message)) = self;
+        Error::Input { file: file.to_owned(), message }
+    }
+    /// What the system says is a fault of the machine; what a reader of archives says is damage.
+    fn from(error: &io::Error, damage: String) -> Self {
+        if error.raw_os_error().is_some() {
+            Self::Refused(format!("cannot be read: {error}"))
+        } else {
+            Self::Damaged(damage)
+        }
+    }
+}
+
+impl From<String> for Unread {
+    fn from(message: String) -> Self {
+        Self::Damaged(message)
+    }
+}
+
+fn read(file: &Path) -> Result<Checkpoint, Unread> {
+    let words = |error: io::Error| Unread::Refused(format!("cannot be read: {error}"));
     let opened = || File::open(file).map(BufReader::new).map_err(words);
-    let length = fs::metadata(file).map_err(words)?.len();
+    let found = fs::metadata(file).map_err(words)?;
+    if !found.is_file() {
+        return Err(Unread::Refused("is no ordinary file".to_owned()));
+    }
+    let length = found.len();
     let mut raw = opened()?;
-    let mut archive = NpzArchive::new(opened()?).map_err(|error| format!("is no whole archive ({error})"))?;
+    let mut archive =
+        NpzArchive::new(opened()?).map_err(|error| Unread::from(&error, format!("is no whole archive ({error})")))?;
     let zip = archive.zip_archive();
-    let folder = tempfile::tempdir().map_err(words)?;
+    let (mut starts, mut sizes) = (BTreeSet::new(), 0_u64);
+    let unpacked = |error: io::Error| Unread::Refused(format!("cannot be unpacked into a temporary folder: {error}"));
+    let folder = tempfile::tempdir().map_err(unpacked)?;
     let (mut head, mut files) = (None, Vec::new());
     let mut blobs = [(SCENE, Vec::new()), (TRAIL, Vec::new()), (KEPT, Vec::new())];
     for number in 0..zip.len() {
@@ -213,36 +256,40 @@ fn read(file: &Path) -> Result<Checkpoint, String> {
         let name = entry.name().to_owned();
         let damaged = |why: &dyn std::fmt::Display| format!("is damaged: `{name}` {why}");
         let same = named(&mut raw, entry.header_start()).is_ok_and(|own| own == name.as_bytes());
-        if !same || entry.compression() != CompressionMethod::Stored || entry.size() > length {
-            return Err(damaged(&"is not an entry of a checkpoint"));
+        // Entries that share bytes would be read again and again.
+        let alone = starts.insert(entry.header_start());
+        sizes = sizes.saturating_add(entry.size());
+        if !same || !alone || entry.compression() != CompressionMethod::Stored || sizes > length {
+            return Err(damaged(&"is not an entry of a checkpoint").into());
         }
+        let broken = |error: io::Error| Unread::from(&error, damaged(&error));
         let Some(own) = name.strip_prefix(RUN) else {
-            io::copy(&mut entry, &mut io::sink()).map_err(|error| damaged(&error))?;
+            io::copy(&mut entry, &mut io::sink()).map_err(broken)?;
             continue;
         };
-        let bytes = content(&mut entry).map_err(|error| damaged(&error))?;
+        let bytes = content(&mut entry).map_err(broken)?;
         if let Some((_, blob)) = blobs.iter_mut().find(|(known, _)| *known == own) {
             *blob = bytes;
         } else if own == HEAD {
             head = Some(String::from_utf8(bytes).map_err(|error| damaged(&error))?);
         } else if let Some((inner, end)) = own.strip_prefix(FILE).and_then(within) {
             let inner = folder.path().join(inner);
-            fs::create_dir_all(&inner).and_then(|()| fs::write(inner.join(end), &bytes)).map_err(words)?;
+            fs::create_dir_all(&inner).and_then(|()| fs::write(inner.join(end), &bytes)).map_err(unpacked)?;
             files.push((own[FILE.len()..].to_owned(), bytes));
         } else if own == FILM {
-            fs::write(folder.path().join(FILM), bytes).map_err(words)?;
+            fs::write(folder.path().join(FILM), bytes).map_err(unpacked)?;
         } else {
-            return Err(damaged(&"is not an entry of a checkpoint"));
+            return Err(damaged(&"is not an entry of a checkpoint").into());
         }
     }
-    let head = head.ok_or("is cut, or no checkpoint: it has no entry `run/run.toml`")?;
+    let head = head.ok_or_else(|| "is cut, or no checkpoint: it has no entry `run/run.toml`".to_owned())?;
     let head: Toml = head.parse().map_err(|error: toml::de::Error| format!("is damaged: {}", error.message()))?;
     let head = Head(head);
     let format = head.number("format")?;
     if format != FORMAT {
-        return Err(format!(
+        return Err(Unread::Refused(format!(
             "is of format {format}, and this version reads {FORMAT}: go on with the version that wrote it"
-        ));
+        )));
     }
     let [(_, scene), (_, trail), (_, numbers)] = blobs;
     let scene = String::from_utf8(scene).map_err(|error| error.to_string())?;

@@ -131,8 +131,10 @@ pub struct Run {
     pairs: bool,
     /// The folder, held until this is dropped.
     folder: Option<Arc<Folder>>,
-    /// Where it goes on.
+    /// Where it goes on, until it does.
     resumed: Option<Checkpoint>,
+    /// Steps of dt that were done when it went on.
+    goes_on: Option<u64>,
     schedule: Schedule,
     /// The energies.
     pub energies: Energies,
@@ -157,6 +159,14 @@ pub struct Run {
     pub springs: (usize, Option<usize>),
     /// The last state that was read, and so the last that is known to be good.
     pub last: Option<State>,
+}
+
+/// Whether a law keeps history of pairs, which no state holds: then no checkpoints are written.
+///
+/// # Errors
+/// What is wrong with the setup.
+pub fn keeps_pairs(setup: &Setup) -> Result<bool, Error> {
+    Ok(setup.problem(Machine::HOST)?.list.is_some_and(|list| list.words > 0))
 }
 
 /// How a run ended.
@@ -190,15 +200,15 @@ impl Run {
         Picture::with(&scene.picture, &setup.state, &[], Trail::new(0), &scenery)?;
         let radius = properties().find_map(|of| of.statistics_radius);
         let count = setup.state.len();
-        let list = setup.problem(Machine::HOST)?.list;
         Ok(Self {
             begun,
             count,
             columns: setup.columns()?,
             packed,
-            pairs: list.is_some_and(|list| list.words > 0),
+            pairs: keeps_pairs(setup)?,
             folder,
             resumed: None,
+            goes_on: None,
             schedule: Schedule::new(scene.checkpoint.every, setup.state.step, setup.state.time),
             energies: Energies::new(&scene.name),
             flocks: radius.map(|radius| Flocks::new(radius, scene.bounds)),
@@ -260,8 +270,8 @@ impl Run {
         }
         let mut course = Course::of(&self.scene, simulation).await?;
         let begun = simulation.steps();
-        if let Some(from) = &self.resumed {
-            course.go_on(from.past.done);
+        if let Some(done) = self.goes_on {
+            course.go_on(done);
         } else {
             self.write(simulation, &course, progress).await?;
             self.shoot(simulation, &course, &folder, progress).await?;
@@ -286,7 +296,7 @@ impl Run {
         }
         if !stopped {
             self.sign(&folder, Some(simulation.steps()))?;
-            folder.keep_checkpoints(0)?;
+            folder.keep_checkpoints(0, u64::MAX)?;
         }
         self.course = Some(course);
         Ok(End { stopped, steps, stepping })

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::error::Error;
-use crate::scene::Scene;
+use crate::scene::{self, Scene};
 
 /// The text of a scene, and the files that it names, under names of their own.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -24,7 +24,7 @@ impl Packed {
     /// Reads the files of a scene, and the state with which it begins, if that is another.
     pub(super) fn of(scene: &Scene, also: String, from: Option<&Path>) -> Result<Self, Error> {
         let (text, named) = scene.packed();
-        let end = |path: &Path| path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        let end = |path: &Path| path.file_name().map(|name| scene::plain(&name.to_string_lossy())).unwrap_or_default();
         let named = named.into_iter().chain(from.map(|path| (format!("{FROM}{}", end(path)), path.to_owned())));
         let read = |(name, path): (String, PathBuf)| {
             let bytes = fs::read(&path).map_err(|why| Error::Input { file: path, message: why.to_string() })?;

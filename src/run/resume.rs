@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use web_time::Instant;
 
-use super::checkpoint::{self, Checkpoint, Past, Place};
+use super::checkpoint::{self, Checkpoint, Past, Place, Unread};
 use super::course::Course;
 use super::film::Film;
 use super::progress::Progress;
@@ -39,20 +39,20 @@ impl Found {
     /// Looks into a folder that is held.
     ///
     /// # Errors
-    /// [`Error::Input`] when there are checkpoints, and none of them is whole.
+    /// [`Error::Input`] when there are checkpoints, and none of them is whole, or one cannot be read for another reason than damage.
     pub fn of(folder: &Folder) -> Result<Self, Error> {
         let text = std::fs::read_to_string(folder.path().join("scene.toml")).unwrap_or_default();
-        let complete = text.lines().rev().find_map(|line| line.strip_prefix(COMPLETE));
-        if let Some(step) = complete.and_then(|step| step.parse().ok()) {
+        if let Some(step) = complete(&text) {
             // A run that was killed behind its mark has left them.
-            folder.keep_checkpoints(0)?;
+            folder.keep_checkpoints(0, u64::MAX)?;
             return Ok(Self::Complete(step));
         }
         let mut damaged = Vec::new();
         for file in folder.checkpoints()? {
-            match Checkpoint::read(&file) {
+            match Checkpoint::examine(&file) {
                 Ok(found) => return Ok(Self::Checkpoint(Box::new(found), damaged)),
-                Err(error) => damaged.push(error),
+                Err(error @ Unread::Damaged(_)) => damaged.push(error.of(&file)),
+                Err(error) => return Err(error.of(&file)),
             }
         }
         match damaged.into_iter().next() {
@@ -65,6 +65,20 @@ impl Found {
             None => Ok(Self::Begun),
         }
     }
+}
+
+/// The step at which a run is complete, by its resolved scene: the line behind the signature says it. A scene's own comments are before both.
+fn complete(text: &str) -> Option<u64> {
+    let mut lines = text.lines().rev();
+    let step = lines.next()?.strip_prefix(COMPLETE)?.parse().ok()?;
+    lines.next()?.starts_with(Folder::SIGNATURE).then_some(step)
+}
+
+/// The scene that a run which goes on has signed when it began.
+fn signed(folder: &Folder) -> Option<String> {
+    let text = std::fs::read_to_string(folder.path().join("scene.toml")).ok()?;
+    let (scene, signature) = text.rsplit_once(&format!("\n{}", Folder::SIGNATURE))?;
+    (signature.lines().count() == 1).then(|| scene.to_owned())
 }
 
 /// Whether the results in a folder are those of this scene.
@@ -163,14 +177,15 @@ impl Run {
         }
         if let Some(from) = from {
             self.go_on(&from, &folder, progress)?;
-            self.resumed = Some(from);
+            // With it goes the folder of its files.
+            self.goes_on = Some(from.past.done);
         }
         Ok(folder)
     }
     /// What the host knew at a checkpoint.
     fn go_on(&mut self, from: &Checkpoint, folder: &Arc<Folder>, progress: &mut dyn Progress) -> Result<(), Error> {
         let past = &from.past;
-        let gone = folder.keep_only(&past.results, from.at().0)?;
+        let gone = folder.keep_only(&past.results)?;
         if gone > 0 {
             progress.remark(&format!("{gone} results behind the checkpoint are removed, and will be written again"));
         }
@@ -187,9 +202,12 @@ impl Run {
         }
         Ok(())
     }
-    /// Writes the scene with every value, by which a later run knows what belongs to this one; and that it is complete.
+    /// Writes the scene with every value, by which a later run knows what belongs to this one; and that it is complete. Where the run went
+    /// on, the scene is the one that it signed first: files that it names are there, and those of the checkpoint are not.
     pub(super) fn sign(&self, folder: &Folder, complete: Option<u64>) -> Result<(), Error> {
-        let (scene, signature) = (self.scene.resolved_in(folder.path()), folder.signature(&self.options.device));
+        let first = self.goes_on.and_then(|_| signed(folder));
+        let scene = first.unwrap_or_else(|| self.scene.resolved_in(folder.path()));
+        let signature = folder.signature(&self.options.device);
         let end = complete.map_or_else(String::new, |step| format!("{COMPLETE}{step}\n"));
         atomically(&folder.file("scene.toml")?, |out| write!(out, "{scene}\n{signature}{end}"))
     }
@@ -220,7 +238,7 @@ impl Run {
         };
         let file = folder.checkpoint(state.step)?;
         checkpoint::write(&file, &self.scene.name, (&state, &self.place()), &self.packed, &past)?;
-        folder.keep_checkpoints(self.scene.checkpoint.keep)?;
+        folder.keep_checkpoints(self.scene.checkpoint.keep, state.step)?;
         self.schedule.written(simulation.steps(), course.time(), begun);
         progress.checkpoint(state.step, &file);
         self.last = Some(state);

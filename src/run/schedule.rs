@@ -36,7 +36,7 @@ impl Schedule {
         match self.every {
             Every::Steps(some) => some.max(1) - steps % some.max(1),
             Every::Time(some) => {
-                let left = (self.intervals(steps, time) + 1) as f64 * some - time;
+                let left = self.intervals(steps, time).saturating_add(1) as f64 * some - time;
                 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "above 0, or saturated")]
                 let most = (left / dt).ceil() as u64;
                 most.max(1)
@@ -72,6 +72,7 @@ mod tests {
         let time = Schedule::new(Every::Time(0.5), 23, 2.3);
         assert_eq!(time.most(23, 2.3, 0.1), 3); // 0.2 / 0.1 rounds up: 2.0000000000000018
         assert!(!time.is_due(24, 2.4) && time.is_due(26, 2.6));
+        assert_eq!(Schedule::new(Every::Time(1e-300), 1, 1.0).most(1, 1.0, 0.1), 1);
         let wall = Schedule::new(Every::Wall(3600.0), 0, 0.0);
         assert!(!wall.is_due(1 << 40, 1e9) && Schedule::new(Every::Wall(0.0), 0, 0.0).is_due(0, 0.0));
         assert!(!Schedule::new(Every::Never, 0, 0.0).is_due(1 << 40, 1e9));

@@ -64,13 +64,22 @@ impl Every {
     }
 }
 
-/// Reads the section.
-pub(super) fn read(table: Option<&Table<'_>>, report: &mut Report) -> Checkpoints {
+/// An interval of time that is a smaller part of dt is a slip. Above it whole intervals are counted exactly: 2³² steps have fewer than 2⁵³.
+const LEAST: f64 = 1e-6;
+
+/// Reads the section of a scene of these steps.
+pub(super) fn read(table: Option<&Table<'_>>, dt: f64, report: &mut Report) -> Checkpoints {
     let settings = table.map_or_else(|| Settings::defaults(KEYS), |table| table.settings(KEYS, OWN, report));
     let mut every = DEFAULT;
     if let Some(entry) = table.and_then(|table| table.get("every")) {
         let text = if let Data::Text(text) = &entry.node.data { Every::parse(text) } else { None };
         match text {
+            Some(Every::Time(time)) if time < LEAST * dt => {
+                let label = format!(
+                    "{time:?} is less than a millionth of dt = {dt:?}: a checkpoint after every step is \"1 steps\""
+                );
+                report.push(Fault::at(&entry.node.place, "`every` is far below a step").label(label));
+            }
             Some(given) => every = given,
             None => {
                 report

@@ -62,10 +62,17 @@ impl Files {
             return Err(Fault::at(place, format!("{shown} is {what}")).in_input());
         }
         // It is not known here where the resolved scene will be written, so it names files from the root.
-        let absolute = fs::canonicalize(&path).ok();
-        self.read.borrow_mut().extend(absolute.clone());
-        let absolute = absolute.and_then(|p| p.to_str().map(str::to_owned));
-        Ok(Located::Disk { path, name: absolute.unwrap_or_else(|| name.to_owned()) })
+        let absolute = fs::canonicalize(&path)
+            .map_err(|why| Fault::at(place, format!("cannot read {shown}: {why}")).in_input())?;
+        let Some(name) = absolute.to_str().map(str::to_owned) else {
+            return Err(Fault::at(place, format!("{shown} is in a folder whose name is no UTF-8 text"))
+                .in_input()
+                .note(
+                    "help: results and checkpoints name the file by its way from the root, in UTF-8: rename the folder",
+                ));
+        };
+        self.read.borrow_mut().push(absolute);
+        Ok(Located::Disk { path, name })
     }
     /// The files that were found, from the root.
     pub(super) fn found(self) -> Vec<PathBuf> {

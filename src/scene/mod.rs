@@ -65,6 +65,7 @@ pub use source::Source;
 use files::Files;
 use report::{Fault, Place, Report};
 use resolved::Writer;
+pub(crate) use resolved::plain;
 use walk::Table;
 
 /// A scene, read and checked.
@@ -305,7 +306,7 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
     particles.motions = motions;
     let output = output::read(one("output"), simulation.steps, &columns, report);
     output.write(&mut out);
-    let checkpoint = checkpoint::read(one("checkpoint"), report);
+    let checkpoint = checkpoint::read(one("checkpoint"), simulation.dt, report);
     checkpoint.write(&mut out);
     let picture = match one("picture") {
         Some(table) => table.settings(render::KEYS, &[], report),

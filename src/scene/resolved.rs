@@ -140,11 +140,16 @@ pub(super) fn packed(text: &str, files: &[PathBuf]) -> (String, Vec<(String, Pat
         let Some(from) = file.to_str().map(quoted).filter(|from| text.contains(from)) else { continue };
         let Some(end) = file.file_name().and_then(|end| end.to_str()) else { continue };
         // Its own name in a folder of its own: messages, and laws, are named after it.
-        let name = format!("{}/{end}", named.len());
+        let name = format!("{}/{}", named.len(), plain(end));
         text = text.replace(&from, &quoted(&name));
         named.push((name, file.clone()));
     }
     (text, named)
+}
+
+/// The name of a file with `_` for what other systems take for a way through folders.
+pub(crate) fn plain(name: &str) -> String {
+    name.chars().map(|c| if matches!(c, '/' | '\\' | ':') || c.is_control() { '_' } else { c }).collect()
 }
 
 /// The way from a folder to a file, with slashes; none between two drives.

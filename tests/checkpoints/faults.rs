@@ -14,7 +14,7 @@ use crate::library::references;
 use crate::{Place, SCENE, all, difference, motes, said};
 
 /// What [`stopped`] sets.
-const KEEP: [&str; 2] = ["--set", "checkpoint.keep=1"];
+pub const KEEP: [&str; 2] = ["--set", "checkpoint.keep=1"];
 
 /// Asks for an end in the middle.
 struct Asks(Stop);
@@ -28,7 +28,7 @@ impl Progress for Asks {
 }
 
 /// A run that was stopped in the middle, behind checkpoints, one of which is left.
-fn stopped(place: &Place, out: &str) {
+pub fn stopped(place: &Place, out: &str) {
     let _ = std::fs::remove_dir_all(place.at(out));
     let source = Source::find(&place.path("a.toml")).unwrap_or_else(|faults| panic!("{faults}"));
     let sets = ["checkpoint.keep=1".to_owned()];
@@ -75,7 +75,8 @@ fn a_run_that_is_stopped_goes_on_with_a_code_of_its_own() {
     std::fs::remove_file(&place.checkpoints("fourth")[0]).expect("removed");
     let (code, words) = place.resume("fourth", &[]);
     assert!(code == 8 && words.contains("before its first checkpoint"), "{words}");
-    assert_eq!(place.run("a.toml", "fourth", &[&["--resume"], &KEEP[..]].concat()).0, 0);
+    let (code, words) = place.run("a.toml", "fourth", &[&["--resume"], &KEEP[..]].concat());
+    assert!(code == 0 && words.contains("results of this scene are removed"), "{words}");
     assert_eq!(difference(&place.at("fourth"), &place.at("whole")), None);
 }
 
@@ -85,6 +86,7 @@ fn a_limit_of_time_ends_a_run_with_a_checkpoint() {
     assert_eq!(place.run("a.toml", "whole", &KEEP).0, 0);
     let (code, words) = place.run("a.toml", "out", &[&["--max-hours", "1e-9"], &KEEP[..]].concat());
     assert!(code == 75 && words.contains("stopped at step 0") && words.contains("motes resume"), "{code} {words}");
+    assert!(words.contains("out --backend cpu"), "the whole command: {words}");
     assert_eq!(place.checkpoints("out").len(), 1);
     let (code, words) = place.resume("out", &["--max-hours", "1e-9"]);
     assert_eq!(code, 75, "{words}");
@@ -114,9 +116,8 @@ fn a_state_from_which_it_was_begun_and_files_of_the_scene_are_kept() {
     let (code, words) = said(&mut motes(&["resume", &place.path("out")]));
     assert_eq!(code, 0, "{words}");
     let (got, want) = (all(&place.at("out")), all(&place.at("whole")));
-    // The resolved scene names its files from where it is, and they are not there any more.
     assert_eq!(got.keys().collect::<Vec<_>>(), want.keys().collect::<Vec<_>>());
-    for (name, bytes) in got.iter().filter(|(name, _)| *name != "scene.toml") {
+    for (name, bytes) in &got {
         assert!(want[name] == *bytes, "{name}");
     }
 }
@@ -305,4 +306,8 @@ fn history_of_pairs_is_refused_with_the_reason() {
     assert_eq!(code, 75, "{words}");
     assert!(words.contains("no checkpoints are written") && words.contains("history of pairs"), "{words}");
     assert!(!words.contains("motes resume") && place.checkpoints("out").is_empty(), "{words}");
+    let before = all(&place.at("out"));
+    let (code, words) = said(&mut motes(&["run", &scene, "-o", &out, "--resume"]));
+    assert!(code == 8 && words.contains("--overwrite") && words.contains("slots"), "{words}");
+    assert!(all(&place.at("out")) == before, "a refusal changes nothing");
 }

@@ -3,6 +3,7 @@
 mod faults;
 mod killed;
 mod library;
+mod refused;
 mod resumed;
 #[path = "../support/small.rs"]
 mod small;
