@@ -53,18 +53,24 @@ fn of_a_fluid(setup: &Setup) -> Option<&'static str> {
 /// The particles that links tie to one.
 fn neighbors(setup: &Setup, particle: u32) -> String {
     let links = &setup.state.links;
+    // Links name places.
+    let ids = setup.state.ids();
+    let Some(place) = setup.state.place_of(particle).and_then(|place| u32::try_from(place).ok()) else {
+        return String::new();
+    };
     let mut others: Vec<u32> = Vec::new();
     let pairs = links.springs.iter().map(|s| s.ends).chain(links.rods.iter().map(|r| r.ends));
     let threes = links.joints.iter().map(|j| j.ids).chain(links.triangles.iter().copied());
-    others.extend(pairs.filter(|ids| ids.contains(&particle)).flatten());
-    others.extend(threes.filter(|ids| ids.contains(&particle)).flatten());
-    others.retain(|id| *id != particle);
+    others.extend(pairs.filter(|ends| ends.contains(&place)).flatten());
+    others.extend(threes.filter(|corners| corners.contains(&place)).flatten());
+    others.retain(|other| *other != place);
     others.sort_unstable();
     others.dedup();
     if others.is_empty() {
         return String::new();
     }
-    let named: Vec<_> = others.iter().take(NAMED).map(u32::to_string).collect();
+    let named: Vec<_> =
+        others.iter().take(NAMED).filter_map(|other| ids.get(*other as usize)).map(u32::to_string).collect();
     let more = if others.len() > NAMED { format!(" and {} more", others.len() - NAMED) } else { String::new() };
     format!("it is tied to {}{more}", named.join(", "))
 }

@@ -57,6 +57,7 @@ impl Ledger {
         // Single precision may put a particle at a side just behind it.
         let slack = f64::from(f32::EPSILON) * bounds.low.abs().max(bounds.high.abs());
         let sounds = medium.sound > 0.0;
+        let ids = particles.ids();
         for i in (0..particles.len()).filter(|i| !held(*i) && particles.is_active(*i)) {
             let (x, v, m) = (particles.position()[i], particles.velocity()[i], particles.mass()[i]);
             let rho = density.get(i).copied().map_or(medium.density, f64::from);
@@ -74,7 +75,7 @@ impl Ledger {
             let error = (rho / medium.density - 1.0).max(0.0);
             ledger.mean_density += error;
             if error > ledger.worst_density {
-                (ledger.worst_density, ledger.worst_particle) = (error, u32::try_from(i).unwrap_or(u32::MAX));
+                (ledger.worst_density, ledger.worst_particle) = (error, ids[i]);
             }
             let out = |axis: &usize| {
                 let (low, high) = (bounds.low - slack, bounds.high + slack);

@@ -1,5 +1,7 @@
 //! One state behind another, and some particles of one.
 
+use std::collections::BTreeSet;
+
 use super::State;
 use crate::error::Error;
 use crate::kernel::{Array, ID, Shape};
@@ -7,7 +9,8 @@ use crate::life::Birth;
 use crate::motion::{Held, Hold};
 
 impl State {
-    /// Adds all particles of another state; their ids follow on, whatever they were there. Columns that only one of them gives have their initial values in
+    /// Adds all particles of another state; they keep their ids where none of them is taken, and get those that follow on
+    /// otherwise. Columns that only one of them gives have their initial values in
     /// the other. Time and step stay.
     ///
     /// # Errors
@@ -17,6 +20,8 @@ impl State {
         let (before, added, had_ids) = (self.len(), other.len(), self.has_ids());
         let first = u32::try_from(before).unwrap_or(u32::MAX);
         let next = self.next_id();
+        let taken: BTreeSet<u32> = self.ids().iter().copied().collect();
+        let keep = other.has_ids() && !other.ids().iter().any(|id| taken.contains(id));
         self.kept.clear();
         other.declared().try_for_each(|column| self.declare(column))?;
         for filled in self.columns.iter_mut().filter(|filled| !matches!(filled.column.shape, Shape::System(_))) {
@@ -42,7 +47,11 @@ impl State {
         if let (Some(Array::Uint(ids)), false) = (self.get_mut(ID.name), had_ids) {
             ids[..before].iter_mut().zip(0..).for_each(|(to, id)| *to = id);
         }
-        self.name_last(added, next);
+        if keep {
+            self.next = self.next.max(other.next);
+        } else {
+            self.name_last(added, next);
+        }
         self.links.append(&other.links, first);
         let motions = u32::try_from(self.motions.len()).unwrap_or(u32::MAX);
         let by = |by| if let Hold::Motion(n) = by { Hold::Motion(n.saturating_add(motions)) } else { by };

@@ -64,6 +64,9 @@ fn snapshots_keep_ids() {
     let mut more = snapshot.clone();
     more.append(&cloud(2, 2)).expect("two more");
     assert_eq!(more.ids().to_vec(), [4, 1, 8, 9, 10]);
+    let mut all = State::default();
+    all.append(&snapshot).expect("three");
+    assert_eq!((all.ids().to_vec(), all.next_id()), (vec![4, 1, 8], snapshot.next_id()), "none of them was taken");
     let mut plain = cloud(2, 2);
     plain.append(&snapshot).expect("three more");
     assert_eq!(plain.ids().to_vec(), [0, 1, 2, 3, 4]);
