@@ -14,7 +14,7 @@ use motes::solids::Solid;
 use motes::{Bounds, Gpu, POSITION, Side, Simulation};
 
 use crate::curious::{CHOOSY, MOVING, OTHERS, STILL, law};
-use crate::stages::{Device, FEW, Stage, fill, moving};
+use crate::stages::{Device, FEW, Stage, fill, moving, stage};
 use crate::support::equivalents::{Equivalent, same};
 use crate::support::machines::{alone, subgroups_of_eight};
 use crate::support::states::force;
@@ -108,6 +108,10 @@ fn staged(name: &str, mut simulation: Simulation<Gpu>, bounds: Bounds, plan: Pla
 pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
     let few = |machine| moving(device, FEW, Some(machine));
     let some: Vec<_> = (0..FEW as u32).filter(|id| id % 5 == 2).map(|id| Held { id, by: Hold::Fixed }).collect();
+    // Random numbers by ids that are no rows.
+    let named = Problem::new(FEW as u32, MACHINE).with_ids(true);
+    let wander = force("wander", &[]).laws().remove(0).kernel(&named).expect("a kernel");
+    stages.push(stage("wander by ids", few(MACHINE), wander));
     let periodic = Bounds::new(DVec3::new(-0.9, -1.1, -1.0), DVec3::new(0.7, 0.8, 0.9), Side::Periodic);
     let edge = pollster::block_on(few(MACHINE).read(POSITION)).expect("places")[3].truncate().as_dvec3();
     for (bounds, held) in [(Bounds::default(), &[][..]), (periodic, &some[..])] {
