@@ -27,9 +27,9 @@ fn burst(number: u32) -> State {
 fn main() -> Result<(), Box<dyn Error>> {
     let weight = forces::entry("uniform").ok_or("no such force")?;
     let down = Settings::defaults(weight.keys).with("acceleration", Value::Vector(-9.81 * DVec3::Y));
-    // Room for all that fly at a time: about 0.6 s of bursts.
+    // Room for all that fly at a time: for 0.75 units of it, that is 15 bursts, and one more.
     let mut state = burst(0);
-    state.capacity = Some(12 * BURST);
+    state.capacity = Some(16 * BURST);
     let setup = Setup {
         state,
         forces: vec![(weight.build)(&down)],
