@@ -181,6 +181,21 @@ impl Film {
         }
         apng::write_apng(&folder.file(&self.file())?, &self.done, self.rate)
     }
+    /// So many frames, which are there.
+    ///
+    /// # Errors
+    /// [`Error::Output`] with the first that is not.
+    pub(super) fn there(&self, done: u64, folder: &Folder) -> Result<Vec<PathBuf>, Error> {
+        let one = |number| {
+            let file = folder.file(&self.frame(number))?;
+            if file.is_file() {
+                return Ok(file);
+            }
+            let message = "the film goes on behind this picture, and it is not there: put it back, or begin anew with --overwrite";
+            Err(Error::Output { file, message: message.to_owned() })
+        };
+        (0..usize::try_from(done).unwrap_or(usize::MAX)).map(one).collect()
+    }
     /// What a checkpoint keeps of it.
     pub(super) fn kept(&self) -> Reel {
         let four = |all: &[Vec4]| all.iter().flat_map(Vec4::to_array).collect::<Vec<f32>>();
@@ -208,14 +223,7 @@ impl Film {
         to: (&Pictures, &Arc<Folder>),
     ) -> Result<(), Error> {
         let reel = &from.past.film;
-        for number in 0..usize::try_from(reel.done).unwrap_or(0) {
-            let file = to.1.file(&self.frame(number))?;
-            if !file.is_file() {
-                let message = "the film goes on behind this picture, and it is not there: put it back, or begin anew with --overwrite";
-                return Err(Error::Output { file, message: message.to_owned() });
-            }
-            self.done.push(file);
-        }
+        self.done = self.there(reel.done, to.1)?;
         self.outside = u32::try_from(reel.outside).unwrap_or(u32::MAX);
         if let Some(state) = from.film(columns)? {
             self.begin((state, reel.pushes), (to.0, to.1), self.auto_frame)?;

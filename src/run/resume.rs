@@ -10,7 +10,7 @@ use super::checkpoint::{self, Checkpoint, Past, Place, Unread};
 use super::course::Course;
 use super::film::Film;
 use super::progress::Progress;
-use super::table::Lengths;
+use super::table::{self, Lengths};
 use super::{Options, Run};
 use crate::error::Error;
 use crate::formats::{Folder, atomically};
@@ -18,6 +18,7 @@ use crate::kernel::Backend;
 use crate::render::Trail;
 use crate::scene::{Scene, Source};
 use crate::simulation::{Setup, Simulation};
+use crate::state::State;
 
 /// What the resolved scene says behind all else, once its run is complete.
 const COMPLETE: &str = "# Complete at step ";
@@ -132,11 +133,48 @@ impl Run {
         let state = from.state(&run.columns)?;
         let unfit =
             |error: Error| Error::Input { file: from.file().to_owned(), message: format!("cannot go on: {error}") };
+        run.fits(&from, &state)?;
         setup.state.go_on_from(&state).map_err(unfit)?;
         run.begun = from.past.begun;
         run.film = Film::of(&run.scene, run.begun, run.options.fps);
+        if let (Some(film), Some(folder)) = (&run.film, &run.folder) {
+            film.there(from.past.film.done, folder)?;
+        }
         run.resumed = Some(from);
         Ok(run)
+    }
+    /// Compares what a checkpoint says with its state, the scene and the folder, before anything is cut back to it.
+    fn fits(&self, from: &Checkpoint, state: &State) -> Result<(), Error> {
+        let (past, reel, (step, time)) = (&from.past, &from.past.film, from.at());
+        let refuse = |what: String| {
+            let message = format!("does not fit: {what}; begin anew with --overwrite");
+            Err(Error::Input { file: from.file().to_owned(), message })
+        };
+        if (state.step, state.time.to_bits()) != (step, time.to_bits()) {
+            return refuse(format!(
+                "it says step {step} and time {time}, and its state {} and {}",
+                state.step, state.time
+            ));
+        }
+        let last = self.scene.steps;
+        if past.begun > past.done || past.done >= last {
+            return refuse(format!("{} steps are done since step {}, of {last}", past.done, past.begun));
+        }
+        if self.scene.adaptive_step.is_none() && past.done != step {
+            return refuse(format!("{} steps are done at step {step}", past.done));
+        }
+        if self.pictures.trail.wanted() && Trail::of(self.count, &past.trail).is_none() {
+            return refuse(format!("{} numbers are no trail of {} particles", past.trail.len(), self.count));
+        }
+        let (frames, kept) = (self.scene.output.frames, reel.steps.len() as u64 / 2);
+        let pairs = reel.steps.len().is_multiple_of(2) && reel.numbers.len() as u64 == kept * 8 * self.count as u64;
+        if !pairs || reel.done.saturating_add(kept) > frames || u32::try_from(reel.outside).is_err() {
+            return refuse(format!("{} pictures and {kept} states are no part of a film of {frames}", reel.done));
+        }
+        if let Some(folder) = &self.folder {
+            past.lengths.iter().try_for_each(|(name, length)| table::holds(&folder.file(name)?, *length).map(drop))?;
+        }
+        Ok(())
     }
     /// What runs it.
     fn place(&self) -> Place {

@@ -104,13 +104,16 @@ fn failure(path: &Path, message: &str) -> Error {
     Error::Output { file: path.to_owned(), message: message.to_owned() }
 }
 
-/// Cuts a table back, and gives what is left.
-fn cut(path: &Path, header: &str, length: u64) -> Result<(File, String), Error> {
+/// Opens a table of at least this length.
+///
+/// # Errors
+/// [`Error::Output`] where it is none.
+pub(super) fn holds(path: &Path, length: u64) -> Result<File, Error> {
     let failed = |error: std::io::Error| failure(path, &error.to_string());
     if !fs::symlink_metadata(path).map_err(failed)?.is_file() {
         return Err(failure(path, "it is no ordinary file, as the table of a run that goes on must be"));
     }
-    let mut file = OpenOptions::new().read(true).write(true).open(path).map_err(failed)?;
+    let file = OpenOptions::new().read(true).write(true).open(path).map_err(failed)?;
     let there = file.metadata().map_err(failed)?.len();
     if there < length {
         let text = format!(
@@ -119,7 +122,13 @@ fn cut(path: &Path, header: &str, length: u64) -> Result<(File, String), Error> 
         );
         return Err(failure(path, &text));
     }
-    let mut text = String::new();
+    Ok(file)
+}
+
+/// Cuts a table back, and gives what is left.
+fn cut(path: &Path, header: &str, length: u64) -> Result<(File, String), Error> {
+    let failed = |error: std::io::Error| failure(path, &error.to_string());
+    let (mut file, mut text) = (holds(path, length)?, String::new());
     (&mut file).take(length).read_to_string(&mut text).map_err(failed)?;
     if text.lines().next() != Some(header) || !text.ends_with('\n') {
         return Err(failure(

@@ -108,6 +108,56 @@ fn an_entry_that_is_listed_twice_is_damage() {
     assert!(why.contains("is not an entry of a checkpoint"), "{why}");
 }
 
+/// The checksum of archives.
+fn checksum(bytes: &[u8]) -> u32 {
+    let turn = |sum: u32| if sum & 1 == 1 { sum >> 1 ^ 0xedb8_8320 } else { sum >> 1 };
+    !bytes.iter().fold(u32::MAX, |sum, byte| (0..8).fold(sum ^ u32::from(*byte), |sum, _| turn(sum)))
+}
+
+/// The same archive with other words of the same length in `run.toml`, its last entry.
+fn said_otherwise(good: &[u8], from: &str, to: &str) -> Vec<u8> {
+    let (mut bytes, name) = (good.to_vec(), b"run/run.toml");
+    let places: Vec<_> =
+        good.windows(name.len()).enumerate().filter(|(_, part)| part == name).map(|(at, _)| at).collect();
+    let [local, listed] = places[..] else { panic!("{places:?}") };
+    let size = u32::from_le_bytes(good[listed - 22..listed - 18].try_into().expect("four bytes")) as usize;
+    let begin = local + name.len() + usize::from(good[local - 2]);
+    let text = std::str::from_utf8(&good[begin..begin + size]).expect("words");
+    assert!(text.matches(from).count() == 1 && from.len() == to.len(), "{from} {to} {text}");
+    let text = text.replace(from, to).into_bytes();
+    for at in [local - 16, listed - 30] {
+        assert_eq!(bytes[at..at + 4], checksum(&good[begin..begin + size]).to_le_bytes());
+        bytes[at..at + 4].copy_from_slice(&checksum(&text).to_le_bytes());
+    }
+    bytes[begin..begin + size].copy_from_slice(&text);
+    bytes
+}
+
+/// Numbers that do not fit are refused before a table is cut or a result removed.
+#[test]
+fn numbers_that_do_not_fit_are_refused_and_nothing_is_touched() {
+    let place = Place::with(&[("a.toml", SCENE)]);
+    stopped(&place, "out");
+    let file = place.checkpoints("out").remove(0);
+    let good = std::fs::read(&file).expect("read");
+    let step: u64 = file.to_str().and_then(|name| name[name.len() - 14..name.len() - 4].parse().ok()).expect("a step");
+    let done = format!("\ndone = {step}\n");
+    let cases = [
+        ("\nbegun = 0\n", "\nbegan = 0\n".to_owned(), "`begun` is missing"),
+        (&*done, "\ndone = 40\n".to_owned(), "of 40"),
+        (&*done, "\ndone = 99\n".to_owned(), "of 40"),
+        (&*done, "\ndone = 39\n".to_owned(), "steps are done at step"),
+        ("\nfilm_done = ", "\nfilm_done =9".to_owned(), "no part of a film of 6"),
+    ];
+    for (from, to, what) in cases {
+        std::fs::write(&file, said_otherwise(&good, from, &to)).expect("written");
+        let before = all(&place.at("out"));
+        let (code, words) = place.resume("out", &[]);
+        assert!(code == 4 && words.contains(what), "{to}: {code} {words}");
+        assert!(all(&place.at("out")) == before, "{to}");
+    }
+}
+
 #[test]
 fn an_interval_far_below_a_step_is_a_fault() {
     let place = Place::with(&[("a.toml", &SCENE.replace("7 steps", "1e-300 time"))]);
