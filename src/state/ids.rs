@@ -3,7 +3,9 @@
 use std::borrow::Cow;
 use std::collections::BTreeSet;
 
-use super::{KEPT_NEXT, NONE, State};
+#[cfg(feature = "scene")]
+use super::KEPT_NEXT;
+use super::{NONE, State};
 use crate::error::Error;
 use crate::kernel::{Array, ID};
 
@@ -51,6 +53,7 @@ impl State {
         beyond.max(self.next)
     }
     /// Takes the counter of ids out of what a file kept.
+    #[cfg(feature = "scene")]
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
     pub(crate) fn take_next(&mut self) {
         self.next = self.kept.get(KEPT_NEXT).and_then(|list| list.first()).map_or(0, |next| *next as u32);

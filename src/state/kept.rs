@@ -29,6 +29,7 @@ pub(crate) const ROWS: &str = "kept_rows";
 pub(crate) const ROOM: &str = "kept_room";
 
 /// The id from which on no particle has had one, in files.
+#[cfg(feature = "scene")]
 pub(crate) const NEXT: &str = "kept_next_id";
 
 /// Where held particles were at time 0, in groups of seven numbers: the id, that place, and where they are.
