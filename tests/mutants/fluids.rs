@@ -21,20 +21,20 @@ use crate::support::{Random, Shared};
 use Value::{Flag, Number};
 
 pub const EQUIVALENT: &[Equivalent] = &[
-    same("fluids/cubic", "return select(2.0", "<=", "<", "both halves have one value where they meet"),
-    same("fluids/tension", "const NOTHING", "1e-30", "1.5000000000000001e-30", "no particle is as near as that"),
-    same("fluids/tension", "let pull = ", "<=", "<", "both halves have one value where they meet"),
-    same("fluids/cubic", "return select(-6.0", "<=", "<", "both halves have one value where they meet"),
-    same("fluids/", "return me.density > 0.0; }", ">", ">=", "fixed particles stand behind all that are evaluated"),
+    same("sph/cubic", "return select(2.0", "<=", "<", "both halves have one value where they meet"),
+    same("sph/tension", "const NOTHING", "1e-30", "1.5000000000000001e-30", "no particle is as near as that"),
+    same("sph/tension", "let pull = ", "<=", "<", "both halves have one value where they meet"),
+    same("sph/cubic", "return select(-6.0", "<=", "<", "both halves have one value where they meet"),
+    same("sph/", "return me.density > 0.0; }", ">", ">=", "fixed particles stand behind all that are evaluated"),
     same("sph/dense.wgsl", "return Particle(", "0.0", "1.0", "its pressure is not read"),
     same(
-        "fluids/wall_pressure",
+        "sph/wall_pressure",
         "let p = ",
         "1e-30",
         "1.5000000000000001e-30",
         "no particle is so near to the rim that the kernel is as small",
     ),
-    same("fluids/wall_state", "if k < world.count", "<", "<=", "behind the last slot stands no wall"),
+    same("sph/wall_state", "if k < world.count", "<", "<=", "behind the last slot stands no wall"),
 ];
 
 const LANES: Machine = Machine { software: false, subgroup: 0, invocations: 1 << 18, ..Machine::HOST };

@@ -60,7 +60,6 @@ pub const EQUIVALENT: &[Equivalent] = &[
         "lists begin with zeros, and 0 is no leaf: its particles are behind the last",
     ),
     same("tree_tile", "while top > 0u", ">", ">=", "it turns idly until the driver ends the loop").sometimes(),
-    same("tree_alone", "if k < tree.end {", "<", "<=", "behind the last stands no id of the fields"),
     same("tree_alone", "var slot = 0u;", "0u", "1u", SET_FIRST),
     same("tree_alone", "more = node > 1u;", "1u", "2u", "it is odd"),
 ];
