@@ -7,7 +7,7 @@ use motes::forces::Problem;
 use motes::integrators::Step;
 use motes::kernel::Machine;
 use motes::scene::{Options, Scene, Source};
-use motes::{Gpu, Measure, Setup, Simulation, State};
+use motes::{Gpu, Measure, Simulation, State};
 use support::Shared;
 use support::states::{force, word};
 
@@ -17,15 +17,8 @@ fn scene(shared: &Shared, name: &str, overrides: &[&str]) -> (Simulation<Gpu>, u
     // There are too few for `auto` to take it.
     overrides.push("force.0.over=tree".to_owned());
     let source = Source::find(name).expect("a built-in scene");
-    let scene = Scene::load(&source, &overrides, &Options::default()).unwrap_or_else(|faults| panic!("{faults}"));
-    let setup = Setup {
-        integrator: scene.integrator(),
-        state: scene.particles,
-        forces: scene.forces,
-        dt: scene.dt,
-        bounds: scene.bounds,
-        solver: scene.solver,
-    };
+    let mut scene = Scene::load(&source, &overrides, &Options::default()).unwrap_or_else(|faults| panic!("{faults}"));
+    let setup = scene.setup();
     (Simulation::new(&shared.found.device, &shared.found.queue, &setup).expect("a simulation"), scene.steps)
 }
 

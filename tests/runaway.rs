@@ -142,19 +142,12 @@ fn scenes_do_not_run_away() {
     for (name, steps, changes) in scenes {
         let changes: Vec<String> = changes.iter().map(|&c| c.to_owned()).collect();
         let source = Source::find(name).expect("a scene that comes along");
-        let scene = match Scene::load(&source, &changes, &Options::default()) {
+        let mut scene = match Scene::load(&source, &changes, &Options::default()) {
             Ok(scene) => scene,
             Err(faults) => panic!("{name}: {faults}"),
         };
         let count = u32::try_from(scene.particles.len()).expect("few");
-        let setup = Setup {
-            integrator: scene.integrator(),
-            state: scene.particles,
-            forces: scene.forces,
-            dt: scene.dt,
-            bounds: scene.bounds,
-            solver: motes::Solver::default(),
-        };
+        let setup = scene.setup();
         let mut references = Simulation::on(Cpu::new(count).expect("some"), &setup).expect("a simulation");
         references.step(steps).expect("steps");
         assert_eq!(runaway(block_on(references.check())), None, "{name}");

@@ -7,7 +7,7 @@ use crate::life::{Life, Population};
 
 impl<B: Backend> Simulation<B> {
     /// Whether each is active; empty, where all are all the time.
-    pub(super) async fn is_active(&mut self) -> Result<Vec<Life>, Error> {
+    pub(super) async fn life(&mut self) -> Result<Vec<Life>, Error> {
         let words = if self.inactive > 0 { self.read(LIFE).await? } else { Vec::new() };
         Ok(words.into_iter().filter_map(Life::of).collect())
     }
@@ -18,7 +18,7 @@ impl<B: Backend> Simulation<B> {
     pub async fn population(&mut self) -> Result<Population, Error> {
         let free = |row: &usize| self.rows.is_free(u32::try_from(*row).unwrap_or(u32::MAX));
         let rows: Vec<usize> = (0..self.count() as usize).filter(|row| !free(row)).collect();
-        let life = self.is_active().await?;
+        let life = self.life().await?;
         let life: Vec<Life> = rows.iter().filter_map(|row| life.get(*row).copied()).collect();
         Ok(Population::of(&life, rows.len()))
     }

@@ -62,7 +62,7 @@ impl<B: Backend> Simulation<B> {
     pub async fn remove(&mut self, ids: &[u32]) -> Result<(), Error> {
         let refuse = |text: String| Err(Error::Scene(text));
         let mut known = BTreeSet::new();
-        let removed = if self.ties.drains().is_empty() { Vec::new() } else { self.is_active().await? };
+        let removed = if self.ties.drains().is_empty() { Vec::new() } else { self.life().await? };
         let bound = self.ties.bound();
         let mut rows = Vec::new();
         for id in ids {
@@ -148,7 +148,7 @@ impl<B: Backend> Simulation<B> {
         if self.ties.drains().is_empty() || !self.rows.are_open() {
             return Ok(());
         }
-        let life = self.is_active().await?;
+        let life = self.life().await?;
         // A particle that goes straight on after its birth does so by its row.
         let guided: BTreeSet<u32> = self.ties.guided().collect();
         let gone = (0..).zip(&life).filter(|(row, life)| **life == Life::Removed && !guided.contains(row));

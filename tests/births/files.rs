@@ -4,7 +4,7 @@ use motes::formats::{Precision, csv, npz};
 use motes::kernel::Columns;
 use motes::life::Life;
 use motes::scene::{Options, Scene, Source};
-use motes::{Cpu, Setup, Simulation, State};
+use motes::{Cpu, Simulation, State};
 
 use crate::{DT, jet, state};
 
@@ -34,21 +34,14 @@ fn files_say_which_are_active() {
 
 fn run(text: &str, folder: &std::path::Path, steps: u32) -> State {
     let source = Source::Text { name: "a.toml".to_owned(), text: text.to_owned(), folder: folder.to_owned() };
-    let scene = Scene::load(&source, &[], &Options::default()).unwrap_or_else(|faults| panic!("{faults}"));
+    let mut scene = Scene::load(&source, &[], &Options::default()).unwrap_or_else(|faults| panic!("{faults}"));
     // What it is resolved to is the same scene.
     let again = Source::Text { name: "b.toml".to_owned(), text: scene.resolved.clone(), folder: folder.to_owned() };
     let again = Scene::load(&again, &[], &Options { allow_outside: true, ..Options::default() });
     let again = again.unwrap_or_else(|faults| panic!("{faults}\n{}", scene.resolved));
     assert_eq!(again.particles, scene.particles);
     let count = u32::try_from(scene.particles.len()).expect("few");
-    let setup = Setup {
-        integrator: scene.integrator(),
-        state: scene.particles,
-        forces: scene.forces,
-        dt: scene.dt,
-        bounds: scene.bounds,
-        solver: scene.solver,
-    };
+    let setup = scene.setup();
     let mut simulation = Simulation::on(Cpu::new(count).expect("some"), &setup).expect("a run");
     simulation.step(steps).expect("steps");
     state(&mut simulation)

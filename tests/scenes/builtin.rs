@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use motes::scene::{Options, SCENES, Scene, Source};
-use motes::{Cpu, Setup, Simulation};
+use motes::{Cpu, Simulation};
 
 fn builtin(name: &str) -> Scene {
     let source = Source::find(name).expect("a built-in scene");
@@ -128,16 +128,9 @@ fn groups_and_colours_cover_all_particles() {
 }
 
 /// The positions after some steps, in f64.
-fn after(scene: Scene, steps: u32) -> Vec<DVec3> {
+fn after(mut scene: Scene, steps: u32) -> Vec<DVec3> {
     let count = u32::try_from(scene.particles.len()).expect("few particles");
-    let setup = Setup {
-        integrator: scene.integrator(),
-        state: scene.particles,
-        forces: scene.forces,
-        dt: scene.dt,
-        bounds: motes::Bounds::default(),
-        solver: motes::Solver::default(),
-    };
+    let setup = scene.setup();
     let mut simulation =
         Simulation::on(Cpu::new(count).expect("a backend"), &setup).unwrap_or_else(|why| panic!("{why}"));
     simulation.step(steps).unwrap_or_else(|why| panic!("{why}"));
@@ -188,16 +181,9 @@ fn the_planets_are_where_its_comment_says() {
 fn smaller(name: &str, overrides: &[&str], steps: u32) -> [motes::measure::Flock; 2] {
     let overrides: Vec<_> = overrides.iter().map(|text| (*text).to_owned()).collect();
     let source = Source::find(name).expect("a built-in scene");
-    let scene = Scene::load(&source, &overrides, &Options::default()).unwrap_or_else(|faults| panic!("{faults}"));
+    let mut scene = Scene::load(&source, &overrides, &Options::default()).unwrap_or_else(|faults| panic!("{faults}"));
     let (range, species) = scene.forces.iter().find_map(|force| force.properties().statistics_radius).expect("a flock");
-    let setup = Setup {
-        integrator: scene.integrator(),
-        state: scene.particles,
-        forces: scene.forces,
-        dt: scene.dt,
-        bounds: scene.bounds,
-        solver: motes::Solver::default(),
-    };
+    let setup = scene.setup();
     let count = setup.check().expect("a scene that may run");
     let mut simulation = Simulation::on(Cpu::new(count).expect("a host"), &setup).expect("a simulation");
     let mut measure = |steps| {

@@ -47,15 +47,8 @@ fn load(text: &str) -> Result<Scene, Diagnostics> {
     Scene::load(&Source::Text { name: "a.toml".to_owned(), text: text.to_owned(), folder }, &[], &Options::default())
 }
 
-fn setup_of(scene: Scene) -> Setup {
-    Setup {
-        integrator: scene.integrator(),
-        state: scene.particles,
-        forces: scene.forces,
-        dt: scene.dt,
-        bounds: scene.bounds,
-        solver: scene.solver,
-    }
+fn setup_of(mut scene: Scene) -> Setup {
+    scene.setup()
 }
 
 /// The setup of a scene's text.
