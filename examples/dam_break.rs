@@ -14,8 +14,8 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 
 /// The points, with where they come from: a letter for each source.
-const FRONTS: &str = include_str!("../tests/walls/dam_break_front.csv");
-const HEIGHTS: &str = include_str!("../tests/walls/dam_break_height.csv");
+const FRONTS: &str = include_str!("../tests/physics/walls/dam_break_front.csv");
+const HEIGHTS: &str = include_str!("../tests/physics/walls/dam_break_height.csv");
 const SOURCES: [(&str, &str); 4] = [
     ("K", "Koshizuka & Oka 1996"),
     ("M", "Martin & Moyce 1952, tables"),

@@ -13,7 +13,7 @@ pub const OPEN: &[Open] = &[
     open("shaders/visit/tree_broadcast.wgsl", 1),
     open("shaders/visit/tree_look.wgsl", 1),
     open("shaders/tree/demand.wgsl", 2),
-    // No stage has a tree with free rows behind the particles; `tests/births/spawn.rs` has.
+    // No stage has a tree with free rows behind the particles; `tests/physics/births/spawn.rs` has.
     open("shaders/visit/tree_nodes.wgsl", 1),
     open("shaders/sph/dfsph/listed.wgsl", 1),
 ];

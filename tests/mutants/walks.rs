@@ -22,7 +22,8 @@ use crate::support::{Random, Shared};
 const EDGE: &str = "no node is just so far";
 const ROOM: &str = "it is more room than there need be";
 const ALL_KNOW: &str = "all lanes hold the same value, so any of them may write it";
-const DEEP: &str = "only trees of more than 131 072 bodies wait in a second word; tests/tree/complete.rs counts one";
+const DEEP: &str =
+    "only trees of more than 131 072 bodies wait in a second word; tests/engine/tree/complete.rs counts one";
 const SET_FIRST: &str = "it is set before it is looked at";
 
 pub const EQUIVALENT: &[Equivalent] = &[

@@ -8,10 +8,10 @@ use motes::motion::{Keyframe, Motion};
 use motes::settings::{Key, Kind, Pair, Settings, Value};
 
 /// Forces of several searches in a row, which take up what those before them left: they have tests of their own, in
-/// `tests/fluids` and `tests/mutants/fluids.rs`.
+/// `tests/physics/fluids` and `tests/mutants/fluids.rs`.
 const OWN: [&str; 1] = ["fluid"];
 
-/// Forces that want other states than a cloud of points: ions apart, spheres that touch. `tests/matter` and
+/// Forces that want other states than a cloud of points: ions apart, spheres that touch. `tests/physics/matter` and
 /// `tests/mutants/matter.rs` have these.
 const STATED: [&str; 3] = ["born_mayer", "contact", "nose_hoover"];
 

@@ -1,0 +1,17 @@
+//! The command `motes` as a process: exit codes, folders, streams, checkpoints, films.
+
+#[path = "../support/small.rs"]
+mod small;
+#[path = "../support/mod.rs"]
+mod support;
+
+mod bench;
+mod checkpoints;
+mod cli;
+mod cpu_backend;
+mod far;
+mod film;
+mod process;
+mod purity;
+mod stiff;
+mod tied;

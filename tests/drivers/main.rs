@@ -1,7 +1,0 @@
-//! What old and bare drivers ask of kernels.
-
-mod bare;
-mod blocks;
-mod kernels;
-#[path = "../support/mod.rs"]
-mod support;

@@ -1,0 +1,5 @@
+//! What old and bare drivers ask of kernels.
+
+mod bare;
+mod blocks;
+mod kernels;

@@ -1,0 +1,18 @@
+//! What steps stand on: columns, laws, searches, primitives, backends, states.
+
+#[path = "../support/small.rs"]
+mod small;
+#[path = "../support/mod.rs"]
+mod support;
+
+mod columns;
+mod drivers;
+mod errors;
+mod laws;
+mod neighbors;
+mod own_laws;
+mod primitives;
+mod references;
+mod repeat;
+mod state;
+mod tree;

@@ -1,0 +1,14 @@
+//! Trees: what the device builds and how it walks, against references and against direct sums.
+
+#![allow(clippy::cast_possible_truncation, reason = "numbers are rounded to what f32 holds")]
+
+mod accuracy;
+mod bounded;
+mod build;
+mod choice;
+mod complete;
+mod curve;
+mod lockstep;
+mod sets;
+mod turns;
+mod walks;

@@ -1,0 +1,6 @@
+//! What is read: scenes, files of particles, shapes; and what is wrong with them.
+
+mod formats;
+mod misnamed;
+mod scenes;
+mod shapes;

@@ -1,0 +1,238 @@
+//! Files: the scene's own, and those that it names.
+
+use std::fs;
+use std::path::Path;
+
+use motes::forces::Over;
+use motes::scene::{Options, SCENES, Scene, Source};
+use motes::tree::Opening;
+
+use crate::scenes::SMALL;
+
+/// Loads `scene.toml` from a folder with these files.
+fn report_in(files: &[(&str, &[u8])], options: &Options) -> Result<Scene, (String, u8)> {
+    let folder = tempfile::tempdir().expect("a folder");
+    let scenes = folder.path().join("scenes");
+    fs::create_dir_all(scenes.join("data")).expect("a folder");
+    for (name, bytes) in files {
+        fs::write(scenes.join(name), bytes).expect("a file");
+    }
+    let path = scenes.join("scene.toml");
+    Scene::load(&Source::File(path), &[], options).map_err(|faults| {
+        let place = format!("{}/", scenes.display());
+        (faults.to_string().replace(&place, ""), faults.exit_code())
+    })
+}
+
+fn particles(entry: &str) -> Vec<u8> {
+    format!("[simulation]\ndt = 0.1\nsteps = 10\n[[particles]]\n{entry}\n").into_bytes()
+}
+
+fn fault(files: &[(&str, &[u8])]) -> (String, u8) {
+    report_in(files, &Options::default()).err().expect("the scene is at fault")
+}
+
+#[test]
+fn a_file_of_a_similar_name_is_offered() {
+    let (report, code) =
+        fault(&[("scene.toml", &particles("file = \"bodys.csv\"")), ("bodies.csv", b"x,y,z\n1,2,3\n")]);
+    let expected = r#"error: there is no file bodys.csv
+  --> scene.toml:5:8
+   |
+ 5 | file = "bodys.csv"
+   |        ^^^^^^^^^^^ did you mean "bodies.csv"?
+
+scene.toml: 1 error"#;
+    assert_eq!((report.as_str(), code), (expected, 4));
+}
+
+#[test]
+fn a_missing_file_is_said_to_be_missing_and_where() {
+    let (report, code) = fault(&[("scene.toml", &particles("file = \"data/stars.csv\""))]);
+    let expected = r#"error: there is no file data/stars.csv
+  --> scene.toml:5:8
+   |
+ 5 | file = "data/stars.csv"
+   |        ^^^^^^^^^^^^^^^^
+   = it is sought at data/stars.csv
+
+scene.toml: 1 error"#;
+    assert_eq!((report.as_str(), code), (expected, 4));
+}
+
+#[test]
+fn a_folder_is_no_file() {
+    let (report, code) = fault(&[("scene.toml", &particles("file = \"data\""))]);
+    assert!(report.starts_with("error: data is a folder\n  --> scene.toml:5:8\n"), "{report}");
+    assert_eq!(code, 4);
+}
+
+#[test]
+fn files_outside_of_the_folder_need_trust() {
+    for name in ["../secret.csv", "data/../../secret.csv", "/etc/hostname"] {
+        let (report, code) =
+            fault(&[("scene.toml", &particles(&format!("file = \"{name}\""))), ("../secret.csv", b"x,y,z\n1,2,3\n")]);
+        let carets = "^".repeat(name.len() + 2);
+        let expected = format!(
+            r#"error: `file` leads outside of the scene's folder
+  --> scene.toml:5:8
+   |
+ 5 | file = "{name}"
+   |        {carets}
+   = help: move the file beside the scene, or say --allow-outside if you trust the scene
+
+scene.toml: 1 error"#
+        );
+        assert_eq!((report.as_str(), code), (expected.as_str(), 3));
+    }
+    let trusting = Options { allow_outside: true, ..Options::default() };
+    let files: &[(&str, &[u8])] =
+        &[("scene.toml", &particles("file = \"../secret.csv\"")), ("../secret.csv", b"x,y,z\n1,2,3\n")];
+    assert_eq!(report_in(files, &trusting).expect("trusted").particles.len(), 1);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_that_leads_outside_needs_trust() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let scenes = folder.path().join("scenes");
+    fs::create_dir(&scenes).expect("a folder");
+    fs::write(folder.path().join("secret.csv"), "x,y,z\n1,2,3\n").expect("a file");
+    std::os::unix::fs::symlink("../secret.csv", scenes.join("open.csv")).expect("a link");
+    fs::write(scenes.join("scene.toml"), particles("file = \"open.csv\"")).expect("a file");
+    let source = Source::File(scenes.join("scene.toml"));
+    let faults = Scene::load(&source, &[], &Options::default()).err().expect("the link leads outside");
+    assert!(faults.to_string().starts_with("error: `file` leads outside of the scene's folder"), "{faults}");
+    let trusting = Options { allow_outside: true, ..Options::default() };
+    assert_eq!(Scene::load(&source, &[], &trusting).expect("trusted").particles.len(), 1);
+}
+
+#[test]
+fn a_faulty_file_points_at_its_name_and_is_the_files_fault() {
+    let (report, code) = fault(&[("scene.toml", &particles("file = \"bodies.csv\"")), ("bodies.csv", b"x,y,z\n1,2\n")]);
+    assert!(report.starts_with("error: bodies.csv: "), "{report}");
+    assert!(report.contains("\n 5 | file = \"bodies.csv\"\n   |        ^^^^^^^^^^^^\n"), "{report}");
+    assert_eq!(code, 4);
+}
+
+#[test]
+fn files_are_moved_by_center_and_velocity() {
+    let entry = "file = \"bodies.csv\"\ncenter = [10, 0, 0]\nvelocity = [0, 5, 0]";
+    let files: &[(&str, &[u8])] = &[("scene.toml", &particles(entry)), ("bodies.csv", b"x,y,z\n1,2,3\n")];
+    let scene = report_in(files, &Options::default()).expect("a good scene");
+    assert_eq!(scene.particles.position()[0].to_array(), [11.0, 2.0, 3.0]);
+    assert_eq!(scene.particles.velocity()[0].to_array(), [0.0, 5.0, 0.0]);
+    assert_eq!(scene.name, "scene");
+}
+
+#[test]
+fn a_file_may_hold_too_many() {
+    let files: &[(&str, &[u8])] =
+        &[("scene.toml", &particles("file = \"bodies.csv\"")), ("bodies.csv", b"x,y,z\n1,2,3\n4,5,6\n")];
+    let most = |most_particles| report_in(files, &Options { most_particles, ..Options::default() });
+    assert_eq!(most(2).map(|scene| scene.particles.len()), Ok(2));
+    let (report, code) = most(1).err().expect("two are too many");
+    assert!(report.starts_with("error: 2 particles are too many\n"), "{report}");
+    assert!(report.contains("^^^^^^^^^^^^ there is room for 1\n"), "{report}");
+    assert_eq!(code, 4);
+}
+
+#[test]
+fn a_scene_must_be_utf8_and_not_too_long() {
+    let start = |text: &[u8]| fault(&[("scene.toml", text)]).0;
+    let report = start(b"[simulation]\ndt = 0.1 # \xff\n");
+    assert_eq!(
+        report,
+        "error: the scene is not UTF-8 text: byte 24, in line 2, is 0xff\n  --> scene.toml\n\nscene.toml: 1 error"
+    );
+    let report = start(b"\xff\xfe[\0s\0");
+    assert_eq!(report, "error: the scene is UTF-16 text: save it as UTF-8\n  --> scene.toml\n\nscene.toml: 1 error");
+    let long = vec![b'#'; (16 << 20) + 1];
+    let report = start(&long);
+    assert_eq!(
+        report,
+        "error: the scene is longer than 16 MiB: put particles into a file of their own (CSV, Tipsy) and name it with `file`\n  \
+         --> scene.toml\n\nscene.toml: 1 error"
+    );
+    // At the limit it is read; so long a comment holds no section, which is its only fault.
+    assert!(start(&long[1..]).contains("the section [simulation] is missing"));
+}
+
+#[test]
+fn the_command_line_finds_scenes_by_name_or_by_file() {
+    assert!(matches!(Source::find("kepler"), Ok(Source::Builtin(b)) if b.name == "kepler"));
+    assert!(matches!(Source::find("Cargo.toml"), Ok(Source::File(path)) if path == Path::new("Cargo.toml")));
+    let report = Source::find("galaxi").expect_err("there is none").to_string();
+    let names: Vec<_> = SCENES.iter().map(|s| format!("`{}`", s.name)).collect();
+    let expected = format!(
+        "error: there is no such file, and no built-in scene of this name\n  --> galaxi\n   = help: did you mean the built-in \
+         scene `galaxy`?\n   = built-in scenes: {}\n\ngalaxi: 1 error",
+        names.join(", ")
+    );
+    assert_eq!(report, expected);
+    let report = Source::find("src").expect_err("a folder").to_string();
+    assert!(report.starts_with("error: this is a folder, not a scene\n"), "{report}");
+}
+
+#[test]
+fn a_law_of_ones_own_is_read_from_its_file() {
+    let scene = format!(
+        "{SMALL}[[force]]\nwgsl = \"swirl.wgsl\"\nover = \"each\"\nparams = {{ strength = 2.0, axis = [0, 0, 1], on = true }}\n"
+    );
+    let files: &[(&str, &[u8])] = &[("scene.toml", scene.as_bytes()), ("swirl.wgsl", b"fn force() {}")];
+    let scene = report_in(files, &Options::default()).expect("a good scene");
+    let laws = scene.forces[0].laws();
+    assert_eq!(laws[0].name, "swirl");
+    assert!(
+        scene.resolved.contains("params = { strength = 2.0, axis = [0.0, 0.0, 1.0], on = true }"),
+        "{}",
+        scene.resolved
+    );
+
+    // Which pairs, and how far or how many that are; and the same again out of the resolved scene.
+    for (over, more, want) in [
+        ("near", "range = 0.1", Over::Near { range: 0.1, of: None }),
+        ("within", "range = 2", Over::Within { range: 2.0 }),
+        ("list", "range = 0.1", Over::List { range: 0.1, skin: None, slots: 0 }),
+        ("list", "range = 0.1\nskin = 0.03\nslots = 3", Over::List { range: 0.1, skin: Some(0.03), slots: 3 }),
+        ("nearest", "neighbors = 7", Over::Nearest { count: 7 }),
+        ("pairs", "", Over::Pairs),
+        ("tree", "theta = 0.25", Over::Tree { opening: Opening::Geometric { theta: 0.25 }, core: 0.0, auto: false }),
+        ("auto", "theta = 0.75", Over::Tree { opening: Opening::Geometric { theta: 0.75 }, core: 0.0, auto: true }),
+    ] {
+        let scene = format!("{SMALL}[[force]]\nwgsl = \"swirl.wgsl\"\nover = \"{over}\"\n{more}\n");
+        let files: &[(&str, &[u8])] = &[("scene.toml", scene.as_bytes()), ("swirl.wgsl", b"fn gather() {}")];
+        let scene = report_in(files, &Options::default()).expect("a good scene");
+        assert_eq!(scene.forces[0].laws()[0].over, want);
+        assert!(
+            scene.resolved.contains(&format!("over = \"{over}\"\n{}", more.replace("= 2", "= 2.0"))),
+            "{}",
+            scene.resolved
+        );
+    }
+
+    let wrong =
+        format!("{SMALL}[[force]]\nwgsl = \"swirl.wgsl\"\nover = \"all_of_it\"\nparams = {{ strength = \"2\" }}\n");
+    let (report, code) = fault(&[("scene.toml", wrong.as_bytes()), ("swirl.wgsl", b"\xff")]);
+    let expected = r#"error: cannot read swirl.wgsl: stream did not contain valid UTF-8
+  --> scene.toml:7:8
+   |
+ 7 | wgsl = "swirl.wgsl"
+   |        ^^^^^^^^^^^^
+
+error: unknown over "all_of_it"
+  --> scene.toml:8:8
+   |
+ 8 | over = "all_of_it"
+   |        ^^^^^^^^^^^
+   = known: `each`, `pairs`, `within`, `near`, `list`, `nearest`, `tree`, `auto`, `links`, `joints`, `triangles`
+
+error: `strength` must be a number, three numbers, or true or false, not the text "2"
+  --> scene.toml:9:23
+   |
+ 9 | params = { strength = "2" }
+   |                       ^^^ remove the quotes: 2
+
+scene.toml: 3 errors"#;
+    assert_eq!((report.as_str(), code), (expected, 3));
+}

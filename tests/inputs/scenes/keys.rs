@@ -1,0 +1,256 @@
+//! Keys and sections: unknown, missing, in the wrong place. Each text is what a user reads, whole.
+
+use crate::scenes::assert_report;
+
+#[test]
+fn unknown_key() {
+    assert_report(
+        "[simulation]
+dt = 0.1
+stepps = 10
+steps = 10
+[[particles]]
+bodies = [{ position = [0, 0, 0] }]
+",
+        &[],
+        "error: unknown key `stepps` in [simulation]
+  --> a.toml:3:1
+   |
+ 3 | stepps = 10
+   | ^^^^^^ did you mean `steps`?
+   = known here: `steps`, `until`, `integrator`, `dt`, `adaptive`, `dt_min`, `dt_before`, `cfl`
+
+a.toml: 1 error",
+    );
+}
+
+#[test]
+fn unknown_key_of_a_force() {
+    assert_report(
+        r#"[simulation]
+dt = 0.1
+steps = 10
+[[particles]]
+bodies = [{ position = [0, 0, 0] }]
+[[force]]
+kind = "gravity"
+sofening = 0.05
+"#,
+        &[],
+        "error: unknown key `sofening` in [[force]] gravity
+  --> a.toml:8:1
+   |
+ 8 | sofening = 0.05
+   | ^^^^^^^^ did you mean `softening`?
+   = known here: `kind`, `g`, `softening`, `kernel`, `over`, `theta`, `alpha`, `images`, `multipoles`
+
+a.toml: 1 error",
+    );
+}
+
+#[test]
+fn key_of_another_section() {
+    assert_report(
+        "[simulation]
+dt = 0.1
+steps = 10
+every = 5
+[[particles]]
+bodies = [{ position = [0, 0, 0] }]
+",
+        &[],
+        "error: unknown key `every` in [simulation]
+  --> a.toml:4:1
+   |
+ 4 | every = 5
+   | ^^^^^ it belongs in [output]
+   = known here: `steps`, `until`, `integrator`, `dt`, `adaptive`, `dt_min`, `dt_before`, `cfl`
+
+a.toml: 1 error",
+    );
+}
+
+#[test]
+fn key_of_another_force() {
+    assert_report(
+        r#"[simulation]
+dt = 0.1
+steps = 10
+[[particles]]
+bodies = [{ position = [0, 0, 0] }]
+[[force]]
+kind = "drag"
+linear = 0.1
+acceleration = [0, 0, 1]
+"#,
+        &[],
+        "error: unknown key `acceleration` in [[force]] drag
+  --> a.toml:9:1
+   |
+ 9 | acceleration = [0, 0, 1]
+   | ^^^^^^^^^^^^
+   = known here: `kind`, `linear`, `quadratic`, `wind`, `over`
+
+a.toml: 1 error",
+    );
+}
+
+#[test]
+fn unknown_key_of_a_shape() {
+    assert_report(
+        r#"[simulation]
+dt = 0.1
+steps = 10
+[[particles]]
+shape = "plummer"
+count = 10
+sede = 3
+"#,
+        &[],
+        "error: unknown key `sede` in [[particles]] plummer
+  --> a.toml:7:1
+   |
+ 7 | sede = 3
+   | ^^^^ did you mean `seed`?
+   = known here: `shape`, `color`, `species`, `fixed`, `motion`, `count`, `seed`, `mass`, `scale`, `g`, `cutoff`, `center`, `velocity`, `particle_size`
+
+a.toml: 1 error",
+    );
+}
+
+#[test]
+fn unknown_key_of_a_body() {
+    assert_report(
+        "[simulation]
+dt = 0.1
+steps = 10
+[[particles]]
+bodies = [{ position = [0, 0, 0], speed = [1, 0, 0] }]
+",
+        &[],
+        "error: unknown key `speed` in a body
+  --> a.toml:5:35
+   |
+ 5 | bodies = [{ position = [0, 0, 0], speed = [1, 0, 0] }]
+   |                                   ^^^^^ it belongs in [[particles]]
+   = known here: `position`, `velocity`, `mass`, `size`, `fixed`
+
+a.toml: 1 error",
+    );
+}
+
+#[test]
+fn unknown_section() {
+    assert_report(
+        "[simulation]
+dt = 0.1
+steps = 10
+[[particles]]
+bodies = [{ position = [0, 0, 0] }]
+[forces]
+g = 1.0
+",
+        &[],
+        "error: unknown section `forces`
+  --> a.toml:6:2
+   |
+ 6 | [forces]
+   |  ^^^^^^ did you mean [[force]]?
+   = the sections are [simulation], [solver], [box], [[motion]], [[column]], [[particles]], [[emitter]], [[drain]], [[links]], [[force]], [output], [checkpoint], [picture]
+
+a.toml: 1 error",
+    );
+}
+
+#[test]
+fn unknown_section_like_no_other() {
+    assert_report(
+        r#"[simulation]
+dt = 0.1
+steps = 10
+[[particles]]
+bodies = [{ position = [0, 0, 0] }]
+[gpu]
+name = "H200"
+"#,
+        &[],
+        "error: unknown section `gpu`
+  --> a.toml:6:2
+   |
+ 6 | [gpu]
+   |  ^^^
+   = the sections are [simulation], [solver], [box], [[motion]], [[column]], [[particles]], [[emitter]], [[drain]], [[links]], [[force]], [output], [checkpoint], [picture]
+
+a.toml: 1 error",
+    );
+}
+
+#[test]
+fn single_brackets() {
+    assert_report(
+        r#"[simulation]
+dt = 0.1
+steps = 10
+[[particles]]
+bodies = [{ position = [0, 0, 0] }]
+[force]
+kind = "gravity"
+"#,
+        &[],
+        "error: there can be several [[force]], so it stands in double brackets
+  --> a.toml:6:1
+   |
+ 6 | [force]
+   | ^^^^^^^ write [[force]]
+
+a.toml: 1 error",
+    );
+}
+
+#[test]
+fn double_brackets() {
+    assert_report(
+        "[simulation]
+dt = 0.1
+steps = 10
+[[particles]]
+bodies = [{ position = [0, 0, 0] }]
+[[output]]
+every = 5
+",
+        &[],
+        "error: there is only one [output], so it stands in single brackets
+  --> a.toml:6:1
+   |
+ 6 | [[output]]
+   | ^^^^^^^^^^ write [output]
+
+a.toml: 1 error",
+    );
+}
+
+#[test]
+fn key_outside_of_sections() {
+    assert_report(
+        "dt = 0.1
+[simulation]
+steps = 10
+[[particles]]
+bodies = [{ position = [0, 0, 0] }]
+",
+        &[],
+        "error: the key `dt` stands outside of every section
+  --> a.toml:1:1
+   |
+ 1 | dt = 0.1
+   | ^^ it belongs below [simulation]
+
+error: [simulation] lacks `dt`
+  --> a.toml:2:1
+   |
+ 2 | [simulation]
+   | ^^^^^^^^^^^^ add `dt`, a number above zero: the length of a step, of the longest where they are adaptive [time]
+
+a.toml: 2 errors",
+    );
+}

@@ -1,8 +1,0 @@
-//! Laws of one's own: what they may do, what is refused, and that no wrong sum goes unsaid.
-#![allow(clippy::float_cmp, reason = "sums of whole numbers are exact")]
-
-mod refusals;
-#[path = "../support/mod.rs"]
-mod support;
-mod turns;
-mod visits;

@@ -1,0 +1,30 @@
+//! Forces, integrators and constraints against closed forms, published numbers and their references.
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod adaptive;
+mod at_scale;
+mod births;
+mod bits;
+mod bodies;
+mod boundary;
+mod dfsph;
+mod ewald;
+mod flock;
+mod fluids;
+mod implicit;
+mod matter;
+mod orders;
+mod oscillator;
+mod pairs;
+mod pins;
+mod questions;
+mod rods;
+mod runaway;
+mod solids;
+mod springs;
+mod stability;
+mod steering;
+mod vicsek;
+mod walls;

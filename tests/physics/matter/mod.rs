@@ -1,0 +1,75 @@
+//! Ions, grains and a thermostat: closed forms, published numbers, and every kernel against its reference in states that suit it.
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "numbers are rounded to what f32 holds, and counts are small"
+)]
+#![allow(clippy::float_cmp, reason = "what does nothing is 0 to the bit")]
+
+mod grains;
+mod ions;
+mod thermostat;
+
+use crate::support::states::integrator;
+use glam::DVec3;
+use motes::forces::Component;
+use motes::kernel::{Array, Plan};
+use motes::lockstep::compare;
+use motes::{Bounds, Cpu, Setup, Simulation, Solver, State};
+
+/// Particles on a lattice that is a little disordered, so that no two are close, of three species, with masses about 1.
+fn spread(count: usize, spacing: f64) -> State {
+    let mut random = crate::support::Random::new(17);
+    let mut state = State::default();
+    let side = side(count);
+    for i in 0..count {
+        let cell = DVec3::new((i % side) as f64, (i / side % side) as f64, (i / side / side) as f64);
+        let x = spacing * (cell + 0.15 * random.vector());
+        let single = |v: DVec3| v.as_vec3().as_dvec3();
+        let mass = f64::from((1.0 + 0.3 * random.next()) as f32);
+        state.push(single(x), single(0.3 * random.vector()), mass, 0.01);
+    }
+    state.species_mut().copy_from_slice(&crate::support::species(count));
+    state
+}
+
+/// How many along a side of a cube hold so many.
+fn side(count: usize) -> usize {
+    (1..=count).find(|side| side.pow(3) >= count).expect("a side")
+}
+
+fn scalars(count: usize, seed: u64, of: impl Fn(f64) -> f64) -> Array {
+    let mut random = crate::support::Random::new(seed);
+    Array::Float((0..count).map(|_| f64::from(of(random.next()) as f32)).collect())
+}
+
+fn setup(state: State, forces: Vec<Box<dyn Component>>, bounds: Bounds, dt: f64) -> Setup {
+    Setup { state, forces, integrator: integrator("leapfrog"), dt, bounds, solver: Solver::default() }
+}
+
+fn on_cpu(setup: &Setup) -> Simulation<Cpu> {
+    Simulation::on(Cpu::new(setup.check().expect("a setup")).expect("some"), setup).expect("a simulation")
+}
+
+/// Every kernel of the steps of a setup on the device agrees with its reference, some steps long; what the kernels of these names
+/// write changes. `slack` is how many times what is allowed elsewhere may be wrong.
+fn agrees(setup: &Setup, steps: u32, slack: f64, busy: &[&str]) {
+    let shared = crate::support::device();
+    let count = setup.state.len();
+    let gpu = crate::support::machines::gpu(&shared, count);
+    let mut simulation = Simulation::on(gpu, setup).expect("a simulation");
+    let plan: Plan = setup.plans(motes::kernel::Backend::machine(simulation.backend())).expect("plans").step;
+    for step in 0..steps {
+        simulation.step(1).expect("a step");
+        let verdicts =
+            pollster::block_on(compare(simulation.backend(), &plan, setup.state.len() as u32)).expect("verdicts");
+        for verdict in &verdicts {
+            assert!(verdict.conditioned <= slack && !verdict.spilled, "{count} particles, step {step}: {verdict:?}");
+        }
+        for name in busy {
+            let mut its = verdicts.iter().filter(|verdict| verdict.kernel.starts_with(name));
+            assert!(its.any(|verdict| verdict.changed), "{count} particles, step {step}: {name} does nothing");
+        }
+    }
+    pollster::block_on(simulation.check()).expect("no alarm");
+}
