@@ -7,6 +7,7 @@ mod grow;
 mod inactive;
 mod initial_projection;
 mod lists;
+mod pair_history;
 mod pictures;
 mod population;
 mod pressures;
@@ -156,7 +157,8 @@ impl<B: Backend> Simulation<B> {
             anchored,
         };
         made.unstop()?;
-        made.resume(setup, &plans, how, whole)?;
+        made.recall_pairs(state)?;
+        made.resume(setup, &plans, whole)?;
         Ok(made)
     }
     /// Advances. May return before the device is done; reading waits.
@@ -254,7 +256,8 @@ impl<B: Backend> Simulation<B> {
         let all = std::mem::replace(&mut state.links, self.links().await?);
         state.time = self.clock().await?.map_or(self.steps as f64 * self.dt, |clock| clock.time);
         state.step = self.steps;
-        self.keep(state, &all).await
+        self.keep(state, &all).await?;
+        self.keep_pairs(state).await
     }
     /// One step, as `motes explain` prints it.
     #[must_use]

@@ -39,9 +39,7 @@ pub fn conclude(
     if end.stopped {
         let done = run.course.as_ref().map_or(0, Course::done);
         say(format!("stopped at step {done} of {}; everything up to there is written", scene.steps));
-        if run.is_kept() {
-            say(format!("to go on: motes resume {}{}", output.display(), on(device)));
-        }
+        say(format!("to go on: motes resume {}{}", output.display(), on(device)));
     }
     say(summary::speed(end.steps, count, end.stepping, took));
     clock.map(course::summary).into_iter().for_each(&say);

@@ -57,17 +57,13 @@ pub async fn run(args: &RunArgs) -> Result<(), Failure> {
 fn begins_anew(folder: Folder, loaded: &Loaded) -> Result<String, Error> {
     let folder = folder.named(&loaded.scene.name);
     let count = folder.results()?.len();
-    let why = if motes::run::keeps_pairs(&loaded.setup)? {
-        "a law keeps history of pairs (slots), and no checkpoint of it can be written"
-    } else if loaded.scene.checkpoint.every == Every::Never {
-        "`[checkpoint] every` is \"never\", and none was written"
-    } else {
+    if loaded.scene.checkpoint.every != Every::Never {
         return Ok(format!(
             "{count} results of this scene are removed, and the run begins anew: it was ended before its first checkpoint"
         ));
-    };
+    }
     let message = format!(
-        "the folder holds {count} results of a run of this scene, which cannot go on: {why}; --overwrite in place of --resume removes \
+        "the folder holds {count} results of a run of this scene, which cannot go on: `[checkpoint] every` is \"never\", and none was written; --overwrite in place of --resume removes \
          them and begins anew"
     );
     Err(Error::Output { file: folder.path().to_owned(), message })

@@ -62,10 +62,10 @@ pub use writer::{Moment, Writer};
 
 use crate::error::Error;
 use crate::formats::{Folder, Precision};
-use crate::kernel::{Backend, Columns, Machine, POSITION};
+use crate::kernel::{Backend, Columns, POSITION};
 use crate::measure::Measure;
 use crate::render::{Picture, Scenery, Trail};
-use crate::scene::{Every, Scene};
+use crate::scene::Scene;
 use crate::simulation::{Setup, Simulation};
 use crate::state::State;
 use packed::Packed;
@@ -127,8 +127,6 @@ pub struct Run {
     count: usize,
     columns: Columns,
     packed: Packed,
-    /// Whether a law keeps history of pairs, which no state holds.
-    pairs: bool,
     /// The folder, held until this is dropped.
     folder: Option<Arc<Folder>>,
     /// Where it goes on, until it does.
@@ -159,14 +157,6 @@ pub struct Run {
     pub springs: (usize, Option<usize>),
     /// The last state that was read, and so the last that is known to be good.
     pub last: Option<State>,
-}
-
-/// Whether a law keeps history of pairs, which no state holds: then no checkpoints are written.
-///
-/// # Errors
-/// What is wrong with the setup.
-pub fn keeps_pairs(setup: &Setup) -> Result<bool, Error> {
-    Ok(setup.problem(Machine::HOST)?.list.is_some_and(|list| list.words > 0))
 }
 
 /// How a run ended.
@@ -205,7 +195,6 @@ impl Run {
             count,
             columns: setup.columns()?,
             packed,
-            pairs: keeps_pairs(setup)?,
             folder,
             resumed: None,
             goes_on: None,
@@ -236,11 +225,6 @@ impl Run {
     pub fn count(&self) -> usize {
         self.count
     }
-    /// Whether it can go on once it is stopped: not where a law keeps history of pairs.
-    #[must_use]
-    pub fn is_kept(&self) -> bool {
-        !self.pairs
-    }
     /// How it is written down.
     #[must_use]
     pub fn options(&self) -> &Options {
@@ -258,12 +242,6 @@ impl Run {
     ) -> Result<End, Error> {
         // Everything that can be refused was refused: from here on files are written.
         let folder = self.open(progress)?;
-        if self.pairs && self.scene.checkpoint.every != Every::Never {
-            progress.remark(
-                "no checkpoints are written, and the run cannot go on once it is stopped: a law keeps history of pairs (slots), which a \
-                 state does not hold",
-            );
-        }
         if simulation.steps() > 0 || simulation.goes_on() {
             let time = simulation.clock().await?.map_or(simulation.steps() as f64 * self.scene.dt, |clock| clock.time);
             progress.remark(&from::remark(simulation.goes_on(), simulation.steps(), time));

@@ -256,7 +256,7 @@ impl Run {
         course: &Course,
         progress: &mut dyn Progress,
     ) -> Result<(), Error> {
-        let Some(folder) = self.folder.clone().filter(|_| !self.pairs) else { return Ok(()) };
+        let Some(folder) = self.folder.clone() else { return Ok(()) };
         let begun = Instant::now();
         let state = simulation.snapshot().await?;
         let mut lengths = Lengths::new();

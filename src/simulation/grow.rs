@@ -3,11 +3,7 @@
 use super::{Simulation, Start};
 use crate::error::Error;
 use crate::kernel::{Array, Backend, STOP};
-use crate::neighbors::{HISTORY, LIST, LIST_ORIGIN, LIST_STATE, LIST_STATE_WORDS};
 use crate::state::{KEPT_ROOM, KEPT_ROWS};
-
-/// Words of the row of a particle in the list of neighbours.
-const LIST_WORDS: usize = 4;
 
 impl<B: Backend> Simulation<B> {
     /// Makes room for so many rows in all; ids are a column then. The simulation stays as it is until that is done.
@@ -28,34 +24,11 @@ impl<B: Backend> Simulation<B> {
         *self = grown;
         Ok(())
     }
-    /// Carries over what no state has: the list of neighbours with history of pairs, and where an adaptive run stops.
+    /// Carries over what no state has: where an adaptive run stops.
     async fn carry(&mut self, to: &mut Self) -> Result<(), Error> {
-        let (real, whole, four) = (Array::Float(Vec::new()), Array::Uint(Vec::new()), Array::Vec4(Vec::new()));
         if self.adaptive_step.is_some() {
-            let stop = self.backend.read(STOP.name, &whole, 2).await?;
+            let stop = self.backend.read(STOP.name, &Array::Uint(Vec::new()), 2).await?;
             to.backend.write(STOP.name, &stop)?;
-        }
-        let Some(list) = self.list.filter(|list| list.words > 0) else { return Ok(()) };
-        let (old, new) = (self.capacity() as usize, to.capacity() as usize);
-        let rows = 1 + list.capacity as usize / LIST_WORDS;
-        let words = 2 * list.capacity as usize * list.words as usize;
-        let fields = [
-            (LIST, &whole, LIST_WORDS, rows),
-            (HISTORY, &real, 1, words),
-            (LIST_ORIGIN, &four, 1, 1),
-            (LIST_STATE, &whole, LIST_STATE_WORDS, 0),
-        ];
-        for (name, like, each, layers) in fields {
-            if layers == 0 {
-                let all = self.backend.read(name, like, each).await?;
-                to.backend.write(name, &all)?;
-                continue;
-            }
-            let all = self.backend.read(name, like, each * layers * old).await?;
-            for layer in 0..layers {
-                let part: Vec<usize> = (layer * old..(layer + 1) * old).collect();
-                to.backend.write_at(name, each * layer * new, &all.picked(&part, each))?;
-            }
         }
         Ok(())
     }

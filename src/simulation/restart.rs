@@ -8,7 +8,7 @@
 
 use glam::{DVec3, DVec4};
 
-use super::{Plans, Setup, Simulation, Start};
+use super::{Plans, Setup, Simulation, pair_history};
 use crate::boundary;
 use crate::error::Error;
 use crate::integrators::{SOLVE_REPORT, kept_rates};
@@ -20,7 +20,7 @@ use crate::life::Life;
 use crate::links::Links;
 use crate::motion;
 use crate::sph::{DFSPH_ERRORS, DFSPH_REPORT};
-use crate::state::{KEPT, KEPT_BROKEN, KEPT_EXTENT, KEPT_HOME, KEPT_ROOM, KEPT_ROWS, KEPT_STEP, State};
+use crate::state::{KEPT, KEPT_BROKEN, KEPT_EXTENT, KEPT_HOME, KEPT_PAIRS, KEPT_ROOM, KEPT_ROWS, KEPT_STEP, State};
 
 /// How far time and step may disagree, as a part of a step: 2³² steps of a time in double precision.
 const AGREEMENT: f64 = 1e-6;
@@ -268,15 +268,8 @@ impl<B: Backend> Simulation<B> {
         self.goes_on
     }
     /// Fills what a step keeps for the next one.
-    pub(super) fn resume(&mut self, setup: &Setup, plans: &Plans, how: Start, whole: bool) -> Result<(), Error> {
+    pub(super) fn resume(&mut self, setup: &Setup, plans: &Plans, whole: bool) -> Result<(), Error> {
         let state = &setup.state;
-        if self.list.is_some_and(|list| list.words > 0) && state.step > 0 && how == Start::Anew {
-            return Err(Error::Scene(format!(
-                "the state is at step {}, and a law keeps history of pairs (slots), which a state does not hold: run it in one go, or \
-                 take `state.begin_anew()`, with which all pairs are new",
-                state.step
-            )));
-        }
         let mut arrays = Vec::new();
         for one in &self.carried {
             let numbers = state.kept.get(&one.name()).filter(|_| whole);
@@ -330,8 +323,8 @@ impl<B: Backend> Simulation<B> {
         state.kept.put(KEPT_EXTENT, low.to_array().into_iter().chain(high.to_array()).collect());
         if self.rows.are_open() {
             state.kept.put(KEPT_ROWS, vec![f64::from(self.first_rows)]);
-            state.kept.put(KEPT_ROOM, self.list.map(|list| f64::from(list.capacity)).into_iter().collect());
         }
+        state.kept.put(KEPT_ROOM, self.list.map(|list| f64::from(list.capacity)).into_iter().collect());
         Ok(())
     }
     /// Says of a state that this step has made it.
@@ -361,6 +354,7 @@ impl<B: Backend> Simulation<B> {
                 (_, Some(one)) => one.picked(numbers, &order),
                 (KEPT_HOME, _) => renumbered(numbers, 7, 1, place),
                 (KEPT_BROKEN, _) => renumbered(numbers, 3, 2, place),
+                (KEPT_PAIRS, _) => renumbered(numbers, 2 + pair_history::width(&state).unwrap_or(0), 2, place),
                 _ => numbers.to_vec(),
             };
             picked.kept.put(name, numbers);

@@ -21,7 +21,7 @@ pub(crate) const EXTENT: &str = "kept_extent";
 pub(crate) const STEP: &str = "kept_step";
 
 /// What goes on where positions and velocities are changed by a caller: it says nothing of them.
-const LASTING: [&str; 3] = [HOME, BROKEN, "kept_step_clock"];
+const LASTING: [&str; 5] = [HOME, BROKEN, PAIRS, PAIR_WORDS, "kept_step_clock"];
 
 /// How many rows were in use when the plan was written, by which cells are chosen too.
 pub(crate) const ROWS: &str = "kept_rows";
@@ -31,6 +31,11 @@ pub(crate) const ROOM: &str = "kept_room";
 /// The id from which on no particle has had one, in files.
 #[cfg(feature = "scene")]
 pub(crate) const NEXT: &str = "kept_next_id";
+
+/// What pairs remember: the rows of both, and their words.
+pub(crate) const PAIRS: &str = "kept_pairs";
+/// How many words each of these has.
+pub(crate) const PAIR_WORDS: &str = "kept_pair_words";
 
 /// Where held particles were at time 0, in groups of seven numbers: the id, that place, and where they are.
 pub(crate) const HOME: &str = "kept_home";

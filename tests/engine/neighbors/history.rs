@@ -4,12 +4,12 @@ use std::collections::BTreeMap;
 
 use glam::{DVec3, DVec4, Vec4};
 use motes::forces::{Component, Law, Over};
-use motes::kernel::{Machine, Source};
-use motes::{Bounds, Error, Side, State};
+use motes::kernel::{Backend, Machine, Source};
+use motes::{Bounds, Error, Setup, Side, Simulation, State};
 
 use crate::neighbors::list::{accelerations, agree, builds, evaluation, jet, on, positions, setup};
 use crate::neighbors::variants;
-use crate::support;
+use crate::support::{self, machines};
 
 /// A power of two: nothing is rounded, and particles move on.
 const PART: f64 = 1.0 / 1_048_576.0;
@@ -194,6 +194,78 @@ fn a_contact_agrees_with_its_reference() {
         let bound: Vec<_> = law.bindings().map(|(name, _)| name).filter(|name| *name != "world").collect();
         assert_eq!(bound, ["position", "velocity", "list", "history", "acceleration"]);
     }
+}
+
+#[test]
+fn a_run_that_goes_on_remembers_with_the_same_bits() {
+    let shared = support::device();
+    let bounds = Bounds::new(DVec3::splat(-1.0), DVec3::splat(1.0), Side::Periodic);
+    let machine = variants(&shared)[0].1;
+    // Lists are built in the middle of each part, and both halves of the history are the one that is kept.
+    for (state, stops) in [(flock(), vec![11, 12]), (flock(), vec![1]), (jet(0.15, 0.6, 0.7), vec![20, 41])] {
+        let whole = setup(&state, bounds, Box::new(Contact), DT);
+        let device = |setup: &Setup| on(&shared, machine, setup);
+        let reference = |setup: &Setup| {
+            let host = motes::Cpu::new(setup.check().expect("particles")).expect("memory");
+            Simulation::on(host, setup).expect("a simulation")
+        };
+        goes_on(&whole, &stops, device);
+        goes_on(&whole, &stops, reference);
+    }
+}
+
+/// Compares a run that is taken from state to state with one that never stops.
+fn goes_on<B: Backend>(whole: &Setup, stops: &[u64], on: impl Fn(&Setup) -> Simulation<B>) {
+    let last = 57;
+    let snapshot = |simulation: &mut Simulation<B>| pollster::block_on(simulation.snapshot()).expect("a state");
+    let step = |simulation: &mut Simulation<B>, to: u64| {
+        let steps = u32::try_from(to - simulation.steps()).expect("few");
+        simulation.step(steps).expect("steps");
+    };
+    let mut never = on(whole);
+    step(&mut never, last);
+    let mut parts = on(whole);
+    for stop in stops {
+        step(&mut parts, *stop);
+        let state = snapshot(&mut parts);
+        parts = on(&Setup { state, ..whole.clone() });
+        assert!(parts.goes_on(), "from step {stop}");
+    }
+    step(&mut parts, last);
+    let (got, want) = (snapshot(&mut parts), snapshot(&mut never));
+    for (column, values) in want.columns() {
+        assert!(got.get(&column.name) == Some(values), "{} is other after {stops:?}", column.name);
+    }
+    if !want.births.is_empty() {
+        return;
+    }
+    // Without what pairs remember it would be another run.
+    let mut forgotten = on(&Setup { state: want.begin_anew(), ..whole.clone() });
+    forgotten.step(9).expect("steps");
+    step(&mut never, last + 9);
+    assert!(snapshot(&mut forgotten).position() != snapshot(&mut never).position(), "history does nothing");
+}
+
+#[test]
+fn states_that_say_nothing_of_pairs_are_refused() {
+    let shared = support::device();
+    let whole = setup(&flock(), Bounds::default(), Box::new(Contact), DT);
+    let refused = |state: State, force: Box<dyn Component>| {
+        let setup = Setup { state, forces: vec![force], ..whole.clone() };
+        match Simulation::on(machines::gpu(&shared, setup.state.len()), &setup).map(drop) {
+            Err(Error::Scene(text)) => text,
+            other => panic!("{other:?}"),
+        }
+    };
+    let mut state = flock();
+    (state.step, state.time) = (3, 3.0 * DT);
+    let text = refused(state, Box::new(Contact));
+    assert!(text.contains("step 3") && text.contains("NPZ") && text.contains("begin_anew"), "{text}");
+    let mut simulation = on(&shared, variants(&shared)[0].1, &whole);
+    simulation.step(5).expect("steps");
+    let state = pollster::block_on(simulation.snapshot()).expect("a state");
+    let text = refused(state, Box::new(Steps { skin: 0.1 }));
+    assert!(text.contains("3 numbers for each pair") && text.contains("keeps 2"), "{text}");
 }
 
 #[test]

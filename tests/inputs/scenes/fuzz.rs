@@ -6,7 +6,8 @@ use proptest::sample::Index;
 
 /// Loads, and prints what there is to print.
 fn survives(text: &str, overrides: &[String]) {
-    let source = Source::Text { name: "fuzz.toml".to_owned(), text: text.to_owned(), folder: "tests/scenes".into() };
+    let source =
+        Source::Text { name: "fuzz.toml".to_owned(), text: text.to_owned(), folder: "tests/inputs/scenes".into() };
     let options = Options { most_particles: 300, ..Options::default() };
     match Scene::load(&source, overrides, &options) {
         Ok(scene) => {

@@ -31,7 +31,7 @@ pub(crate) const SMALL: &str =
 /// Loads a text as `a.toml`.
 pub(crate) fn load(text: &str, overrides: &[&str]) -> Result<Scene, Diagnostics> {
     let source =
-        Source::Text { name: "a.toml".to_owned(), text: text.to_owned(), folder: PathBuf::from("tests/scenes") };
+        Source::Text { name: "a.toml".to_owned(), text: text.to_owned(), folder: PathBuf::from("tests/inputs/scenes") };
     let overrides: Vec<_> = overrides.iter().map(|&o| o.to_owned()).collect();
     Scene::load(&source, &overrides, &Options::default())
 }

@@ -41,7 +41,7 @@ fn word(text: &str) -> Value {
 }
 
 fn load(text: &str) -> Result<Scene, Diagnostics> {
-    let folder = PathBuf::from("tests/walls");
+    let folder = PathBuf::from("tests/physics/walls");
     Scene::load(&Source::Text { name: "a.toml".to_owned(), text: text.to_owned(), folder }, &[], &Options::default())
 }
 

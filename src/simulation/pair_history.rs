@@ -1,0 +1,146 @@
+//! History of pairs in a state: what is read of it, and how a simulation takes it up.
+//!
+//! A state holds the pairs that remember something, by the rows of both. A simulation that begins with them gets a list of neighbours
+//! that holds no other pairs and is out of date: the first evaluation builds it anew, and gives history to its pairs, as it does in
+//! every run.
+
+use std::collections::BTreeMap;
+
+use glam::DVec4;
+
+use super::Simulation;
+use crate::error::Error;
+use crate::kernel::{Array, Backend, Element, ListShape};
+use crate::neighbors::{HISTORY, LIST, LIST_ORIGIN, LIST_STATE, LIST_STATE_WORDS, List, NONE};
+use crate::state::{KEPT_PAIR_WORDS, KEPT_PAIRS, State};
+
+/// Where no particle is: whatever is listed from there has moved.
+const ELSEWHERE: DVec4 = DVec4::new(1e30, 1e30, 1e30, 1.0);
+
+/// The words of each pair of rows.
+pub(super) type Pairs = BTreeMap<[u32; 2], Vec<f64>>;
+
+/// The most pairs of a row of a state that remember something.
+pub(super) fn longest(state: &State) -> usize {
+    let mut rows: BTreeMap<u64, usize> = BTreeMap::new();
+    for group in groups(state) {
+        *rows.entry(group[0].to_bits()).or_default() += 1;
+    }
+    rows.into_values().max().unwrap_or(0)
+}
+
+/// The number of words of each pair of a state, if it says anything of pairs.
+pub(super) fn width(state: &State) -> Option<usize> {
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
+    state.kept.get(KEPT_PAIR_WORDS).and_then(|list| list.first()).map(|words| *words as usize)
+}
+
+/// Two rows and their words, one pair behind another.
+fn groups(state: &State) -> impl Iterator<Item = &[f64]> {
+    let width = width(state).unwrap_or(0).saturating_add(2);
+    state.kept.get(KEPT_PAIRS).unwrap_or_default().chunks_exact(width)
+}
+
+/// The pairs of a state, for a law with so many words.
+fn pairs(state: &State, words: u32) -> Result<Pairs, Error> {
+    let Some(width) = width(state) else {
+        return Err(Error::Scene(format!(
+            "the state is at step {}, and a law keeps history of pairs (slots), of which it holds nothing: go on from an NPZ archive or \
+             from a snapshot in memory, run it in one go, or take `state.begin_anew()`, with which all pairs are new",
+            state.step
+        )));
+    };
+    if width != words as usize {
+        return Err(Error::Scene(format!(
+            "the state holds {width} numbers for each pair of particles, and the law keeps {words} (slots): take the law that the state was \
+             made with, or `state.begin_anew()`"
+        )));
+    }
+    let mut pairs = Pairs::new();
+    for group in groups(state) {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates, and is compared")]
+        let rows = [group[0] as u32, group[1] as u32];
+        let is_row = |(row, number): (&u32, &f64)| f64::from(*row) == *number && (*row as usize) < state.len();
+        if !rows.iter().zip(group).all(is_row) || group[2..].iter().any(|x| !x.is_finite()) || rows[0] == rows[1] {
+            return Err(Error::Scene(format!(
+                "the state's history of pairs names {group:?}, which are not two of its {} particles and finite numbers: take the state \
+                 as it was written",
+                state.len()
+            )));
+        }
+        pairs.insert(rows, group[2..].to_vec());
+    }
+    Ok(pairs)
+}
+
+impl<B: Backend> Simulation<B> {
+    /// The list, if a law keeps history of pairs on it.
+    pub(super) fn remembering(&self) -> Option<ListShape> {
+        self.list.filter(|list| list.words > 0)
+    }
+    /// Gives to a state what its pairs remember.
+    pub(super) async fn keep_pairs(&mut self, state: &mut State) -> Result<(), Error> {
+        let Some(shape) = self.remembering() else { return Ok(()) };
+        let (capacity, rows, words) = (self.capacity() as usize, shape.capacity as usize, shape.words as usize);
+        let whole = Array::Uint(Vec::new());
+        let list = self.backend.read(LIST, &whole, 4 * capacity * (1 + rows / 4)).await?;
+        let history = self.backend.read(HISTORY, &Array::Float(Vec::new()), 2 * capacity * rows * words).await?;
+        let origin = self.backend.read(LIST_ORIGIN, &Array::Vec4(Vec::new()), capacity).await?;
+        let (Array::Uint(list), Array::Float(history), Array::Vec4(origin)) = (list, history, origin) else {
+            return Ok(());
+        };
+        // A row that has got another particle since has none.
+        let stayed = |row: u32| origin.get(row as usize).is_some_and(|from| from.w > 0.0);
+        let half = usize::try_from(state.step & 1).unwrap_or(0);
+        let mut pairs = Pairs::new();
+        for k in 0..capacity {
+            let [length, id] = [list[4 * k], list[4 * k + 1]];
+            for n in 0..(length as usize).min(rows) {
+                let other = list[List::place(k, n, capacity)];
+                let values: Vec<f64> =
+                    (0..words).map(|w| history[List::word([k, n, half, w], words, capacity)]).collect();
+                if id != NONE && stayed(id) && stayed(other) && values.iter().any(|x| *x != 0.0) {
+                    pairs.insert([id, other], values);
+                }
+            }
+        }
+        let group = |(rows, values): (&[u32; 2], &Vec<f64>)| [&rows.map(f64::from)[..], values].concat();
+        state.kept.put(KEPT_PAIR_WORDS, vec![f64::from(shape.words)]);
+        state.kept.put(KEPT_PAIRS, pairs.iter().flat_map(group).collect());
+        Ok(())
+    }
+    /// Takes up what the pairs of a state remember.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] when the state is no beginning and says nothing of pairs, or what it says is of other particles.
+    pub(super) fn recall_pairs(&mut self, state: &State) -> Result<(), Error> {
+        let Some(shape) = self.remembering() else { return Ok(()) };
+        if state.step == 0 && width(state).is_none() {
+            return Ok(());
+        }
+        let pairs = pairs(state, shape.words)?;
+        let (capacity, rows, words) = (self.capacity() as usize, shape.capacity as usize, shape.words as usize);
+        let mut list = vec![0; 4 * capacity * (1 + rows / 4)];
+        let mut history = vec![0.0; 2 * capacity * rows * words];
+        let half = usize::try_from(state.step & 1).unwrap_or(0);
+        for (k, id) in (0..capacity).zip(0..) {
+            let mut row = pairs.range([id, 0]..=[id, NONE]).enumerate();
+            list[4 * k + 1] = id;
+            row.try_for_each(|(n, ([_, other], values))| {
+                let last = list.get_mut(List::place(k, n, capacity)).filter(|_| n < rows)?;
+                (*last, list[4 * k]) = (*other, u32::try_from(n + 1).unwrap_or(NONE));
+                for (w, value) in values.iter().enumerate() {
+                    history[List::word([k, n, half, w], words, capacity)] = *value;
+                }
+                Some(())
+            });
+        }
+        // It has been built once, and is out of date.
+        let mut moved = vec![0; LIST_STATE_WORDS];
+        (moved[0], moved[1]) = (1, 1);
+        self.backend.write(LIST, &u32::array(list))?;
+        self.backend.write(HISTORY, &Array::Float(history))?;
+        self.backend.write(LIST_ORIGIN, &Array::Vec4(vec![ELSEWHERE; capacity]))?;
+        self.backend.write(LIST_STATE, &Array::Uint(moved))
+    }
+}
