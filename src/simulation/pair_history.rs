@@ -10,7 +10,8 @@ use glam::DVec4;
 
 use super::Simulation;
 use crate::error::Error;
-use crate::kernel::{Array, Backend, Element, ListShape};
+use crate::forces::{Component, Law, Over};
+use crate::kernel::{Array, Backend, Element, ListShape, Plan};
 use crate::neighbors::{HISTORY, LIST, LIST_ORIGIN, LIST_STATE, LIST_STATE_WORDS, List, NONE};
 use crate::state::{KEPT_PAIR_WORDS, KEPT_PAIRS, State};
 
@@ -19,6 +20,26 @@ const ELSEWHERE: DVec4 = DVec4::new(1e30, 1e30, 1e30, 1.0);
 
 /// The words of each pair of rows.
 pub(super) type Pairs = BTreeMap<[u32; 2], Vec<f64>>;
+
+/// Refuses a law with history of pairs where a step evaluates it more than once: what a pair remembers goes on by one step each time
+/// that it is evaluated, and only the last of these evaluations would count.
+///
+/// # Errors
+/// [`Error::Scene`] with the number of evaluations.
+pub(super) fn once(forces: &[Box<dyn Component>], step: &Plan) -> Result<(), Error> {
+    let remembers = |law: &Law| matches!(law.over, Over::List { slots, .. } if slots > 0);
+    for law in forces.iter().flat_map(|force| force.laws()).filter(remembers) {
+        let evaluations = step.steps().filter(|kernel| kernel.name == law.name).count();
+        if evaluations > 1 {
+            return Err(Error::Scene(format!(
+                "`{}` keeps history of pairs (slots), and this integrator evaluates forces {evaluations} times in a step, of which only the \
+                 last would be remembered: choose one that evaluates them once, such as leapfrog or symplectic_euler",
+                law.name
+            )));
+        }
+    }
+    Ok(())
+}
 
 /// The most pairs of a row of a state that remember something.
 pub(super) fn longest(state: &State) -> usize {

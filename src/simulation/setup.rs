@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{columns, inactive, initial_projection, lists, unwritten};
+use super::{columns, inactive, initial_projection, lists, pair_history, unwritten};
 use crate::boundary;
 use crate::error::Error;
 use crate::forces::{Component, Over, Problem, Stage};
@@ -88,6 +88,7 @@ impl Setup {
         let measure = Step::measurement(&self.forces, problem)?;
         let plans = Plans { start: start.begun()?, step: step.done()?, measure, time, list };
         claims(&plans.all(), &columns)?;
+        pair_history::once(&self.forces, &plans.step)?;
         unwritten::check(&plans, &columns)?;
         Ok(plans)
     }

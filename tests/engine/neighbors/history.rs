@@ -247,6 +247,27 @@ fn goes_on<B: Backend>(whole: &Setup, stops: &[u64], on: impl Fn(&Setup) -> Simu
 }
 
 #[test]
+fn integrators_that_evaluate_more_than_once_are_refused() {
+    for entry in motes::integrators::INTEGRATORS {
+        let mut setup = setup(&flock(), Bounds::default(), Box::new(Contact), DT);
+        setup.integrator = entry.by_default();
+        let refused = match setup.plans(Machine::HOST) {
+            Ok(_) => None,
+            Err(Error::Scene(text)) if text.contains("`contact` keeps history") => Some(text),
+            Err(other) => panic!("{}: {other}", entry.name),
+        };
+        // Of the others, a step evaluates the law at several places.
+        let once = ["leapfrog", "symplectic_euler", "forward_euler", "beeman"].contains(&entry.name);
+        assert_eq!(
+            refused.is_none(),
+            once || entry.name.contains("backward") || entry.name.contains("implicit"),
+            "{}: {refused:?}",
+            entry.name
+        );
+    }
+}
+
+#[test]
 fn states_that_say_nothing_of_pairs_are_refused() {
     let shared = support::device();
     let whole = setup(&flock(), Bounds::default(), Box::new(Contact), DT);
