@@ -99,7 +99,13 @@ pub(super) fn read(table: Option<&Table<'_>>, report: &mut Report) -> Simulation
                 Some(steps) => {
                     simulation.steps = steps;
                     simulation.until = until;
-                    simulation.remark = remark(until, simulation.dt, steps);
+                    if let Some((dt, remark)) = divided(until, simulation.dt, steps) {
+                        // How long adaptive steps are, is found as they go.
+                        if !settings.flag("adaptive") {
+                            simulation.dt = dt;
+                            simulation.remark = Some(remark);
+                        }
+                    }
                 }
                 None => report.push(Fault::at(&entry.node.place, "`until` is too far").label(format!(
                     "{:.3e} steps of dt = {:?}, at most {MOST_STEPS}",
@@ -164,11 +170,17 @@ fn steps(until: f64, dt: f64) -> Option<u64> {
     (steps <= MOST_STEPS).then_some(steps as u64)
 }
 
-fn remark(until: f64, dt: f64, steps: u64) -> Option<String> {
+/// The step of which so many end at `until`, where those of dt end behind it, and what is said of that.
+fn divided(until: f64, dt: f64, steps: u64) -> Option<(f64, String)> {
     #[expect(clippy::cast_precision_loss, reason = "at most 1e12")]
-    let end = steps as f64 * dt;
-    ((end - until).abs() > 1e-6 * dt.max(until * 1e-6))
-        .then(|| format!("until = {until:?} is no whole number of steps of dt = {dt:?}: {steps} steps end at {end:?}"))
+    let count = steps as f64;
+    let even = until / count;
+    let text = || {
+        format!(
+            "until = {until:?} is no whole number of steps of dt = {dt:?}: {steps} steps of dt = {even:?} are made, which end there"
+        )
+    };
+    ((count * dt - until).abs() > 1e-6 * dt.max(until * 1e-6)).then(|| (even, text()))
 }
 
 impl Simulation {
