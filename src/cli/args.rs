@@ -44,6 +44,8 @@ pub enum Command {
     Explain(SceneArgs),
     /// Compare the device with the f64 references, kernel by kernel and over some steps
     Compare(CompareArgs),
+    /// Run a scene for all combinations of some values, and tabulate and plot what becomes of it
+    Sweep(SweepArgs),
     /// List the scenes that come with motes, or print one
     Scenes(ScenesArgs),
     /// Run the oscillator and the decay of textbooks under every integrator, and draw which explode, decay or stay
@@ -75,7 +77,7 @@ pub struct DeviceArgs {
     pub adapter: Option<String>,
 }
 
-#[derive(Debug, ClapArgs)]
+#[derive(Debug, Clone, ClapArgs)]
 pub struct SceneArgs {
     /// A scene file, or the name of a scene that `motes scenes` lists
     pub scene: String,
@@ -129,6 +131,29 @@ pub struct RunArgs {
     pub show: ShowArgs,
 }
 
+#[derive(Debug, Clone, ClapArgs)]
+pub struct SweepArgs {
+    #[command(flatten)]
+    pub scene: SceneArgs,
+    /// A value of the scene and what it takes, such as simulation.dt=0.1,0.05,0.025; given again, all combinations run
+    #[arg(long, value_name = "KEY=VALUES", required = true)]
+    pub vary: Vec<String>,
+    /// The folder for the table, the plot and a folder of tables for each run [default: out/NAME_sweep]; pictures and snapshots are
+    /// written where --set output.… asks for them
+    #[arg(short, long, value_name = "DIR")]
+    pub output: Option<PathBuf>,
+    /// Remove results of earlier runs that the folders hold
+    #[arg(long)]
+    pub overwrite: bool,
+    /// Share the runs among these adapters, by parts of their names or by their numbers in `motes doctor`
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', conflicts_with_all = ["adapter", "backend"])]
+    pub adapters: Vec<String>,
+    #[command(flatten)]
+    pub stop: StopArgs,
+    #[command(flatten)]
+    pub show: ShowArgs,
+}
+
 #[derive(Debug, ClapArgs)]
 pub struct ResumeArgs {
     /// The folder of the run
@@ -142,7 +167,7 @@ pub struct ResumeArgs {
 }
 
 /// What ends a run before its last step.
-#[derive(Debug, ClapArgs)]
+#[derive(Debug, Clone, ClapArgs)]
 pub struct StopArgs {
     /// Stop after so many hours, with a checkpoint from which --resume and `motes resume` go on
     #[arg(long, value_name = "H", value_parser = positive)]
@@ -150,9 +175,9 @@ pub struct StopArgs {
 }
 
 /// How a run shows itself.
-#[derive(Debug, ClapArgs)]
+#[derive(Debug, Clone, ClapArgs)]
 pub struct ShowArgs {
-    /// Print events as lines of JSON on standard output
+    /// Print events as lines of JSON on standard output; `sweep` prints one object
     #[arg(long)]
     pub json: bool,
     /// Print nothing but errors

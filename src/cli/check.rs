@@ -19,7 +19,7 @@ use super::substeps::{self, Loaded};
 
 /// Checks a scene: its faults, its memory, and the time that a run would take.
 pub async fn check(args: &SceneArgs) -> Result<(), Failure> {
-    let Loaded { scene, setup, start, lines, .. } = substeps::load(args, None).await?;
+    let Loaded { scene, setup, start, lines, .. } = substeps::load(args, &[]).await?;
     let count = setup.check()?;
     Picture::with(&scene.picture, &setup.state, &[], Trail::new(0), &Scenery::of(&setup.state))?;
     let engine = Engine::choose(&args.device).await?;

@@ -1,5 +1,6 @@
 //! Where a scene runs: an adapter of this machine, or the references when there is none.
 
+use motes::formats::Precision;
 use motes::gpu::{self, Choice, Found};
 use motes::kernel::{Backend, Machine};
 use motes::scene::{Options, Scene, Source};
@@ -40,6 +41,10 @@ impl Engine {
             Self::Cpu(_) => format!("f64 references on {} cores of the processor", rayon::current_num_threads()),
         }
     }
+    /// The precision of its numbers.
+    pub fn precision(&self) -> Precision {
+        if let Self::Cpu(_) = self { Precision::Double } else { Precision::Single }
+    }
     /// What plans are written for.
     pub fn machine(&self, count: u32) -> Result<Machine, Error> {
         Ok(match self {
@@ -77,13 +82,13 @@ pub async fn open(adapters: Vec<motes::wgpu::Adapter>, name: Option<&str>) -> Re
 
 /// Loads the scene of the arguments.
 pub fn load(args: &SceneArgs) -> Result<Scene, Failure> {
-    load_with(args, None)
+    load_with(args, &[])
 }
 
-/// The same, with one more value set.
-pub fn load_with(args: &SceneArgs, set: Option<String>) -> Result<Scene, Failure> {
+/// The same, with more values set.
+pub fn load_with(args: &SceneArgs, more: &[String]) -> Result<Scene, Failure> {
     let mut overrides = args.overrides.clone();
-    overrides.extend(set);
+    overrides.extend_from_slice(more);
     overrides.extend(args.steps.map(|n| format!("simulation.steps={n}")));
     overrides.extend(args.until.map(|t| format!("simulation.until={t:?}")));
     let options = Options { allow_outside: args.allow_outside, ..Options::default() };

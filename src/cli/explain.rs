@@ -13,7 +13,7 @@ use super::substeps::{self, Loaded};
 
 /// Prints the plan of a step, and what each kernel reads and writes.
 pub async fn explain(args: &SceneArgs) -> Result<(), Failure> {
-    let Loaded { scene, setup, .. } = substeps::load(args, None).await?;
+    let Loaded { scene, setup, .. } = substeps::load(args, &[]).await?;
     let count = setup.check()?;
     let engine = Engine::choose(&args.device).await?;
     let plans = setup.plans(engine.machine(count)?)?;

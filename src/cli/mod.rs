@@ -44,6 +44,7 @@ mod stdout;
 mod stop;
 mod substeps;
 mod summary;
+mod sweep;
 
 use std::process::ExitCode;
 
@@ -89,6 +90,7 @@ async fn dispatch(command: Command) -> Result<(), Failure> {
         Command::Scenes(args) => scenes::scenes(&args),
         Command::Stability(args) => stability::stability(&args).await,
         Command::Bench(args) => bench::bench(&args).await,
+        Command::Sweep(args) => sweep::sweep(&args).await,
         Command::Doctor(args) => doctor::doctor(&args).await,
     }
 }

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use motes::formats::{Folder, Precision};
+use motes::formats::Folder;
 use motes::kernel::Backend;
 use motes::run::{Checkpoint, End, Found, Options, Progress as _, Run};
 use motes::scene::{self, Every, Scene};
@@ -25,7 +25,7 @@ type Kept = (Folder, Box<Checkpoint>, Vec<Error>);
 /// Runs a scene.
 pub async fn run(args: &RunArgs) -> Result<(), Failure> {
     let frames = args.frames.map(|n| format!("output.frames={n}"));
-    let mut loaded = substeps::load(&args.scene, frames).await?;
+    let mut loaded = substeps::load(&args.scene, &Vec::from_iter(frames)).await?;
     if let Some(path) = &args.from {
         motes::run::go_on(&mut loaded.setup, &loaded.scene, path)?;
     }
@@ -114,7 +114,7 @@ async fn start(
     let count = setup.check()?;
     let engine = Engine::choose(device).await?;
     options.device = engine.describe();
-    options.precision = if let Engine::Cpu(_) = engine { Precision::Double } else { Precision::Single };
+    options.precision = engine.precision();
     let conserved = conserved(&setup)?;
     let mut run = if let Some((folder, from, damaged)) = kept {
         remarks.extend(

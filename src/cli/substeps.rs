@@ -24,9 +24,9 @@ pub struct Loaded {
     pub lines: Vec<String>,
 }
 
-/// Loads the scene of the arguments, with one more value set; with `--auto-substeps` in steps that its springs bear.
-pub async fn load(args: &SceneArgs, set: Option<String>) -> Result<Loaded, Failure> {
-    let mut loaded = judge(engine::load_with(args, set.clone())?).await?;
+/// Loads the scene of the arguments, with more values set; with `--auto-substeps` in steps that its springs bear.
+pub async fn load(args: &SceneArgs, more: &[String]) -> Result<Loaded, Failure> {
+    let mut loaded = judge(engine::load_with(args, more)?).await?;
     let (dt, steps, every) = (loaded.scene.dt, loaded.scene.steps, loaded.scene.output.every);
     let parts = loaded.verdict.map_or(Some(1), |verdict| verdict.substeps(dt));
     if !args.auto_substeps {
@@ -72,7 +72,7 @@ pub async fn load(args: &SceneArgs, set: Option<String>) -> Result<Loaded, Failu
                 culprit(&verdict, &loaded.setup),
                 limit(&verdict)
             );
-            loaded = judge(engine::load_with(&divided, set)?).await?;
+            loaded = judge(engine::load_with(&divided, more)?).await?;
             text
         }
     };

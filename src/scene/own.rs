@@ -17,7 +17,11 @@ const fn own(name: &'static str, default: &'static str, about: &'static str) -> 
 
 pub(super) const SIMULATION: &[Own] = &[
     own("steps", "or until", "how many steps"),
-    own("until", "or steps", "when it ends; where that is no whole number of steps, dt is made smaller, and a note says so [time]"),
+    own(
+        "until",
+        "or steps",
+        "when it ends; where that is no whole number of steps, dt is made smaller, and a note says so [time]",
+    ),
     own("integrator", "\"leapfrog\"", "what makes a step: an integrator of the README's list"),
 ];
 pub(super) const BOX: &[Own] = &[

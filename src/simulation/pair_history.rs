@@ -81,7 +81,9 @@ fn pairs(state: &State, words: u32) -> Result<Pairs, Error> {
     for group in groups(state) {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates, and is compared")]
         let rows = [group[0] as u32, group[1] as u32];
-        let is_row = |(row, number): (&u32, &f64)| f64::from(*row) == *number && (*row as usize) < state.len();
+        let is_row = |(row, number): (&u32, &f64)| {
+            f64::from(*row).to_bits() == number.to_bits() && (*row as usize) < state.len()
+        };
         if !rows.iter().zip(group).all(is_row) || group[2..].iter().any(|x| !x.is_finite()) || rows[0] == rows[1] {
             return Err(Error::Scene(format!(
                 "the state's history of pairs names {group:?}, which are not two of its {} particles and finite numbers: take the state \

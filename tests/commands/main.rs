@@ -14,4 +14,5 @@ mod film;
 mod process;
 mod purity;
 mod stiff;
+mod sweep;
 mod tied;

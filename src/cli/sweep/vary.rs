@@ -1,0 +1,112 @@
+//! What is varied: keys of the scene, and the values that each takes.
+
+use motes::Error;
+
+/// A key and its values, as they are written.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Varied {
+    /// Such as `simulation.dt`.
+    pub key: String,
+    /// Such as `0.1`, `0.05`.
+    pub values: Vec<String>,
+}
+
+impl Varied {
+    /// From `key=value,value,…`; commas in brackets and quotes are part of a value.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] when there is no key, no value, or one twice.
+    pub fn parse(text: &str) -> Result<Self, Error> {
+        let wrong = |why: &str| {
+            Error::Scene(format!(
+                "--vary {text}: {why}; write a key and its values, as in --vary simulation.dt=0.1,0.05"
+            ))
+        };
+        let (key, values) = text.split_once('=').ok_or_else(|| wrong("there is no `=`"))?;
+        let (key, values) = (key.trim(), split(values));
+        if key.is_empty() {
+            return Err(wrong("there is no key before `=`"));
+        }
+        if values.iter().any(String::is_empty) {
+            return Err(wrong("a value is empty"));
+        }
+        if let Some((_, twice)) = values.iter().enumerate().find(|(place, value)| values[..*place].contains(value)) {
+            return Err(wrong(&format!("{twice} is there twice")));
+        }
+        Ok(Self { key: key.to_owned(), values })
+    }
+    /// Its values as numbers, where all of them are.
+    pub fn numbers(&self) -> Option<Vec<f64>> {
+        let number = |text: &String| text.parse().ok().filter(|x: &f64| x.is_finite());
+        self.values.iter().map(number).collect()
+    }
+}
+
+fn split(text: &str) -> Vec<String> {
+    let (mut parts, mut depth, mut quoted) = (vec![String::new()], 0_i32, false);
+    for c in text.chars() {
+        match c {
+            '"' => quoted = !quoted,
+            '[' | '{' if !quoted => depth += 1,
+            ']' | '}' if !quoted => depth -= 1,
+            _ => {}
+        }
+        if c == ',' && depth == 0 && !quoted {
+            parts.push(String::new());
+        } else if let Some(last) = parts.last_mut() {
+            last.push(c);
+        }
+    }
+    parts.into_iter().map(|part| part.trim().to_owned()).collect()
+}
+
+/// Refuses a key that is varied twice.
+///
+/// # Errors
+/// [`Error::Scene`] that names it.
+pub fn check(all: &[Varied]) -> Result<(), Error> {
+    let twice = all.iter().enumerate().find(|(place, one)| all[..*place].iter().any(|other| other.key == one.key));
+    twice.map_or(Ok(()), |(_, one)| {
+        Err(Error::Scene(format!("--vary names {} twice: give all its values in one list", one.key)))
+    })
+}
+
+/// All combinations, each as the values that are set; the last key changes fastest.
+pub fn combinations(all: &[Varied]) -> Vec<Vec<String>> {
+    all.iter().fold(vec![Vec::new()], |some, one| {
+        let with = |case: &Vec<String>, value: &String| [&case[..], &[format!("{}={value}", one.key)]].concat();
+        some.iter().flat_map(|case| one.values.iter().map(move |value| with(case, value))).collect()
+    })
+}
+
+/// The name of a folder for a combination: its values, without characters that systems refuse.
+pub fn folder(case: &[String]) -> String {
+    let plain = |c: char| if c.is_ascii_alphanumeric() || "=.-+_".contains(c) { c } else { '_' };
+    let words = case.iter().map(|set| set.chars().map(plain).collect::<String>());
+    words.collect::<Vec<_>>().join(",")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lists_are_split_outside_of_brackets() {
+        let one = Varied::parse("force.0.direction=[1, 0, 0],[0,1,0]").expect("two values");
+        assert_eq!(one.values, ["[1, 0, 0]", "[0,1,0]"]);
+        assert_eq!(one.numbers(), None);
+        let two = Varied::parse(" a.b = 1,2.5e-3 ").expect("two values");
+        assert_eq!((two.key.as_str(), two.numbers()), ("a.b", Some(vec![1.0, 2.5e-3])));
+        for wrong in ["a", "=1", "a=", "a=1,,2", "a=1,1"] {
+            assert!(Varied::parse(wrong).is_err(), "{wrong}");
+        }
+        assert_eq!(combinations(&[one, two]).len(), 4);
+    }
+    #[test]
+    fn folders_have_plain_names() {
+        assert_eq!(
+            folder(&["simulation.dt=0.1".to_owned(), "a.b=[1, ../2]".to_owned()]),
+            "simulation.dt=0.1,a.b=_1__.._2_"
+        );
+    }
+}
