@@ -59,6 +59,9 @@ impl Backend for Cpu {
     fn machine(&self) -> Machine {
         Machine::HOST
     }
+    fn host(&self) -> Option<&Host> {
+        Some(&self.host)
+    }
     fn compile(&mut self, plan: &Plan) -> Result<Plan, Error> {
         for kernel in &plan.kernels {
             if kernel.reference.is_none() {

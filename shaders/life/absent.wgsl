@@ -3,7 +3,7 @@
 @group(1) @binding(2) var<storage, read_write> projected: array<vec4f>; // pixels right and down, depth of its front, radius
 
 const WORKGROUP: u32 = 64u;
-const HIDDEN: vec4f = vec4f(0.0, 0.0, 0.0, -1.0);
+const HIDDEN: vec4f = vec4f(0.0, 0.0, 0.0, -2.0);
 
 @compute @workgroup_size(WORKGROUP)
 fn absent(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {

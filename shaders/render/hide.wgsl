@@ -4,7 +4,7 @@
 @group(1) @binding(11) var<storage, read> veil: array<u32>;            // 1 for those
 
 const WORKGROUP: u32 = 64u;
-const HIDDEN: vec4f = vec4f(0.0, 0.0, 0.0, -1.0);
+const HIDDEN: vec4f = vec4f(0.0, 0.0, 0.0, -2.0);
 
 @compute @workgroup_size(WORKGROUP)
 fn hide(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {

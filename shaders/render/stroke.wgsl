@@ -3,6 +3,7 @@
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read> position: array<vec4f>; // xyz, mass
 @group(1) @binding(1) var<storage, read> velocity: array<vec4f>; // xyz, radius
+@group(1) @binding(2) var<storage, read> projected: array<vec4f>; // in w: −2 of particles that are not drawn, −1 of those out of the picture
 @group(1) @binding(3) var<storage, read> color: array<u32>;
 @group(3) @binding(2) var<storage, read_write> canvas: array<atomic<u32>>; // red, green, blue
 @group(3) @binding(3) var<storage, read> front: array<u32>;
@@ -59,7 +60,7 @@ fn strokes(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups:
     if i < world.count {
         let x = position[i];
         let v = velocity[i];
-        if !broken(x) && !broken(v) {
+        if !broken(x) && !broken(v) && projected[i].w > -1.5 {
             let head = see(x.xyz);
             var end = see(x.xyz - frame.tail * v.xyz);
             // What began behind the eye, or further away than there are pixels, is a light.

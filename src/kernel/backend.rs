@@ -1,6 +1,6 @@
 //! What a backend does: hold fields by name, and run plans.
 
-use super::{Array, Plan, World};
+use super::{Array, Host, Plan, World};
 use crate::error::Error;
 
 /// What a plan may want to know of the machine it will run on.
@@ -34,6 +34,10 @@ pub trait Backend {
     type Program;
     /// What the device is like.
     fn machine(&self) -> Machine;
+    /// The fields themselves, where they are on the host: a picture of them is drawn without kernels.
+    fn host(&self) -> Option<&Host> {
+        None
+    }
     /// Makes a plan ready: checks limits, makes the fields that it names and that do not exist yet.
     ///
     /// # Errors

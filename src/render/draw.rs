@@ -1,7 +1,7 @@
 //! Draws a picture on any backend.
 
 use super::frame::{COLOR, HISTOGRAM, MISSED, OWN, PIXELS, TRAIL};
-use super::{Color, Exposure, Picture};
+use super::{Color, Exposure, Picture, plain};
 use crate::error::Error;
 use crate::kernel::{Array, Backend, Element};
 
@@ -34,6 +34,9 @@ pub(super) async fn exposed<B: Backend>(
     picture: &Picture,
     choose: impl FnOnce(Exposure) -> Exposure,
 ) -> Result<Image, Error> {
+    if let Some(host) = backend.host() {
+        return plain::draw(host, picture, choose);
+    }
     let image = attempt(backend, picture, choose).await;
     // The next picture may have another size.
     for field in OWN {

@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 
-use super::{Camera, Scenery, Water};
+use super::{Camera, Scenery};
+use crate::kernel::Scalar;
 use crate::settings::Settings;
 use crate::state::State;
 
@@ -20,6 +21,9 @@ const CALM: f64 = 2.0;
 const RANGE: f64 = 3.0;
 /// The same, at most \[pixels\].
 const FARTHEST: u32 = 48;
+/// How often along rows and columns the surface is made smooth: the mean over a square by two of them is a cross where the
+/// range cuts it off.
+pub const ROUNDS: usize = 3;
 /// By so many particles it is judged how far apart they are.
 const SAMPLE: usize = 64;
 /// How deep one sees into water, as a part of half the height of the picture; and into what is coloured \[drops\].
@@ -27,6 +31,64 @@ const WATER: f64 = 0.11;
 const PAINT: f64 = 0.1;
 /// Of water: green is absorbed less than red, blue least.
 pub const DYE: [u8; 3] = [18, 112, 176];
+
+/// What a fluid looks like.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Water {
+    /// The radius of a drop \[length\]; zero where there is no fluid.
+    pub drop: f64,
+    /// How far its rim is behind its front, as a part of that.
+    pub oblate: f64,
+    /// Parts in which the thickness of a drop is counted.
+    pub grain: f64,
+    /// The thickness that one of those stands for \[length\].
+    pub layer: f64,
+    /// How much of it absorbs light \[1 / length\].
+    pub murk: f64,
+    /// How much less it absorbs of the light of its own colour: 1 for water, 0 for paint.
+    pub stain: f64,
+    /// The speed from which on it is white \[length / time\].
+    pub foam: f64,
+    /// How much nearer and farther the same surface may be \[drops\].
+    pub range: f64,
+    /// How wide the surface is made smooth \[drops\].
+    pub calm: f64,
+    /// The same, at most \[pixels\].
+    pub farthest: u32,
+    /// Brightness of the sky that it mirrors.
+    pub gloss: f64,
+    /// Half the width of a tank's edge \[pixels\].
+    pub wire: f64,
+    /// Edges of tanks.
+    pub edges: u32,
+}
+
+impl Water {
+    /// By their names in shaders.
+    pub(super) fn values(&self) -> [(&'static str, Scalar); 13] {
+        let float = Scalar::Float;
+        [
+            ("drop", float(self.drop)),
+            ("oblate", float(self.oblate)),
+            ("grain", float(self.grain)),
+            ("layer", float(self.layer)),
+            ("murk", float(self.murk)),
+            ("stain", float(self.stain)),
+            ("foam", float(self.foam)),
+            ("range", float(self.range)),
+            ("calm", float(self.calm)),
+            ("farthest", Scalar::Uint(self.farthest)),
+            ("gloss", float(self.gloss)),
+            ("wire", float(self.wire)),
+            ("edges", Scalar::Uint(self.edges)),
+        ]
+    }
+    /// Whether there is a fluid.
+    #[must_use]
+    pub fn is_there(&self) -> bool {
+        self.drop > 0.0
+    }
+}
 
 impl Water {
     /// That of a scene's `[picture]`; `painted` where colours say something.

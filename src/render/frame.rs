@@ -1,13 +1,11 @@
 //! What every kernel of a picture knows: `Frame` in `shaders/render/frame.wgsl`, and its geometry in f64.
 
 use std::ops::Range;
-use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
 use super::{Camera, Water};
-use crate::error::Error;
-use crate::kernel::{Host, Kernel, Pass, Scalar, Shader, Source, Threads};
+use crate::kernel::Scalar;
 
 pub use super::fields::*;
 
@@ -141,7 +139,7 @@ impl Frame {
     pub(super) fn pixel(&self, x: u32, y: u32) -> usize {
         y as usize * self.width as usize + x as usize
     }
-    fn values(&self) -> Vec<(&'static str, Scalar)> {
+    pub(super) fn values(&self) -> Vec<(&'static str, Scalar)> {
         let camera = &self.camera;
         let float = Scalar::Float;
         let mut values = vec![
@@ -183,7 +181,7 @@ impl Frame {
         values
     }
     /// Elements of the fields that do not have one for each particle.
-    fn sizes(&self) -> Vec<(&'static str, u64)> {
+    pub(super) fn sizes(&self) -> Vec<(&'static str, u64)> {
         let area = u64::from(self.area());
         let (columns, rows) = self.shrunk();
         vec![
@@ -221,33 +219,6 @@ impl Frame {
             (WET.name, area),
         ]
     }
-    /// A dispatch of files joined with `world.wgsl` and `frame.wgsl`; `each` is about what one invocation does.
-    pub(super) fn pass(&self, files: &[Source], threads: Threads, each: u64) -> Result<Pass, Error> {
-        let mut all = vec![crate::shader!("world.wgsl"), crate::shader!("render/frame.wgsl")];
-        all.extend_from_slice(files);
-        let shader = Shader::join(&all)?;
-        let packed = shader.reflection().binding("frame").map(|b| b.packed.pack("frame", &self.values()));
-        let uniforms = packed.transpose()?.map(|bytes| ("frame", bytes)).into_iter().collect();
-        let work = u64::from(threads.count) * u64::from(threads.layers) * each;
-        Ok(Pass { uniforms, threads, work, ..Pass::new(shader, threads.count) })
-    }
-    /// Passes and their reference.
-    pub(super) fn kernel(
-        &self,
-        name: &str,
-        passes: Vec<Pass>,
-        reference: impl Fn(&Host) -> Result<(), Error> + Send + Sync + 'static,
-    ) -> Kernel {
-        let sizes = self.sizes().into_iter().map(|(name, elements)| (name.into(), elements)).collect();
-        Kernel {
-            name: name.to_owned(),
-            passes,
-            reference: Some(Arc::new(reference)),
-            sizes,
-            scratch: Vec::new(),
-            tables: Vec::new(),
-        }
-    }
 }
 
 /// The middle of a pixel.
@@ -259,13 +230,6 @@ pub fn middle(x: u32, y: u32) -> DVec2 {
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the caller knows")]
 pub fn whole(x: f64) -> u32 {
     x as u32
-}
-
-/// Whole numbers in the order of depths, as the device holds them.
-pub fn key(depth: f64) -> u32 {
-    #[expect(clippy::cast_possible_truncation, reason = "rounding to f32 is what the device does")]
-    let bits = (depth as f32).to_bits();
-    if bits >> 31 == 0 { bits | 1 << 31 } else { !bits }
 }
 
 /// Bytes as parts of 1.

@@ -1,31 +1,14 @@
 //! Colours by heading.
 
 use glam::{DVec3, DVec4};
-use rayon::prelude::*;
-
-use super::frame::{COLOR, Frame};
-use super::paint::rounded;
-use crate::error::Error;
-use crate::kernel::{Host, Kernel, Threads, VELOCITY};
 
 const LIGHTNESS: f64 = 0.74;
 const CLIMB: f64 = 0.13;
 const CHROMA: f64 = 0.12;
 const SLOWEST: f64 = 1e-30;
 
-/// The kernel.
-pub fn kernel(frame: &Frame) -> Result<Kernel, Error> {
-    let pass = frame.pass(&[crate::shader!("render/heading.wgsl")], Threads::new(frame.count), 4)?;
-    let reference = |host: &Host| {
-        let velocity = host.read(VELOCITY)?;
-        host.write(COLOR)?.par_iter_mut().zip(&velocity[..]).for_each(|(color, v)| *color = rounded(tint(*v)));
-        Ok(())
-    };
-    Ok(frame.kernel("heading", vec![pass], reference))
-}
-
 /// The colour of a velocity, in sRGB.
-fn tint(v: DVec4) -> DVec3 {
+pub fn tint(v: DVec4) -> DVec3 {
     let u = if v.is_finite() { heading(v.truncate()) } else { DVec3::ZERO };
     srgb(DVec3::new(LIGHTNESS + CLIMB * u.z, CHROMA * u.x, CHROMA * u.y))
 }

@@ -1,25 +1,9 @@
 //! How bright a canvas is, and what to make of it.
 
-use super::frame::{BINS, CANVAS, Frame, HISTOGRAM};
-use crate::error::Error;
-use crate::kernel::{Host, Kernel, Threads};
-
-/// The kernel.
-pub fn kernel(frame: &Frame) -> Result<Kernel, Error> {
-    let pass = frame.pass(&[crate::shader!("render/meter.wgsl")], Threads::new(frame.area()), 1)?;
-    let reference = |host: &Host| {
-        let canvas = host.read(CANVAS)?;
-        let mut histogram = host.write(HISTOGRAM)?;
-        for light in canvas.chunks_exact(3).map(|rgb| rgb[0].max(rgb[1]).max(rgb[2])).filter(|light| *light > 0) {
-            histogram[bin(light)] += 1;
-        }
-        Ok(())
-    };
-    Ok(frame.kernel("meter", vec![pass], reference))
-}
+use super::frame::{BINS, Frame};
 
 /// Eight bins for each doubling.
-fn bin(light: u32) -> usize {
+pub fn bin(light: u32) -> usize {
     let octave = light.ilog2();
     let eighth = if octave >= 3 { light >> (octave - 3) } else { light << (3 - octave) } & 7;
     (8 * octave + eighth) as usize
@@ -66,6 +50,11 @@ impl Exposure {
     pub fn toward(self, other: Self, part: f64) -> Self {
         let between = |a: f64, b: f64| a.powf(1.0 - part) * b.powf(part);
         Self { knee: between(self.knee, other.knee), white: between(self.white, other.white) }
+    }
+    /// How much darker ink is than light would be light. Where birds are alone each is to be seen; where many are on one pixel, how
+    /// many.
+    pub(super) fn body(&self, frame: &Frame) -> f64 {
+        1.0 + 0.7 * frame.unit / self.white
     }
     /// 1 / log₂(1 + white / knee)
     #[must_use]

@@ -1,6 +1,9 @@
 //! Colours of groups, and how a picture's particles get theirs.
 
+use glam::DVec3;
+
 use super::camera::FEW;
+use super::frame::whole;
 use crate::settings::Settings;
 use crate::state::State;
 
@@ -44,6 +47,28 @@ pub fn pack(rgb: [u8; 3]) -> u32 {
 #[must_use]
 pub fn group_color(group: u32) -> [u8; 3] {
     PALETTE[group as usize % PALETTE.len()]
+}
+
+/// The slowest, three between, the fastest: lighter from each to the next but the last.
+const SPEEDS: [DVec3; 5] = [
+    DVec3::new(0.26, 0.28, 0.84),
+    DVec3::new(0.29, 0.54, 0.96),
+    DVec3::new(0.52, 0.79, 0.94),
+    DVec3::new(0.96, 0.90, 0.74),
+    DVec3::new(1.0, 0.77, 0.38),
+];
+
+/// The colour of a speed, as a part of the way from the slow end to the fast one.
+pub(super) fn by_speed(part: f64) -> DVec3 {
+    along(&SPEEDS, part)
+}
+
+/// The colour at a part of a scale of evenly spaced colours.
+pub(super) fn along(scale: &[DVec3], part: f64) -> DVec3 {
+    let steps = scale.len() - 1;
+    let place = part.clamp(0.0, 1.0) * steps as f64;
+    let low = (whole(place) as usize).min(steps - 1);
+    scale[low].lerp(scale[low + 1], place - low as f64)
 }
 
 impl Color {

@@ -4,18 +4,14 @@ use std::borrow::Cow;
 
 use glam::DVec3;
 
-use super::absent::absent;
 use super::camera::FEW;
-use super::frame::{HOLDER, LIT, LIT_VERTEX, NEAREST, NEVER, VERTEX};
-use super::light::{LAMP_VIEW, from_lamp};
+use super::frame::NEVER;
+use super::light::LAMP_VIEW;
 use super::meter::Exposure;
 use super::palette::pack;
-use super::raster::{self, Fields};
 use super::scenery::Facets;
 use super::styles::{self, STYLES, Style, Subject};
-use super::{Camera, Color, Frame, Scenery, Solid, Trail, Water};
-use super::{blank, cover, fluid, halo, heading, hide, meter, paint, project};
-use super::{shade, splat, streak, stroke, tear, tone, vertex};
+use super::{Camera, Color, Frame, Scenery, Solid, Trail, Water, fluid, passes};
 use crate::error::Error;
 use crate::kernel::Plan;
 use crate::settings::{Settings, Value};
@@ -174,57 +170,21 @@ impl Picture {
     /// # Errors
     /// When a shader does not compile.
     pub fn plan(&self) -> Result<Plan, Error> {
+        let (frame, facets) = (&self.frame, &self.facets);
         let mut plan = Plan::default();
-        plan.add(blank::kernel(&self.frame)?);
-        plan.add(project::kernel(&self.frame)?);
+        passes::prepare(frame, &mut plan)?;
         if self.has_inactive {
-            plan.add(absent(self.frame.count)?);
+            plan.add(passes::absent(frame.count)?);
         }
-        match self.color {
-            Color::Speed { .. } => plan.add(paint::kernel(&self.frame)?),
-            Color::Heading => plan.add(heading::kernel(&self.frame)?),
-            Color::Given(_) => {}
+        passes::color(self, &mut plan)?;
+        if facets.veils() {
+            plan.add(passes::hide(frame, facets)?);
         }
-        if self.facets.veils() {
-            plan.add(hide::kernel(&self.frame, &self.facets)?);
-        }
-        if !self.facets.is_empty() {
-            self.stand(&mut plan)?;
+        if !facets.is_empty() {
+            passes::surfaces(frame, facets, &mut plan)?;
         }
         self.style().light(self, &mut plan)?;
         Ok(plan)
-    }
-    /// Balls, lights and trails.
-    pub(super) fn lights(&self, plan: &mut Plan) -> Result<(), Error> {
-        if self.frame.solid < NEVER {
-            plan.add(cover::kernel(&self.frame)?);
-        }
-        let lights = if self.frame.tail > 0.0 { stroke::kernel } else { splat::kernel };
-        plan.add(lights(&self.frame)?);
-        if self.frame.points > 0 {
-            plan.add(streak::kernel(&self.frame)?);
-        }
-        plan.add(meter::kernel(&self.frame)?);
-        Ok(())
-    }
-    /// Surfaces, lines and solids, before the particles that fly among them.
-    fn stand(&self, plan: &mut Plan) -> Result<(), Error> {
-        let (frame, facets, lamp) = (&self.frame, &self.facets, from_lamp(&self.frame));
-        if frame.facets > 0 {
-            plan.add(tear::kernel(frame, facets)?);
-            plan.add(vertex::kernel("vertex", frame, facets, VERTEX)?);
-            plan.add(vertex::kernel("vertex of the lamp", &lamp, facets, LIT_VERTEX)?);
-        }
-        let from_eye = Fields { vertex: VERTEX, nearest: NEAREST, holder: Some(HOLDER) };
-        plan.add(raster::kernel("raster", frame, facets, from_eye)?);
-        plan.add(raster::kernel(
-            "raster of the lamp",
-            &lamp,
-            facets,
-            Fields { vertex: LIT_VERTEX, nearest: LIT, holder: None },
-        )?);
-        plan.add(shade::kernel(frame, facets)?);
-        Ok(())
     }
     /// From light to pixels.
     ///
@@ -235,17 +195,11 @@ impl Picture {
         self.style().develop(self, exposure, &mut plan)?;
         Ok(plan)
     }
-    /// The halo around what is bright, and the tones of all.
-    pub(super) fn tones(&self, exposure: Exposure, plan: &mut Plan) -> Result<(), Error> {
-        // Without light there is none to spread: what a device has not written is zero.
-        if self.frame.bloom > 0.0 {
-            plan.add(halo::kernel(&self.frame, exposure)?);
-        }
-        plan.add(tone::kernel(&self.frame, exposure)?);
-        Ok(())
-    }
-    fn style(&self) -> &'static dyn Style {
+    pub(super) fn style(&self) -> &'static dyn Style {
         STYLES.iter().find(|entry| entry.name == self.style).map_or(STYLES[0].style, |entry| entry.style)
+    }
+    pub(super) fn has_inactive(&self) -> bool {
+        self.has_inactive
     }
     pub(super) fn facets(&self) -> &Facets {
         &self.facets

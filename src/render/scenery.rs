@@ -11,7 +11,7 @@ use super::solid::{Shape, Solid};
 use super::tank;
 use crate::error::Error;
 use crate::kernel::{Bounds, Kernel, Name, Side};
-use crate::links::{Links, MOST_LINKS, Network};
+use crate::links::{Half, Links, MOST_LINKS, Network, WORDS};
 use crate::motion::{Hold, Motion};
 use crate::solids::Standing;
 use crate::state::State;
@@ -173,6 +173,34 @@ impl Facets {
     pub fn edges(&self) -> u32 {
         self.tanks.iter().map(tank::number).sum()
     }
+    /// The edges of tanks in the picture.
+    pub fn tank_edges(&self, frame: &Frame) -> Vec<tank::Edge> {
+        self.tanks.iter().flat_map(|tank| tank::edges(tank, frame)).collect()
+    }
+    /// The ids of a facet's corners; of a line the third is [`NONE`].
+    pub fn corners(&self, facet: usize) -> [u32; 3] {
+        [0, 1, 2].map(|k| self.facet[3 * facet + k])
+    }
+    /// The facets around each of so many particles.
+    pub fn around(&self, count: usize) -> impl Iterator<Item = (usize, &[u32])> {
+        let row = |id: usize| Some(*self.around_start.get(id)? as usize..*self.around_start.get(id + 1)? as usize);
+        (0..count).filter_map(move |id| Some((id, self.around.get(row(id)?)?)))
+    }
+    /// Whether a side of a facet is a broken spring; without the table of links as it is now, as it was at the start.
+    pub fn is_torn(&self, facet: usize, link: Option<&[u32]>) -> bool {
+        let link = link.unwrap_or(&self.link);
+        let words = |slot: &u32| link.get(*slot as usize * WORDS..).and_then(|rest| rest.get(..WORDS));
+        let sides = self.slot[3 * facet..3 * facet + 3].iter().filter(|slot| **slot != NONE);
+        sides.filter_map(words).any(|words| Half::new(words).is_broken())
+    }
+    /// The particles that are not drawn by themselves.
+    pub fn hidden(&self) -> impl Iterator<Item = usize> {
+        self.veil.iter().enumerate().filter(|(_, veil)| **veil == 1).map(|(id, _)| id)
+    }
+    /// All solids.
+    pub fn standing(&self) -> &[Solid] {
+        &self.solids
+    }
     /// Whether there is nothing beside particles.
     pub fn is_empty(&self) -> bool {
         self.count == 0 && self.solids.is_empty()
@@ -195,7 +223,7 @@ impl Facets {
     }
     /// The kernel, with what the fields that it names hold.
     pub fn bind(&self, mut kernel: Kernel, frame: &Frame) -> Kernel {
-        let edge = self.tanks.iter().flat_map(|tank| tank::words(tank, frame)).collect();
+        let edge = self.tank_edges(frame).iter().flat_map(tank::Edge::words).collect();
         let solid = self.solids.iter().flat_map(|solid| solid.words(frame)).collect();
         let tables = [
             (FACET.name, &self.facet),

@@ -1,8 +1,8 @@
 //! Tanks as their edges.
 
-use glam::{DVec2, DVec3, DVec4};
+use glam::{DVec2, DVec3};
 
-use super::frame::{Frame, key};
+use super::frame::Frame;
 use super::solid::{Shape, Solid};
 
 /// Ends of an edge that is not in the picture are so far out of it.
@@ -17,27 +17,42 @@ pub fn number(tank: &Solid) -> u32 {
     }
 }
 
-/// What the device holds of the edges of a tank, as a frame sees them.
-pub fn words(tank: &Solid, frame: &Frame) -> Vec<u32> {
+/// An edge in the picture: of both ends pixels right and down, and flat depth.
+#[derive(Clone, Copy)]
+pub struct Edge {
+    ends: [DVec3; 2],
+}
+
+/// How much of a pixel edges cover.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Cover {
+    pub behind: f64,
+    pub before: f64,
+}
+
+/// The edges of a tank, as a frame sees them.
+pub fn edges(tank: &Solid, frame: &Frame) -> Vec<Edge> {
     let Shape::Box { half } = tank.shape else { return Vec::new() };
     let corner = |bits: usize| {
         let side = |k: usize| if bits >> k & 1 == 1 { half[k] } else { -half[k] };
         tank.place + tank.turn * DVec3::new(side(0), side(1), side(2))
     };
     let axes = if half.z == 0.0 { 2 } else { 3 };
-    let mut ends = Vec::new();
-    for low in 0..1_usize << axes {
-        for axis in (0..axes).filter(|axis| low >> axis & 1 == 0) {
-            ends.extend(seen(frame, corner(low), corner(low | 1 << axis)));
-        }
+    let from = |low: usize| (0..axes).filter(move |axis| low >> axis & 1 == 0).map(move |axis| (low, low | 1 << axis));
+    let pairs = (0..1_usize << axes).flat_map(from);
+    pairs.map(|(a, b)| Edge { ends: seen(frame, corner(a), corner(b)) }).collect()
+}
+
+impl Edge {
+    /// What the device holds of it.
+    pub fn words(&self) -> impl Iterator<Item = u32> + use<> {
+        #[expect(clippy::cast_possible_truncation, reason = "rounding to f32 is what the device does")]
+        self.ends.into_iter().flat_map(|end| end.extend(0.0).to_array().map(|x| (x as f32).to_bits()))
     }
-    #[expect(clippy::cast_possible_truncation, reason = "rounding to f32 is what the device does")]
-    let bits = |end: DVec4| end.to_array().map(|x| (x as f32).to_bits());
-    ends.into_iter().flat_map(bits).collect()
 }
 
 /// Both ends in the picture: right and down, flat depth; what is behind the eye is cut off.
-fn seen(frame: &Frame, a: DVec3, b: DVec3) -> [DVec4; 2] {
+fn seen(frame: &Frame, a: DVec3, b: DVec3) -> [DVec3; 2] {
     let least = 1.01 * super::frame::NEAR * frame.camera.distance;
     let depth = |x: DVec3| frame.see(x).depth;
     let (near, far) = (depth(a), depth(b));
@@ -45,38 +60,26 @@ fn seen(frame: &Frame, a: DVec3, b: DVec3) -> [DVec4; 2] {
         if frame.camera.distance == 0.0 || z >= least { from } else { from.lerp(to, (least - z) / (other - z)) }
     };
     if frame.camera.distance > 0.0 && near.max(far) <= least {
-        return [DVec4::new(AWAY, AWAY, 1.0, 0.0); 2];
+        return [DVec3::new(AWAY, AWAY, 1.0); 2];
     }
     [cut(a, b, near, far), cut(b, a, far, near)].map(|x| {
         let seen = frame.see(x);
-        DVec4::new(seen.place.x, seen.place.y, frame.flat_depth(seen.depth), 0.0)
+        seen.place.extend(frame.flat_depth(seen.depth))
     })
 }
 
-/// An edge as the device holds it.
-pub struct Edge {
-    ends: [DVec4; 2],
-}
-
-/// All edges.
-pub fn edges(ends: &[DVec4]) -> Vec<Edge> {
-    ends.chunks_exact(2).map(|pair| Edge { ends: [pair[0], pair[1]] }).collect()
-}
-
-impl Edge {
-    /// How much of a pixel they cover, behind of a depth and before it.
-    pub fn cover(all: &[Self], frame: &Frame, place: DVec2, depth: f64, hidden: u32) -> DVec2 {
-        let mut cover = DVec2::ZERO;
-        for edge in all {
-            let [a, b] = edge.ends;
-            let (off, way) = (place - a.truncate().truncate(), (b - a).truncate().truncate());
-            let s = (off.dot(way) / way.length_squared().max(1e-6)).clamp(0.0, 1.0);
-            let part = (frame.water.wire + 0.5 - (off - s * way).length()).clamp(0.0, 1.0);
-            let there = frame.flat_depth(a.z + s * (b.z - a.z));
-            if key(there) < hidden {
-                cover = cover.max(if there < depth { DVec2::new(0.0, part) } else { DVec2::new(part, 0.0) });
-            }
+/// How much of a pixel edges cover that are behind a depth and before it; behind `hidden` there is none.
+pub fn cover(edges: &[Edge], frame: &Frame, place: DVec2, depth: f64, hidden: f64) -> Cover {
+    let mut cover = Cover::default();
+    for Edge { ends: [a, b] } in edges {
+        let (off, way) = (place - a.truncate(), (*b - *a).truncate());
+        let s = (off.dot(way) / way.length_squared().max(1e-6)).clamp(0.0, 1.0);
+        let part = (frame.water.wire + 0.5 - (off - s * way).length()).clamp(0.0, 1.0);
+        let there = frame.flat_depth(a.z + s * (b.z - a.z));
+        if there < hidden {
+            let side = if there < depth { &mut cover.before } else { &mut cover.behind };
+            *side = side.max(part);
         }
-        cover
     }
+    cover
 }

@@ -1,15 +1,14 @@
 //! The mass along the line of sight: what a telescope, or a plot of a simulation of matter, shows. Each particle is smoothed over the
 //! radius of a light.
 
-use glam::DVec3;
-use rayon::prelude::*;
+use glam::{DVec3, DVec4};
 
-use super::{Style, Subject};
+use super::{Canvas, Style, Subject};
 use crate::error::Error;
-use crate::kernel::{Host, Kernel, POSITION, Plan, Scalar, Threads};
-use crate::render::frame::{CANVAS, Frame, PIXELS, PROJECTED, SCENERY, middle, unpack, whole};
-use crate::render::palette::pack;
-use crate::render::{Exposure, Picture, meter};
+use crate::kernel::{Plan, Threads};
+use crate::render::frame::whole;
+use crate::render::palette::along;
+use crate::render::{Exposure, Picture, passes};
 
 /// `density`
 pub struct Density;
@@ -26,41 +25,39 @@ impl Style for Density {
         false
     }
     fn light(&self, picture: &Picture, plan: &mut Plan) -> Result<(), Error> {
-        plan.add(projected(&picture.frame)?);
-        plan.add(meter::kernel(&picture.frame)?);
+        let frame = &picture.frame;
+        let across = u64::from(whole(2.0 * frame.glow)) + 2;
+        plan.add(frame.simple("density", &[crate::shader!("render/density.wgsl")], frame.count, across * across)?);
+        plan.add(passes::histogram(frame)?);
         Ok(())
     }
     fn develop(&self, picture: &Picture, exposure: Exposure, plan: &mut Plan) -> Result<(), Error> {
-        plan.add(ramp(&picture.frame, exposure)?);
+        let frame = &picture.frame;
+        let mut pass =
+            frame.pass(&[crate::shader!("render/density_scale.wgsl")], Threads::new(frame.area()), 4)?;
+        passes::expose(&mut pass, frame, exposure)?;
+        plan.add(frame.kernel("density scale", vec![pass]));
         Ok(())
     }
-}
-
-/// How many times the light of the mean mass a particle is; where nothing has mass, particles are counted.
-fn part(frame: &Frame, mass: f64) -> f64 {
-    if frame.mean > 0.0 { mass / frame.mean } else { 1.0 }
-}
-
-fn projected(frame: &Frame) -> Result<Kernel, Error> {
-    let across = u64::from(whole(2.0 * frame.glow)) + 2;
-    let pass = frame.pass(&[crate::shader!("render/density.wgsl")], Threads::new(frame.count), across * across)?;
-    let frame = *frame;
-    let reference = move |host: &Host| {
-        let (position, seen) = (host.read(POSITION)?, host.read(PROJECTED)?);
-        let mut canvas = host.write(CANVAS)?;
-        for (x, p) in position.iter().zip(seen.iter()).filter(|(_, p)| p.w == 0.0) {
-            let (place, light) = (p.truncate().truncate(), 0.5 * frame.unit * part(&frame, x.w));
-            let (columns, rows) = frame.touched(place - frame.glow, place + frame.glow);
-            for (x, y) in rows.flat_map(|y| columns.clone().map(move |x| (x, y))) {
-                let q = 1.0 - ((middle(x, y) - place) / frame.glow).length_squared();
-                if q > 0.0 {
-                    canvas[3 * frame.pixel(x, y)] += whole(light * q * q + 0.5);
-                }
+    fn plain(&self, canvas: &mut Canvas) {
+        let mean = canvas.frame.mean;
+        // Where nothing has mass, particles are counted.
+        let part = |mass: f64| 0.5 * canvas.frame.unit * if mean > 0.0 { mass / mean } else { 1.0 };
+        let lights: Vec<_> = canvas.lights().map(|(mass, disc)| (part(mass), disc.place)).collect();
+        for (light, place) in lights {
+            for (at, q) in canvas.about(place) {
+                canvas.light[at].x += light * q * q;
             }
         }
-        Ok(())
-    };
-    Ok(frame.kernel("density", vec![pass], reference))
+    }
+    fn plain_pixels(&self, canvas: &Canvas, exposure: Exposure) -> Vec<DVec3> {
+        let pixel = |(light, behind): (&DVec3, &DVec4)| {
+            let t = (exposure.slope() * (1.0 + light.x / exposure.knee).log2()).min(1.0);
+            let under = COLORS[0].lerp(behind.truncate(), behind.w);
+            under.lerp(along(&COLORS, t), (4.0 * t).min(1.0)) * 255.0 + 0.5
+        };
+        canvas.light.iter().zip(&canvas.behind).map(pixel).collect()
+    }
 }
 
 /// The colours of the scale, evenly spaced; lightness grows along it.
@@ -72,34 +69,3 @@ const COLORS: [DVec3; 6] = [
     DVec3::new(0.97, 0.55, 0.16),
     DVec3::new(0.99, 0.95, 0.7),
 ];
-
-fn ramp(frame: &Frame, exposure: Exposure) -> Result<Kernel, Error> {
-    let mut pass = frame.pass(&[crate::shader!("render/density_scale.wgsl")], Threads::new(frame.area()), 4)?;
-    if let Some(binding) = pass.shader.reflection().binding("exposure") {
-        let values = [("knee", Scalar::Float(exposure.knee)), ("slope", Scalar::Float(exposure.slope()))];
-        pass.uniforms.push(("exposure", binding.packed.pack("exposure", &values)?));
-    }
-    let frame = *frame;
-    let reference = move |host: &Host| {
-        let (canvas, scenery, mut pixels) = (host.read(CANVAS)?, host.read(SCENERY)?, host.write(PIXELS)?);
-        let (canvas, scenery): (&[u32], &[u32]) = (&canvas, &scenery);
-        pixels.par_iter_mut().zip(0..frame.area() as usize).for_each(|(pixel, i)| {
-            let light = f64::from(canvas[3 * i]);
-            let t = (exposure.slope() * (1.0 + light / exposure.knee).log2()).min(1.0);
-            let behind = scenery[i];
-            let under = COLORS[0].lerp(unpack(behind), f64::from(behind >> 24) / 255.0);
-            let c = under.lerp(color(t), (4.0 * t).min(1.0));
-            *pixel = pack((c * 255.0 + 0.5).to_array().map(|x| u8::try_from(whole(x)).unwrap_or(u8::MAX)));
-        });
-        Ok(())
-    };
-    Ok(frame.kernel("density scale", vec![pass], reference))
-}
-
-/// The colour at a part of the scale, from 0 to 1.
-fn color(t: f64) -> DVec3 {
-    let steps = COLORS.len() - 1;
-    let place = t * steps as f64;
-    let low = (whole(place) as usize).min(steps - 1);
-    COLORS[low].lerp(COLORS[low + 1], place - low as f64)
-}

@@ -1,9 +1,9 @@
 //! The surface of a fluid (van der Laan, Green & Sainz 2009).
 
-use super::{Style, Subject};
+use super::{Canvas, Style, Subject};
 use crate::error::Error;
 use crate::kernel::Plan;
-use crate::render::{Picture, drops, foam, settle, water};
+use crate::render::{Picture, passes};
 
 /// `fluid`
 pub struct Fluid;
@@ -22,12 +22,9 @@ impl Style for Fluid {
         false
     }
     fn light(&self, picture: &Picture, plan: &mut Plan) -> Result<(), Error> {
-        let frame = &picture.frame;
-        plan.add(foam::kernel(frame)?);
-        plan.add(drops::kernel(frame)?);
-        plan.add(drops::level(frame)?);
-        plan.add(settle::kernel(frame)?);
-        plan.add(water::kernel(frame, picture.facets())?);
-        Ok(())
+        passes::fluid(&picture.frame, picture.facets(), plan)
+    }
+    fn plain(&self, canvas: &mut Canvas) {
+        canvas.draw_fluid();
     }
 }

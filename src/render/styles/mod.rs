@@ -1,6 +1,9 @@
 //! Styles: how particles are drawn. Each is one file, with shaders of its own where it needs them, and one line in the register below.
 
-use super::{Exposure, Picture};
+use glam::DVec3;
+
+use super::plain::Canvas;
+use super::{Exposure, Picture, passes};
 use crate::error::Error;
 use crate::kernel::Plan;
 use crate::settings::Settings;
@@ -55,14 +58,22 @@ pub trait Style: Sync {
     /// # Errors
     /// When a shader does not compile.
     fn light(&self, picture: &Picture, plan: &mut Plan) -> Result<(), Error> {
-        picture.lights(plan)
+        passes::lights(&picture.frame, plan)
     }
     /// From light to pixels.
     ///
     /// # Errors
     /// When a shader does not compile.
     fn develop(&self, picture: &Picture, exposure: Exposure, plan: &mut Plan) -> Result<(), Error> {
-        picture.tones(exposure, plan)
+        passes::tones(&picture.frame, exposure, plan)
+    }
+    /// The same as [`Style::light`] without a device.
+    fn plain(&self, canvas: &mut Canvas) {
+        canvas.draw_lights();
+    }
+    /// The same as [`Style::develop`] without a device: red, green and blue of each pixel, as bytes before they are cut off.
+    fn plain_pixels(&self, canvas: &Canvas, exposure: Exposure) -> Vec<DVec3> {
+        canvas.tones(exposure)
     }
 }
 

@@ -1,0 +1,62 @@
+//! The surface of a fluid (van der Laan, Green & Sainz 2009).
+
+use super::super::fluid::ROUNDS;
+use super::super::frame::{
+    CREST, DYE, Frame, LEVEL, NEXT_DYE, NEXT_LEVEL, NEXT_THICKNESS, NONE, RIM, SOURCE, THICKNESS, VOLUME,
+};
+use super::super::scenery::Facets;
+use super::particles::layers;
+use crate::error::Error;
+use crate::kernel::{Kernel, Plan, Threads};
+use crate::primitives::fill;
+
+/// From drops to light on their surface.
+pub fn fluid(frame: &Frame, facets: &Facets, plan: &mut Plan) -> Result<(), Error> {
+    plan.add(frame.simple("foam", &[crate::shader!("render/foam.wgsl")], frame.count, 1)?);
+    plan.add(drops(frame)?);
+    plan.add(frame.simple("level", &[crate::shader!("render/level.wgsl")], frame.area(), 1)?);
+    plan.add(settle(frame)?);
+    let files = [
+        crate::shader!("render/flat.wgsl"),
+        crate::shader!("render/sky.wgsl"),
+        crate::shader!("render/edge.wgsl"),
+        crate::shader!("render/water.wgsl"),
+    ];
+    let water = frame.simple("water", &files, frame.area(), 16 + 2 * u64::from(frame.water.edges))?;
+    plan.add(facets.bind(water, frame));
+    Ok(())
+}
+
+/// The nearest front in each pixel, how much there is behind it, and its particle: two dispatches over all drops.
+fn drops(frame: &Frame) -> Result<Kernel, Error> {
+    let mut passes = Vec::new();
+    for (field, value) in [(CREST, NONE), (VOLUME, 0), (RIM, 0), (SOURCE, NONE)] {
+        passes.extend(fill::passes(&field.name.into(), frame.area(), value)?);
+    }
+    let (threads, rows) = layers(frame);
+    for file in [crate::shader!("render/drops.wgsl"), crate::shader!("render/source.wgsl")] {
+        let files = [crate::shader!("render/disc.wgsl"), crate::shader!("render/drop.wgsl"), file];
+        let mut pass = frame.pass(&files, threads, 64)?;
+        pass.constants = vec![("ROWS", f64::from(rows))];
+        passes.push(pass);
+    }
+    Ok(frame.kernel("drops", passes))
+}
+
+/// A smooth surface: twice as many dispatches as rounds.
+fn settle(frame: &Frame) -> Result<Kernel, Error> {
+    let each = 4 * u64::from(frame.water.farthest);
+    let across = frame.pass(&[crate::shader!("render/settle.wgsl")], Threads::new(frame.area()), each)?;
+    let mut down = across.clone().on(&[
+        ("level", NEXT_LEVEL.name.into()),
+        ("thickness", NEXT_THICKNESS.name.into()),
+        ("dye", NEXT_DYE.name.into()),
+        ("next_level", LEVEL.name.into()),
+        ("next_thickness", THICKNESS.name.into()),
+        ("next_dye", DYE.name.into()),
+    ]);
+    down.constants = vec![("DOWN", 1.0)];
+    let passes = (0..ROUNDS).flat_map(|_| [across.clone(), down.clone()]).collect();
+    let scratch = vec![NEXT_LEVEL.name.into(), NEXT_THICKNESS.name.into(), NEXT_DYE.name.into()];
+    Ok(Kernel { scratch, ..frame.kernel("settle", passes) })
+}

@@ -1,0 +1,116 @@
+//! Particles: where they are seen, their colours, balls, lights and trails.
+
+use std::sync::Arc;
+
+use glam::DVec4;
+
+use super::super::frame::{BINS, Frame, NEVER, PROJECTED, whole};
+use super::super::{Color, Picture};
+use crate::error::Error;
+use crate::kernel::{Host, Kernel, Plan, Shader, Threads};
+
+/// Turns of one invocation's loops in one layer, at most: half of the 65 535 that lavapipe allows.
+const TURNS: u32 = 1 << 15;
+/// Pixels across a diagonal, for each straight across.
+const DIAGONAL: f64 = 1.4143;
+
+/// An empty canvas, and where each particle is seen.
+pub fn prepare(frame: &Frame, plan: &mut Plan) -> Result<(), Error> {
+    // Every bin of the histogram is emptied, however small the picture.
+    let threads = frame.area().max(u32::try_from(BINS).unwrap_or(u32::MAX));
+    plan.add(frame.simple("blank", &[crate::shader!("render/blank.wgsl")], threads, 1)?);
+    plan.add(frame.simple("project", &[crate::shader!("render/project.wgsl")], frame.count, 1)?);
+    Ok(())
+}
+
+/// Hides particles that are not active, of so many.
+///
+/// # Errors
+/// When the shader does not compile.
+pub fn absent(count: u32) -> Result<Kernel, Error> {
+    let shader = Shader::join(&[
+        crate::shader!("world.wgsl"),
+        crate::shader!("life/active.wgsl"),
+        crate::shader!("life/absent.wgsl"),
+    ])?;
+    let reference = |host: &Host| {
+        let is_active = host.is_active()?;
+        let mut projected = host.write(PROJECTED)?;
+        let hidden = projected.iter_mut().enumerate().filter(|(id, _)| !is_active(*id));
+        hidden.for_each(|(_, p)| *p = DVec4::new(0.0, 0.0, 0.0, -2.0));
+        Ok(())
+    };
+    Ok(Kernel::new("absent", shader, Vec::new(), count, Arc::new(reference)))
+}
+
+/// Colours that are no given ones.
+pub fn color(picture: &Picture, plan: &mut Plan) -> Result<(), Error> {
+    let (name, file) = match picture.color {
+        Color::Speed { .. } => ("color by speed", crate::shader!("render/paint.wgsl")),
+        Color::Heading => ("color by heading", crate::shader!("render/heading.wgsl")),
+        Color::Given(_) => return Ok(()),
+    };
+    plan.add(picture.frame.simple(name, &[file], picture.frame.count, 4)?);
+    Ok(())
+}
+
+/// A dispatch over all discs, in layers of so many rows.
+pub fn layers(frame: &Frame) -> (Threads, u32) {
+    let across = whole(2.0 * frame.largest) + 3;
+    // A turn for each row, besides one for each pixel in it.
+    let rows = (TURNS / (across + 1)).max(1);
+    (Threads { count: frame.count, layers: across.div_ceil(rows) }, rows)
+}
+
+/// Balls, lights and trails.
+pub fn lights(frame: &Frame, plan: &mut Plan) -> Result<(), Error> {
+    if frame.solid < NEVER {
+        plan.add(balls(frame)?);
+    }
+    plan.add(if frame.tail > 0.0 { strokes(frame)? } else { splat(frame)? });
+    if frame.points > 0 {
+        plan.add(trails(frame)?);
+    }
+    plan.add(histogram(frame)?);
+    Ok(())
+}
+
+/// The nearest ball in each pixel, and its particle: two dispatches.
+fn balls(frame: &Frame) -> Result<Kernel, Error> {
+    let (threads, rows) = layers(frame);
+    let mut passes = Vec::new();
+    for file in [crate::shader!("render/cover.wgsl"), crate::shader!("render/claim.wgsl")] {
+        let mut pass = frame.pass(&[crate::shader!("render/disc.wgsl"), file], threads, 64)?;
+        pass.constants = vec![("ROWS", f64::from(rows))];
+        passes.push(pass);
+    }
+    Ok(frame.kernel("balls", passes))
+}
+
+fn splat(frame: &Frame) -> Result<Kernel, Error> {
+    let across = u64::from(whole(2.0 * frame.glow)) + 2;
+    frame.simple("splat", &[crate::shader!("render/splat.wgsl")], frame.count, across * across)
+}
+
+/// Strokes of light: where each particle has just been.
+fn strokes(frame: &Frame) -> Result<Kernel, Error> {
+    let across = whole(2.0 * DIAGONAL * frame.glow) + 3;
+    // A turn for each column, besides one for each pixel in it.
+    let walk = (TURNS / (across + 1)).max(1);
+    let threads = Threads { count: frame.count, layers: frame.width.max(frame.height).div_ceil(walk) };
+    let mut pass = frame.pass(&[crate::shader!("render/stroke.wgsl")], threads, u64::from(across * across))?;
+    pass.constants = vec![("WALK", f64::from(walk))];
+    Ok(frame.kernel("strokes", vec![pass]))
+}
+
+/// Trails: lines from where each particle was to where it is.
+fn trails(frame: &Frame) -> Result<Kernel, Error> {
+    let mut pass = frame.pass(&[crate::shader!("render/streak.wgsl")], Threads::new(frame.points), 256)?;
+    pass.threads.layers = frame.width.max(frame.height).div_ceil(pass.shader.reflection().constant("WALK"));
+    Ok(frame.kernel("trails", vec![pass]))
+}
+
+/// How bright the canvas is.
+pub fn histogram(frame: &Frame) -> Result<Kernel, Error> {
+    frame.simple("luminance histogram", &[crate::shader!("render/meter.wgsl")], frame.area(), 1)
+}
