@@ -51,6 +51,10 @@ impl Cpu {
     pub fn host(&self) -> &Host {
         &self.host
     }
+    /// The same, for fields that no plan has made.
+    pub fn host_mut(&mut self) -> &mut Host {
+        &mut self.host
+    }
 }
 
 impl Backend for Cpu {

@@ -232,6 +232,11 @@ pub fn whole(x: f64) -> u32 {
     x as u32
 }
 
+/// The nearest colour of three bytes: so a device keeps it.
+pub fn rounded(color: DVec3) -> DVec3 {
+    (color.clamp(DVec3::ZERO, DVec3::ONE) * 255.0).round() / 255.0
+}
+
 /// Bytes as parts of 1.
 pub fn unpack(color: u32) -> DVec3 {
     let [r, g, b, _] = color.to_le_bytes();

@@ -45,7 +45,7 @@ use support::Shared;
 use support::equivalents::{Equivalent, Ledger};
 use support::mutants::{Mutant, mutants};
 
-/// These have mutants of their own, in `tests/picture_mutants`, `tests/physics/questions.rs` and `tests/engine/own_laws`.
+/// These have mutants of their own, in `tests/picture`, `tests/physics/questions.rs` and `tests/engine/own_laws`.
 const WITHOUT_REFERENCES: [&str; 3] = ["render", "selftest", "own"];
 
 /// Stages that run a mutant that is listed as equivalent: those that noticed other mutants last. All of them run

@@ -86,20 +86,6 @@ fn headings_are_hues_and_the_same_bytes_every_time() {
 }
 
 #[test]
-fn gpu_and_references_draw_the_same_birds() {
-    for (count, background, tail) in [(65, "dusk", 0.3), (3000, "dusk", 0.08), (3000, "night", 0.2), (40, "dusk", 0.0)]
-    {
-        let mut particles = support::cloud(count, 21);
-        particles.size_mut().iter_mut().step_by(3).for_each(|r| *r = 0.04);
-        let settings = settings(301, 203).with("background", word(background)).with("tail", Value::Number(tail));
-        let picture =
-            Picture::new(&settings.with("color", word("heading")), &particles, &[], trail(&particles)).unwrap();
-        let gpu = &on_gpu(&particles, &[&picture])[0];
-        assert_close(gpu, &on_cpu(&particles, &picture), &format!("{count} birds, {background}, tails of {tail}"));
-    }
-}
-
-#[test]
 fn birds_are_dark_before_a_bright_sky() {
     let (particles, settings) = line(&[DVec3::ZERO; 4]);
     let picture = Picture::new(&settings.with("background", word("dusk")), &particles, &[], Trail::default()).unwrap();

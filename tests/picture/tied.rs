@@ -57,30 +57,6 @@ fn above() -> Settings {
     flat.with("auto_frame", Value::Flag(false)).with("extent", Value::Number(1.5)).with("background", word("black"))
 }
 
-/// A sample at an edge may be of either side: a ninth of a pixel, in one of ten thousand.
-fn assert_alike(gpu: &Image, cpu: &Image, what: &str) {
-    let (all, [_, some, far]) = (gpu.rgba.len(), apart(gpu, cpu));
-    assert!(some <= all / 3000 && far <= all / 5000, "{what}: {some} and {far} of {all}");
-    assert!(lit(gpu) > 500, "{what}");
-}
-
-#[test]
-fn gpu_and_references_draw_the_same_cloth_threads_and_solids() {
-    for (side, draw, projection) in [
-        (7, "auto", "perspective"),
-        (24, "auto", "orthographic"),
-        (12, "lines", "perspective"),
-        (9, "surface", "perspective"),
-    ] {
-        let particles = sheet(side);
-        let settings = settings(203, 151).with("draw", word(draw)).with("projection", word(projection));
-        let picture = picture(&particles, &settings, solids());
-        let images = on_gpu(&particles, &[&picture, &picture]);
-        assert!(images[0] == images[1], "not the same bytes");
-        assert_alike(&images[0], &on_cpu(&particles, &picture), &format!("{side} {draw} {projection}"));
-    }
-}
-
 #[test]
 fn what_is_torn_is_not_drawn_and_its_neighbours_are() {
     let mut particles = sheet(4);

@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3, DVec4};
 use rayon::prelude::*;
 
 use super::super::fluid::ROUNDS;
-use super::super::frame::{Frame, NEVER, middle, whole};
+use super::super::frame::{Frame, NEVER, middle, rounded, whole};
 use super::super::light::LAMP;
 use super::super::tank::{Edge, cover};
 use super::tones::background;
@@ -108,7 +108,9 @@ fn smooth(surface: &[Wet], frame: &Frame, i: usize, down: bool) -> Wet {
             weights += 2.0 * weight;
         }
     }
-    Wet { level: sum.level / weights, thickness: sum.thickness / weights, dye: sum.dye / weights, rim: here.rim }
+    // In whole levels, as a device keeps it.
+    let dye = (sum.dye / weights * 255.0).round() / 255.0;
+    Wet { level: sum.level / weights, thickness: sum.thickness / weights, dye, rim: here.rim }
 }
 
 /// What is looked at.
@@ -134,7 +136,7 @@ impl Pool<'_> {
             self.under(pixel, wet.level)
         };
         c = c.lerp(GLASS, BEFORE * cover(self.edges, frame, pixel, wet.level, self.canvas.front[at]).before);
-        c.clamp(DVec3::ZERO, DVec3::ONE)
+        rounded(c)
     }
     /// A place of the surface, in the picture's axes.
     fn place(&self, pixel: DVec2, z: f64) -> DVec3 {

@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3, DVec4};
 use rayon::prelude::*;
 
 use super::super::Color;
-use super::super::frame::{Seen, unpack};
+use super::super::frame::{Seen, rounded, unpack};
 use super::super::heading::tint;
 use super::super::palette::by_speed;
 use super::{Canvas, Disc};
@@ -46,9 +46,9 @@ impl Canvas<'_> {
             Color::Given(words) => words.iter().map(|word| unpack(*word)).collect(),
             Color::Speed { .. } => {
                 let part = |v: &DVec4| ((v.truncate().length() - slow) / (fast - slow)).clamp(0.0, 1.0);
-                self.velocity.par_iter().map(|v| by_speed(part(v))).collect()
+                self.velocity.par_iter().map(|v| rounded(by_speed(part(v)))).collect()
             }
-            Color::Heading => self.velocity.par_iter().map(|v| tint(*v)).collect(),
+            Color::Heading => self.velocity.par_iter().map(|v| rounded(tint(*v))).collect(),
         };
         self.color.resize(self.position.len(), DVec3::ZERO);
     }
@@ -122,7 +122,11 @@ impl Canvas<'_> {
             for (at, pixel) in self.pixels(a.place.min(b.place) - reach, a.place.max(b.place) + reach) {
                 let (t, off) = nearest(&a, &b, pixel);
                 let bright = age * (frame.line + 0.5 - off).clamp(0.0, 1.0);
-                if bright > self.trail[at].0 && a.depth + (b.depth - a.depth) * t < self.front[at] {
+                // Of equally bright ones the last particle's: so it is on a device.
+                if (bright, s % count) > self.trail[at]
+                    && bright > 0.0
+                    && a.depth + (b.depth - a.depth) * t < self.front[at]
+                {
                     self.trail[at] = (bright, s % count);
                 }
             }

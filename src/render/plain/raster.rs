@@ -108,18 +108,19 @@ impl Facet {
         let bulge = if self.is_line { frame.thread / frame.scale() } else { 0.0 };
         frame.flat_depth(parts.dot(DVec3::new(a, b, c))) - bulge
     }
-    /// A mean of the corners'.
-    pub fn mean(&self, parts: DVec3, of: impl Fn(usize) -> DVec3) -> DVec3 {
-        parts.x * of(0) + parts.y * of(1) + parts.z * of(2)
-    }
     pub fn normal(&self, parts: DVec3) -> DVec3 {
-        self.mean(parts, |k| self.corners[k].normal).normalize_or_zero()
+        mean(parts, |k| self.corners[k].normal).normalize_or_zero()
     }
     /// Corners that go round against the clock are seen from the front; right and down is left-handed.
     pub fn is_front(&self) -> bool {
         let [a, b, c] = self.corners.map(|corner| corner.place);
         (b - a).perp_dot(c - a) <= 0.0
     }
+}
+
+/// A mean of three corners'.
+pub fn mean(parts: DVec3, of: impl Fn(usize) -> DVec3) -> DVec3 {
+    parts.x * of(0) + parts.y * of(1) + parts.z * of(2)
 }
 
 /// Corners, with the normal of the surface around them, or the direction of the lines.

@@ -3,12 +3,12 @@
 use glam::{DVec2, DVec3, DVec4};
 use rayon::prelude::*;
 
-use super::super::frame::{Frame, NEAR, NEVER, NONE, middle};
+use super::super::frame::{Frame, NEAR, NEVER, NONE, middle, rounded};
 use super::super::light::{LAMP, from_lamp};
 use super::super::solid::{Shape, square_of};
 use super::Canvas;
 use super::light::{Lamp, Meeting, matte, meet, square, strand};
-use super::raster::Raster;
+use super::raster::{Raster, mean};
 
 const STONE: DVec3 = DVec3::new(0.58, 0.60, 0.64);
 const FLOOR: DVec3 = DVec3::new(0.20, 0.21, 0.25);
@@ -50,7 +50,7 @@ impl Canvas<'_> {
         let samples = f64::from(frame.fine * frame.fine);
         self.behind.par_iter_mut().zip(&mut self.front).zip(0..frame.area()).for_each(|((behind, front), i)| {
             let (sum, depth) = stage.pixel(i % frame.width, i / frame.width);
-            *behind = (sum.truncate() / sum.w.max(1e-30)).clamp(DVec3::ZERO, DVec3::ONE).extend(sum.w / samples);
+            *behind = rounded(sum.truncate() / sum.w.max(1e-30)).extend(sum.w / samples);
             // What covers half of a pixel hides what is behind it.
             if sum.w >= 0.5 * samples {
                 *front = depth;
@@ -96,7 +96,7 @@ impl Stage<'_> {
     }
     fn facet(&self, facet: u32, parts: DVec3, p: DVec3, view: DVec3, jitter: DVec2) -> DVec3 {
         let facet = self.raster.facet(facet);
-        let tint = facet.mean(parts, |k| self.color[facet.ids[k]]);
+        let tint = mean(parts, |k| self.color[facet.ids[k]]);
         let normal = facet.normal(parts);
         if facet.is_line {
             return strand(tint, normal, view, self.lamp.seen(p, LAMP, jitter));

@@ -1,0 +1,131 @@
+//! Pictures of states on a device and on the host, and how far two of them are apart.
+
+use std::path::PathBuf;
+
+use glam::DVec3;
+use motes::kernel::{Array, Backend, Plan, World};
+use motes::render::{Color, Exposure, Image, Picture};
+use motes::{Cpu, Gpu, State};
+
+use super::support::Shared;
+
+/// A backend that holds the particles of a state.
+pub fn hold<B: Backend>(mut backend: B, state: &State, picture: &Picture) -> B {
+    let count = picture.frame.count;
+    let array = |v: &[DVec3], w: &[f64]| Array::Vec4(v.iter().zip(w).map(|(x, w)| x.extend(*w)).collect());
+    // A host makes these by itself; kernels of pictures it has none.
+    let on_host = backend.host().is_some();
+    if !on_host {
+        backend.compile(&picture.plan().expect("a plan")).expect("shaders");
+    }
+    backend.set_world(World { count, dt: 0.1, ..World::default() }).expect("a clock");
+    backend.write("position", &array(state.position(), state.mass())).expect("positions");
+    backend.write("velocity", &array(state.velocity(), state.size())).expect("velocities");
+    backend
+}
+
+pub fn gpu(shared: &Shared, state: &State, picture: &Picture) -> Gpu {
+    let gpu = Gpu::new(&shared.found.device, &shared.found.queue, picture.frame.count).expect("a device");
+    let mut gpu = hold(gpu, state, picture);
+    if !state.life().is_empty() {
+        gpu.write("life", &lives(state)).expect("lives");
+    }
+    gpu
+}
+
+fn lives(state: &State) -> Array {
+    Array::Uint(state.life().iter().map(|life| life.word()).collect())
+}
+
+/// The plain renderer's picture.
+pub fn plain(state: &State, picture: &Picture) -> Image {
+    let mut cpu = hold(Cpu::new(picture.frame.count).expect("particles"), state, picture);
+    if !state.life().is_empty() {
+        cpu.host_mut().insert("life", lives(state));
+    }
+    pollster::block_on(motes::render::draw(&mut cpu, picture)).expect("a picture")
+}
+
+/// The device's picture.
+pub fn device(shared: &Shared, state: &State, picture: &Picture) -> Image {
+    pollster::block_on(motes::render::draw(&mut gpu(shared, state, picture), picture)).expect("a picture")
+}
+
+/// The same by plans that may have been changed; `None` when one does not compile or run.
+pub fn altered(gpu: &mut Gpu, picture: &Picture, change: impl Fn(&mut Plan) -> Option<()>) -> Option<Image> {
+    let frame = &picture.frame;
+    let mut plan = picture.plan().expect("a plan");
+    change(&mut plan)?;
+    let expose = gpu.compile(&plan).ok()?;
+    if let (Color::Given(colors), true) = (&picture.color, plan.fields(frame.count).contains_key("color")) {
+        gpu.write("color", &Array::Uint(colors.clone())).ok()?;
+    }
+    if frame.points > 0 {
+        gpu.write("trail", &Array::Vec4(picture.trail.points().map(|x| x.extend(0.0)).collect())).ok()?;
+    }
+    gpu.run(&expose, 1).ok()?;
+    let exposure = Exposure::of(&words(gpu, "histogram", 256)?, frame, picture.exposure);
+    let mut plan = picture.development(exposure).expect("a plan");
+    change(&mut plan)?;
+    let develop = gpu.compile(&plan).ok()?;
+    gpu.run(&develop, 1).ok()?;
+    let missed = words(gpu, "missed", 2)?;
+    let rgba = words(gpu, "pixels", (frame.width * frame.height) as usize)?.into_iter().flat_map(u32::to_le_bytes);
+    let (width, height, rgba) = (frame.width, frame.height, rgba.collect());
+    Some(Image { width, height, rgba, outside: missed[0], broken: missed[1] })
+}
+
+fn words(gpu: &mut Gpu, name: &str, len: usize) -> Option<Vec<u32>> {
+    match pollster::block_on(gpu.read(name, &Array::Uint(Vec::new()), len)) {
+        Ok(Array::Uint(words)) => Some(words),
+        _ => None,
+    }
+}
+
+/// How far two pictures are apart.
+#[derive(Debug, Clone, Copy)]
+pub struct Difference {
+    /// The part of all colours that are more than eight levels apart.
+    pub far: f64,
+    /// The mean \[levels\].
+    pub mean: f64,
+}
+
+impl Difference {
+    /// What drivers may differ by. A place is known to some 1e-5 pixels, which moves a light by some hundredths of a level; the dither
+    /// makes one level of that in as many of the cases. Only where a place decides yes or no (the rim of a ball, which of two is
+    /// nearer, a bin of the histogram) is a colour further off. `rounding_is_within_the_tolerance` measures both.
+    pub const TOLERANCE: Self = Self { far: 0.002, mean: 0.04 };
+
+    pub fn between(a: &[u8], b: &[u8]) -> Self {
+        assert_eq!(a.len(), b.len(), "pictures of one size");
+        let levels = || a.iter().zip(b).map(|(a, b)| a.abs_diff(*b));
+        let all = a.len() as f64;
+        let far = levels().filter(|levels| *levels > 8).count() as f64 / all;
+        Self { far, mean: levels().map(f64::from).sum::<f64>() / all }
+    }
+    pub fn is_within(self, part: f64) -> bool {
+        self.far <= part * Self::TOLERANCE.far && self.mean <= part * Self::TOLERANCE.mean
+    }
+}
+
+/// Red, green and blue.
+pub fn rgb(image: &Image) -> Vec<u8> {
+    image.rgba.chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]]).collect()
+}
+
+pub fn file(name: &str) -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("tests/picture/snapshots/{name}.png"))
+}
+
+/// The colours of a snapshot.
+pub fn snapshot(name: &str) -> Vec<u8> {
+    let path = file(name);
+    let open = std::fs::File::open(&path);
+    let open = open.unwrap_or_else(|e| panic!("{}: {e}; UPDATE=1 writes it", path.display()));
+    let mut reader = png::Decoder::new(std::io::BufReader::new(open)).read_info().expect("a PNG");
+    let mut bytes = vec![0; reader.output_buffer_size().expect("a size")];
+    let info = reader.next_frame(&mut bytes).expect("pixels");
+    bytes.truncate(info.buffer_size());
+    bytes
+}
