@@ -1,5 +1,7 @@
 //! Shaders: plain WGSL files joined by the host. Module scope in WGSL does not care about order.
 
+mod joined;
+
 use std::borrow::Cow;
 use std::sync::Arc;
 
@@ -116,6 +118,9 @@ impl Shader {
     /// # Errors
     /// [`Error::Shader`] with file, line and caret of naga's complaint.
     pub fn join(sources: &[Source]) -> Result<Arc<Self>, Error> {
+        joined::once(sources, || Self::joined(sources))
+    }
+    fn joined(sources: &[Source]) -> Result<Arc<Self>, Error> {
         let given = sources;
         let sources = &own::hoisted(given);
         let mut joined = Joined::of(sources)?;

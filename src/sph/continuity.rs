@@ -45,9 +45,10 @@ pub fn rate(medium: &Medium, continuity: Continuity, problem: &Problem) -> Resul
     let search = medium.search(candidate, &[], problem)?;
     let diffusion = 2.0 * continuity.diffusion * 0.5 * medium.range() * medium.sound;
     let params = vec![("diffusion", Scalar::Float(diffusion)), ("weight", Scalar::Vector(continuity.weight))];
-    let (medium, walls, fixed) = (*medium, problem.clone(), problem.clone());
+    let (medium, smoothed) = (*medium, medium.smoothed());
+    let (walls, fixed) = (problem.clone(), problem.clone());
     let gather = move |me: &Particle, you: &Particle, r: DVec3, _: &World, rate: &mut f64| {
-        *rate += you.mass * medium.gradient(r) * r.dot(you.velocity - me.velocity);
+        *rate += you.mass * smoothed.gradient(r) * r.dot(you.velocity - me.velocity);
         if !walls.is_held(you.index) {
             let [mine, yours] = [me, you].map(|one| one.scalar(DENSITY.name).unwrap_or(f64::NAN));
             let denser = 0.5 * (mine + yours) - medium.density;
@@ -55,7 +56,7 @@ pub fn rate(medium: &Medium, continuity: Continuity, problem: &Problem) -> Resul
             let excess = yours - mine - give * continuity.weight.dot(r) / (medium.sound * medium.sound);
             let smoothing = 0.5 * medium.range();
             let near = r.length_squared() / (r.length_squared() + 0.01 * smoothing * smoothing);
-            *rate -= diffusion * you.mass / yours * excess * medium.gradient(r) * near;
+            *rate -= diffusion * you.mass / yours * excess * smoothed.gradient(r) * near;
         }
     };
     let finish = move |me: &Particle, rate: &f64, _: &World, outcome: &mut Outcome| {

@@ -13,11 +13,11 @@ use crate::visit::{Candidate, Law, Outcome, Particle};
 /// When the range is none.
 pub fn density(medium: &Medium, problem: &Problem) -> Result<Law, Error> {
     let search = medium.search(Candidate::STILL, &[], problem)?;
-    let (medium, problem) = (*medium, problem.clone());
-    let gather = move |_: &Particle, you: &Particle, r, _: &World, sum: &mut f64| *sum += you.mass * medium.kernel(r);
+    let (smoothed, problem) = (medium.smoothed(), problem.clone());
+    let gather = move |_: &Particle, you: &Particle, r, _: &World, sum: &mut f64| *sum += you.mass * smoothed.kernel(r);
     let finish = move |me: &Particle, sum: &f64, _: &World, outcome: &mut Outcome| {
         if !problem.is_held(me.index) {
-            outcome.set(DENSITY.name, sum + me.mass * medium.kernel(DVec3::ZERO));
+            outcome.set(DENSITY.name, sum + me.mass * smoothed.kernel(DVec3::ZERO));
         }
     };
     let wgsl = crate::shader!("sph/density.wgsl");

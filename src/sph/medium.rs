@@ -33,6 +33,28 @@ pub struct Medium {
 pub(super) const FLOWING: Candidate =
     Candidate { particle: crate::shader!("sph/flowing.wgsl"), broadcast: crate::shader!("sph/flowing_broadcast.wgsl") };
 
+/// A kernel with the constants in front of it, which are sums over a lattice.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Smoothed {
+    weight: f64,
+    slope: f64,
+    range: f64,
+    smoothing: Smoothing,
+}
+
+impl Smoothed {
+    /// W(r).
+    #[must_use]
+    pub fn kernel(&self, r: DVec3) -> f64 {
+        self.weight * self.smoothing.bell(r.length() / self.range)
+    }
+    /// What times r is the gradient of W at a particle r away: W′(r) / r.
+    #[must_use]
+    pub fn gradient(&self, r: DVec3) -> f64 {
+        self.slope * self.smoothing.decline(r.length() / self.range)
+    }
+}
+
 impl Medium {
     /// How far the kernel reaches \[length\].
     #[must_use]
@@ -58,15 +80,11 @@ impl Medium {
         let volume = self.range().powi(if self.dimensions == 2 { 2 } else { 3 });
         self.smoothing.constant(self.dimensions) / (volume * sum)
     }
-    /// W(r).
+    /// The kernel, ready to be evaluated for many pairs.
     #[must_use]
-    pub fn kernel(&self, r: DVec3) -> f64 {
-        self.weight() * self.smoothing.bell(r.length() / self.range())
-    }
-    /// What times r is the gradient of W at a particle r away: W′(r) / r.
-    #[must_use]
-    pub fn gradient(&self, r: DVec3) -> f64 {
-        self.weight() / self.range().powi(2) * self.smoothing.decline(r.length() / self.range())
+    pub fn smoothed(&self) -> Smoothed {
+        let (weight, range) = (self.weight(), self.range());
+        Smoothed { weight, slope: weight / range.powi(2), range, smoothing: self.smoothing }
     }
     /// B of Tait's equation p = B ((ρ/ρ₀)^γ − 1) \[pressure\].
     #[must_use]

@@ -25,7 +25,7 @@ pub use density::density;
 pub use dfsph::{Asked, DFSPH_ERRORS, DFSPH_REPORT, DFSPH_WORDS, Dfsph, columns as dfsph_columns};
 pub use gap::gap;
 pub use limits::{COURANT, Limits, limits, viscous_steps};
-pub use medium::Medium;
+pub use medium::{Medium, Smoothed};
 pub use pressure::{Friction, Walls, pressure};
 pub use rates::Rates;
 pub use smoothing::Smoothing;

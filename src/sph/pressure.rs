@@ -43,9 +43,10 @@ pub fn pressure(medium: &Medium, friction: Friction, walls: Walls, problem: &Pro
         ("wall", Scalar::Float(friction.wall)),
         ("mirror", Scalar::Uint(u32::from(walls == Walls::Mirror))),
     ];
-    let medium = *medium;
+    let (medium, smoothed) = (*medium, medium.smoothed());
     let gather = move |me: &Particle, you: &Particle, r, _: &World, sum: &mut DVec3| {
-        *sum += push(&medium, friction, walls, [me, you], [flow(me), flow(you)], r);
+        let push = push(&medium, friction, walls, [me, you], [flow(me), flow(you)], r);
+        *sum += you.mass * smoothed.gradient(r) * push;
     };
     let finish = |me: &Particle, sum: &DVec3, _: &World, outcome: &mut Outcome| {
         if flow(me).x > 0.0 {
@@ -64,7 +65,8 @@ pub(super) fn flow(of: &Particle) -> DVec3 {
     of.vector(FLOW).unwrap_or_default().truncate()
 }
 
-/// What one does to another, with r from the latter to the former; states are density, p / ρ² and energy.
+/// What times a mass and the slope of the kernel is what that mass does to a particle, with r from the latter to the former; states are
+/// density, p / ρ² and energy.
 fn push(
     medium: &Medium,
     friction: Friction,
@@ -83,5 +85,5 @@ fn push(
     let closing = v.dot(r).min(0.0) * length / near;
     let artificial = friction.alpha * medium.sound * closing / (0.5 * (mine.x + density));
     let laminar = friction.viscosity * (1.0 / mine.x + 1.0 / density);
-    you.mass * medium.gradient(r) * ((mine.y + pressure - share * artificial) * r - share * laminar * v)
+    (mine.y + pressure - share * artificial) * r - share * laminar * v
 }

@@ -24,7 +24,7 @@ impl Rates {
     #[must_use]
     pub fn of(medium: &Medium, friction: Friction, xsph: f64) -> Self {
         let (volume, length) = (medium.volume(), 0.5 * medium.range());
-        let lattice = lattice(medium);
+        let (lattice, smoothed) = (lattice(medium), medium.smoothed());
         let mut most = Self::default();
         for way in [DVec3::X, DVec3::new(1.0, 1.0, 0.0), DVec3::ONE] {
             let way = if medium.dimensions == 2 { way.with_z(0.0) } else { way };
@@ -33,12 +33,12 @@ impl Rates {
                 let k = way * (std::f64::consts::PI * f64::from(wave) / f64::from(WAVES) / medium.spacing);
                 let (mut sound, mut viscous, mut artificial, mut drawn) = (DVec3::ZERO, 0.0, 0.0, 0.0);
                 for r in &lattice {
-                    let (slope, apart) = (volume * medium.gradient(*r), 1.0 - libm::cos(k.dot(*r)));
+                    let (slope, apart) = (volume * smoothed.gradient(*r), 1.0 - libm::cos(k.dot(*r)));
                     let near = r.length_squared() + 0.01 * length * length;
                     sound += slope * libm::sin(k.dot(*r)) * *r;
                     viscous -= 2.0 * slope * apart;
                     artificial -= slope * length * r.dot(along).powi(2) / near * apart;
-                    drawn += volume * medium.kernel(*r) * apart;
+                    drawn += volume * smoothed.kernel(*r) * apart;
                 }
                 // Artificial viscosity acts on pairs that come closer, which are half of the pairs at any time.
                 let damped = friction.viscosity * viscous + 0.5 * friction.alpha * medium.sound * artificial;

@@ -6,7 +6,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::nearby::Nearby;
-use super::{COURANT, Medium, WallMass, gap, overdense};
+use super::{COURANT, Medium, Smoothed, WallMass, gap, overdense};
 use crate::error::Error;
 use crate::kernel::Bounds;
 
@@ -97,10 +97,10 @@ impl Start {
                 medium.dimensions
             )));
         }
-        let nearby = Nearby::new(still.position, still.bounds, medium.range());
+        let (nearby, smoothed) = (Nearby::new(still.position, still.bounds, medium.range()), medium.smoothed());
         let mass = masses(fluid, still, &nearby);
         let densities: Vec<(f64, Option<(usize, f64)>)> =
-            ids.par_iter().map(|id| density_at(medium, still, &nearby, &mass, *id)).collect();
+            ids.par_iter().map(|id| density_at(&smoothed, still, &nearby, &mass, *id)).collect();
         let (mut densest, mut thinnest) = ((0, 0.0), (0, f64::INFINITY));
         let (mut same, mut dense) = (None, 0);
         for (id, (density, nearest)) in ids.iter().zip(&densities) {
@@ -197,7 +197,7 @@ fn speed(medium: &Medium, ratio: f64) -> f64 {
 
 /// The mass of each particle: walls as much as the fluid whose place they take.
 fn masses(fluid: &Continuum, still: &Still<'_>, nearby: &Nearby<'_>) -> Vec<f64> {
-    let medium = &fluid.medium;
+    let (medium, smoothed) = (&fluid.medium, fluid.medium.smoothed());
     let of = |id: usize| {
         if !still.walls[id] {
             return still.mass[id];
@@ -205,8 +205,8 @@ fn masses(fluid: &Continuum, still: &Still<'_>, nearby: &Nearby<'_>) -> Vec<f64>
         if fluid.walls == WallMass::Lattice {
             return medium.mass();
         }
-        let mut sum = medium.kernel(DVec3::ZERO);
-        nearby.of(id, |you, r| sum += if still.walls[you] { medium.kernel(r) } else { 0.0 });
+        let mut sum = smoothed.kernel(DVec3::ZERO);
+        nearby.of(id, |you, r| sum += if still.walls[you] { smoothed.kernel(r) } else { 0.0 });
         medium.density / sum
     };
     (0..still.position.len()).into_par_iter().map(of).collect()
@@ -214,16 +214,16 @@ fn masses(fluid: &Continuum, still: &Still<'_>, nearby: &Nearby<'_>) -> Vec<f64>
 
 /// How dense the fluid is at a particle, and the nearest particle of it.
 fn density_at(
-    medium: &Medium,
+    smoothed: &Smoothed,
     still: &Still<'_>,
     nearby: &Nearby<'_>,
     mass: &[f64],
     id: usize,
 ) -> (f64, Option<(usize, f64)>) {
-    let mut density = mass[id] * medium.kernel(DVec3::ZERO);
+    let mut density = mass[id] * smoothed.kernel(DVec3::ZERO);
     let mut nearest: Option<(usize, f64)> = None;
     nearby.of(id, |you, r| {
-        density += mass[you] * medium.kernel(r);
+        density += mass[you] * smoothed.kernel(r);
         if !still.walls[you] && nearest.is_none_or(|(_, least)| r.length() < least) {
             nearest = Some((you, r.length()));
         }
@@ -233,12 +233,12 @@ fn density_at(
 
 /// Why it is so dense there: the first that is out of the way among masses, spacings, walls and nearby particles.
 fn cause(fluid: &Continuum, still: &Still<'_>, nearby: &Nearby<'_>, mass: &[f64], id: usize) -> String {
-    let medium = &fluid.medium;
+    let (medium, smoothed) = (&fluid.medium, fluid.medium.smoothed());
     let (own, lattice, d) = (mass[id], medium.mass(), medium.spacing);
     let (mut walls, mut wall) = (0.0, None::<(usize, f64)>);
     nearby.of(id, |you, r| {
         if still.walls[you] {
-            walls += mass[you] * medium.kernel(r) / medium.density;
+            walls += mass[you] * smoothed.kernel(r) / medium.density;
             if wall.is_none_or(|(_, least)| r.length() < least) {
                 wall = Some((you, r.length()));
             }

@@ -37,11 +37,11 @@ pub fn tension(medium: &Medium, tension: Tension, problem: &Problem) -> Result<[
 
 fn normals(medium: &Medium, problem: &Problem) -> Result<Law, Error> {
     let search = medium.search(FLOWING, &[FLOW, NORMAL], problem)?;
-    let medium = *medium;
+    let (medium, smoothed) = (*medium, medium.smoothed());
     let gather = move |_: &Particle, you: &Particle, r, _: &World, sum: &mut DVec3| {
         let density = flow(you).x;
         if density > 0.0 {
-            *sum -= you.mass / density * medium.gradient(r) * medium.range() * r;
+            *sum -= you.mass / density * smoothed.gradient(r) * medium.range() * r;
         }
     };
     let finish = |me: &Particle, sum: &DVec3, _: &World, outcome: &mut Outcome| {

@@ -22,12 +22,13 @@ const WALL_PRESSURE: &str = "wall_pressure";
 /// When the range is none, or a shader does not compile.
 pub fn wall_pressure(medium: &Medium, weight: DVec3, problem: &Problem) -> Result<[Kernel; 2], Error> {
     let search = Search { fixed: true, ..medium.search(FLOWING, &[FLOW, WALL_PRESSURE], problem)? };
-    let (medium, fixed, grid) = (*medium, problem.clone(), search.grid.clone());
+    let (medium, smoothed) = (*medium, medium.smoothed());
+    let (fixed, grid) = (problem.clone(), search.grid.clone());
     let gather = move |_: &Particle, you: &Particle, r: DVec3, _: &World, sum: &mut [f64; 2]| {
         let state = flow(you);
         if state.x > 0.0 {
-            sum[0] += (state.y * state.x - weight.dot(r)) * state.x * medium.kernel(r);
-            sum[1] += medium.kernel(r);
+            sum[0] += (state.y * state.x - weight.dot(r)) * state.x * smoothed.kernel(r);
+            sum[1] += smoothed.kernel(r);
         }
     };
     let finish = move |me: &Particle, [sum, number]: &[f64; 2], _: &World, outcome: &mut Outcome| {

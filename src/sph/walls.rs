@@ -27,12 +27,13 @@ pub fn walls(medium: &Medium, weighs: WallMass, problem: &Problem) -> Result<Ker
     let search = Search { fixed: true, ..medium.search(Candidate::STILL, &[], problem)? };
     // 0 where the sum says it.
     let mass = if weighs == WallMass::Sampled { 0.0 } else { medium.mass() };
-    let (medium, walls, held) = (*medium, problem.clone(), problem.clone());
+    let (medium, smoothed) = (*medium, medium.smoothed());
+    let (walls, held) = (problem.clone(), problem.clone());
     let gather = move |_: &Particle, you: &Particle, r, _: &World, sum: &mut f64| {
-        *sum += if walls.is_held(you.index) { medium.kernel(r) } else { 0.0 };
+        *sum += if walls.is_held(you.index) { smoothed.kernel(r) } else { 0.0 };
     };
     let finish = move |me: &Particle, sum: &f64, _: &World, outcome: &mut Outcome| {
-        let sampled = medium.density / (sum + medium.kernel(DVec3::ZERO));
+        let sampled = medium.density / (sum + smoothed.kernel(DVec3::ZERO));
         if held.is_held(me.index) {
             let mass = if weighs == WallMass::Sampled { sampled } else { medium.mass() };
             outcome.set(POSITION.name, me.position.extend(mass));

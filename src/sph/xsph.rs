@@ -15,11 +15,11 @@ use crate::visit::{Law, Outcome, Particle};
 /// When the range is none.
 pub fn xsph(medium: &Medium, strength: f64, problem: &Problem) -> Result<Law, Error> {
     let search = medium.search(FLOWING, &[FLOW], problem)?;
-    let (medium, params) = (*medium, vec![("xsph", Scalar::Float(strength))]);
+    let (smoothed, params) = (medium.smoothed(), vec![("xsph", Scalar::Float(strength))]);
     let gather = move |me: &Particle, you: &Particle, r, _: &World, sum: &mut DVec3| {
         let [mine, yours] = [me, you].map(|one| flow(one).x);
         if yours > 0.0 {
-            *sum += you.mass / (0.5 * (mine + yours)) * medium.kernel(r) * (you.velocity - me.velocity);
+            *sum += you.mass / (0.5 * (mine + yours)) * smoothed.kernel(r) * (you.velocity - me.velocity);
         }
     };
     let finish = move |me: &Particle, sum: &DVec3, world: &World, outcome: &mut Outcome| {

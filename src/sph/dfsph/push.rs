@@ -10,11 +10,12 @@ use crate::visit::{Candidate, Law, Outcome, Particle};
 
 /// Accelerations by pressure.
 pub fn push(of: &Dfsph<'_>, solve: Solve) -> Result<Kernel, Error> {
-    let (medium, stiffness) = (of.medium, |one: &Particle| one.numbers(UNKNOWNS)[0]);
+    let (medium, smoothed) = (of.medium, of.medium.smoothed());
+    let stiffness = |one: &Particle| one.numbers(UNKNOWNS)[0];
     let gather = move |me: &Particle, you: &Particle, r, _: &World, sum: &mut DVec3| {
         let [mine, yours] = [me, you].map(stiffness);
         let yours = if yours < 0.0 { mine } else { yours };
-        *sum += you.mass / medium.density * (mine + yours) * medium.gradient(r) * r;
+        *sum += you.mass / medium.density * (mine + yours) * smoothed.gradient(r) * r;
     };
     let finish = move |me: &Particle, sum: &DVec3, _: &World, outcome: &mut Outcome| {
         if stiffness(me) >= 0.0 {
@@ -43,9 +44,10 @@ pub fn pushed(of: &Particle) -> DVec4 {
 
 /// How fast accelerations make the density grow, as a part of that at rest.
 pub fn change(medium: Medium) -> impl Fn(&Particle, &Particle, DVec3, &World, &mut f64) + Send + Sync + 'static {
+    let smoothed = medium.smoothed();
     move |me, you, r, _, sum| {
         let way = (pushed(you) - pushed(me)).truncate();
-        *sum += you.mass / medium.density * medium.gradient(r) * way.dot(r);
+        *sum += you.mass / medium.density * smoothed.gradient(r) * way.dot(r);
     }
 }
 

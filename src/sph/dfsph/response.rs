@@ -23,12 +23,13 @@ struct Sum {
 
 /// The kernel: density, α, how fast the density grows, and how many are in range.
 pub fn kernel(of: &Dfsph<'_>) -> Result<Kernel, Error> {
-    let (medium, walls, fixed) = (of.medium, of.problem.clone(), of.problem.clone());
+    let (medium, smoothed) = (of.medium, of.medium.smoothed());
+    let (walls, fixed) = (of.problem.clone(), of.problem.clone());
     let volume = move |mass: f64| mass / medium.density;
     let gather = move |me: &Particle, you: &Particle, r: DVec3, _: &World, sum: &mut Sum| {
         let (mine, yours) = (volume(me.mass), volume(you.mass));
-        let slope = medium.gradient(r) * r;
-        sum.number += yours * medium.kernel(r);
+        let slope = smoothed.gradient(r) * r;
+        sum.number += yours * smoothed.kernel(r);
         sum.change += yours * (you.velocity - me.velocity).dot(slope);
         sum.gradient += yours * slope;
         if walls.is_held(you.index) {
@@ -42,7 +43,7 @@ pub fn kernel(of: &Dfsph<'_>) -> Result<Kernel, Error> {
         if fixed.is_held(me.index) {
             return;
         }
-        let number = sum.number + volume(me.mass) * medium.kernel(DVec3::ZERO);
+        let number = sum.number + volume(me.mass) * smoothed.kernel(DVec3::ZERO);
         let inverse = (sum.gradient + sum.walls).dot(sum.gradient) + sum.squares;
         let alpha = if inverse * medium.range().powi(2) > LEAST { 1.0 / inverse } else { 0.0 };
         outcome.set(DENSITY.name, medium.density * number);

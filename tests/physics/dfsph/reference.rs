@@ -1,13 +1,14 @@
 //! The solves once more, as the paper writes them: velocities instead of accelerations, lists of neighbours, f64.
 
 use glam::DVec3;
-use motes::sph::{Medium, Smoothing};
+use motes::sph::{Medium, Smoothed, Smoothing};
 
 use crate::dfsph::{DENSITY, SPACING};
 
 /// Where particles are, and how they move.
 pub struct Flow {
     pub medium: Medium,
+    smoothed: Smoothed,
     pub position: Vec<DVec3>,
     pub velocity: Vec<DVec3>,
     pub mass: Vec<f64>,
@@ -49,7 +50,7 @@ impl Flow {
         let shortest: Box<dyn Fn(DVec3) -> DVec3> = Box::new(shortest);
         let near = |i: usize, j: &usize| *j != i && shortest(position[i] - position[*j]).length() < medium.range();
         let neighbors = (0..position.len()).map(|i| (0..position.len()).filter(|j| near(i, j)).collect()).collect();
-        Self { medium, position, velocity, mass, wall, neighbors, shortest }
+        Self { medium, smoothed: medium.smoothed(), position, velocity, mass, wall, neighbors, shortest }
     }
     fn volume(&self, j: usize) -> f64 {
         self.mass[j] / self.medium.density
@@ -57,13 +58,13 @@ impl Flow {
     /// ∇W at i, of j.
     fn slope(&self, i: usize, j: usize) -> DVec3 {
         let r = (self.shortest)(self.position[i] - self.position[j]);
-        self.medium.gradient(r) * r
+        self.smoothed.gradient(r) * r
     }
     /// ρ / ρ₀
     pub fn density(&self, i: usize) -> f64 {
         let of =
-            |j: &usize| self.volume(*j) * self.medium.kernel((self.shortest)(self.position[i] - self.position[*j]));
-        self.neighbors[i].iter().map(of).sum::<f64>() + self.volume(i) * self.medium.kernel(DVec3::ZERO)
+            |j: &usize| self.volume(*j) * self.smoothed.kernel((self.shortest)(self.position[i] - self.position[*j]));
+        self.neighbors[i].iter().map(of).sum::<f64>() + self.volume(i) * self.smoothed.kernel(DVec3::ZERO)
     }
     /// Σ V (v − v') · ∇W
     pub fn divergence(&self, i: usize) -> f64 {

@@ -56,7 +56,7 @@ fn pressed(places: &[DVec3], density: &[f32], tension: f64) -> [f64; 2] {
         negative: false,
         dimensions: 3,
     };
-    let (h, mass) = (medium.range(), medium.mass());
+    let (h, mass, smoothed) = (medium.range(), medium.mass(), medium.smoothed());
     let size = D * (0.75 / PI * places.len() as f64).cbrt();
     let middle = places.iter().sum::<DVec3>() / places.len() as f64;
     let (mut stress, mut inside) = (0.0, 0.0);
@@ -71,7 +71,7 @@ fn pressed(places: &[DVec3], density: &[f32], tension: f64) -> [f64; 2] {
             if q == 0.0 || q >= 1.0 {
                 continue;
             }
-            let push = -(medium.state(rho).0 + medium.state(other).0) * medium.gradient(*y - *x) * r;
+            let push = -(medium.state(rho).0 + medium.state(other).0) * smoothed.gradient(*y - *x) * r;
             let hump = (1.0 - q).powi(3) * q.powi(3);
             let pull = 32.0 / (PI * h.powi(3)) * if q > 0.5 { hump } else { 2.0 * hump - 1.0 / 64.0 };
             virial += 0.5 * mass * r * (push - tension * 2.0 * RHO / (rho + other) * pull);
