@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use motes::formats::{Format, Precision};
+use motes::formats::{Format, Options, Precision};
 use motes::{Error, Setup, State};
 
 use super::failure::Failure;
@@ -81,7 +81,7 @@ fn keep(last: &State, folder: &Path, formats: &[&Format], precision: Precision) 
     let mut files = Vec::new();
     for format in chosen {
         let path = folder.join(format!("last_good.{}", format.name));
-        written(&path, format, last, precision)?;
+        written(&path, format, last, &Options { precision, bounds: None })?;
         files.push(path.display().to_string());
     }
     Ok(files.join(" and "))

@@ -16,7 +16,7 @@ use super::line::Line;
 use super::problems::{Problems, order, ordered};
 use super::rows::{self, Opened};
 use super::titles::{self, Strip, Title};
-use super::{Format, Precision, input, open};
+use super::{Contents, Format, Heading, Precision, input, open};
 use crate::error::Error;
 use crate::kernel::{Columns, Kind};
 use crate::state::State;
@@ -27,8 +27,9 @@ pub(super) const FORMAT: Format = Format {
     about: "text, one row for each particle, between commas or blanks",
     endings: &["csv"],
     begins: |_| true,
+    contents,
     read: Some(read),
-    write: Some(|out, state, precision| write_csv(out, state, precision)),
+    write: Some(|out, state, options| write_csv(out, state, options.precision)),
 };
 
 /// What else a mass is called.
@@ -89,6 +90,19 @@ pub fn read(path: &Path, columns: &Columns) -> Result<State, Error> {
         Some(order) => ordered(&state, &ids, &order),
         None => state,
     })
+}
+
+fn contents(path: &Path) -> Result<Contents, Error> {
+    let (file, _) = open(path)?;
+    let mut record = ByteRecord::new();
+    let failed = |error: io::Error| input(path, error.to_string());
+    let Opened { mut rows, titles, .. } = rows::open(file).map_err(failed)?;
+    if titles.is_none() {
+        rows.next(&mut record).map_err(failed)?;
+    }
+    let names = titles.as_ref().unwrap_or(&record);
+    let heading = |place| Heading { title: shown(names, place), whole: false };
+    Ok(Contents { headings: (0..names.len()).map(heading).collect(), ..Contents::default() })
 }
 
 /// What to say of a table whose first row is numbers.

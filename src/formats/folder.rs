@@ -16,7 +16,8 @@ const FRAMES: &str = "frames";
 const NAMED: &str = ", as ";
 
 /// Files that a run writes under one name, beside the last good state.
-const NAMES: &[&str] = &["scene.toml", "energy.csv", "energy.svg", "flock.csv", "population.csv", "fluid.csv"];
+const NAMES: &[&str] =
+    &["scene.toml", "energy.csv", "energy.svg", "flock.csv", "population.csv", "fluid.csv", "snapshots.pvd"];
 /// Files of which it writes many, with the number of a step or a picture between these, beside states.
 const NUMBERED: &[(&str, &str)] = &[("links_", "csv"), ("picture_", "png"), ("frame_", "png"), CHECKPOINT];
 /// What a run goes on from.

@@ -1,4 +1,4 @@
-//! Particles from and to files: CSV, Tipsy and NPZ, reader and writer of a format together; and pictures joined to films.
+//! Particles from and to files, reader and writer of a format together; and pictures joined to films.
 //!
 //! Readers check every count against the size of the file before they reserve memory for it, and report all that is wrong
 //! with a file at once. Writers go through [`atomically`], so that a file is either whole or not there.
@@ -7,6 +7,8 @@
 pub mod apng;
 mod archive;
 mod atomic;
+mod binary;
+mod contents;
 #[cfg(feature = "scene")]
 mod folder;
 mod line;
@@ -14,6 +16,8 @@ pub mod links;
 mod npy;
 mod problems;
 mod rows;
+mod sheet;
+mod tags;
 mod titles;
 
 use std::fs::File;
@@ -21,10 +25,11 @@ use std::io::{self, BufReader, BufWriter, Read};
 use std::path::Path;
 
 pub use self::atomic::atomically;
+pub use self::contents::{Contents, Heading, contents, known};
 #[cfg(feature = "scene")]
 pub use self::folder::Folder;
 use crate::error::Error;
-use crate::kernel::Columns;
+use crate::kernel::{Bounds, Columns};
 use crate::state::State;
 
 /// How many digits, or bytes, a number gets in a file.
@@ -35,6 +40,22 @@ pub enum Precision {
     Single,
     /// As an f64: what reads back to the same 64 bits.
     Double,
+}
+
+/// How a state is written, and what is told beside it.
+#[derive(Debug, Clone, Default)]
+pub struct Options {
+    /// The digits, or bytes, of numbers.
+    pub precision: Precision,
+    /// The box, if there is one.
+    pub bounds: Option<Bounds>,
+}
+
+impl Options {
+    /// Its corners, where it has sides along every axis.
+    pub(crate) fn closed(&self) -> Option<&Bounds> {
+        self.bounds.as_ref().filter(|bounds| !bounds.sides.contains(&crate::kernel::Side::Open))
+    }
 }
 
 /// A format of files that hold a state. Its reader and its writer stand in one file.
@@ -48,6 +69,8 @@ pub struct Format {
     pub endings: &'static [&'static str],
     /// Whether a file that begins with these bytes is of it, where the ending says nothing.
     pub begins: fn(&[u8]) -> bool,
+    /// What a file of it holds, without its numbers.
+    pub contents: fn(&Path) -> Result<Contents, Error>,
     /// Reads a state of these columns, if it can be read.
     pub read: Option<Reader>,
     /// Writes a state, if states can be written in it without loss.
@@ -57,7 +80,7 @@ pub struct Format {
 /// Reads a state of these columns from a file.
 pub type Reader = fn(&Path, &Columns) -> Result<State, Error>;
 /// Writes a state into a file.
-pub type Writer = fn(&mut BufWriter<File>, &State, Precision) -> io::Result<()>;
+pub type Writer = fn(&mut BufWriter<File>, &State, &Options) -> io::Result<()>;
 
 impl PartialEq for Format {
     fn eq(&self, other: &Self) -> bool {
@@ -76,6 +99,10 @@ macro_rules! register {
 
 register! {
     npz
+    hdf5
+    ply
+    vtp
+    gadget
     tipsy
     xyz
     csv
@@ -93,13 +120,26 @@ pub fn format(name: &str) -> Option<&'static Format> {
 /// # Errors
 /// [`Error::Input`], with the file and the line or byte offset of everything that is wrong with it.
 pub fn read(path: &Path, columns: &Columns) -> Result<State, Error> {
-    let ending = path.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase();
-    let by_ending = FORMATS.iter().find(|format| format.endings.contains(&ending.as_str()));
-    let found = if by_ending.is_some() { by_ending } else { by_beginning(path)? };
-    match found.and_then(|format| format.read) {
+    match of(path)?.and_then(|format| format.read) {
         Some(read) => read(path, columns),
         None => Err(input(path, "is of no format that is known")),
     }
+}
+
+/// The format of a file that is there: by its ending, and by what it starts with where that says nothing.
+///
+/// # Errors
+/// [`Error::Input`] when the file cannot be read.
+pub fn of(path: &Path) -> Result<Option<&'static Format>, Error> {
+    let named = by_ending(path);
+    if named.is_some() { Ok(named) } else { by_beginning(path) }
+}
+
+/// The format of files of this ending.
+#[must_use]
+pub fn by_ending(path: &Path) -> Option<&'static Format> {
+    let ending = path.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase();
+    FORMATS.iter().find(|format| format.endings.contains(&ending.as_str()))
 }
 
 /// The format that a file begins like.
@@ -107,9 +147,6 @@ fn by_beginning(path: &Path) -> Result<Option<&'static Format>, Error> {
     let mut start = Vec::new();
     let (file, _) = open(path)?;
     file.take(512).read_to_end(&mut start).map_err(|error| input(path, error.to_string()))?;
-    if start.starts_with(b"\x89HDF\r\n\x1a\n") {
-        return Err(input(path, "is an HDF5 file, which motes does not read: make it a CSV or NPZ file"));
-    }
     Ok(FORMATS.iter().find(|format| (format.begins)(&start)))
 }
 

@@ -15,10 +15,10 @@ use npyz::{AutoSerialize, Serialize, WriterBuilder};
 use super::archive::Arrays;
 use super::problems::{Problems, order, ordered};
 use super::titles::{self, Number, Strip, Title};
-use super::{Format, Precision, input, open};
+use super::{Contents, Format, Heading, Precision, input, open};
 use crate::error::Error;
 use crate::kernel::{Array, Column, Columns, Kind, Shape};
-use crate::state::{KEPT_NEXT, State};
+use crate::state::{KEPT, KEPT_NEXT, State};
 
 /// Its line in the register.
 pub(super) const FORMAT: Format = Format {
@@ -26,8 +26,9 @@ pub(super) const FORMAT: Format = Format {
     about: "arrays for NumPy, all columns and the time",
     endings: &["npz"],
     begins: |start| start.starts_with(b"PK\x03\x04"),
+    contents,
     read: Some(read),
-    write: Some(|out, state, precision| write_npz(out, state, precision)),
+    write: Some(|out, state, options| write_npz(out, state, options.precision)),
 };
 
 /// Bytes that are written at once.
@@ -88,6 +89,29 @@ pub fn read(path: &Path, columns: &Columns) -> Result<State, Error> {
         state.take_next();
     }
     Ok(state)
+}
+
+/// The names of arrays, but of what a step keeps.
+fn contents(path: &Path) -> Result<Contents, Error> {
+    let (file, _) = open(path)?;
+    let mut archive = npyz::npz::NpzArchive::new(file).map_err(|error| input(path, error.to_string()))?;
+    let mut names: Vec<String> = archive.array_names().map(str::to_owned).collect();
+    names.retain(|name| !name.starts_with(KEPT) && !["time", "step"].contains(&name.as_str()));
+    names.sort_unstable();
+    let mut contents = Contents::default();
+    for title in names {
+        let header = |archive: &mut npyz::npz::NpzArchive<_>| {
+            let mut file = archive.zip_archive().by_name(&format!("{title}.npy")).ok()?;
+            super::npy::Header::read(&mut file).ok()
+        };
+        let Some(header) = header(&mut archive) else { continue };
+        let whole = !matches!(header.kind, super::npy::Kind::F4 | super::npy::Kind::F8);
+        if let ("x", Some(rows)) = (title.as_str(), header.shape.first()) {
+            contents.rows = usize::try_from(*rows).unwrap_or(usize::MAX);
+        }
+        contents.headings.push(Heading { title, whole });
+    }
+    Ok(contents)
 }
 
 /// What an id is, for a check.

@@ -11,19 +11,19 @@ use std::path::Path;
 use glam::DVec3;
 
 use super::problems::Problems;
-use super::{Format, input, open};
+use super::{Contents, Format, Heading, input, open};
 use crate::error::Error;
 use crate::state::State;
 
-/// Its line in the register. A header holds small counts, so it holds zeros; text does not. A state is not written in it by scenes:
-/// most columns would be lost.
+/// Its line in the register. A header holds small counts, so it holds zeros; text does not.
 pub(super) const FORMAT: Format = Format {
     name: "tipsy",
     about: "Tipsy, the binary format of n-body codes: positions, velocities and masses",
     endings: &["tipsy", "bin", "std", "tip"],
     begins: |start| start.contains(&0),
+    contents: |_| Ok(Contents { headings: HELD.map(|title| Heading { title: title.to_owned(), whole: false }).to_vec(), ..Contents::default() }),
     read: Some(|path, _| read(path)),
-    write: None,
+    write: Some(|out, state, _| write_tipsy(out, state, 0.0).map(drop)),
 };
 
 /// Bytes of the header without its padding, and of the padding.

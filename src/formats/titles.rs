@@ -176,6 +176,40 @@ impl Strip<'_> {
     }
 }
 
+/// The numbers of one slot of a column: what formats of vectors write as one array.
+pub(super) struct Field<'a> {
+    /// The name of the column, with the number of the slot where there are several.
+    pub name: String,
+    /// Its components.
+    pub strips: Vec<Strip<'a>>,
+}
+
+impl Field<'_> {
+    /// Whether they are whole numbers.
+    pub fn is_whole(&self) -> bool {
+        self.strips.first().is_some_and(Strip::is_whole)
+    }
+}
+
+/// The same as [`strips`], by columns and slots.
+pub(super) fn fields(state: &State) -> Vec<Field<'_>> {
+    let mut fields = Vec::new();
+    for (column, values) in kept(state) {
+        let mut strips = of(column, values).peekable();
+        let mut slot = 0;
+        while strips.peek().is_some() {
+            let one: Vec<_> = strips.by_ref().take(column.kind.components()).collect();
+            let name = match column.shape {
+                Shape::Slots(_) => format!("{}_{slot}", column.name),
+                _ => column.name.to_string(),
+            };
+            fields.push(Field { name, strips: one });
+            slot += 1;
+        }
+    }
+    fields
+}
+
 /// The strips of one column.
 fn of<'a>(column: &'a Column, values: &'a Array) -> impl Iterator<Item = Strip<'a>> {
     let (slots, components) = (column.shape.len(1), column.kind.components());

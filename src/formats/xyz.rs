@@ -3,7 +3,7 @@
 //!
 //! `Properties` names what a line holds: `species` (an element: its number in the periodic table is the species, `X` is species 0),
 //! `pos`, `velo`, `mass`, `radius` (the size), `id`, and any other column by its own name. `Time` and `Step` are those of the state.
-//! A file has no box: `pbc="F F F"`. Format: the specification of libAtoms (extxyz).
+//! `Lattice`, `Origin` and `pbc` are the box, where it is closed along every axis. Format: the specification of libAtoms (extxyz).
 
 use std::fmt::Write as _;
 use std::fs::File;
@@ -12,9 +12,9 @@ use std::path::Path;
 
 use super::problems::{Problems, order, ordered};
 use super::titles;
-use super::{Format, Precision, input, open};
+use super::{Contents, Format, Heading, Options, input, open, sheet};
 use crate::error::Error;
-use crate::kernel::{Column, Columns, Kind};
+use crate::kernel::{Bounds, Column, Columns, Kind, Side};
 use crate::state::State;
 
 /// Its line in the register.
@@ -27,8 +27,9 @@ pub(super) const FORMAT: Format = Format {
         let count = lines.next().is_some_and(|line| line.trim_ascii().iter().all(u8::is_ascii_digit) && !line.is_empty());
         count && lines.next().is_some_and(|line| line.windows(11).any(|part| part == b"Properties="))
     },
+    contents,
     read: Some(read),
-    write: Some(|out, state, precision| write_xyz(out, state, precision)),
+    write: Some(|out, state, options| write_xyz(out, state, options)),
 };
 
 /// Elements by their numbers; a species beyond them has no name here.
@@ -66,7 +67,8 @@ fn property_of<'a>(column: &'a Column, columns: &[&Column]) -> &'a str {
 ///
 /// # Errors
 /// Those of `out`; a species above 118, for which there is no element.
-pub fn write_xyz(mut out: impl Write, state: &State, precision: Precision) -> io::Result<()> {
+pub fn write_xyz(mut out: impl Write, state: &State, options: &Options) -> io::Result<()> {
+    let precision = options.precision;
     let elements: Vec<&str> = ELEMENTS.split_whitespace().collect();
     if let Some(unnamed) = state.species().iter().find(|species| **species as usize >= elements.len()) {
         return Err(io::Error::other(format!(
@@ -82,7 +84,14 @@ pub fn write_xyz(mut out: impl Write, state: &State, precision: Precision) -> io
         let _ = write!(properties, ":{}:{letter}:{}", property_of(column, &columns), titles::titles(column).len());
     }
     writeln!(out, "{}", state.len())?;
-    writeln!(out, "Properties={properties} pbc=\"F F F\" Time={:?} Step={}", state.time, state.step)?;
+    if let Some(bounds) = options.closed() {
+        let ([x, y, z], low) = ((bounds.high - bounds.low).to_array(), bounds.low);
+        write!(out, "Lattice=\"{x:?} 0 0 0 {y:?} 0 0 0 {z:?}\" Origin=\"{:?} {:?} {:?}\" ", low.x, low.y, low.z)?;
+    }
+    let periodic = |side| options.closed().is_some() && side == Side::Periodic;
+    let pbc = options.bounds.map_or([Side::Open; 3], |bounds| bounds.sides);
+    let pbc = pbc.map(|side| if periodic(side) { "T" } else { "F" }).join(" ");
+    writeln!(out, "Properties={properties} pbc=\"{pbc}\" Time={:?} Step={}", state.time, state.step)?;
     let strips: Vec<_> = titles::strips(state).into_iter().filter(|strip| strip.text != "species").collect();
     let (mut line, ids) = (String::new(), state.ids());
     for (id, name) in ids.iter().enumerate() {
@@ -97,6 +106,39 @@ pub fn write_xyz(mut out: impl Write, state: &State, precision: Precision) -> io
         out.write_all(line.as_bytes())?;
     }
     Ok(())
+}
+
+/// The headings of the second line, and the box.
+fn contents(path: &Path) -> Result<Contents, Error> {
+    let (file, _) = open(path)?;
+    let failed = |error: io::Error| input(path, error.to_string());
+    let mut lines = Lines { file, line: Vec::new() };
+    let count = lines.next().map_err(failed)?.unwrap_or_default();
+    let header = lines.next().map_err(failed)?.unwrap_or_default();
+    let pairs = pairs(&header);
+    let said = |key: &str| pairs.iter().find(|(name, _)| name.eq_ignore_ascii_case(key)).map(|(_, value)| value.as_str());
+    let mut problems = Problems::default();
+    let properties = properties(said("Properties").unwrap_or(PLAIN), &mut problems);
+    problems.check(path)?;
+    let mut contents = Contents { rows: count.trim().parse().unwrap_or(0), ..Contents::default() };
+    for property in properties {
+        let whole = property.kind != 'R';
+        let name = column_of(&property.name, &Columns::default()).to_owned();
+        let headings = sheet::titles_of(&name, property.width).into_iter().map(|title| Heading { title, whole });
+        contents.headings.extend(headings);
+    }
+    let numbers = |text: &str| text.split_whitespace().filter_map(|word| word.parse().ok()).collect::<Vec<f64>>();
+    let origin = said("Origin").map_or([0.0; 3], |text| numbers(text).try_into().unwrap_or([0.0; 3]));
+    let sides: Vec<Side> = said("pbc")
+        .unwrap_or("T T T")
+        .split_whitespace()
+        .map(|word| if matches!(word, "T" | "1" | "true") { Side::Periodic } else { Side::Open })
+        .collect();
+    if let (Some([x, _, _, _, y, _, _, _, z]), Ok(sides)) = (said("Lattice").map(numbers).as_deref(), sides.try_into()) {
+        let low: glam::DVec3 = origin.into();
+        contents.bounds = Some(Bounds { low, high: low + glam::DVec3::new(*x, *y, *z), sides, dimensions: 3 });
+    }
+    Ok(contents)
 }
 
 /// A property of the second line.

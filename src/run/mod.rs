@@ -61,8 +61,8 @@ pub use table::{Lengths, Rows, Table};
 pub use writer::{Moment, Writer};
 
 use crate::error::Error;
-use crate::formats::{Folder, Precision};
-use crate::kernel::{Backend, Columns, POSITION};
+use crate::formats::{self, Folder, Precision};
+use crate::kernel::{Backend, Bounds, Columns, POSITION, Side};
 use crate::measure::Measure;
 use crate::render::{Picture, Scenery, Trail};
 use crate::scene::Scene;
@@ -116,6 +116,11 @@ impl Options {
     fn also(&self) -> String {
         format!("fps = {}\nledger = {}\n", self.fps, self.ledger)
     }
+}
+
+/// Whether there is a box.
+fn has_sides(bounds: &Bounds) -> bool {
+    bounds.sides.iter().any(|side| *side != Side::Open)
 }
 
 /// A run of a scene.
@@ -207,7 +212,11 @@ impl Run {
             film: Film::of(&scene, begun, options.fps),
             looks: Looks::new(scene.steps, scene.adaptive_step.is_some()),
             writers: Vec::new(),
-            states: States::new(&scene.output.formats, options.precision, scene.steps),
+            states: States::new(
+                &scene.output.formats,
+                formats::Options { precision: options.precision, bounds: Some(scene.bounds).filter(has_sides) },
+                scene.steps,
+            ),
             course: None,
             springs: (setup.state.links.springs.len(), None),
             last: None,

@@ -6,23 +6,26 @@ use std::sync::Arc;
 use super::table::Lengths;
 use super::writer::{Moment, Writer};
 use crate::error::Error;
-use crate::formats::{self, Folder, Format, Precision, atomically};
+use crate::formats::vtp::Collection;
+use crate::formats::{self, Folder, Format, Options, atomically};
 use crate::state::State;
 
 /// Files of states.
 #[derive(Debug)]
 pub struct States {
     formats: Vec<&'static Format>,
-    precision: Precision,
+    options: Options,
     /// Of the numbers of steps.
     digits: usize,
     folder: Option<Arc<Folder>>,
+    /// What ParaView opens instead of all of them, where they are of VTK.
+    listed: Option<Collection>,
 }
 
 impl States {
     /// In these formats, for a run of so many steps.
-    pub(super) fn new(formats: &[&'static Format], precision: Precision, steps: u64) -> Self {
-        Self { formats: formats.to_vec(), precision, digits: steps.to_string().len(), folder: None }
+    pub(super) fn new(formats: &[&'static Format], options: Options, steps: u64) -> Self {
+        Self { formats: formats.to_vec(), options, digits: steps.to_string().len(), folder: None, listed: None }
     }
 }
 
@@ -35,7 +38,13 @@ impl Writer for States {
         let (Some(folder), state, width) = (&self.folder, moment.state, self.digits) else { return Ok(()) };
         for format in &self.formats {
             let path = folder.file(&format!("snapshot_{:0width$}.{}", state.step, format.name))?;
-            written(&path, format, state, self.precision)?;
+            written(&path, format, state, &self.options)?;
+            if format.name == "vtp" {
+                let file = folder.file(Collection::NAME)?;
+                let listed = self.listed.get_or_insert_with(|| Collection::before(&file, state.step));
+                listed.add(state, &path);
+                atomically(&file, |out| listed.write(out))?;
+            }
         }
         if let (Some(links), false) = (moment.links, self.formats.is_empty()) {
             // `[[links]] file` reads it.
@@ -50,6 +59,6 @@ impl Writer for States {
 ///
 /// # Errors
 /// [`Error::Output`] when the file cannot be written.
-pub fn written(path: &Path, format: &Format, state: &State, precision: Precision) -> Result<(), Error> {
-    atomically(path, |out| format.write.map_or(Ok(()), |write| write(out, state, precision)))
+pub fn written(path: &Path, format: &Format, state: &State, options: &Options) -> Result<(), Error> {
+    atomically(path, |out| format.write.map_or(Ok(()), |write| write(out, state, options)))
 }

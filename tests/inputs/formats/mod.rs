@@ -18,7 +18,7 @@ use std::path::{Path, PathBuf};
 use glam::DVec3;
 use motes::State;
 use motes::error::Error;
-use motes::formats::{Precision, csv, npz, tipsy, xyz};
+use motes::formats::{Options, Precision, csv, npz, tipsy, xyz};
 use motes::kernel::Columns;
 use tempfile::TempDir;
 
@@ -91,7 +91,7 @@ fn xyz_bytes(particles: &State, precision: Precision) -> Vec<u8> {
     let mut bytes = Vec::new();
     let mut state = particles.clone();
     (state.time, state.step) = (2.5, 77);
-    xyz::write_xyz(&mut bytes, &state, precision).expect("memory");
+    xyz::write_xyz(&mut bytes, &state, &Options { precision, bounds: None }).expect("memory");
     bytes
 }
 

@@ -87,6 +87,6 @@ fn faults_are_reported_with_their_lines() {
     let mut state = some(1);
     state.species_mut()[0] = 119;
     let said =
-        motes::formats::xyz::write_xyz(std::io::sink(), &state, Precision::Single).expect_err("no element").to_string();
+        motes::formats::xyz::write_xyz(std::io::sink(), &state, &motes::formats::Options::default()).expect_err("no element").to_string();
     assert!(said.contains("species 119"), "{said}");
 }

@@ -1,0 +1,80 @@
+//! What a file holds beside positions, velocities and masses, so that all of it can be read.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use super::{input, of};
+use crate::error::Error;
+use crate::kernel::{Bounds, Column, Columns, Kind};
+
+use super::titles;
+
+/// What a file holds, without its numbers.
+#[derive(Debug, Clone, Default)]
+pub struct Contents {
+    /// Particles, where that is told before the numbers.
+    pub rows: usize,
+    /// Its lists of numbers, one for each component of a column.
+    pub headings: Vec<Heading>,
+    /// The box, if it tells of one.
+    pub bounds: Option<Bounds>,
+}
+
+/// A list of numbers.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Heading {
+    /// Its title: `x`, `mass`, `spin_x`.
+    pub title: String,
+    /// Whether its numbers are whole.
+    pub whole: bool,
+}
+
+/// What a file holds, without its numbers.
+///
+/// # Errors
+/// [`Error::Input`] as for [`read`](super::read).
+pub fn contents(path: &Path) -> Result<Contents, Error> {
+    match of(path)? {
+        Some(format) => (format.contents)(path),
+        None => Err(input(path, "is of no format that is known")),
+    }
+}
+
+/// More columns than this are left out, as a file of another kind may seem to have them.
+const MOST: usize = 1000;
+
+/// The columns of all simulations, and those of which a file has lists: `spin_x`, `spin_y` and `spin_z` are one of vectors. Titles that
+/// no column can have are left out.
+#[must_use]
+pub fn known(contents: &Contents) -> Columns {
+    let usual = Columns::default();
+    let usual = titles::all(&usual);
+    let own: BTreeMap<&str, bool> = contents
+        .headings
+        .iter()
+        .map(|heading| (heading.title.as_str(), heading.whole))
+        .filter(|(title, _)| !["id", "name", "m"].contains(title) && !usual.iter().any(|known| known.text == *title))
+        .collect();
+    let mut columns = Vec::new();
+    for (title, whole) in &own {
+        let stem = |suffix: &str| title.strip_suffix(suffix).filter(|stem| !stem.is_empty());
+        let all = |stem: &str, kind: Kind| kind.suffixes().iter().all(|s| own.contains_key(format!("{stem}{s}").as_str()));
+        let vector = ["_x", "_y", "_z", "_w"].into_iter().find_map(stem).filter(|stem| all(stem, Kind::Vector));
+        columns.push(match vector {
+            Some(stem) if all(stem, Kind::Quaternion) => (stem, Kind::Quaternion),
+            Some(stem) if !title.ends_with("_w") => (stem, Kind::Vector),
+            _ => (*title, if *whole { Kind::Whole } else { Kind::Scalar }),
+        });
+    }
+    columns.sort_by_key(|(name, _)| *name);
+    columns.dedup_by_key(|(name, _)| *name);
+    columns.truncate(MOST);
+    let mut known = Columns::default();
+    for (name, kind) in columns {
+        let column = Column::new(name.to_owned(), kind, "", "a column of a file");
+        if let Ok(more) = Columns::with(known.iter().skip(Columns::default().iter().count()).cloned().chain([column])) {
+            known = more;
+        }
+    }
+    known
+}

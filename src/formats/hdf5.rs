@@ -1,0 +1,385 @@
+//! HDF5 in the layout of GADGET-4 (Springel et al. 2021), which yt, pynbody and h5py read: a group `PartType0` … `PartType5` for each
+//! species, with `Coordinates`, `Velocities`, `Masses`, `ParticleIDs`, and every other column under its own name.
+//!
+//! Where the state has a density, species 0 is `PartType0`, gas, species 1 is `PartType1`, and so on; else species 0 is `PartType1`, dark
+//! matter. What comes behind the last type is of that type, with a dataset `species`. `Header` holds the time, the step, counts and the
+//! box. Sets of several files are read by the name of any of them. Quantities that only some types have are 0 for the others. Numbers
+//! stay in the units of the file.
+
+use std::collections::{BTreeMap, HashMap};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use hdf5_pure::{AttrValue, DType, Dataset, File, FileBuilder, Group};
+
+use super::binary::single;
+use super::sheet::{self, Place, Sheet};
+use super::titles::{self, Field, Number};
+use super::{Format, Options, Precision, input};
+use crate::error::Error;
+use crate::kernel::{Bounds, Columns, Side};
+use crate::state::State;
+
+/// Its line in the register.
+pub(super) const FORMAT: Format = Format {
+    name: "hdf5",
+    about: "HDF5 in the layout of GADGET-4, for yt, pynbody and h5py: a group for each species",
+    endings: &["hdf5", "h5"],
+    begins: |start| start.starts_with(b"\x89HDF\r\n\x1a\n"),
+    contents: |path| Ok(sheet(path, &|_| false)?.contents),
+    read: Some(read),
+    write: Some(|out, state, options| write_hdf5(out, state, options)),
+};
+
+/// Types of particles in a file.
+const TYPES: usize = 6;
+/// What GADGET calls columns.
+const NAMES: [(&str, &str); 9] = [
+    ("position", "Coordinates"),
+    ("velocity", "Velocities"),
+    ("mass", "Masses"),
+    ("id", "ParticleIDs"),
+    ("density", "Density"),
+    ("potential", "Potential"),
+    ("acceleration", "Acceleration"),
+    ("internal_energy", "InternalEnergy"),
+    ("smoothing_length", "SmoothingLength"),
+];
+/// The attribute of a group that says of which species all of it is.
+const SPECIES: &str = "Species";
+
+/// Writes a state.
+///
+/// # Errors
+/// Those of `out`; a number that does not fit single precision, where that is asked for.
+pub fn write_hdf5(out: impl Write, state: &State, options: &Options) -> io::Result<()> {
+    let (fields, ids) = (titles::fields(state), state.ids());
+    let first = usize::from(state.get("density").is_none());
+    let mut types: [Vec<usize>; TYPES] = Default::default();
+    for row in 0..state.len() {
+        let species = state.species().get(row).copied().unwrap_or(0) as usize;
+        types[species.saturating_add(first).min(TYPES - 1)].push(row);
+    }
+    let mut file = FileBuilder::new();
+    let mut header = file.create_group("Header");
+    let counts: Vec<u64> = types.iter().map(|rows| rows.len() as u64).collect();
+    let words = |shift: u32| counts.iter().map(|count| u32::try_from(count >> shift & 0xffff_ffff).unwrap_or(0)).collect();
+    header.set_attr("NumPart_ThisFile", AttrValue::U64Array(counts.clone()));
+    header.set_attr("NumPart_Total", AttrValue::U32Array(words(0)));
+    header.set_attr("NumPart_Total_HighWord", AttrValue::U32Array(words(32)));
+    header.set_attr("MassTable", AttrValue::F64Array(vec![0.0; TYPES]));
+    header.set_attr("NumFilesPerSnapshot", AttrValue::I32(1));
+    header.set_attr("Time", AttrValue::F64(state.time));
+    for name in ["Redshift", "Omega0", "OmegaLambda"] {
+        header.set_attr(name, AttrValue::F64(0.0));
+    }
+    let side = options.closed().map_or(0.0, |bounds| (bounds.high - bounds.low).max_element());
+    header.set_attr("BoxSize", AttrValue::F64(side));
+    if let Some(bounds) = &options.bounds {
+        header.set_attr("BoxLow", AttrValue::F64Array(bounds.low.to_array().to_vec()));
+        header.set_attr("BoxHigh", AttrValue::F64Array(bounds.high.to_array().to_vec()));
+        header.set_attr("BoxSides", AttrValue::U32Array(bounds.sides.map(|side| side as u32).to_vec()));
+    }
+    header.set_attr("Flag_DoublePrecision", AttrValue::I32(i32::from(options.precision == Precision::Double)));
+    header.set_attr("Step", AttrValue::U64(state.step));
+    header.set_attr("Writer", AttrValue::String(format!("motes {}", env!("CARGO_PKG_VERSION"))));
+    file.add_group(header.finish());
+    for (number, rows) in types.iter().enumerate().filter(|(_, rows)| !rows.is_empty()) {
+        let mut group = file.create_group(&format!("PartType{number}"));
+        let species: Vec<u32> = rows.iter().map(|row| state.species().get(*row).copied().unwrap_or(0)).collect();
+        if species.iter().all(|of| *of == species[0]) {
+            group.set_attr(SPECIES, AttrValue::U32(species[0]));
+        } else {
+            group.create_dataset("species").with_u32_data(&species).with_shape(&[rows.len() as u64]);
+        }
+        for field in fields.iter().filter(|field| field.name != "species") {
+            let width = field.strips.len() as u64;
+            let shape = if width == 1 { vec![rows.len() as u64] } else { vec![rows.len() as u64, width] };
+            let dataset = group.create_dataset(name_of(&field.name));
+            match (field.is_whole(), options.precision) {
+                (true, _) => dataset.with_u32_data(&whole(field, rows)),
+                (_, Precision::Single) => {
+                    let all: io::Result<Vec<f32>> = real(field, rows).map(single).collect();
+                    dataset.with_f32_data(&all?)
+                }
+                (_, Precision::Double) => dataset.with_f64_data(&real(field, rows).collect::<Vec<_>>()),
+            }
+            .with_shape(&shape);
+        }
+        let ids: Vec<u32> = rows.iter().map(|row| ids[*row]).collect();
+        group.create_dataset("ParticleIDs").with_u32_data(&ids).with_shape(&[rows.len() as u64]);
+        file.add_group(group.finish());
+    }
+    file.finish_to(out).map_err(|why| io::Error::other(why.to_string()))
+}
+
+fn name_of(column: &str) -> &str {
+    NAMES.iter().find(|(known, _)| *known == column).map_or(column, |(_, name)| name)
+}
+
+fn column_of(name: &str) -> &str {
+    NAMES.iter().find(|(_, known)| *known == name).map_or(name, |(column, _)| column)
+}
+
+fn real<'a>(field: &'a Field<'_>, rows: &'a [usize]) -> impl Iterator<Item = f64> + 'a {
+    let number = |number| if let Number::Real(x) = number { x } else { 0.0 };
+    rows.iter().flat_map(move |row| field.strips.iter().map(move |strip| number(strip.of(*row))))
+}
+
+fn whole(field: &Field<'_>, rows: &[usize]) -> Vec<u32> {
+    let number = |number| if let Number::Whole(n) = number { n } else { 0 };
+    rows.iter().flat_map(|row| field.strips.iter().map(|strip| number(strip.of(*row)))).collect()
+}
+
+/// Reads a state of these columns. Datasets for which there is no column are passed over.
+///
+/// # Errors
+/// [`Error::Input`] with what is no HDF5, cut, missing, of another length than `Coordinates`, no number, or impossible; a part of a set
+/// that is not there.
+pub fn read(path: &Path, columns: &Columns) -> Result<State, Error> {
+    sheet::read(path, columns, sheet)
+}
+
+/// The lists of all groups so far.
+#[derive(Default)]
+struct Gathered {
+    rows: usize,
+    lists: BTreeMap<String, (bool, Vec<f64>)>,
+    /// Attributes of the header of the first file.
+    header: HashMap<String, AttrValue>,
+}
+
+fn sheet(path: &Path, wanted: &dyn Fn(&str) -> bool) -> Result<Sheet, Error> {
+    let mut gathered = Gathered::default();
+    let parts = gathered.file(path, wanted)?;
+    if parts > 1 {
+        gathered = Gathered::default();
+        let (before, after) = split(path).ok_or_else(|| {
+            input(path, format!("is one of {parts} files, and its name has no number, as in snapshot_007.0.hdf5"))
+        })?;
+        for part in 0..parts {
+            gathered.file(&PathBuf::from(format!("{before}.{part}.{after}")), wanted)?;
+        }
+    }
+    let number = |name: &str| gathered.header.get(name).map(numbers).and_then(|list| list.first().copied());
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates, which suits a step")]
+    let step = number("Step").unwrap_or(0.0) as u64;
+    let mut sheet = Sheet { time: number("Time").unwrap_or(0.0), step, ..Sheet::default() };
+    sheet.contents.rows = gathered.rows;
+    sheet.contents.bounds = bounds(&gathered.header);
+    if gathered.rows == 0 {
+        for title in ["x", "y", "z"] {
+            gathered.lists.entry(title.to_owned()).or_default();
+        }
+    }
+    for (title, (whole, values)) in gathered.lists {
+        let place = Place::Named(title.clone());
+        sheet.enter(&title, whole, wanted, || (values, place));
+    }
+    Ok(sheet)
+}
+
+/// What stands before and behind the number of a part: `snapshot_007`, `hdf5`.
+fn split(path: &Path) -> Option<(String, String)> {
+    let (stem, ending) = path.to_str()?.rsplit_once('.')?;
+    let (before, number) = stem.rsplit_once('.')?;
+    number.parse::<u32>().ok()?;
+    Some((before.to_owned(), ending.to_owned()))
+}
+
+impl Gathered {
+    /// Adds the groups of a file; gives how many files the set has.
+    fn file(&mut self, path: &Path, wanted: &dyn Fn(&str) -> bool) -> Result<u32, Error> {
+        let (_, length) = super::open(path)?;
+        let refuse = |why: hdf5_pure::Error| input(path, format!("cannot be read as HDF5: {why}"));
+        let file = File::open(path).map_err(refuse)?;
+        let root = file.root();
+        let mut groups = root.groups().map_err(refuse)?;
+        groups.sort_unstable();
+        if !groups.iter().any(|name| name == "Header") {
+            return Err(input(path, "has no group `Header`: HDF5 files in the layout of GADGET are read"));
+        }
+        let header = root.group("Header").and_then(|group| group.attrs()).map_err(refuse)?;
+        let parts = header.get("NumFilesPerSnapshot").map(numbers).and_then(|list| list.first().copied()).unwrap_or(1.0);
+        let table = header.get("MassTable").map(numbers).unwrap_or_default();
+        let announced = header.get("NumPart_ThisFile").map(numbers);
+        for (number, name) in (0..TYPES).map(|number| (number, format!("PartType{number}"))) {
+            let promised = announced.as_ref().and_then(|list| list.get(number)).copied();
+            let there = if groups.contains(&name) {
+                let group = root.group(&name).map_err(refuse)?;
+                let mass = table.get(number).copied().unwrap_or(0.0);
+                self.group(&group, (&name, number, mass), length, wanted).map_err(|why| input(path, why))?
+            } else {
+                0
+            };
+            if promised.is_some_and(|promised| promised != there as f64) {
+                return Err(input(
+                    path,
+                    format!("Header announces {} particles of {name}, and {there} are there", promised.unwrap_or(0.0)),
+                ));
+            }
+        }
+        if self.header.is_empty() {
+            self.header = header;
+        }
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
+        Ok(parts as u32)
+    }
+    fn group(
+        &mut self,
+        group: &Group,
+        (name, number, mass): (&str, usize, f64),
+        length: u64,
+        wanted: &dyn Fn(&str) -> bool,
+    ) -> Result<usize, String> {
+        let refuse = |why: hdf5_pure::Error| format!("{name}: {why}");
+        let mut datasets = group.datasets().map_err(refuse)?;
+        datasets.sort_unstable();
+        let positions = group.dataset("Coordinates").and_then(|dataset| dataset.shape()).map_err(refuse)?;
+        let rows = positions.first().copied().unwrap_or(0);
+        let rows = usize::try_from(rows).map_err(|_| format!("{name}: {rows} particles are too many"))?;
+        let (start, end) = (self.rows, self.rows.saturating_add(rows));
+        let mut found = Vec::new();
+        for name in &datasets {
+            let dataset = group.dataset(name).map_err(refuse)?;
+            let lists = lists(&dataset, column_of(name), rows, length, wanted).map_err(|why| format!("{name}: {why}"))?;
+            found.extend(lists);
+        }
+        let has = |title: &str, found: &[(String, bool, Vec<f64>)]| found.iter().any(|(known, ..)| known == title);
+        if !has("x", &found) {
+            return Err(format!("{name}: Coordinates holds no numbers"));
+        }
+        if !has("mass", &found) {
+            found.push(("mass".to_owned(), false, if wanted("mass") { vec![mass; rows] } else { Vec::new() }));
+        }
+        if !has("species", &found) {
+            let attributes = group.attrs().map_err(refuse)?;
+            let own = attributes.get(SPECIES).map(numbers).and_then(|list| list.first().copied());
+            let list = if wanted("species") { vec![own.unwrap_or(number as f64); rows] } else { Vec::new() };
+            found.push(("species".to_owned(), true, list));
+        }
+        for (title, whole, values) in found {
+            let list = self.lists.entry(title).or_insert_with(|| (whole, Vec::new()));
+            if !values.is_empty() {
+                list.1.resize(start, 0.0);
+                list.1.extend(values);
+            }
+        }
+        self.rows = end;
+        for (title, (_, list)) in &mut self.lists {
+            if wanted(title) {
+                list.resize(end, 0.0);
+            }
+        }
+        Ok(rows)
+    }
+}
+
+/// The numbers of a dataset, a list for each component; without numbers where they are not wanted.
+fn lists(
+    dataset: &Dataset,
+    column: &str,
+    rows: usize,
+    length: u64,
+    wanted: &dyn Fn(&str) -> bool,
+) -> Result<Vec<(String, bool, Vec<f64>)>, String> {
+    let refuse = |why: hdf5_pure::Error| why.to_string();
+    let whole = match dataset.dtype().map_err(refuse)? {
+        DType::F32 | DType::F64 => false,
+        DType::I8 | DType::I16 | DType::I32 | DType::I64 | DType::U8 | DType::U16 | DType::U32 | DType::U64 => true,
+        _ => return Ok(Vec::new()),
+    };
+    let shape = dataset.shape().map_err(refuse)?;
+    let width = match shape[..] {
+        [count] if count == rows as u64 => 1,
+        [count, width] if count == rows as u64 && (1..=MOST).contains(&width) => width,
+        _ => return Err(format!("has the shape {shape:?}, and there are {rows} particles")),
+    };
+    let bytes = dataset.element_size().map_err(refuse)?.checked_mul(rows as u64).and_then(|bytes| bytes.checked_mul(width));
+    let bytes = bytes.ok_or_else(|| format!("announces {rows} rows"))?;
+    let held = held(dataset, length)?;
+    if bytes > held {
+        return Err(format!("announces {bytes} bytes, and the file holds {held} for it at most"));
+    }
+    let width = usize::try_from(width).unwrap_or(1);
+    let titles = sheet::titles_of(column, width);
+    if !titles.iter().any(|title| wanted(title)) {
+        return Ok(titles.into_iter().map(|title| (title, whole, Vec::new())).collect());
+    }
+    let numbers = dataset.read_f64().map_err(refuse)?;
+    if numbers.len() != rows * width {
+        return Err(format!("holds {} numbers, and {} are announced", numbers.len(), rows * width));
+    }
+    let list = |k: usize| numbers.iter().skip(k).step_by(width).copied().collect();
+    Ok(titles.into_iter().enumerate().map(|(k, title)| (title, whole, list(k))).collect())
+}
+
+/// More components than this is none.
+const MOST: u64 = 4096;
+/// The best that deflate can do: 258 bytes out of 2 bits.
+const DEFLATED: u64 = 1032;
+
+/// The bytes that a dataset can hold, by what of it is in the file.
+fn held(dataset: &Dataset, length: u64) -> Result<u64, String> {
+    if !dataset.is_chunked() {
+        return Ok(length);
+    }
+    let chunks = dataset.chunks().map_err(|why| why.to_string())?;
+    let packed = !dataset.filters().is_empty();
+    let stored: u64 = chunks.iter().map(|chunk| chunk.storage_size).fold(0, u64::saturating_add);
+    Ok(if packed { stored.min(length).saturating_mul(DEFLATED) } else { stored.min(length) })
+}
+
+/// The numbers of an attribute; none of a text.
+fn numbers(value: &AttrValue) -> Vec<f64> {
+    macro_rules! cast {
+        ($($one:ident $many:ident)*) => {
+            match value {
+                AttrValue::F64(x) => vec![*x],
+                AttrValue::F64Array(list) => list.clone(),
+                AttrValue::I64(x) => vec![*x as f64],
+                AttrValue::I64Array(list) => list.iter().map(|x| *x as f64).collect(),
+                AttrValue::U64(x) => vec![*x as f64],
+                AttrValue::U64Array(list) => list.iter().map(|x| *x as f64).collect(),
+                $(
+                    AttrValue::$one(x) => vec![f64::from(*x)],
+                    AttrValue::$many(list) => list.iter().map(|x| f64::from(*x)).collect(),
+                )*
+                _ => Vec::new(),
+            }
+        };
+    }
+    cast!(F32 F32Array I8 I8Array I16 I16Array I32 I32Array U8 U8Array U16 U16Array U32 U32Array)
+}
+
+fn bounds(header: &HashMap<String, AttrValue>) -> Option<Bounds> {
+    let three = |name: &str| <[f64; 3]>::try_from(header.get(name).map(numbers)?).ok();
+    if let (Some(low), Some(high), Some(sides)) = (three("BoxLow"), three("BoxHigh"), three("BoxSides")) {
+        let side = |side: f64| match side {
+            1.0 => Side::Periodic,
+            2.0 => Side::Reflecting,
+            _ => Side::Open,
+        };
+        return Some(Bounds { low: low.into(), high: high.into(), sides: sides.map(side), dimensions: 3 });
+    }
+    let size = header.get("BoxSize").map(numbers)?;
+    let size = match size[..] {
+        [size] => [size; 3],
+        [x, y, z] => [x, y, z],
+        _ => return None,
+    };
+    let is_one = size.iter().all(|length| length.is_finite() && *length > 0.0);
+    is_one.then_some(Bounds { low: [0.0; 3].into(), high: size.into(), sides: [Side::Periodic; 3], dimensions: 3 })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::split;
+
+    #[test]
+    fn parts_of_a_set_are_numbered_before_the_ending() {
+        let of = |name: &str| split(std::path::Path::new(name));
+        assert_eq!(of("a/snap_7.0.hdf5"), Some(("a/snap_7".to_owned(), "hdf5".to_owned())));
+        assert_eq!((of("snap.hdf5"), of("a.b.hdf5")), (None, None));
+    }
+}
