@@ -22,6 +22,7 @@ Examples:
   motes run my.toml -o results --set simulation.dt=0.01
   motes run galaxy --frames 240
   motes resume out/galaxy
+  motes convert stars.csv stars.hdf5
   motes compare galaxy --steps 20";
 
 /// Particles moved by forces, on any GPU, checked against a second opinion in f64.
@@ -48,6 +49,10 @@ pub enum Command {
     Sweep(SweepArgs),
     /// List the scenes that come with motes, or print one
     Scenes(ScenesArgs),
+    /// Write the particles of a file in another format, that of the new file's ending
+    Convert(ConvertArgs),
+    /// Say what a file of particles holds: counts, columns, box, time, extent, energies
+    Info(InfoArgs),
     /// Run the oscillator and the decay of textbooks under every integrator, and draw which explode, decay or stay
     Stability(StabilityArgs),
     /// Measure steps of gravity, through a tree too, of searches for neighbours and of springs, beside plain Rust
@@ -216,6 +221,37 @@ pub struct ScenesArgs {
     /// Print what a scene may say: every key of its sections, of forces and of shapes, with its unit and default
     #[arg(long)]
     pub keys: bool,
+}
+
+/// How many digits numbers get.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Width {
+    /// Single where no number loses a bit by it, double otherwise
+    Auto,
+    /// 32 bits
+    Single,
+    /// 64 bits
+    Double,
+}
+
+#[derive(Debug, ClapArgs)]
+pub struct ConvertArgs {
+    /// The file that is read
+    pub from: PathBuf,
+    /// The file that is written
+    pub to: PathBuf,
+    /// How many digits, or bytes, numbers get
+    #[arg(long, value_enum, default_value = "auto")]
+    pub precision: Width,
+    /// Replace a file that is there
+    #[arg(long)]
+    pub overwrite: bool,
+}
+
+#[derive(Debug, ClapArgs)]
+pub struct InfoArgs {
+    /// A file of particles
+    pub file: PathBuf,
 }
 
 #[derive(Debug, ClapArgs)]

@@ -24,6 +24,7 @@ mod check;
 mod compare;
 mod conclude;
 mod contradictions;
+mod convert;
 mod course;
 mod doctor;
 mod engine;
@@ -33,6 +34,7 @@ mod far;
 mod film;
 mod flow;
 mod fluid;
+mod info;
 mod jumps;
 mod progress;
 mod rounding;
@@ -88,6 +90,8 @@ async fn dispatch(command: Command) -> Result<(), Failure> {
         Command::Explain(args) => explain::explain(&args).await,
         Command::Compare(args) => compare::compare(&args).await,
         Command::Scenes(args) => scenes::scenes(&args),
+        Command::Convert(args) => convert::convert(&args),
+        Command::Info(args) => info::info(&args),
         Command::Stability(args) => stability::stability(&args).await,
         Command::Bench(args) => bench::bench(&args).await,
         Command::Sweep(args) => sweep::sweep(&args).await,

@@ -31,9 +31,9 @@ impl Type {
             Self::I64 | Self::U64 | Self::F64 => 8,
         }
     }
-    /// Whether it is of whole numbers.
+    /// Whether it is of whole numbers that are not below 0.
     pub fn is_whole(self) -> bool {
-        !matches!(self, Self::F32 | Self::F64)
+        matches!(self, Self::U8 | Self::U16 | Self::U32 | Self::U64)
     }
     /// The number at the beginning of some bytes, of which there must be enough; whole ones above 2⁵³ are rounded.
     pub fn number(self, bytes: &[u8], big: bool) -> f64 {

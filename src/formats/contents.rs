@@ -25,7 +25,7 @@ pub struct Contents {
 pub struct Heading {
     /// Its title: `x`, `mass`, `spin_x`.
     pub title: String,
-    /// Whether its numbers are whole.
+    /// Whether its numbers are whole, and none is below 0.
     pub whole: bool,
 }
 
@@ -58,7 +58,8 @@ pub fn known(contents: &Contents) -> Columns {
     let mut columns = Vec::new();
     for (title, whole) in &own {
         let stem = |suffix: &str| title.strip_suffix(suffix).filter(|stem| !stem.is_empty());
-        let all = |stem: &str, kind: Kind| kind.suffixes().iter().all(|s| own.contains_key(format!("{stem}{s}").as_str()));
+        let all =
+            |stem: &str, kind: Kind| kind.suffixes().iter().all(|s| own.contains_key(format!("{stem}{s}").as_str()));
         let vector = ["_x", "_y", "_z", "_w"].into_iter().find_map(stem).filter(|stem| all(stem, Kind::Vector));
         columns.push(match vector {
             Some(stem) if all(stem, Kind::Quaternion) => (stem, Kind::Quaternion),

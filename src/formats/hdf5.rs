@@ -70,9 +70,8 @@ pub fn write_hdf5(out: impl Write, state: &State, options: &Options) -> io::Resu
     header.set_attr("MassTable", AttrValue::F64Array(vec![0.0; TYPES]));
     header.set_attr("NumFilesPerSnapshot", AttrValue::I32(1));
     header.set_attr("Time", AttrValue::F64(state.time));
-    for name in ["Redshift", "Omega0", "OmegaLambda"] {
-        header.set_attr(name, AttrValue::F64(0.0));
-    }
+    // Without a cosmology: where there is one of them, yt wants all, and pynbody takes the file for comoving.
+    header.set_attr("Redshift", AttrValue::F64(0.0));
     let side = options.closed().map_or(0.0, |bounds| (bounds.high - bounds.low).max_element());
     header.set_attr("BoxSize", AttrValue::F64(side));
     if let Some(bounds) = &options.bounds {
@@ -212,10 +211,10 @@ impl Gathered {
             } else {
                 0
             };
-            if promised.is_some_and(|promised| promised != there as f64) {
+            if promised.is_some_and(|promised| promised.to_bits() != (there as f64).to_bits()) {
                 return Err(input(
                     path,
-                    format!("Header announces {} particles of {name}, and {there} are there", promised.unwrap_or(0.0)),
+                    format!("Header announces {:.0} particles of {name}, and {there} are there", promised.unwrap_or(0.0)),
                 ));
             }
         }
@@ -285,8 +284,8 @@ fn lists(
 ) -> Result<Vec<(String, bool, Vec<f64>)>, String> {
     let refuse = |why: hdf5_pure::Error| why.to_string();
     let whole = match dataset.dtype().map_err(refuse)? {
-        DType::F32 | DType::F64 => false,
-        DType::I8 | DType::I16 | DType::I32 | DType::I64 | DType::U8 | DType::U16 | DType::U32 | DType::U64 => true,
+        DType::U8 | DType::U16 | DType::U32 | DType::U64 => true,
+        DType::F32 | DType::F64 | DType::I8 | DType::I16 | DType::I32 | DType::I64 => false,
         _ => return Ok(Vec::new()),
     };
     let shape = dataset.shape().map_err(refuse)?;

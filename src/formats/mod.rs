@@ -9,6 +9,7 @@ mod archive;
 mod atomic;
 mod binary;
 mod contents;
+mod convert;
 #[cfg(feature = "scene")]
 mod folder;
 mod line;
@@ -26,6 +27,7 @@ use std::path::Path;
 
 pub use self::atomic::atomically;
 pub use self::contents::{Contents, Heading, contents, known};
+pub use self::convert::{Converted, convert};
 #[cfg(feature = "scene")]
 pub use self::folder::Folder;
 use crate::error::Error;

@@ -105,7 +105,7 @@ fn contents(path: &Path) -> Result<Contents, Error> {
             super::npy::Header::read(&mut file).ok()
         };
         let Some(header) = header(&mut archive) else { continue };
-        let whole = !matches!(header.kind, super::npy::Kind::F4 | super::npy::Kind::F8);
+        let whole = matches!(header.kind, super::npy::Kind::U4 | super::npy::Kind::U8);
         if let ("x", Some(rows)) = (title.as_str(), header.shape.first()) {
             contents.rows = usize::try_from(*rows).unwrap_or(usize::MAX);
         }

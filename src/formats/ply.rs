@@ -313,7 +313,7 @@ fn property(words: &[&str]) -> Option<Property> {
         ["list", length, item, name] => Some(Property {
             name: (*name).to_owned(),
             kind: kind(item)?,
-            length: Some(kind(length)?).filter(|kind| kind.is_whole()),
+            length: Some(kind(length)?).filter(|kind| !matches!(kind, Type::F32 | Type::F64)),
         })
         .filter(|property| property.length.is_some()),
         [item, name] => Some(Property { name: (*name).to_owned(), kind: kind(item)?, length: None }),

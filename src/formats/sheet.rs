@@ -116,7 +116,13 @@ pub(super) fn titles_of(name: &str, components: usize) -> Vec<String> {
 
 impl Sheet {
     /// Enters a heading, and gives its numbers if they are wanted.
-    pub fn enter(&mut self, title: &str, whole: bool, wanted: &dyn Fn(&str) -> bool, list: impl FnOnce() -> (Vec<f64>, Place)) {
+    pub fn enter(
+        &mut self,
+        title: &str,
+        whole: bool,
+        wanted: &dyn Fn(&str) -> bool,
+        list: impl FnOnce() -> (Vec<f64>, Place),
+    ) {
         if wanted(title) {
             let (values, place) = list();
             self.lists.push(List { title: title.to_owned(), values, place });

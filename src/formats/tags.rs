@@ -31,7 +31,8 @@ impl<'a> Tag<'a> {
                 at = to;
                 continue;
             }
-            let inner = std::str::from_utf8(&bytes[from + 1..to - 1]).map_err(|_| format!("byte {from}: a tag is no text"))?;
+            let inner =
+                std::str::from_utf8(&bytes[from + 1..to - 1]).map_err(|_| format!("byte {from}: a tag is no text"))?;
             let empty = inner.ends_with('/');
             let inner = inner.strip_suffix('/').unwrap_or(inner);
             let (name, attributes) = inner.split_once(char::is_whitespace).unwrap_or((inner, ""));

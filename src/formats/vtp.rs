@@ -393,7 +393,7 @@ fn data<'a>(bytes: &'a [u8], tag: &Tag<'_>, kind: Type, layout: Layout, numbers:
     // The bytes behind their count.
     let counts = |bytes: &[u8]| {
         let count = bytes.get(..counted).map(|bytes| layout.counts.number(bytes, big)).ok_or_else(|| wrong(0.0))?;
-        if count == needed as f64 { Ok(()) } else { Err(wrong(count)) }
+        if count.to_bits() == (needed as f64).to_bits() { Ok(()) } else { Err(wrong(count)) }
     };
     let text = !matches!(tag.get("format"), Some("appended" | "binary"));
     if !text && needed > bytes.len() {

@@ -14,7 +14,7 @@ use super::problems::{Problems, order, ordered};
 use super::titles;
 use super::{Contents, Format, Heading, Options, input, open, sheet};
 use crate::error::Error;
-use crate::kernel::{Bounds, Column, Columns, Kind, Side};
+use crate::kernel::{Bounds, Column, Columns, Side};
 use crate::state::State;
 
 /// Its line in the register.
@@ -79,9 +79,11 @@ pub fn write_xyz(mut out: impl Write, state: &State, options: &Options) -> io::R
     let columns: Vec<&Column> =
         titles::kept(state).into_iter().map(|(column, _)| column).filter(|column| column.name != "species").collect();
     let mut properties = "species:S:1:id:I:1".to_owned();
-    for column in &columns {
-        let letter = if column.kind == Kind::Whole { 'I' } else { 'R' };
-        let _ = write!(properties, ":{}:{letter}:{}", property_of(column, &columns), titles::titles(column).len());
+    for field in titles::fields(state).iter().filter(|field| field.name != "species") {
+        let letter = if field.is_whole() { 'I' } else { 'R' };
+        let own = columns.iter().find(|column| column.name == field.name.as_str());
+        let name = own.map_or(field.name.as_str(), |column| property_of(column, &columns));
+        let _ = write!(properties, ":{name}:{letter}:{}", field.strips.len());
     }
     writeln!(out, "{}", state.len())?;
     if let Some(bounds) = options.closed() {
@@ -122,9 +124,8 @@ fn contents(path: &Path) -> Result<Contents, Error> {
     problems.check(path)?;
     let mut contents = Contents { rows: count.trim().parse().unwrap_or(0), ..Contents::default() };
     for property in properties {
-        let whole = property.kind != 'R';
         let name = column_of(&property.name, &Columns::default()).to_owned();
-        let headings = sheet::titles_of(&name, property.width).into_iter().map(|title| Heading { title, whole });
+        let headings = sheet::titles_of(&name, property.width).into_iter().map(|title| Heading { title, whole: false });
         contents.headings.extend(headings);
     }
     let numbers = |text: &str| text.split_whitespace().filter_map(|word| word.parse().ok()).collect::<Vec<f64>>();
@@ -299,6 +300,13 @@ fn place(property: &Property, columns: &Columns, known: &[titles::Title<'_>], pr
         return None;
     }
     let first = known.iter().position(|title| title.column.name == name);
+    // A slot of a column, or what no column is of.
+    let titles = sheet::titles_of(name, width);
+    let slot = known.iter().position(|title| title.text == titles[0]);
+    let of = |first: usize| known.iter().skip(first).map(|title| &title.text).take(width).eq(&titles);
+    if let (None, Some(slot)) = (first, slot.filter(|slot| of(*slot) && property.kind != 'S')) {
+        return Some(slot);
+    }
     let Some((first, column)) = first.zip(columns.get(name)) else {
         problems.note(|| {
             let all: Vec<&Column> = columns.iter().collect();

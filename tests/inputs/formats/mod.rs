@@ -6,6 +6,8 @@ mod blank_tables;
 mod csv_text;
 mod links_text;
 mod npz_archives;
+mod readers;
+mod register;
 mod round_trips;
 mod tipsy_files;
 mod whole_files;

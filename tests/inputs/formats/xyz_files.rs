@@ -86,7 +86,8 @@ fn faults_are_reported_with_their_lines() {
     }
     let mut state = some(1);
     state.species_mut()[0] = 119;
-    let said =
-        motes::formats::xyz::write_xyz(std::io::sink(), &state, &motes::formats::Options::default()).expect_err("no element").to_string();
+    let said = motes::formats::xyz::write_xyz(std::io::sink(), &state, &motes::formats::Options::default())
+        .expect_err("no element")
+        .to_string();
     assert!(said.contains("species 119"), "{said}");
 }

@@ -1,0 +1,38 @@
+//! `motes convert`
+
+use motes::Error;
+use motes::formats::{self, Precision};
+
+use super::args::{ConvertArgs, Width};
+use super::failure::Failure;
+
+/// Writes the particles of a file in another format.
+pub fn convert(args: &ConvertArgs) -> Result<(), Failure> {
+    let refuse = |message: &str| Error::Output { file: args.to.clone(), message: message.to_owned() };
+    if args.to.exists() && !args.overwrite {
+        let same = |path: &std::path::Path| std::fs::canonicalize(path).ok();
+        if same(&args.from) == same(&args.to) {
+            return Err(refuse("is the file that is read: choose another name").into());
+        }
+        return Err(refuse("the file is there already: choose another name, or say --overwrite").into());
+    }
+    let precision = match args.precision {
+        Width::Auto => None,
+        Width::Single => Some(Precision::Single),
+        Width::Double => Some(Precision::Double),
+    };
+    let done = formats::convert(&args.from, &args.to, precision)?;
+    let digits = if done.precision == Precision::Single { "single" } else { "double" };
+    out!(
+        "{} particles from {} ({}) to {} ({}, {digits} precision)",
+        done.count,
+        args.from.display(),
+        done.from.name,
+        args.to.display(),
+        done.to.name
+    );
+    if !done.lost.is_empty() {
+        note!("note: {} does not hold {}", args.to.display(), done.lost.join(", "));
+    }
+    Ok(())
+}

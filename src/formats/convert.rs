@@ -1,0 +1,114 @@
+//! From one format into another, and what is lost on the way.
+
+use std::path::Path;
+
+use super::{Format, Options, Precision, atomically, by_ending, contents, input, known, of, read};
+use crate::error::Error;
+use crate::kernel::Array;
+use crate::state::State;
+
+/// What came of a conversion.
+#[derive(Debug)]
+pub struct Converted {
+    /// The format of the file that was read.
+    pub from: &'static Format,
+    /// That of the file that was written.
+    pub to: &'static Format,
+    /// Particles.
+    pub count: usize,
+    /// Of the numbers that were written.
+    pub precision: Precision,
+    /// What the new file does not hold of the old one, found by reading it back.
+    pub lost: Vec<String>,
+}
+
+/// Reads a file with all of its columns, and writes it in the format of the other's ending. Without a precision, numbers are written
+/// in single precision where none of them loses a bit by that.
+///
+/// # Errors
+/// [`Error::Input`] when the file cannot be read, [`Error::Output`] when the other's ending says no format that states can be written
+/// in, or it cannot be written: what was there before is then untouched.
+pub fn convert(from: &Path, to: &Path, precision: Option<Precision>) -> Result<Converted, Error> {
+    let refuse = |message: String| Error::Output { file: to.to_owned(), message };
+    let format = by_ending(to).ok_or_else(|| {
+        let names: Vec<_> = writable().flat_map(|format| format.endings).map(|ending| format!(".{ending}")).collect();
+        refuse(format!("its ending says no format: give one of {}", names.join(", ")))
+    })?;
+    let write = format.write.ok_or_else(|| {
+        let names: Vec<_> = writable().map(|format| format.name).collect();
+        refuse(format!("files of {} are read, not written: choose one of {}", format.about, names.join(", ")))
+    })?;
+    let source = of(from)?.ok_or_else(|| input(from, "is of no format that is known"))?;
+    let told = contents(from)?;
+    let state = read(from, &known(&told))?;
+    let precision = precision.unwrap_or_else(|| if is_single(&state) { Precision::Single } else { Precision::Double });
+    let options = Options { precision, bounds: told.bounds };
+    atomically(to, |out| write(out, &state, &options))?;
+    let after = contents(to)?;
+    let back = read(to, &known(&after))?;
+    let mut lost = lost(&state, &back);
+    if told.bounds.is_some() && after.bounds.is_none() {
+        lost.push("the box".to_owned());
+    }
+    Ok(Converted { from: source, to: format, count: state.len(), precision, lost })
+}
+
+fn writable() -> impl Iterator<Item = &'static Format> {
+    super::FORMATS.iter().filter(|format| format.write.is_some())
+}
+
+/// Whether all numbers are those of single precision.
+fn is_single(state: &State) -> bool {
+    #[expect(clippy::cast_possible_truncation, reason = "this is the question")]
+    let fits = |x: &f64| f64::from(*x as f32).to_bits() == x.to_bits();
+    state.columns().all(|(_, values)| match values {
+        Array::Float(list) => list.iter().all(fits),
+        Array::Vec3(list) => list.iter().all(|v| v.to_array().iter().all(fits)),
+        Array::Vec4(list) => list.iter().all(|v| v.to_array().iter().all(fits)),
+        Array::Uint(_) => true,
+    })
+}
+
+/// What one state has and the other has not.
+fn lost(state: &State, back: &State) -> Vec<String> {
+    let mut lost = Vec::new();
+    if back.time.to_bits() != state.time.to_bits() {
+        lost.push(format!("the time ({:?})", state.time));
+    }
+    if back.step != state.step {
+        lost.push(format!("the step ({})", state.step));
+    }
+    if back.ids() != state.ids() {
+        lost.push("ids".to_owned());
+    }
+    if state.keeps() && !back.keeps() {
+        lost.push("what the last step kept, so that a run goes on with the same bits".to_owned());
+    }
+    for (column, values) in state.columns().filter(|(column, _)| column.name != "id") {
+        match back.get(&column.name) {
+            Some(same) if same == values => {}
+            None => lost.push(format!("`{}`", column.name)),
+            Some(other) => lost.push(match widest(values, other) {
+                Some(worst) => format!("digits of `{}` (by up to {worst:.1e} of a number)", column.name),
+                None => format!("`{}`", column.name),
+            }),
+        }
+    }
+    lost
+}
+
+/// The largest relative difference of two arrays of one kind, where single precision explains it.
+fn widest(a: &Array, b: &Array) -> Option<f64> {
+    let flat = |values: &Array| -> Option<Vec<f64>> {
+        Some(match values {
+            Array::Float(list) => list.clone(),
+            Array::Vec3(list) => list.iter().flat_map(glam::DVec3::to_array).collect(),
+            Array::Vec4(list) => list.iter().flat_map(glam::DVec4::to_array).collect(),
+            Array::Uint(_) => return None,
+        })
+    };
+    let (a, b) = (flat(a)?, flat(b)?);
+    let worst =
+        a.iter().zip(&b).map(|(a, b)| (a - b).abs() / a.abs().max(f64::from(f32::MIN_POSITIVE))).fold(0.0, f64::max);
+    (a.len() == b.len() && worst <= f64::from(f32::EPSILON)).then_some(worst)
+}
