@@ -22,8 +22,8 @@ pub fn info(args: &InfoArgs) -> Result<(), Failure> {
     out!("{}: {bytes} bytes, {format}", path.display());
     out!("particles  {}", state.len());
     out!("time       {:?}, step {}", state.time, state.step);
-    let told = contents.bounds.map_or_else(|| "the file tells of none".to_owned(), |bounds| bounds.to_string());
-    out!("box        {told}");
+    let bounds = contents.bounds.map_or_else(|| "the file tells of none".to_owned(), |bounds| bounds.to_string());
+    out!("box        {bounds}");
     if let Some((low, high)) = extent(state.position()) {
         out!("extent     {} to {}", corner(low), corner(high));
     }

@@ -12,7 +12,7 @@ use super::titles;
 /// What a file holds, without its numbers.
 #[derive(Debug, Clone, Default)]
 pub struct Contents {
-    /// Particles, where that is told before the numbers.
+    /// Particles, where the header says it.
     pub rows: usize,
     /// Its lists of numbers, one for each component of a column.
     pub headings: Vec<Heading>,

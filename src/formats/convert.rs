@@ -39,15 +39,15 @@ pub fn convert(from: &Path, to: &Path, precision: Option<Precision>) -> Result<C
         refuse(format!("files of {} are read, not written: choose one of {}", format.about, names.join(", ")))
     })?;
     let source = of(from)?.ok_or_else(|| input(from, "is of no format that is known"))?;
-    let told = contents(from)?;
-    let state = read(from, &known(&told))?;
+    let before = contents(from)?;
+    let state = read(from, &known(&before))?;
     let precision = precision.unwrap_or_else(|| if is_single(&state) { Precision::Single } else { Precision::Double });
-    let options = Options { precision, bounds: told.bounds };
+    let options = Options { precision, bounds: before.bounds };
     atomically(to, |out| write(out, &state, &options))?;
     let after = contents(to)?;
     let back = read(to, &known(&after))?;
     let mut lost = lost(&state, &back);
-    if told.bounds.is_some() && after.bounds.is_none() {
+    if before.bounds.is_some() && after.bounds.is_none() {
         lost.push("the box".to_owned());
     }
     Ok(Converted { from: source, to: format, count: state.len(), precision, lost })

@@ -44,7 +44,7 @@ pub enum Precision {
     Double,
 }
 
-/// How a state is written, and what is told beside it.
+/// How a state is written, and what else a file says.
 #[derive(Debug, Clone, Default)]
 pub struct Options {
     /// The digits, or bytes, of numbers.

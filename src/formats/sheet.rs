@@ -11,7 +11,7 @@ use crate::state::State;
 /// What a file holds.
 #[derive(Default)]
 pub(super) struct Sheet {
-    /// All that is told of it without reading its numbers.
+    /// All that is known of it without reading its numbers.
     pub contents: Contents,
     /// Those of its lists that were wanted.
     pub lists: Vec<List>,

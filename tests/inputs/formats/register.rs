@@ -116,7 +116,7 @@ fn every_format_reads_back_what_it_writes_to_the_bit() {
             if !["csv", "tipsy"].contains(&format.name) {
                 assert_eq!(back.step, 77, "{}", format.name);
             }
-            // All columns are found without being told.
+            // All columns are found by their titles.
             let contents = formats::contents(&path).expect(format.name);
             let all = formats::read(&path, &formats::known(&contents)).expect(format.name);
             if format.name != "tipsy" {
@@ -426,7 +426,7 @@ fn tipsy_of_either_byte_order_is_read() {
 }
 
 #[test]
-fn a_file_is_converted_and_losses_are_told() {
+fn a_file_is_converted_and_losses_are_reported() {
     let folder = folder();
     let path = |name: &str| folder.path().join(name);
     let bounds = Bounds { low: DVec3::ZERO, high: DVec3::ONE, sides: [Side::Periodic; 3], dimensions: 3 };
