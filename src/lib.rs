@@ -19,6 +19,7 @@ pub mod measure;
 pub mod motion;
 pub mod neighbors;
 pub mod primitives;
+#[cfg(feature = "render")]
 pub mod render;
 pub mod rotation;
 #[cfg(feature = "scene")]

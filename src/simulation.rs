@@ -8,6 +8,7 @@ mod inactive;
 mod initial_projection;
 mod lists;
 mod pair_history;
+#[cfg(feature = "render")]
 mod pictures;
 mod population;
 mod pressures;

@@ -3,7 +3,7 @@
 //! Readers check every count against the size of the file before they reserve memory for it, and report all that is wrong
 //! with a file at once. Writers go through [`atomically`], so that a file is either whole or not there.
 
-#[cfg(feature = "scene")]
+#[cfg(feature = "images")]
 pub mod apng;
 mod archive;
 mod atomic;

@@ -7,6 +7,8 @@
 mod camera;
 mod draw;
 mod fields;
+#[cfg(feature = "images")]
+mod file;
 mod film;
 mod fluid;
 mod frame;
@@ -18,8 +20,6 @@ mod palette;
 mod passes;
 mod picture;
 mod plain;
-#[cfg(feature = "scene")]
-mod png;
 mod scenery;
 mod solid;
 pub mod styles;

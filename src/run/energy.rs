@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::plot;
+use super::images;
 use super::table::{Lengths, Table};
 use super::writer::{Moment, Writer};
 use crate::error::Error;
@@ -78,6 +78,6 @@ impl Writer for Energies {
     }
     fn finish(&mut self) -> Result<(), Error> {
         let Some((_, folder)) = &self.table else { return Ok(()) };
-        plot::energy(&folder.file("energy.svg")?, &self.rows, &self.title)
+        images::energy(&folder.file("energy.svg")?, &self.rows, &self.title)
     }
 }

@@ -6,10 +6,11 @@ use std::sync::Arc;
 use glam::Vec4;
 
 use super::checkpoint::{Checkpoint, Reel};
+use super::images;
 use super::pictures::Pictures;
 use super::progress::Progress;
 use crate::error::Error;
-use crate::formats::{Folder, apng};
+use crate::formats::Folder;
 use crate::kernel::{Backend, Columns, POSITION, VELOCITY};
 use crate::render::{self, Trail};
 use crate::scene::Scene;
@@ -164,7 +165,7 @@ impl Film {
         reel.place(scenery.solids);
         reel.contain(scenery.tanks);
         let image = simulation.shoot(reel).await?;
-        image.save(&file)?;
+        images::save(&image, &file)?;
         progress.frame(self.done.len(), step, &file);
         self.done.push(file);
         self.outside = image.outside;
@@ -179,7 +180,7 @@ impl Film {
         if self.done.is_empty() {
             return Ok(());
         }
-        apng::write_apng(&folder.file(&self.file())?, &self.done, self.rate)
+        images::join(&folder.file(&self.file())?, &self.done, self.rate)
     }
     /// So many frames, which are there.
     ///

@@ -23,11 +23,13 @@ mod film;
 mod flock;
 mod fluid;
 mod from;
+mod images;
 mod looks;
 mod outputs;
 mod packed;
 mod pictures;
 #[doc(hidden)]
+#[cfg(feature = "images")]
 pub mod plot;
 mod population;
 mod progress;
@@ -192,6 +194,7 @@ impl Run {
         let properties = || setup.forces.iter().map(|force| force.properties());
         let standing = properties().filter_map(|of| of.pictured).collect();
         let scenery = Scenery::of(&setup.state).within(&scene.bounds).beside(standing, &setup.state);
+        images::check(&scene.output)?;
         Picture::with(&scene.picture, &setup.state, &[], Trail::new(0), &scenery)?;
         let radius = properties().find_map(|of| of.statistics_radius);
         let count = setup.state.len();

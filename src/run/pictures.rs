@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::images;
 use super::table::Lengths;
 use super::writer::{Moment, Writer};
 use crate::error::Error;
@@ -102,14 +103,14 @@ impl Writer for Pictures {
     }
     fn drawn(&mut self, step: u64, image: Image) -> Result<(), Error> {
         if let Some(folder) = &self.folder {
-            image.save(&folder.file(&format!("picture_{step:0width$}.png", width = self.digits))?)?;
+            images::save(&image, &folder.file(&format!("picture_{step:0width$}.png", width = self.digits))?)?;
         }
         self.last = Some(image);
         Ok(())
     }
     fn finish(&mut self) -> Result<(), Error> {
         match (&self.last, &self.folder) {
-            (Some(image), Some(folder)) => image.save(&folder.file(&format!("{}.png", self.name))?),
+            (Some(image), Some(folder)) => images::save(image, &folder.file(&format!("{}.png", self.name))?),
             _ => Ok(()),
         }
     }

@@ -7,6 +7,7 @@ use crate::error::Error;
 use crate::formats::atomically;
 use crate::measure::Measure;
 use plotters::coord::Shift;
+use plotters::coord::ranged1d::{Ranged, ValueFormatter};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
@@ -87,6 +88,54 @@ pub fn line(color: RGBColor, width: u32) -> ShapeStyle {
     color.stroke_width(width * FINE)
 }
 
+/// One axis of a chart.
+pub struct Axis<'a> {
+    /// What stands along it; nothing where it is empty.
+    pub title: &'a str,
+    /// How many numbers stand at it, at most.
+    pub labels: usize,
+    /// How a number is written.
+    pub format: &'a dyn Fn(f64) -> String,
+}
+
+impl<'a> Axis<'a> {
+    /// An axis with ten numbers at most.
+    pub fn new(title: &'a str, format: &'a dyn Fn(f64) -> String) -> Self {
+        Self { title, labels: 10, format }
+    }
+}
+
+/// Draws the axes and the mesh of a chart: so look those of all plots.
+///
+/// # Errors
+/// What the drawing says.
+pub fn axes<X, Y>(
+    chart: &mut ChartContext<'_, SVGBackend<'_>, Cartesian2d<X, Y>>,
+    x: &Axis,
+    y: &Axis,
+) -> Result<(), String>
+where
+    X: Ranged<ValueType = f64> + ValueFormatter<f64>,
+    Y: Ranged<ValueType = f64> + ValueFormatter<f64>,
+{
+    let (across, up) = (|value: &f64| (x.format)(*value), |value: &f64| (y.format)(*value));
+    let mut mesh = chart.configure_mesh();
+    mesh.axis_style(line(INK, 1))
+        .bold_line_style(line(FAINT, 1))
+        .light_line_style(TRANSPARENT)
+        .label_style(text(14))
+        .axis_desc_style(text(15))
+        .set_all_tick_mark_size(fine(5))
+        .x_labels(x.labels)
+        .y_labels(y.labels)
+        .x_label_formatter(&across)
+        .y_label_formatter(&up);
+    if !x.title.is_empty() {
+        mesh.x_desc(x.title);
+    }
+    mesh.y_desc(y.title).draw().map_err(|e| e.to_string())
+}
+
 fn energies(area: &Area, rows: &[Measure]) -> Result<(), String> {
     let lines = [
         (KINETIC, points(rows, |row| row.kinetic)),
@@ -102,21 +151,8 @@ fn energies(area: &Area, rows: &[Measure]) -> Result<(), String> {
         .y_label_area_size(fine(86))
         .build_cartesian_2d(times.0..times.1, values.0..values.1)
         .map_err(|e| e.to_string())?;
-    chart
-        .configure_mesh()
-        .axis_style(line(INK, 1))
-        .bold_line_style(line(FAINT, 1))
-        .light_line_style(TRANSPARENT)
-        .label_style(text(14))
-        .axis_desc_style(text(15))
-        .set_all_tick_mark_size(fine(5))
-        .x_labels(8)
-        .y_labels(6)
-        .x_label_formatter(&|x| short(*x))
-        .y_label_formatter(&|y| short(*y))
-        .y_desc("energy")
-        .draw()
-        .map_err(|e| e.to_string())?;
+    let x = Axis { labels: 8, ..Axis::new("", &short) };
+    axes(&mut chart, &x, &Axis { labels: 6, ..Axis::new("energy", &short) })?;
     for (color, values) in &lines {
         chart.draw_series(LineSeries::new(values.iter().copied(), line(*color, 2))).map_err(|e| e.to_string())?;
         dots(values, |dots| chart.draw_series(dots.map(|at| Circle::new(at, fine(3), color.filled()))).map(drop))?;
@@ -150,22 +186,8 @@ fn errors(area: &Area, rows: &[Measure]) -> Result<(), String> {
         .y_label_area_size(fine(86))
         .build_cartesian_2d(times.0..times.1, (low..high).log_scale())
         .map_err(|e| e.to_string())?;
-    chart
-        .configure_mesh()
-        .axis_style(line(INK, 1))
-        .bold_line_style(line(FAINT, 1))
-        .light_line_style(TRANSPARENT)
-        .label_style(text(14))
-        .axis_desc_style(text(15))
-        .set_all_tick_mark_size(fine(5))
-        .x_labels(8)
-        .y_labels(6)
-        .x_label_formatter(&|x| short(*x))
-        .y_label_formatter(&|y| format!("{y:.0e}"))
-        .x_desc("time")
-        .y_desc(what)
-        .draw()
-        .map_err(|e| e.to_string())?;
+    let x = Axis { labels: 8, ..Axis::new("time", &short) };
+    axes(&mut chart, &x, &Axis { labels: 6, ..Axis::new(what, &|y| format!("{y:.0e}")) })?;
     // A logarithm has no place for "no error": it is left out, or drawn on the lower edge if there is nothing else.
     let none = values.iter().all(|(_, error)| *error == 0.0);
     let seen = values.into_iter().filter(|(_, error)| none || *error > 0.0);

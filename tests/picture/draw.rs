@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use glam::DVec3;
-use motes::kernel::{Array, Backend, Plan, World};
+use motes::kernel::{Array, Backend, Pass, Plan, World};
 use motes::render::{Color, Exposure, Image, Picture};
 use motes::{Cpu, Gpu, State};
 
@@ -51,28 +51,57 @@ pub fn device(shared: &Shared, state: &State, picture: &Picture) -> Image {
     pollster::block_on(motes::render::draw(&mut gpu(shared, state, picture), picture)).expect("a picture")
 }
 
-/// The same by plans that may have been changed; `None` when one does not compile or run.
-pub fn altered(gpu: &mut Gpu, picture: &Picture, change: impl Fn(&mut Plan) -> Option<()>) -> Option<Image> {
+/// The plans of a picture, with the exposure that it was given.
+pub struct Plans {
+    exposing: Plan,
+    exposure: Exposure,
+    developing: Plan,
+}
+
+impl Plans {
+    /// For a picture that has been drawn of what a device holds.
+    pub fn of(gpu: &mut Gpu, picture: &Picture) -> Self {
+        let exposing = picture.plan().expect("a plan");
+        let exposure = expose(gpu, picture, &exposing).expect("an exposure");
+        Self { exposing, exposure, developing: picture.development(exposure).expect("a plan") }
+    }
+    pub fn passes(&self) -> impl Iterator<Item = &Pass> {
+        [&self.exposing, &self.developing].into_iter().flat_map(|plan| &plan.kernels).flat_map(|kernel| &kernel.passes)
+    }
+}
+
+/// The picture by plans that are changed; `None` when one does not compile or run.
+pub fn altered(
+    gpu: &mut Gpu,
+    picture: &Picture,
+    plans: &Plans,
+    change: impl Fn(&mut Plan) -> Option<()>,
+) -> Option<Image> {
+    let mut exposing = plans.exposing.clone();
+    change(&mut exposing)?;
+    let exposure = expose(gpu, picture, &exposing)?;
+    let same = exposure == plans.exposure;
+    let mut developing = if same { plans.developing.clone() } else { picture.development(exposure).expect("a plan") };
+    change(&mut developing)?;
+    let program = gpu.compile(&developing).ok()?;
+    gpu.run(&program, 1).ok()?;
+    let (width, height) = (picture.frame.width, picture.frame.height);
+    let missed = words(gpu, "missed", 2)?;
+    let rgba = words(gpu, "pixels", (width * height) as usize)?.into_iter().flat_map(u32::to_le_bytes).collect();
+    Some(Image { width, height, rgba, outside: missed[0], broken: missed[1] })
+}
+
+fn expose(gpu: &mut Gpu, picture: &Picture, plan: &Plan) -> Option<Exposure> {
     let frame = &picture.frame;
-    let mut plan = picture.plan().expect("a plan");
-    change(&mut plan)?;
-    let expose = gpu.compile(&plan).ok()?;
+    let program = gpu.compile(plan).ok()?;
     if let (Color::Given(colors), true) = (&picture.color, plan.fields(frame.count).contains_key("color")) {
         gpu.write("color", &Array::Uint(colors.clone())).ok()?;
     }
     if frame.points > 0 {
         gpu.write("trail", &Array::Vec4(picture.trail.points().map(|x| x.extend(0.0)).collect())).ok()?;
     }
-    gpu.run(&expose, 1).ok()?;
-    let exposure = Exposure::of(&words(gpu, "histogram", 256)?, frame, picture.exposure);
-    let mut plan = picture.development(exposure).expect("a plan");
-    change(&mut plan)?;
-    let develop = gpu.compile(&plan).ok()?;
-    gpu.run(&develop, 1).ok()?;
-    let missed = words(gpu, "missed", 2)?;
-    let rgba = words(gpu, "pixels", (frame.width * frame.height) as usize)?.into_iter().flat_map(u32::to_le_bytes);
-    let (width, height, rgba) = (frame.width, frame.height, rgba.collect());
-    Some(Image { width, height, rgba, outside: missed[0], broken: missed[1] })
+    gpu.run(&program, 1).ok()?;
+    Some(Exposure::of(&words(gpu, "histogram", 256)?, frame, picture.exposure))
 }
 
 fn words(gpu: &mut Gpu, name: &str, len: usize) -> Option<Vec<u32>> {

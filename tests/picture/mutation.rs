@@ -7,7 +7,7 @@ use std::sync::Mutex;
 use motes::Gpu;
 use motes::kernel::{Plan, Shader, Source};
 
-use super::draw::{Difference, altered, gpu, rgb, snapshot};
+use super::draw::{Difference, Plans, altered, gpu, rgb, snapshot};
 use super::scenes::{self, Scene};
 use super::support::mutants::{Mutant, mutants};
 use super::support::{self, Shared};
@@ -23,6 +23,7 @@ const EACH: f64 = 0.5;
 struct Stage {
     scene: Scene,
     gpu: Gpu,
+    plans: Plans,
     want: Vec<u8>,
     missed: [u32; 2],
 }
@@ -38,10 +39,11 @@ struct Count {
 fn stages(shared: &Shared) -> Vec<Stage> {
     let stage = |scene: Scene| {
         let mut gpu = gpu(shared, &scene.state, &scene.picture);
-        let image = altered(&mut gpu, &scene.picture, |_| Some(())).expect("a picture");
+        let plans = Plans::of(&mut gpu, &scene.picture);
+        let image = altered(&mut gpu, &scene.picture, &plans, |_| Some(())).expect("a picture");
         let want = snapshot(scene.name);
         assert!(Difference::between(&rgb(&image), &want).is_within(1.0), "{}: not the snapshot", scene.name);
-        Stage { missed: [image.outside, image.broken], scene, gpu, want }
+        Stage { missed: [image.outside, image.broken], scene, gpu, plans, want }
     };
     scenes::all().into_iter().map(stage).collect()
 }
@@ -61,14 +63,10 @@ fn replace(plan: &mut Plan, file: &str, text: &str) -> Option<()> {
 
 impl Stage {
     fn uses(&self, file: &str) -> bool {
-        let exposure = motes::render::Exposure { knee: 60.0, white: 900.0 };
-        let plans =
-            [self.scene.picture.plan(), self.scene.picture.development(exposure)].map(|plan| plan.expect("a plan"));
-        let kernels = plans.iter().flat_map(|plan| &plan.kernels).flat_map(|kernel| &kernel.passes);
-        kernels.into_iter().any(|pass| pass.shader.sources().iter().any(|s| s.file == file))
+        self.plans.passes().any(|pass| pass.shader.sources().iter().any(|s| s.file == file))
     }
     fn notices(&mut self, file: &str, mutant: &Mutant) -> bool {
-        let image = altered(&mut self.gpu, &self.scene.picture, |plan| replace(plan, file, &mutant.text));
+        let image = altered(&mut self.gpu, &self.scene.picture, &self.plans, |plan| replace(plan, file, &mutant.text));
         image.is_none_or(|image| {
             [image.outside, image.broken] != self.missed
                 || !Difference::between(&rgb(&image), &self.want).is_within(1.0)
@@ -76,9 +74,10 @@ impl Stage {
     }
 }
 
-/// A loop that turns the other way ends when its counter has gone once round, after 2³¹ turns.
-fn endless(mutant: &Mutant) -> bool {
-    mutant.line.starts_with("for ") && mutant.new == "-="
+/// A loop that turns the other way ends when its counter has gone once round, after 2³¹ turns; and a workgroup may have any size, which
+/// the host reads.
+fn is_idle(mutant: &Mutant) -> bool {
+    mutant.line.starts_with("for ") && mutant.new == "-=" || mutant.line.starts_with("const WORKGROUP")
 }
 
 fn count(stages: &mut [Stage], file: String, text: &str) -> Count {
@@ -86,7 +85,7 @@ fn count(stages: &mut [Stage], file: String, text: &str) -> Count {
     let mut order: Vec<usize> = (0..stages.len()).filter(|k| stages[*k].uses(&file)).collect();
     assert!(!order.is_empty(), "{file}: no scene runs it");
     let mut count = Count { file, all: 0, noticed: 0, missed: Vec::new() };
-    for mutant in mutants(text).iter().filter(|mutant| !endless(mutant)) {
+    for mutant in mutants(text).iter().filter(|mutant| !is_idle(mutant)) {
         count.all += 1;
         match order.iter().position(|k| stages[*k].notices(&count.file, mutant)) {
             Some(first) => {
@@ -124,7 +123,8 @@ fn snapshots_notice_broken_shaders() {
                 }
                 // Had a mutant broken the device, all after it would have been noticed for nothing.
                 for stage in &mut stages {
-                    let image = altered(&mut stage.gpu, &stage.scene.picture, |_| Some(())).expect("a picture");
+                    let image =
+                        altered(&mut stage.gpu, &stage.scene.picture, &stage.plans, |_| Some(())).expect("a picture");
                     assert!(Difference::between(&rgb(&image), &stage.want).is_within(1.0), "{}", stage.scene.name);
                 }
             });

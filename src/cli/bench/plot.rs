@@ -3,13 +3,11 @@
 use std::path::Path;
 
 use motes::Error;
-use motes::formats::atomically;
+use motes::run::plot::{self, Area, Axis, axes, fine, text};
 use plotters::prelude::*;
 use serde_json::Value;
 
 const SIZE: (u32, u32) = (880, 520);
-const INK: RGBColor = RGBColor(38, 42, 51);
-const FAINT: RGBColor = RGBColor(226, 229, 235);
 const BLUE: RGBColor = RGBColor(36, 104, 196);
 const GRAY: RGBColor = RGBColor(150, 156, 168);
 const ORANGE: RGBColor = RGBColor(214, 112, 32);
@@ -83,37 +81,21 @@ fn write(path: &Path, sizes: &str, lines: &[Line], nothing: &str) -> Result<(), 
     if lines.iter().all(|line| line.points.is_empty()) {
         return Err(fault(nothing.to_owned()));
     }
-    let mut svg = String::new();
-    draw(&mut svg, sizes, lines).map_err(fault)?;
-    atomically(path, |out| std::io::Write::write_all(out, svg.as_bytes()))
+    plot::write(path, SIZE, |root| draw(root, sizes, lines))
 }
 
-fn draw(svg: &mut String, sizes: &str, lines: &[Line]) -> Result<(), String> {
+fn draw(root: &Area, sizes: &str, lines: &[Line]) -> Result<(), String> {
     let all = || lines.iter().flat_map(|line| &line.points);
     let ends = |of: fn(&(f64, f64)) -> f64| all().map(of).fold((f64::MAX, 0.0_f64), |(a, b), x| (a.min(x), b.max(x)));
     let (counts, times) = (ends(|p| p.0), ends(|p| p.1));
-    let root = SVGBackend::with_string(svg, SIZE).into_drawing_area();
     root.fill(&WHITE).map_err(|e| e.to_string())?;
-    let mut chart = ChartBuilder::on(&root)
-        .margin(18)
-        .x_label_area_size(46)
-        .y_label_area_size(74)
+    let mut chart = ChartBuilder::on(root)
+        .margin(fine(18))
+        .x_label_area_size(fine(46))
+        .y_label_area_size(fine(74))
         .build_cartesian_2d((0.8 * counts.0..1.25 * counts.1).log_scale(), (0.7 * times.0..1.5 * times.1).log_scale())
         .map_err(|e| e.to_string())?;
-    let text = |size: i32| ("sans-serif", size).into_font().color(&INK);
-    chart
-        .configure_mesh()
-        .axis_style(INK)
-        .bold_line_style(FAINT)
-        .light_line_style(TRANSPARENT)
-        .label_style(text(14))
-        .axis_desc_style(text(15))
-        .x_desc(sizes)
-        .y_desc("a step [ms]")
-        .x_label_formatter(&|x| super::large(*x))
-        .y_label_formatter(&|y| format!("{y}"))
-        .draw()
-        .map_err(|e| e.to_string())?;
+    axes(&mut chart, &Axis::new(sizes, &super::large), &Axis::new("a step [ms]", &|y| format!("{y}")))?;
     for Line { points, name, color, growth } in lines {
         let color = *color;
         // As it would be if a step grew just so on the way to the largest size.
@@ -121,18 +103,19 @@ fn draw(svg: &mut String, sizes: &str, lines: &[Line]) -> Result<(), String> {
             let ideal = |n: f64| time * (n / most).powi(*growth);
             let least = counts.0.max(most * (0.7 * times.0 / time).powf(1.0 / f64::from(*growth)));
             let ends = [least, most].map(|n| (n, ideal(n)));
-            chart.draw_series(LineSeries::new(ends, color.mix(0.35))).map_err(|e| e.to_string())?;
+            chart
+                .draw_series(LineSeries::new(ends, color.mix(0.35).stroke_width(fine(1).cast_unsigned())))
+                .map_err(|e| e.to_string())?;
         }
-        let dots = points.iter().map(|at| Circle::new(*at, 4, color.filled()));
+        let dots = points.iter().map(|at| Circle::new(*at, fine(4), color.filled()));
         let series = chart.draw_series(dots).map_err(|e| e.to_string())?;
-        series.label(name).legend(move |(x, y)| Circle::new((x + 8, y), 4, color.filled()));
+        series.label(name).legend(move |(x, y)| Circle::new((x + fine(8), y), fine(4), color.filled()));
     }
     chart
         .configure_series_labels()
         .position(SeriesLabelPosition::UpperLeft)
-        .margin(14)
+        .margin(fine(14).cast_unsigned())
         .label_font(text(15))
         .draw()
-        .map_err(|e| e.to_string())?;
-    root.present().map_err(|e| e.to_string())
+        .map_err(|e| e.to_string())
 }

@@ -8,7 +8,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::Course;
 use crate::cli::args::StabilityArgs;
-use motes::run::plot::{Area, FAINT, INK, fine, line, text, write};
+use motes::run::plot::{Area, Axis, INK, axes, fine, line, text, write};
 
 const SIZE: (u32, u32) = (1080, 1000);
 /// Pixels above what is drawn: a title, and a row of names.
@@ -115,22 +115,8 @@ fn panel(area: &Area, curves: &[Curve], title: &str, what: &str, steps: u32) -> 
         .y_label_area_size(fine(76))
         .build_cartesian_2d(0.0..f64::from(steps), (low..high).log_scale())
         .map_err(|e| e.to_string())?;
-    chart
-        .configure_mesh()
-        .axis_style(line(INK, 1))
-        .bold_line_style(line(FAINT, 1))
-        .light_line_style(TRANSPARENT)
-        .label_style(text(14))
-        .axis_desc_style(text(15))
-        .set_all_tick_mark_size(fine(5))
-        .x_labels(9)
-        .y_labels(9)
-        .x_label_formatter(&|x| format!("{x:.0}"))
-        .y_label_formatter(&|y| power(*y))
-        .x_desc("steps")
-        .y_desc(what)
-        .draw()
-        .map_err(|e| e.to_string())?;
+    let x = Axis { labels: 9, ..Axis::new("steps", &|x| format!("{x:.0}")) };
+    axes(&mut chart, &x, &Axis { labels: 9, ..Axis::new(what, &power) })?;
     let mut names = Vec::new();
     for curve in curves {
         let points = inside(curve.values);

@@ -1,0 +1,57 @@
+//! Pictures, films and plots as files. A build without the feature `images` writes none, and refuses a run that asks for pictures.
+
+use std::path::{Path, PathBuf};
+
+use crate::error::Error;
+use crate::measure::Measure;
+use crate::render::Image;
+use crate::scene::Output;
+
+/// Whether this build writes what a scene asks for.
+///
+/// # Errors
+/// [`Error::Scene`] when it asks for pictures or a film, and this build writes none.
+pub fn check(output: &Output) -> Result<(), Error> {
+    if cfg!(feature = "images") || !(output.pictures || output.frames > 0) {
+        return Ok(());
+    }
+    Err(Error::Scene(
+        "the scene asks for pictures, and this build of motes writes no files of pictures: leave \"png\" out of \
+         output.formats and set output.frames = 0, or build it with the feature `images`"
+            .to_owned(),
+    ))
+}
+
+/// A PNG of a picture.
+pub fn save(image: &Image, path: &Path) -> Result<(), Error> {
+    #[cfg(feature = "images")]
+    return image.save(path);
+    #[cfg(not(feature = "images"))]
+    Err(unwritten(path, image.rgba.len()))
+}
+
+/// A film of pictures that are files.
+pub fn join(path: &Path, frames: &[PathBuf], rate: u16) -> Result<(), Error> {
+    #[cfg(feature = "images")]
+    return crate::formats::apng::write_apng(path, frames, rate);
+    #[cfg(not(feature = "images"))]
+    Err(unwritten(path, frames.len() * usize::from(rate)))
+}
+
+/// A plot of energies; a build without the feature `images` has but their table.
+#[cfg_attr(not(feature = "images"), expect(clippy::unnecessary_wraps, reason = "with that feature it may fail"))]
+pub fn energy(path: &Path, rows: &[Measure], title: &str) -> Result<(), Error> {
+    #[cfg(feature = "images")]
+    return super::plot::energy(path, rows, title);
+    #[cfg(not(feature = "images"))]
+    {
+        let _ = (path, rows, title);
+        Ok(())
+    }
+}
+
+#[cfg(not(feature = "images"))]
+fn unwritten(path: &Path, _: usize) -> Error {
+    let message = "this build of motes writes no pictures: build it with the feature `images`".to_owned();
+    Error::Output { file: path.to_owned(), message }
+}
