@@ -12,9 +12,9 @@ struct Sum { force: vec3f, energy: f32 }
 const TWO_BY_ROOT_PI: f32 = 1.1283791671;
 
 // erfc(x), x ≥ 0, by exp(−x²), to 1.5e-7 (Abramowitz & Stegun 1964, 7.1.26).
-fn erfc(x: f32, bell: f32) -> f32 {
+fn erfc(x: f32, gaussian: f32) -> f32 {
     let t = 1.0 / (1.0 + 0.3275911 * x);
-    return t * (0.254829592 + t * (-0.284496736 + t * (1.421413741 + t * (-1.453152027 + t * 1.061405429)))) * bell;
+    return t * (0.254829592 + t * (-0.284496736 + t * (1.421413741 + t * (-1.453152027 + t * 1.061405429)))) * gaussian;
 }
 
 fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
@@ -29,11 +29,11 @@ fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
     var slope = (6.0 * pair.dispersion + 8.0 * pair.dispersion_8 * square) * sixth * inverse - repulsion / pair.decay - pair.end_slope;
 
     let x = params.damping * distance;
-    let bell = exp(-x * x);
-    let near = erfc(x, bell) * inverse;
+    let gaussian = exp(-x * x);
+    let near = erfc(x, gaussian) * inverse;
     let charges = params.coulomb * charge[me.index] * charge[you.index];
     value += charges * (near - params.end_value);
-    slope -= charges * ((near + TWO_BY_ROOT_PI * params.damping * bell) * inverse + params.end_slope);
+    slope -= charges * ((near + TWO_BY_ROOT_PI * params.damping * gaussian) * inverse + params.end_slope);
 
     let shift = pair.end_slope + charges * params.end_slope;
     (*sum).force += (slope * inverse) * r;

@@ -3,6 +3,6 @@
 @group(2) @binding(7) var<storage, read_write> sorted_velocity: array<vec4f>;
 
 fn carry(i: u32, slot: u32) {
-    sorted_position[slot] = vec4f(home(position[i].xyz), position[i].w);
+    sorted_position[slot] = vec4f(wrapped(position[i].xyz), position[i].w);
     sorted_velocity[slot] = velocity[i];
 }

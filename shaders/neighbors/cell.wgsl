@@ -24,14 +24,14 @@ fn fold(c: i32, cells: u32) -> u32 {
 }
 
 // Its image in the box, where it is on the way outside: on my side of the seam no particle is then nearer elsewhere.
-fn home(x: vec3f) -> vec3f {
+fn wrapped(x: vec3f) -> vec3f {
     if !PERIODIC { return x; }
     let inside = ((x >= world.low) & (x < world.high)) | (world.period <= vec3f());
     let y = select(x - world.period * floor((x - world.low) * world.frequency), x, inside);
     return select(y, world.low, !inside & ((y < world.low) | (y >= world.high)));
 }
 
-// The cell of a place at home, folded. It is some cell even where the place is no number: the watch finds it.
+// The cell of a wrapped place, folded. It is some cell even where the place is no number: the watch finds it.
 fn cell(x: vec3f) -> vec3u {
     let last = select(vec3f(FARTHEST), vec3f(grid.cells) - 1.0, world.period > vec3f());
     let c = vec3i(clamp(floor(away(x)), vec3f(-FARTHEST), last));

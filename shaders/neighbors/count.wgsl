@@ -12,7 +12,7 @@ fn count(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: v
     if i < world.count {
         var k = NOWHERE;
         if chosen(i) && is_active(i) {
-            k = key(cell(home(position[i].xyz)));
+            k = key(cell(wrapped(position[i].xyz)));
             // Held particles stand behind all others, where the grid keeps them apart.
             if is_held(i) { k += grid.cells.x * grid.cells.y * grid.cells.z; }
             arrivals[i] = atomicAdd(&starts[k], 1u);

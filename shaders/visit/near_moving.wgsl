@@ -12,7 +12,7 @@ fn candidate(slot: u32) -> Particle {
 
 fn particle(i: u32) -> Particle {
     let p = position[i];
-    return Particle(i, home(p.xyz), p.w, velocity[i].xyz);
+    return Particle(i, wrapped(p.xyz), p.w, velocity[i].xyz);
 }
 
 fn velocity_of(particle: Particle) -> vec3f { return particle.velocity; }

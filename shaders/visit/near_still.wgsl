@@ -11,5 +11,5 @@ fn candidate(slot: u32) -> Particle {
 
 fn particle(i: u32) -> Particle {
     let p = position[i];
-    return Particle(i, home(p.xyz), p.w, vec3f());
+    return Particle(i, wrapped(p.xyz), p.w, vec3f());
 }

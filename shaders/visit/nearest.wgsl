@@ -90,7 +90,7 @@ fn nearest(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups:
     if k < min(grid.end, present()) {
         let me = particle(sorted_id[k]);
         if acts_on(me) {
-            let c = cell(home(me.position));
+            let c = cell(wrapped(me.position));
             var list = empty();
             var seen = 0u;
             var reach = 1u;

@@ -25,7 +25,7 @@ pub fn conclude(
     let rate = end.steps as f64 / end.stepping.as_secs_f64().max(1e-9);
     let rows = run.energies.rows();
     let (first, last) = (run.energies.first(), rows.last().copied().unwrap_or_default());
-    let worst = rows.iter().map(|row| row.drift_from(&first).abs()).fold(0.0, f64::max);
+    let worst = if first.total() == 0.0 { run.looks.change } else { run.looks.change / first.total().abs() };
     let clock = run.course.as_ref().and_then(Course::clock);
     let flock = run.flocks.as_ref().and_then(Flocks::ends);
     progress.event(

@@ -11,7 +11,7 @@ use super::advice::Conserved;
 use super::course;
 use super::progress::{duration, large};
 
-/// How the energy went. Where the total is next to nothing, as of a pendulum that starts at its pivot's height, changes are
+/// How the energy went, at the end and at most in all measurements. Where the total is next to nothing, as of a pendulum that starts at its pivot's height, changes are
 /// relative to the maximum kinetic energy.
 pub fn energy(rows: &[Measure], looks: &Looks, conserved: &Conserved) -> String {
     let (first, last) = (rows.first().copied().unwrap_or_default(), rows.last().copied().unwrap_or_default());
@@ -22,13 +22,14 @@ pub fn energy(rows: &[Measure], looks: &Looks, conserved: &Conserved) -> String 
     };
     let ends = format!("energy {:.6e} → {:.6e}", first.total(), last.total());
     if first.total().abs() < 0.01 * looks.kinetic {
-        let change = (last.total() - first.total()) / looks.kinetic;
+        let (change, most) = ((last.total() - first.total()) / looks.kinetic, looks.change / looks.kinetic);
         let (largest, count) = (looks.kinetic, looks.count);
         return format!(
-            "{ends}, {word} {change:+.1e} of the largest kinetic energy, {largest:.3e}, of {count} measurements"
+            "{ends}, {word} {change:+.1e} of the largest kinetic energy, {largest:.3e}, at most {most:.1e} in {count} measurements"
         );
     }
-    format!("{ends}, {word} {:+.1e}", last.drift_from(&first))
+    let most = looks.change / first.total().abs();
+    format!("{ends}, {word} {:+.1e}, at most {most:.1e} in {} measurements", last.drift_from(&first), looks.count)
 }
 
 /// How the momenta went, where they are kept.

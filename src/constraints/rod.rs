@@ -107,7 +107,7 @@ fn kernel(chains: Chains, factor: f64, settles: bool) -> Result<Kernel, Error> {
     let constants = vec![("FACTOR", factor), ("CHAINS", f64::from(count)), ("SETTLES", f64::from(u8::from(settles)))];
     let mut kernel = Kernel::new("rod", shader, constants, count, Arc::new(reference));
     for pass in &mut kernel.passes {
-        // Each particle of a chain is looked at about as often as it would be in meetings with so many.
+        // Each particle of a chain is looked at about as often as it would be in pair evaluations with so many.
         pass.work = 16 * nodes;
     }
     Ok(Kernel { sizes, tables, scratch: vec!["chain_sweep".into()], ..kernel })

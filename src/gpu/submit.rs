@@ -11,9 +11,9 @@ use crate::error::Error;
 
 /// Submissions in flight, at most: one that runs, one that waits.
 const IN_FLIGHT: usize = 2;
-/// What a dispatch costs beside its work, in meetings: about 10 µs of a small device.
+/// What a dispatch costs beside its work, in pair evaluations: about 10 µs of a small device.
 const LAUNCH: u64 = 20_000;
-/// The first submission of a device whose speed is not known, in meetings: 0.1 s of a slow one.
+/// The first submission of a device whose speed is not known, in pair evaluations: 0.1 s of a slow one.
 const FIRST: u64 = 50_000_000;
 
 /// A queue that knows how fast its device is.

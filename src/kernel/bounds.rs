@@ -125,11 +125,11 @@ impl Bounds {
     }
     /// The image in the box of a place, by the device's own arithmetic: see `shaders/neighbors/cell.wgsl`.
     #[must_use]
-    pub fn home(&self, x: DVec3) -> Vec3 {
+    pub fn wrapped_single(&self, x: DVec3) -> Vec3 {
         let (low, high, period) = (self.low.as_vec3(), self.high.as_vec3(), self.period().as_vec3());
         let x = x.as_vec3();
         let y = x - period * ((x - low) * self.frequency().as_vec3()).floor();
-        let home = |axis: usize| {
+        let wrapped = |axis: usize| {
             let (x, y, low, high) = (x[axis], y[axis], low[axis], high[axis]);
             if period[axis] <= 0.0 || x >= low && x < high {
                 x
@@ -139,7 +139,7 @@ impl Bounds {
                 y
             }
         };
-        Vec3::new(home(0), home(1), home(2))
+        Vec3::new(wrapped(0), wrapped(1), wrapped(2))
     }
     /// The whole periods in a way.
     fn turns(&self, r: Vec3) -> Vec3 {

@@ -48,7 +48,7 @@ pub struct Pass {
     /// Where the number of its workgroups stands, if it is known only on the device. Without work it costs next to nothing
     /// then.
     pub indirect: Option<Indirect>,
-    /// About how much it does: meetings of two particles, or one per particle. Submissions are cut by it.
+    /// About how much it does: evaluations of a pair, or one per particle. Submissions are cut by it.
     pub work: u64,
 }
 

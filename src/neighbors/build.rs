@@ -115,7 +115,7 @@ impl Grid {
         let mut positions = host.writing::<Vec4>(&self.field(SORTED_POSITION).1)?;
         for (slot, id) in cells.ids.iter().enumerate() {
             let i = *id as usize;
-            (ids[slot], positions[slot]) = (*id, cells.homes[i].as_dvec3().extend(position[i].w));
+            (ids[slot], positions[slot]) = (*id, cells.wrapped_places[i].as_dvec3().extend(position[i].w));
         }
         if moving {
             let velocity = host.read(VELOCITY)?;

@@ -12,7 +12,7 @@ pub struct Cells {
     grid: Grid,
     bounds: Bounds,
     /// Every particle's image in the box.
-    pub(super) homes: Vec<Vec3>,
+    pub(super) wrapped_places: Vec<Vec3>,
     /// Where each cell's particles begin in `ids`; one more than there are cells.
     pub(super) starts: Vec<u32>,
     /// Ids, cell by cell, ascending in each.
@@ -40,10 +40,11 @@ impl Cells {
         chosen: impl Fn(usize) -> bool,
         last: impl Fn(usize) -> bool,
     ) -> Self {
-        let homes: Vec<Vec3> = positions.map(|x| bounds.home(x)).collect();
+        let wrapped_places: Vec<Vec3> = positions.map(|x| bounds.wrapped_single(x)).collect();
         let cells = grid.count() as usize;
         let layer = |i: usize| if last(i) { cells } else { 0 };
-        let keys: Vec<usize> = homes.iter().enumerate().map(|(i, x)| key(grid, &bounds, *x) + layer(i)).collect();
+        let keys: Vec<usize> =
+            wrapped_places.iter().enumerate().map(|(i, x)| key(grid, &bounds, *x) + layer(i)).collect();
         let mut starts = vec![0_u32; grid.bins() as usize];
         let those = || (0..keys.len()).filter(|i| chosen(*i));
         those().for_each(|i| starts[keys[i] + 1] += 1);
@@ -56,16 +57,16 @@ impl Cells {
             ids[next[keys[i]] as usize] = u32::try_from(i).unwrap_or(u32::MAX);
             next[keys[i]] += 1;
         }
-        Self { grid: grid.clone(), bounds, homes, starts, ids }
+        Self { grid: grid.clone(), bounds, wrapped_places, starts, ids }
     }
     /// How many others are in the cells around a particle, on average: what a search looks at.
     #[must_use]
     pub fn candidates(&self) -> f64 {
         let mut total = 0_u64;
-        for i in 0..self.homes.len() {
-            self.rows(self.homes[i], |ids| total += ids.len() as u64);
+        for i in 0..self.wrapped_places.len() {
+            self.rows(self.wrapped_places[i], |ids| total += ids.len() as u64);
         }
-        total as f64 / self.homes.len().max(1) as f64 - 1.0
+        total as f64 / self.wrapped_places.len().max(1) as f64 - 1.0
     }
     /// The most others that any particle has within the range.
     #[must_use]
@@ -75,14 +76,14 @@ impl Cells {
             self.around(i, |_| number += 1);
             number
         };
-        (0..self.homes.len()).into_par_iter().map(number).max().unwrap_or(0)
+        (0..self.wrapped_places.len()).into_par_iter().map(number).max().unwrap_or(0)
     }
     /// Calls with the ids of all others within the range of a particle.
     pub fn around(&self, i: usize, mut call: impl FnMut(usize)) {
-        let home = self.homes[i];
-        self.rows(home, |ids| {
+        let wrapped = self.wrapped_places[i];
+        self.rows(wrapped, |ids| {
             for &j in ids {
-                let r = (self.homes[j as usize] - home).as_dvec3();
+                let r = (self.wrapped_places[j as usize] - wrapped).as_dvec3();
                 if j as usize != i && self.bounds.within(r, self.grid.range) {
                     call(j as usize);
                 }
@@ -90,10 +91,10 @@ impl Cells {
         });
     }
     /// Calls with the ids of each cell around a place.
-    fn rows(&self, home: Vec3, mut call: impl FnMut(&[u32])) {
+    fn rows(&self, wrapped: Vec3, mut call: impl FnMut(&[u32])) {
         let [nx, ny, nz] = self.grid.cells.map(i64::from);
-        let c = place(&self.grid, &self.bounds, home);
-        let [rx, ry, rz] = reach(&self.grid, home);
+        let c = place(&self.grid, &self.bounds, wrapped);
+        let [rx, ry, rz] = reach(&self.grid, wrapped);
         // Where an axis has fewer cells than are looked at, each is looked at once.
         let span = |n: i64, reach: i64| if 2 * reach + 1 > n { 0..n } else { -reach..reach + 1 };
         for z in span(nz, rz) {
@@ -110,8 +111,8 @@ impl Cells {
 
 /// How many cells to look at on each side: more, where rounding moves places by more than a cell's slack; see
 /// `shaders/visit/near_rows.wgsl`.
-fn reach(grid: &Grid, home: Vec3) -> [i64; 3] {
-    let away = ((home - grid.low.as_vec3()) * grid.per_cell.as_vec3()).abs().to_array();
+fn reach(grid: &Grid, wrapped: Vec3) -> [i64; 3] {
+    let away = ((wrapped - grid.low.as_vec3()) * grid.per_cell.as_vec3()).abs().to_array();
     #[expect(clippy::cast_precision_loss, reason = "a small whole number")]
     let reach = |axis: usize| {
         let fine = i64::from(grid.fine[axis]);
@@ -124,10 +125,10 @@ fn reach(grid: &Grid, home: Vec3) -> [i64; 3] {
     [0, 1, 2].map(reach)
 }
 
-/// The cell of a place at home along each axis, before it is folded.
-fn place(grid: &Grid, bounds: &Bounds, home: Vec3) -> [i64; 3] {
+/// The cell of a wrapped place along each axis, before it is folded.
+fn place(grid: &Grid, bounds: &Bounds, wrapped: Vec3) -> [i64; 3] {
     const FARTHEST: f32 = 536_870_912.0;
-    let c: Vec3 = ((home - grid.low.as_vec3()) * grid.per_cell.as_vec3()).floor();
+    let c: Vec3 = ((wrapped - grid.low.as_vec3()) * grid.per_cell.as_vec3()).floor();
     [0, 1, 2].map(|axis| {
         #[expect(clippy::cast_precision_loss, reason = "at most 8192 along a period")]
         let last = if bounds.sides[axis] == Side::Periodic { grid.cells[axis] as f32 - 1.0 } else { FARTHEST };
@@ -137,9 +138,9 @@ fn place(grid: &Grid, bounds: &Bounds, home: Vec3) -> [i64; 3] {
     })
 }
 
-/// The cell of a place at home, folded; see `shaders/neighbors/cell.wgsl`.
-fn key(grid: &Grid, bounds: &Bounds, home: Vec3) -> usize {
+/// The cell of a wrapped place, folded; see `shaders/neighbors/cell.wgsl`.
+fn key(grid: &Grid, bounds: &Bounds, wrapped: Vec3) -> usize {
     let [nx, ny, nz] = grid.cells.map(i64::from);
-    let [x, y, z] = place(grid, bounds, home);
+    let [x, y, z] = place(grid, bounds, wrapped);
     usize::try_from(x.rem_euclid(nx) + nx * (y.rem_euclid(ny) + ny * z.rem_euclid(nz))).unwrap_or(0)
 }

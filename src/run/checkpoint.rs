@@ -52,8 +52,9 @@ pub(super) struct Past {
     pub lengths: Lengths,
     /// Results that were in the folder.
     pub results: BTreeSet<String>,
-    /// The largest kinetic energy, and states that were measured.
+    /// The largest kinetic energy and change of the total one, and states that were measured.
     pub kinetic: f64,
+    pub change: f64,
     pub looks: u64,
     /// The numbers of the trail.
     pub trail: Vec<f64>,
@@ -115,6 +116,7 @@ pub(super) fn write(
         ("begun", number(past.begun)),
         ("done", number(past.done)),
         ("kinetic", number(past.kinetic.to_bits())),
+        ("change", number(past.change.to_bits())),
         ("looks", number(past.looks)),
         ("results", Value::Array(past.results.iter().map(|name| name.as_str().into()).collect())),
         ("tables", Value::Table(past.lengths.iter().map(|(name, length)| (name.clone(), number(*length))).collect())),
@@ -314,6 +316,7 @@ fn read(file: &Path) -> Result<Checkpoint, Unread> {
         lengths: head.lengths("tables")?,
         results: head.names("results")?,
         kinetic: f64::from_bits(head.number("kinetic")?),
+        change: f64::from_bits(head.number("change")?),
         looks: head.number("looks")?,
         trail: trail.chunks_exact(8).map(eight).collect(),
         film,

@@ -14,6 +14,8 @@ pub struct Looks {
     interval: u64,
     /// The largest kinetic energy.
     pub kinetic: f64,
+    /// The largest change of the total energy since the first state.
+    pub change: f64,
     /// States that were measured.
     pub count: u64,
 }
@@ -31,9 +33,10 @@ impl Looks {
     pub(super) fn is_due(&self, done: u64) -> bool {
         self.interval > 0 && done.is_multiple_of(self.interval)
     }
-    /// Takes in a state.
-    pub(super) fn take(&mut self, row: &Measure) {
+    /// Takes in a state of a run that began with `first`.
+    pub(super) fn take(&mut self, row: &Measure, first: &Measure) {
         self.kinetic = self.kinetic.max(row.kinetic);
+        self.change = self.change.max((row.total() - first.total()).abs());
         self.count += 1;
     }
 }

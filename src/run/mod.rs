@@ -337,9 +337,10 @@ impl Run {
                 let start = Instant::now();
                 let snapshot = simulation.snapshot().await?;
                 let row = Measure::of(&snapshot)?;
-                progress.energy(&row, &self.energies.first());
+                let first = self.energies.first();
+                progress.energy(&row, &first);
                 if self.looks.is_due(course.done()) {
-                    self.looks.take(&row);
+                    self.looks.take(&row, &first);
                 }
                 self.last = Some(snapshot);
                 (looked, look) = (Instant::now(), start.elapsed());

@@ -49,8 +49,9 @@ impl Run {
             self.all()[number].drawn(state.step, image)?;
         }
         if let Some(row) = self.energies.rows().last() {
-            self.looks.take(row);
-            progress.measured(row, &self.energies.first());
+            let first = self.energies.first();
+            self.looks.take(row, &first);
+            progress.measured(row, &first);
         }
         self.springs.1 = links.map(|links| links.springs.len());
         self.last = Some(state);

@@ -227,7 +227,8 @@ impl Run {
         if gone > 0 {
             progress.remark(&format!("{gone} results behind the checkpoint are removed, and will be written again"));
         }
-        (self.looks.kinetic, self.looks.count) = (past.kinetic, past.looks);
+        let looks = &mut self.looks;
+        (looks.kinetic, looks.change, looks.count) = (past.kinetic, past.change, past.looks);
         if let Some(trail) = Trail::of(self.count, &past.trail).filter(|_| self.pictures.trail.wanted()) {
             self.pictures.trail = trail;
         }
@@ -270,6 +271,7 @@ impl Run {
             lengths,
             results: folder.results()?,
             kinetic: self.looks.kinetic,
+            change: self.looks.change,
             looks: self.looks.count,
             trail: self.pictures.trail.numbers(),
             film: self.film.as_ref().map(Film::kept).unwrap_or_default(),

@@ -16,7 +16,7 @@ pub fn gap(smoothing: Smoothing, support: f64, layers: u32, dimensions: u32) -> 
         for x in -reach..=reach {
             for y in (-reach..=reach).filter(|y| dimensions != 2 || *y == 0) {
                 let square = f64::from(x * x + y * y) + height * height;
-                sum += smoothing.bell(square.sqrt() / support);
+                sum += smoothing.profile(square.sqrt() / support);
             }
         }
         sum

@@ -46,12 +46,12 @@ impl Smoothed {
     /// W(r).
     #[must_use]
     pub fn kernel(&self, r: DVec3) -> f64 {
-        self.weight * self.smoothing.bell(r.length() / self.range)
+        self.weight * self.smoothing.profile(r.length() / self.range)
     }
     /// What times r is the gradient of W at a particle r away: W′(r) / r.
     #[must_use]
     pub fn gradient(&self, r: DVec3) -> f64 {
-        self.slope * self.smoothing.decline(r.length() / self.range)
+        self.slope * self.smoothing.profile_slope(r.length() / self.range)
     }
 }
 

@@ -1,4 +1,4 @@
-//! The kernels that smooth a fluid: W(r) = c bell(r / h) / h^D, with h the support, beyond which there is nothing.
+//! The kernels that smooth a fluid: W(r) = c profile(r / h) / h^D, with h the support, beyond which there is nothing.
 
 use std::f64::consts::PI;
 
@@ -22,7 +22,7 @@ impl Smoothing {
     pub fn named(name: &str) -> Self {
         if name == "wendland" { Self::Wendland } else { Self::Cubic }
     }
-    /// Its WGSL: `fn bell(q: f32) -> f32` and `fn decline(q: f32) -> f32`.
+    /// Its WGSL: `fn profile(q: f32) -> f32` and `fn profile_slope(q: f32) -> f32`.
     #[must_use]
     pub fn source(self) -> Source {
         match self {
@@ -32,7 +32,7 @@ impl Smoothing {
     }
     /// The kernel without its constant, of q = r / h between 0 and 1.
     #[must_use]
-    pub fn bell(self, q: f64) -> f64 {
+    pub fn profile(self, q: f64) -> f64 {
         let p = 1.0 - q;
         match self {
             _ if q >= 1.0 => 0.0,
@@ -43,7 +43,7 @@ impl Smoothing {
     }
     /// Its derivative by q, over q: so that times r it needs no direction.
     #[must_use]
-    pub fn decline(self, q: f64) -> f64 {
+    pub fn profile_slope(self, q: f64) -> f64 {
         let p = 1.0 - q;
         match self {
             _ if q >= 1.0 => 0.0,
@@ -73,7 +73,7 @@ impl Smoothing {
         for x in range() {
             for y in range() {
                 for z in range().filter(|z| dimensions != 2 || *z == 0.0) {
-                    total += self.bell((x * x + y * y + z * z).sqrt() / support);
+                    total += self.profile((x * x + y * y + z * z).sqrt() / support);
                 }
             }
         }

@@ -146,7 +146,7 @@ impl Law {
             Over::Tree { opening, core, .. } => Some(walk::reference(opening, core, rule, far)),
             _ => None,
         };
-        let reference = reference::meetings(over, gather, |_, sum: &DVec4, _| *sum);
+        let reference = reference::gathering(over, gather, |_, sum: &DVec4, _| *sum);
         Self {
             reciprocal: true,
             distant: Distant { wgsl: distant, walk, sample, images: false },
@@ -164,7 +164,7 @@ impl Law {
         finish: impl Fn(&Particle, &S, &World) -> DVec4 + Send + Sync + 'static,
     ) -> Self {
         let gather = move |me: &Particle, you: &Particle, r, _: &World, sum: &mut S| gather(me, you, r, sum);
-        Self::plain(name, over, wgsl, params, reference::meetings(over, gather, finish))
+        Self::plain(name, over, wgsl, params, reference::gathering(over, gather, finish))
     }
     /// The same of a law that writes columns: `finish(me, sum, world, outcome)` says which values they get. `into` names all
     /// that it writes, `acceleration` too where it gives one.
@@ -326,7 +326,7 @@ impl Law {
         }
     }
     /// The functions of a law over any visit but `each`.
-    pub(super) fn requires_meetings(&self) -> Result<(), Error> {
+    pub(super) fn requires_gather(&self) -> Result<(), Error> {
         // Those of a method say it in several files.
         if self.search.is_some() {
             return Ok(());

@@ -47,7 +47,7 @@ pub fn shared(laws: &[Law], problem: &Problem) -> Result<Option<ListShape>, Erro
 
 /// The kernel of a law over the list, with so many words of history.
 pub fn kernel(law: Law, range: f64, slots: u32, problem: &Problem) -> Result<Kernel, Error> {
-    law.requires_meetings()?;
+    law.requires_gather()?;
     let asks = ["recall", "remember"].into_iter().find(|function| law.wgsl.says(&[function, "("]));
     if let Some(function) = asks.filter(|_| slots == 0) {
         return Err(Error::Scene(format!(

@@ -79,7 +79,7 @@ pub fn ground() -> Vec<Source> {
 }
 
 pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
-    law.requires_meetings()?;
+    law.requires_gather()?;
     let Some((grid, moving)) = grid(&law, problem)? else {
         return Err(Error::Scene(format!("`{}` searches no grid", law.name)));
     };

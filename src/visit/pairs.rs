@@ -1,4 +1,4 @@
-//! All pairs: which of the three files, and how the meetings are cut into dispatches.
+//! All pairs: which of the three files, and how pair evaluations are cut into dispatches.
 
 use std::sync::Arc;
 
@@ -14,7 +14,7 @@ const SOURCES: u32 = 1 << 15;
 /// Layers, at most: more cost more to add than they gain.
 const LAYERS: u32 = 64;
 
-/// How the meetings of `count` particles are cut.
+/// How pair evaluations of `count` particles are cut.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Cut {
     /// Slices of the sources that are met side by side, each by invocations of its own.
@@ -70,7 +70,7 @@ fn join(visit: Source, law: &Law, problem: &Problem) -> Result<Arc<Shader>, Erro
 
 pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
     let (count, machine) = (problem.capacity, &problem.machine);
-    law.requires_meetings()?;
+    law.requires_gather()?;
     law.over.range().map_or(Ok(()), checked)?;
     let shader = join(variant(machine), &law, problem)?;
     let reflection = shader.reflection();

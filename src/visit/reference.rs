@@ -39,7 +39,7 @@ pub fn updating(rule: impl Fn(&Particle, &World, &mut Outcome) + Send + Sync + '
 }
 
 /// Pairs of particles, the partners in the order of their ids.
-pub fn meetings<S: Default>(
+pub fn gathering<S: Default>(
     over: Over,
     gather: impl Fn(&Particle, &Particle, DVec3, &World, &mut S) + Send + Sync + 'static,
     finish: impl Fn(&Particle, &S, &World) -> DVec4 + Send + Sync + 'static,
@@ -114,7 +114,7 @@ fn meeting<S: Default>(
 /// The accelerations of chosen targets by direct summation, by their rows, and their shares of the potential per unit mass.
 pub type Sample = Arc<dyn Fn(&Host, &[usize]) -> Result<Vec<DVec4>, Error> + Send + Sync>;
 
-/// The same as [`meetings`] of a law that adds up, for some targets alone.
+/// The same as [`gathering`] of a law that adds up, for some targets alone.
 pub fn sample(rule: Arc<impl Fn(&Particle, &Particle, DVec3, &World) -> DVec4 + Send + Sync + 'static>) -> Sample {
     Arc::new(move |host, targets| {
         let view = View::of(host)?;

@@ -109,7 +109,7 @@ fn rounds(tree: &Tree, machine: &Machine) -> u32 {
 }
 
 pub fn kernel(law: Law, tree: &Tree, problem: &Problem) -> Result<Kernel, Error> {
-    law.requires_meetings()?;
+    law.requires_gather()?;
     let theta = tree.opening.theta();
     if !(theta > LEAST && theta <= 1.0) {
         return Err(Error::Scene(format!(
@@ -130,7 +130,7 @@ pub fn kernel(law: Law, tree: &Tree, problem: &Problem) -> Result<Kernel, Error>
     let mut constants = problem.constants(&shader);
     constants.extend([("GROUP", f64::from(GROUP)), ("LEAF", f64::from(LEAF))]);
     constants.extend(law.mark());
-    let each = meetings(tree, problem);
+    let each = pair_evaluations(tree, problem);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "few")]
     let mut groups = (MEETINGS / each / f64::from(GROUP)).clamp(1.0, f64::from(TARGETS / GROUP)) as u32;
     if let Some(kept) = shader.reflection().binding("tree_kept") {
@@ -192,14 +192,14 @@ const KEPT_WALKS: &str = "tree_kept";
 /// How many workgroups go on with a walk.
 const GO: &str = "tree go";
 
-/// About how many meetings of two a target's walk is worth: a guess of time alone.
-fn meetings(tree: &Tree, problem: &Problem) -> f64 {
+/// About how many pair evaluations a target's walk is worth: a guess of time alone.
+fn pair_evaluations(tree: &Tree, problem: &Problem) -> f64 {
     let levels = f64::from(tree.height()) + 1.0;
     let theta = match tree.opening {
         Opening::Geometric { theta } => theta,
         Opening::Relative { .. } => 0.6,
     };
-    // Far groups are those of a few shells on each level; one costs about as much as three meetings.
+    // Far groups are those of a few shells on each level; one costs about as much as three of them.
     (700.0 + 180.0 * levels / theta.powi(2)).min(f64::from(problem.particles))
 }
 

@@ -42,7 +42,7 @@ fn tied(device: &Device, back: f64) -> (Simulation<Gpu>, Links, Vec<Held>) {
     let speed = if back > PART { 0.2 } else { 0.5 };
     let velocity: Vec<Vec4> = (0..FEW).map(|_| (random.vector() * speed).as_vec3().extend(0.3)).collect();
     let masses: Vec<f32> = (0..FEW).map(|_| (1.5 + random.next()) as f32).collect();
-    let moved = places.iter().zip(&velocity).map(|(x, v)| bounds.home(*x + h * v.truncate().as_dvec3()));
+    let moved = places.iter().zip(&velocity).map(|(x, v)| bounds.wrapped_single(*x + h * v.truncate().as_dvec3()));
     let position: Vec<Vec4> = moved.zip(&masses).map(|(x, m)| x.extend(*m)).collect();
     simulation.write(POSITION, &position).expect("places");
     simulation.write(VELOCITY, &velocity).expect("velocities");

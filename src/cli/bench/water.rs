@@ -78,11 +78,11 @@ impl Water {
         let all = || (0..sorted.len()).into_par_iter().with_min_len(256);
         let flows: Vec<Flow> = all()
             .map(|slot| {
-                let mut sum = law.bell(0.0);
+                let mut sum = law.profile(0.0);
                 self.around(sorted[slot], &starts, |j, shift| {
                     let square = apart(sorted[slot], sorted[j], shift).1;
                     if square < law.range * law.range && j != slot {
-                        sum += law.bell(square.sqrt() / law.range);
+                        sum += law.profile(square.sqrt() / law.range);
                     }
                 });
                 let rho = law.mass * law.weight * sum;
@@ -160,7 +160,7 @@ fn apart(me: [f32; 3], you: [f32; 3], shift: [f32; 3]) -> ([f32; 3], f32) {
 
 impl Law {
     #[inline]
-    fn bell(&self, q: f32) -> f32 {
+    fn profile(&self, q: f32) -> f32 {
         let p = 1.0 - q;
         if self.cubic {
             if q <= 0.5 { 1.0 - 6.0 * q * q * p } else { 2.0 * p * p * p }
@@ -169,7 +169,7 @@ impl Law {
         }
     }
     #[inline]
-    fn decline(&self, q: f32) -> f32 {
+    fn profile_slope(&self, q: f32) -> f32 {
         let p = 1.0 - q;
         if self.cubic { if q <= 0.5 { 18.0 * q - 12.0 } else { -6.0 * p * p / q } } else { -20.0 * p * p * p }
     }
@@ -179,6 +179,6 @@ impl Law {
         let approach = (you[4] - me[4]) * r[0] + (you[5] - me[5]) * r[1] + (you[6] - me[6]) * r[2];
         let closing = approach.min(0.0) * s / (square + 0.01 * s * s);
         let artificial = self.alpha * self.sound * closing / (0.5 * (me[3] + you[3]));
-        self.mass * self.slope * self.decline(square.sqrt() / self.range) * (me[7] + you[7] - artificial)
+        self.mass * self.slope * self.profile_slope(square.sqrt() / self.range) * (me[7] + you[7] - artificial)
     }
 }

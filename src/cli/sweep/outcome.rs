@@ -11,10 +11,17 @@ use super::vary::Varied;
 /// What a run left.
 pub struct Outcome {
     /// Its measurements and its last state, or why it did not come to its end.
-    result: Result<(Vec<Measure>, State), String>,
+    result: Result<Left, String>,
     steps: u64,
     /// How long its steps took.
     took: Duration,
+}
+
+/// What a run that came to its end left: its first and its last measurement, the largest change of the energy, and its last state.
+struct Left {
+    ends: [Measure; 2],
+    change: f64,
+    state: State,
 }
 
 /// A run beside the others.
@@ -40,9 +47,9 @@ impl Outcome {
     pub fn of(made: Result<(Run, End), String>) -> Self {
         let (steps, took) = made.as_ref().map_or((0, Duration::ZERO), |(_, end)| (end.steps, end.stepping));
         let result = made.and_then(|(run, end)| {
-            let rows = run.energies.rows().to_vec();
-            let last = run.last.ok_or("it left no state")?;
-            if end.stopped { Err("stopped".to_owned()) } else { Ok((rows, last)) }
+            let ends = [run.energies.first(), run.energies.rows().last().copied().unwrap_or_default()];
+            let state = run.last.ok_or("it left no state")?;
+            if end.stopped { Err("stopped".to_owned()) } else { Ok(Left { ends, change: run.looks.change, state }) }
         });
         Self { result, steps, took }
     }
@@ -71,13 +78,11 @@ pub fn compared<'a>(cases: &'a [Vec<String>], found: &'a [Option<Outcome>]) -> V
             difference: None,
             error: one.result.as_ref().err().map(String::as_str),
         };
-        if let Ok((rows, state)) = &one.result {
-            if let (Some(first), Some(end)) = (rows.first(), rows.last()) {
-                ended.energy = end.drift_from(first);
-                ended.worst_energy = rows.iter().map(|row| row.drift_from(first).abs()).fold(0.0, f64::max);
-                ended.momentum = (end.momentum - first.momentum).length();
-            }
-            ended.difference = reference.filter(|_| Some(place) != last).and_then(|(_, other)| apart(state, other));
+        if let Ok(Left { ends: [first, end], change, state }) = &one.result {
+            ended.energy = end.drift_from(first);
+            ended.worst_energy = if first.total() == 0.0 { *change } else { change / first.total().abs() };
+            ended.momentum = (end.momentum - first.momentum).length();
+            ended.difference = reference.filter(|_| Some(place) != last).and_then(|other| apart(state, &other.state));
         }
         ended
     };
@@ -91,7 +96,7 @@ fn simultaneous(a: &State, b: &State) -> bool {
 
 /// Whether all runs that came to their end ended at one time.
 pub fn end_together(found: &[Option<Outcome>]) -> bool {
-    let mut states = found.iter().flatten().filter_map(|one| one.result.as_ref().ok()).map(|(_, state)| state);
+    let mut states = found.iter().flatten().filter_map(|one| one.result.as_ref().ok()).map(|left| &left.state);
     states.next().is_none_or(|first| states.all(|other| simultaneous(first, other)))
 }
 

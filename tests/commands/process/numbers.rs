@@ -103,6 +103,24 @@ fn errors_of_energy_are_relative_to_its_maximum() {
     assert!(often.abs() < 1.0 && (seldom / often - 1.0).abs() < 0.1, "{often} {seldom}");
 }
 
+/// An ellipse is measured at its two ends alone, where leapfrog has its energy back: what it loses and gains on the way is told, too.
+#[test]
+fn the_largest_energy_error_is_that_of_the_way() {
+    let place = Place::with(&[]);
+    let out = place.at("out");
+    let sets = ["simulation.integrator=leapfrog", "simulation.dt=0.02", "output.every=100000", "output.formats=[]"];
+    let sets: Vec<&str> = sets.iter().flat_map(|set| ["--set", *set]).collect();
+    let args = [&["run", "kepler", "-o", &out, "--backend", "cpu", "--until", "6.283185307179586"][..], &sets].concat();
+    let (code, stdout, stderr) = output(&mut motes(&args));
+    assert_eq!(code, 0, "{stderr}");
+    let number = |after: &str| -> f64 {
+        let (_, rest) = stdout.split_once(after).unwrap_or_else(|| panic!("{stdout}"));
+        rest.split([' ', ',']).next().and_then(|word| word.parse().ok()).unwrap_or_else(|| panic!("{stdout}"))
+    };
+    let (end, most) = (number(", error ").abs(), number(", at most "));
+    assert!(most > 3.0 * end && most < 0.1, "{end} {most}");
+}
+
 /// Rods follow their pins at once: a motion that jumps throws them.
 #[test]
 fn a_jump_of_a_motion_on_rods_is_remarked_on() {

@@ -25,10 +25,14 @@ fn kernels_integrate_to_one() {
     for smoothing in KERNELS {
         for dimensions in [2, 3] {
             let shell = |q: f64| if dimensions == 2 { 2.0 * PI * q } else { 4.0 * PI * q * q };
-            let volume = integral(|q| shell(q) * smoothing.constant(dimensions) * smoothing.bell(q));
+            let volume = integral(|q| shell(q) * smoothing.constant(dimensions) * smoothing.profile(q));
             assert!((volume - 1.0).abs() < 1e-11, "{smoothing:?} in {dimensions} dimensions: {volume}");
         }
-        assert!(smoothing.bell(0.0) > 0.0 && smoothing.bell(1.0).abs() < 1e-300 && smoothing.bell(1.5).abs() < 1e-300);
+        assert!(
+            smoothing.profile(0.0) > 0.0
+                && smoothing.profile(1.0).abs() < 1e-300
+                && smoothing.profile(1.5).abs() < 1e-300
+        );
     }
 }
 
@@ -37,9 +41,9 @@ fn gradients_are_derivatives() {
     let e = 1e-5;
     for smoothing in KERNELS {
         for q in [0.1, 0.3, 0.499, 0.501, 0.7, 0.9, 1.1] {
-            let slope = (smoothing.bell(q + e) - smoothing.bell(q - e)) / (2.0 * e);
+            let slope = (smoothing.profile(q + e) - smoothing.profile(q - e)) / (2.0 * e);
             // A central difference errs by e² / 6 of the third derivative, which is below 200; rounding by 1e-16 / e.
-            assert!((smoothing.decline(q) * q - slope).abs() < 1e-8, "{smoothing:?} at {q}: {slope}");
+            assert!((smoothing.profile_slope(q) * q - slope).abs() < 1e-8, "{smoothing:?} at {q}: {slope}");
         }
         for dimensions in [2, 3] {
             let (me, r) = (medium(smoothing, 2.3, dimensions), DVec3::new(0.2, -0.31, 0.17));
