@@ -103,7 +103,7 @@ fn errors_of_energy_are_relative_to_its_maximum() {
     assert!(often.abs() < 1.0 && (seldom / often - 1.0).abs() < 0.1, "{often} {seldom}");
 }
 
-/// An ellipse is measured at its two ends alone, where leapfrog has its energy back: what it loses and gains on the way is told, too.
+/// An ellipse is measured at its two ends alone, where leapfrog has its energy back: what it loses and gains on the way is reported, too.
 #[test]
 fn the_largest_energy_error_is_that_of_the_way() {
     let place = Place::with(&[]);
