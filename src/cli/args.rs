@@ -55,7 +55,7 @@ pub enum Command {
     Info(InfoArgs),
     /// Run the oscillator and the decay of textbooks under every integrator, and draw which explode, decay or stay
     Stability(StabilityArgs),
-    /// Measure steps of gravity, through a tree too, of searches for neighbours and of springs, beside plain Rust
+    /// Measure how fast this machine steps scenes: gravity, a tree, neighbours, springs and fluids
     Bench(BenchArgs),
     /// List adapters and test what simulations rely on
     Doctor(DoctorArgs),
@@ -282,15 +282,15 @@ fn positive(text: &str) -> Result<f64, String> {
 /// What is measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Topic {
-    /// All pairs, and the integrators
+    /// All pairs: `plummer`
     Gravity,
-    /// Gravity through a tree, beside all pairs
+    /// Gravity through a tree: `plummer`
     Tree,
-    /// Searches for neighbours
+    /// Searches for neighbours: `flock`
     Neighbors,
-    /// Sheets of springs
+    /// Cloth: `flag`
     Springs,
-    /// Fluids, beside plain Rust
+    /// Water: `dam_break`
     Fluids,
 }
 
@@ -299,18 +299,6 @@ pub struct BenchArgs {
     /// What to measure; all, if it is left out
     #[arg(value_enum)]
     pub topic: Option<Topic>,
-    /// The smallest number of bodies
-    #[arg(long, value_name = "N", default_value_t = 1024)]
-    pub from: u32,
-    /// The largest number of bodies
-    #[arg(long, value_name = "N", default_value_t = 1_048_576)]
-    pub to: u32,
-    /// Leave out sizes of which a step is expected to take longer than this [s]
-    #[arg(long, value_name = "S", default_value_t = 10.0)]
-    pub longest: f64,
-    /// Draw how the time of a step grows into this SVG: with the bodies for `tree`, with the agents otherwise
-    #[arg(long, value_name = "FILE")]
-    pub plot: Option<PathBuf>,
     /// How often each thing is measured; the median counts
     #[arg(long, value_name = "N", default_value_t = 7)]
     pub repeat: usize,

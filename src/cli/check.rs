@@ -14,8 +14,8 @@ use super::course;
 use super::engine::Engine;
 use super::failure::Failure;
 use super::flow;
-use super::progress::duration;
 use super::substeps::{self, Loaded};
+use super::words::duration;
 
 /// Checks a scene: its faults, its memory, and the time that a run would take.
 pub async fn check(args: &SceneArgs) -> Result<(), Failure> {

@@ -47,6 +47,7 @@ mod stop;
 mod substeps;
 mod summary;
 mod sweep;
+mod words;
 
 use std::process::ExitCode;
 

@@ -146,7 +146,7 @@ pub fn choose(mut adapters: Vec<wgpu::Adapter>, choice: &Choice) -> Result<wgpu:
 /// everything.
 ///
 /// * `SUBGROUP` buys speed: lanes pass particles and nodes of a tree on to each other, mostly on software adapters.
-/// * `TIMESTAMP_QUERY` buys times by the device's own clock, in [`Gpu::timed`](crate::Gpu::timed), `motes bench` and `motes doctor`.
+/// * `TIMESTAMP_QUERY` buys times by the device's own clock, in [`Gpu::timed`](crate::Gpu::timed), the benches and `motes doctor`.
 #[must_use]
 pub fn wanted_features(adapter: &wgpu::Adapter) -> wgpu::Features {
     adapter.features() & (wgpu::Features::SUBGROUP | wgpu::Features::TIMESTAMP_QUERY)

@@ -133,7 +133,10 @@ where
     if !x.title.is_empty() {
         mesh.x_desc(x.title);
     }
-    mesh.y_desc(y.title).draw().map_err(|e| e.to_string())
+    if !y.title.is_empty() {
+        mesh.y_desc(y.title);
+    }
+    mesh.draw().map_err(|e| e.to_string())
 }
 
 fn energies(area: &Area, rows: &[Measure]) -> Result<(), String> {

@@ -28,7 +28,7 @@ const MEETINGS: f64 = (1 << 30) as f64;
 const LEAST: f64 = 1e-30;
 
 /// How many particles there must be before the tree is faster than direct summation. Measured on lavapipe by
-/// `motes bench tree`; for hardware it is an estimate, from the interactions of both and the rates of others.
+/// `cargo bench --bench baselines -- tree`; for hardware it is an estimate, from the interactions of both and the rates of others.
 #[must_use]
 pub fn crossing(machine: &Machine) -> u32 {
     if machine.software { 6144 } else { 49_152 }

@@ -1,41 +1,26 @@
-//! What `motes bench tree` says, and what it draws.
+//! What `motes bench` says.
 
 use std::process::Command;
 
 use serde_json::Value;
 
 #[test]
-fn trees_are_measured_held_against_direct_sums_and_drawn() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let plot = folder.path().join("tree.svg");
-    let output = Command::new(env!("CARGO_BIN_EXE_motes"))
-        .args(["bench", "tree", "--from", "1024", "--to", "1024", "--repeat", "1", "--json", "--plot"])
-        .arg(&plot)
-        .output()
-        .expect("the program starts");
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let bench: Value = serde_json::from_slice(&output.stdout).expect("JSON");
-    let number = |value: &Value| value.as_f64().unwrap_or(f64::NAN);
-    let sets = bench["tree"].as_array().expect("sets");
-    assert_eq!(
-        sets.iter().map(|set| set["set"].as_str()).collect::<Vec<_>>(),
-        [Some("plummer"), Some("cusp"), Some("disk")]
-    );
-    for set in sets {
-        assert_eq!(set["pairs"].as_array().map(Vec::len), Some(1), "{set}");
-        let variants = set["variants"].as_array().expect("variants");
-        let last = |n: usize| &variants[n]["sizes"][0];
-        for n in 0..variants.len() {
-            assert!(last(n)["bodies"] == 1024 && number(&last(n)["bodies_per_second"]) > 0.0, "{set}");
-            let [step, build] = ["seconds_per_step", "seconds_per_build"].map(|key| number(&last(n)[key][0]));
-            assert!(step > 0.0 && build > 0.0 && number(&last(n)["ratio"]) > 0.0, "{set}");
-        }
-        let error = |n: usize| number(&last(n)["relative_force_error"]["median"]);
-        // θ 0.7, θ 0.5, and that without quadrupoles: each must differ from the next by far more than 1000 targets scatter.
-        assert!(error(0) < 2e-3 && error(1) < 0.6 * error(0) && error(2) > 3.0 * error(1), "{set}");
-    }
-    let svg = std::fs::read_to_string(plot).expect("a plot");
-    // Three sets and all pairs, and four keys of the legend.
-    assert_eq!(svg.matches("<circle").count(), 8, "{svg}");
-    assert!(svg.contains("bodies") && svg.contains("all pairs") && svg.contains("disk"), "{svg}");
+fn a_topic_is_measured() {
+    let motes = |args: &[&str]| {
+        let output = Command::new(env!("CARGO_BIN_EXE_motes")).arg("bench").args(args).output();
+        let output = output.expect("the program starts");
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        output.stdout
+    };
+    let bench: Value = serde_json::from_slice(&motes(&["neighbors", "--repeat", "2", "--json"])).expect("JSON");
+    let topics = bench["topics"].as_array().expect("topics");
+    let row = &topics[0];
+    assert_eq!((topics.len(), row["topic"].as_str(), row["scene"].as_str()), (1, Some("neighbors"), Some("flock")));
+    let times: Vec<f64> = row["seconds_per_step"].as_array().expect("times").iter().filter_map(Value::as_f64).collect();
+    assert!(times.len() == 2 && times.iter().all(|time| *time > 0.0), "{row}");
+    // The median of two is the longer one.
+    let rate = row["particles"].as_f64().expect("a count") / times.iter().copied().fold(0.0, f64::max);
+    assert!((row["particle_steps_per_second"].as_f64().expect("a rate") / rate - 1.0).abs() < 1e-9, "{row}");
+    let table = String::from_utf8(motes(&["springs", "--repeat", "1"])).expect("text");
+    assert!(table.contains("springs") && table.contains("flag") && table.contains("/s"), "{table}");
 }

@@ -5,6 +5,7 @@ mod small;
 #[path = "../support/mod.rs"]
 mod support;
 
+mod baselines;
 mod bench;
 mod checkpoints;
 mod cli;

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use motes::Error;
-use motes::run::plot::{Area, FAINT, INK, fine, line, text, write};
+use motes::run::plot::{Area, Axis, axes, fine, line, text, write};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
@@ -61,19 +61,8 @@ fn panel(root: &Area, title: &str, key: &str, lines: &[(&str, RGBColor, Points)]
         .y_label_area_size(fine(76))
         .build_cartesian_2d((xs.0..xs.1).log_scale(), (ys.0..ys.1).log_scale())
         .map_err(|e| e.to_string())?;
-    chart
-        .configure_mesh()
-        .axis_style(line(INK, 1))
-        .bold_line_style(line(FAINT, 1))
-        .light_line_style(TRANSPARENT)
-        .label_style(text(14))
-        .axis_desc_style(text(15))
-        .set_all_tick_mark_size(fine(5))
-        .x_label_formatter(&|x| format!("{x:.0e}"))
-        .y_label_formatter(&|y| format!("{y:.0e}"))
-        .x_desc(key)
-        .draw()
-        .map_err(|e| e.to_string())?;
+    let power = |x: f64| format!("{x:.0e}");
+    axes(&mut chart, &Axis::new(key, &power), &Axis::new("", &power))?;
     for (_, color, points) in lines {
         chart.draw_series(LineSeries::new(points.iter().copied(), line(*color, 2))).map_err(|e| e.to_string())?;
         let dots = points.iter().map(|at| Circle::new(*at, fine(4), color.filled()));

@@ -3,33 +3,14 @@
 //! `TREE_BODIES=1000000 TREE_SEEDS=20 cargo test --release --test engine tree::bounded -- --nocapture` looks at as many as one likes.
 
 use glam::{DVec3, Vec4};
-use motes::forces::{Law, Over, Particle};
-use motes::kernel::{ACCELERATION, POSITION, Source};
+use motes::kernel::{ACCELERATION, POSITION};
 use motes::settings::{Settings as Words, Value};
 use motes::tree::Opening;
 use motes::{Bounds, Side, shapes};
 
 use crate::support::{self, Random, Shared, machines};
+use crate::tree::met::met;
 use crate::tree::walks::{Alone, USUAL, Walk, gravity};
-
-/// Counts what is met, whatever it weighs: far groups, and particles by themselves.
-const WGSL: &str = "struct Sum { far: f32, near: f32 }
-    fn merge(total: ptr<function, Sum>, part: Sum) {
-        (*total).far += part.far;
-        (*total).near += part.near;
-    }
-    fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
-        if you.index < world.count { (*sum).near += 1.0; } else { (*sum).far += 1.0; }
-    }
-    fn finish(me: Particle, sum: Sum) -> vec4f { return vec4f(sum.far, sum.near, 0.0, 0.0); }";
-
-/// The law that counts; no group that may come nearer than `core` is met as one.
-pub fn met(opening: Opening, core: f64) -> Law {
-    let nothing = |_: &Particle, _: &Particle, _: DVec3, (): &mut ()| ();
-    let over = Over::Tree { opening, core, auto: false };
-    let law = Law::gathering("met", over, Source::ours("met", WGSL), Vec::new(), nothing, |_, (), _| glam::DVec4::ZERO);
-    law.of_all_images()
-}
 
 const GEOMETRIC: Opening = Opening::Geometric { theta: 0.7 };
 const RELATIVE: Opening = Opening::Relative { alpha: 0.005, g: 1.0, theta: 0.7 };

@@ -128,7 +128,7 @@ fn padding_and_oneself_are_not_met() {
         let mut met: Vec<Vec<Vec4>> = Vec::new();
         for (name, machine) in walkers(&shared) {
             let met_beyond = |core| {
-                let law = crate::tree::bounded::met(Opening::Geometric { theta: 0.9 }, core);
+                let law = crate::tree::met::met(Opening::Geometric { theta: 0.9 }, core);
                 Walk::new(&shared, machine, &bodies, Box::new(Alone(law))).run()
             };
             let all = met_beyond(10.0);

@@ -9,6 +9,8 @@ mod choice;
 mod complete;
 mod curve;
 mod lockstep;
+#[path = "../../../benches/baselines/met.rs"]
+mod met;
 mod sets;
 mod turns;
 mod walks;

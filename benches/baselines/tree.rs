@@ -9,11 +9,10 @@ use motes::tree::{Opening, Tree};
 use motes::{ACCELERATION, Bounds, Error, Gpu, POSITION, Setup, Simulation, forces, gpu, integrators, shapes};
 use serde_json::json;
 
-use super::effort::{Effort, effort};
-use super::{direct, median, repeats, scaling, time};
-use crate::cli::args::BenchArgs;
-use crate::cli::failure::Failure;
-use crate::cli::progress::{duration, large};
+use crate::effort::{Effort, effort};
+use crate::words::{duration, large};
+use crate::{Args, Failure};
+use crate::{direct, median, repeats, scaling, time};
 
 const SOFTENING: f64 = 0.02;
 
@@ -66,12 +65,12 @@ struct Row {
 }
 
 /// Measures the tree over sets and sizes.
-pub fn bench(args: &BenchArgs, found: &gpu::Found) -> Result<serde_json::Value, Failure> {
+pub fn bench(args: &Args, found: &gpu::Found) -> Result<serde_json::Value, Failure> {
     let mut sets = Vec::new();
     for set in &SETS {
         if !args.json {
-            out!("\ntree, gravity with potential, {}, leapfrog, whole steps", set.name);
-            out!(
+            println!("\ntree, gravity with potential, {}, leapfrog, whole steps", set.name);
+            println!(
                 "{:>9}  {:>14}  {:>12}  {:>14}  {:>6}  {:>28}  {:>7}  {:>12}  {:>7}",
                 "bodies",
                 "",
@@ -85,10 +84,10 @@ pub fn bench(args: &BenchArgs, found: &gpu::Found) -> Result<serde_json::Value, 
             );
         }
         let measure = |count, last: Option<&Row>| pollster::block_on(measure(args, found, set, count, last));
-        let rows = super::sizes(args, 2.3, measure, Row::slowest)?;
+        let rows = crate::sizes(args, 2.3, measure, Row::slowest)?;
         if !args.json {
             for (n, variant) in VARIANTS.iter().enumerate() {
-                out!("{:>25}  {}", variant.name, verdict(&rows, n));
+                println!("{:>25}  {}", variant.name, verdict(&rows, n));
             }
         }
         sets.push(json(set, &rows));
@@ -114,13 +113,7 @@ impl Runner {
     }
 }
 
-async fn measure(
-    args: &BenchArgs,
-    found: &gpu::Found,
-    set: &Set,
-    count: u32,
-    last: Option<&Row>,
-) -> Result<Row, Failure> {
+async fn measure(args: &Args, found: &gpu::Found, set: &Set, count: u32, last: Option<&Row>) -> Result<Row, Failure> {
     let mut runners = Vec::new();
     let mut setup = setup(set, count)?;
     for variant in &VARIANTS {
@@ -188,12 +181,7 @@ fn problem(setup: &Setup, simulation: &mut Simulation<Gpu>) -> Result<Problem, E
 }
 
 /// Seconds of building the tree, without the walk.
-fn build(
-    args: &BenchArgs,
-    variant: &Variant,
-    setup: &Setup,
-    simulation: &mut Simulation<Gpu>,
-) -> Result<Vec<f64>, Failure> {
+fn build(args: &Args, variant: &Variant, setup: &Setup, simulation: &mut Simulation<Gpu>) -> Result<Vec<f64>, Failure> {
     let problem = problem(setup, simulation)?;
     let mut plan = Plan::default();
     Tree::new(variant.opening(), 0.0, &problem).kernels(&problem)?.into_iter().for_each(|kernel| plan.add(kernel));

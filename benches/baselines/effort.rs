@@ -1,21 +1,11 @@
 //! What groups of targets meet on their walks through a tree: on average, and the one that meets the most.
 
-use glam::{DVec3, DVec4, Vec4};
-use motes::forces::{Law, Over, Particle};
-use motes::kernel::{Backend, Plan, Problem, Source};
+use glam::Vec4;
+use motes::kernel::{Backend, Plan, Problem};
 use motes::tree::{Opening, Tree};
 use motes::{ACCELERATION, Error, Gpu, Simulation};
 
-/// Counts what is met: far groups, and particles by themselves.
-const WGSL: &str = "struct Sum { far: f32, near: f32 }
-fn merge(total: ptr<function, Sum>, part: Sum) {
-    (*total).far += part.far;
-    (*total).near += part.near;
-}
-fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
-    if you.index < world.count { (*sum).near += 1.0; } else { (*sum).far += 1.0; }
-}
-fn finish(me: Particle, sum: Sum) -> vec4f { return vec4f(sum.far, sum.near, 0.0, 0.0); }";
+use crate::met::met;
 
 /// Far groups and particles that a target meets.
 pub struct Effort {
@@ -33,10 +23,7 @@ impl Effort {
 /// Walks a tree over particles where they are now, by their last accelerations. It leaves worthless numbers in place of
 /// accelerations.
 pub async fn effort(opening: Opening, problem: &Problem, simulation: &mut Simulation<Gpu>) -> Result<Effort, Error> {
-    let nothing = |_: &Particle, _: &Particle, _: DVec3, (): &mut ()| ();
-    let over = Over::Tree { opening, core: 0.0, auto: false };
-    let wgsl = Source::ours("met", WGSL);
-    let law = Law::gathering("met", over, wgsl, Vec::new(), nothing, |_, (), _| DVec4::ZERO);
+    let law = met(opening, 0.0);
     let mut plan = Plan::default();
     Tree::new(opening, 0.0, problem).kernels(problem)?.into_iter().for_each(|kernel| plan.add(kernel));
     plan.add(law.kernel(problem)?);

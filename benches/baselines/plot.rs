@@ -1,4 +1,4 @@
-//! How the time of a step grows, out of the numbers that `motes bench --json` gives.
+//! How the time of a step grows, out of the numbers that `cargo bench --bench baselines -- --json` gives.
 
 use std::path::Path;
 
@@ -6,6 +6,8 @@ use motes::Error;
 use motes::run::plot::{self, Area, Axis, axes, fine, text};
 use plotters::prelude::*;
 use serde_json::Value;
+
+use crate::words::large;
 
 const SIZE: (u32, u32) = (880, 520);
 const BLUE: RGBColor = RGBColor(36, 104, 196);
@@ -39,7 +41,12 @@ pub fn neighbors(path: &Path, bench: &Value) -> Result<(), Error> {
         line("circles", "plain_seconds_per_step", "circles in plain Rust", GRAY),
         line("boids", "seconds_per_step", "boids, 7 neighbours each", ORANGE),
     ];
-    write(path, "agents", &lines, "there are no searches to draw: let `motes bench` measure neighbors")
+    write(
+        path,
+        "agents",
+        &lines,
+        "there are no searches to draw: let `cargo bench --bench baselines` measure neighbors",
+    )
 }
 
 /// Draws gravity through a tree, the first way of opening it, and all pairs over the bodies of the first set.
@@ -63,7 +70,7 @@ pub fn tree(path: &Path, bench: &Value) -> Result<(), Error> {
         let points = points(&set["pairs"], "bodies", "seconds_per_step");
         lines.push(Line { points, name: "all pairs".to_owned(), color: GRAY, growth: 2 });
     }
-    write(path, "bodies", &lines, "there is no tree to draw: let `motes bench tree` measure one")
+    write(path, "bodies", &lines, "there is no tree to draw: let `cargo bench --bench baselines -- tree` measure one")
 }
 
 /// Sizes and the median time of a step, in milliseconds.
@@ -71,7 +78,7 @@ fn points(rows: &Value, sizes: &str, times: &str) -> Vec<(f64, f64)> {
     let rows = rows.as_array().map_or(&[][..], Vec::as_slice);
     let point = |row: &Value| {
         let times: Vec<f64> = row[times].as_array()?.iter().filter_map(Value::as_f64).collect();
-        (!times.is_empty()).then(|| Some((row[sizes].as_f64()?, 1e3 * super::median(&times))))?
+        (!times.is_empty()).then(|| Some((row[sizes].as_f64()?, 1e3 * crate::median(&times))))?
     };
     rows.iter().filter_map(point).collect()
 }
@@ -95,7 +102,7 @@ fn draw(root: &Area, sizes: &str, lines: &[Line]) -> Result<(), String> {
         .y_label_area_size(fine(74))
         .build_cartesian_2d((0.8 * counts.0..1.25 * counts.1).log_scale(), (0.7 * times.0..1.5 * times.1).log_scale())
         .map_err(|e| e.to_string())?;
-    axes(&mut chart, &Axis::new(sizes, &super::large), &Axis::new("a step [ms]", &|y| format!("{y}")))?;
+    axes(&mut chart, &Axis::new(sizes, &large), &Axis::new("a step [ms]", &|y| format!("{y}")))?;
     for Line { points, name, color, growth } in lines {
         let color = *color;
         // As it would be if a step grew just so on the way to the largest size.

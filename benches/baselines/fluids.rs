@@ -12,11 +12,10 @@ use motes::sph::{self, Friction, Medium, Smoothing, Walls};
 use motes::{Bounds, Error, POSITION, Setup, Side, Simulation, State, gpu, integrators};
 use serde_json::json;
 
-use super::water::Water;
-use super::{median, time};
-use crate::cli::args::BenchArgs;
-use crate::cli::failure::Failure;
-use crate::cli::progress::{duration, large};
+use crate::water::Water;
+use crate::words::{duration, large};
+use crate::{Args, Failure};
+use crate::{median, time};
 
 /// A tenth of what sound lets through.
 const DT: f64 = 0.002;
@@ -38,12 +37,12 @@ struct Row {
 }
 
 /// Measures the cases over sizes.
-pub fn bench(args: &BenchArgs, found: &gpu::Found) -> Result<serde_json::Value, Failure> {
+pub fn bench(args: &Args, found: &gpu::Found) -> Result<serde_json::Value, Failure> {
     let mut cases = serde_json::Map::new();
     for (name, support, kernel) in CASES {
         if !args.json {
-            out!("\nfluid: density by summation, {kernel}, support of {support} spacings, jittered; whole steps");
-            out!(
+            println!("\nfluid: density by summation, {kernel}, support of {support} spacings, jittered; whole steps");
+            println!(
                 "{:>9}  {:>12}  {:>14}  {:>12}  {:>14}  {:>16}  {:>16}  {:>7}",
                 "particles",
                 "step",
@@ -56,7 +55,7 @@ pub fn bench(args: &BenchArgs, found: &gpu::Found) -> Result<serde_json::Value, 
             );
         }
         let measure = |count, last: Option<&Row>| measure(args, found, count, (support, kernel), last);
-        let rows = super::sizes(args, 2.0, measure, |row| median(&row.device))?;
+        let rows = crate::sizes(args, 2.0, measure, |row| median(&row.device))?;
         cases.insert(name.to_owned(), rows.iter().map(Row::json).collect());
     }
     Ok(json!({ "fluids": cases }))
@@ -108,7 +107,7 @@ fn setup(count: u32, support: f64, kernel: &'static str) -> Result<(Setup, Mediu
 }
 
 fn measure(
-    args: &BenchArgs,
+    args: &Args,
     found: &gpu::Found,
     count: u32,
     (support, kernel): (f64, &'static str),
@@ -127,7 +126,7 @@ fn measure(
         (0..turns).for_each(|_| water.step(DT as f32));
         std::hint::black_box(water.positions());
     };
-    let (device, plain) = super::in_turns(args, &mut simulation, plain.then_some(&mut baseline))?;
+    let (device, plain) = crate::in_turns(args, &mut simulation, plain.then_some(&mut baseline))?;
     let sweep = sweep(args, &mut simulation, &setup, &medium, friction)?;
     let cells = Cells::new(setup.state.position(), setup.bounds, medium.range())?;
     let mut neighbors = 0_u64;
@@ -153,7 +152,7 @@ fn apart(simulation: &mut Simulation<motes::Gpu>, water: &mut Water) -> Result<f
 
 /// Seconds of the sweep of pressure over the grid as the last step left it.
 fn sweep(
-    args: &BenchArgs,
+    args: &Args,
     simulation: &mut Simulation<motes::Gpu>,
     setup: &Setup,
     medium: &Medium,
@@ -165,7 +164,7 @@ fn sweep(
     plan.add(sph::pressure(medium, friction, Walls::Mirror, &problem)?.kernel(&problem)?);
     let program = gpu.compile(&plan)?;
     let mut run = |turns| time(turns, || gpu.run(&program, turns).and_then(|()| gpu.wait()));
-    let turns = super::repeats(run(1)?.min(run(1)?));
+    let turns = crate::repeats(run(1)?.min(run(1)?));
     (0..args.repeat.max(1)).map(|_| run(turns)).collect()
 }
 

@@ -5,11 +5,10 @@ use motes::settings::{Settings, Value};
 use motes::{Bounds, Error, Setup, Simulation, State, forces, gpu, integrators, lockstep, shapes};
 use serde_json::json;
 
-use super::bodies::Bodies;
-use super::{median, time};
-use crate::cli::args::BenchArgs;
-use crate::cli::failure::Failure;
-use crate::cli::progress::{duration, large};
+use crate::bodies::Bodies;
+use crate::words::{duration, large};
+use crate::{Args, Failure};
+use crate::{median, time};
 
 const SOFTENING: f64 = 0.02;
 /// Bodies of the comparison of integrators.
@@ -24,12 +23,12 @@ struct Row {
 }
 
 /// Measures all-pairs gravity over sizes, and the integrators.
-pub async fn bench(args: &BenchArgs, found: &gpu::Found) -> Result<serde_json::Value, Failure> {
+pub async fn bench(args: &Args, found: &gpu::Found) -> Result<serde_json::Value, Failure> {
     if !args.json {
-        out!("\nall pairs, gravity with potential, leapfrog, whole steps");
-        out!("{:>9}  {:>12}  {:>16}  {:>16}  {:>7}", "bodies", "step", "device", "plain Rust", "ratio");
+        println!("\nall pairs, gravity with potential, leapfrog, whole steps");
+        println!("{:>9}  {:>12}  {:>16}  {:>16}  {:>7}", "bodies", "step", "device", "plain Rust", "ratio");
     }
-    let rows = super::sizes(args, 4.0, |count, last| measure(args, found, count, last), |row| median(&row.device))?;
+    let rows = crate::sizes(args, 4.0, |count, last| measure(args, found, count, last), |row| median(&row.device))?;
     let integrators = integrators(args, found)?;
     let accuracy = accuracy(found).await?;
     let sizes: Vec<_> = rows.iter().map(Row::json).collect();
@@ -39,7 +38,7 @@ pub async fn bench(args: &BenchArgs, found: &gpu::Found) -> Result<serde_json::V
         "relative_force_error": { "bodies": INTEGRATED, "median": accuracy[0], "p99": accuracy[1], "max": accuracy[2] } }))
 }
 
-fn measure(args: &BenchArgs, found: &gpu::Found, count: u32, last: Option<&Row>) -> Result<Row, Failure> {
+fn measure(args: &Args, found: &gpu::Found, count: u32, last: Option<&Row>) -> Result<Row, Failure> {
     let setup = setup(count, "leapfrog")?;
     let mut simulation = Simulation::new(&found.device, &found.queue, &setup)?;
     let bodies: Vec<[f32; 4]> =
@@ -47,13 +46,13 @@ fn measure(args: &BenchArgs, found: &gpu::Found, count: u32, last: Option<&Row>)
     let bodies = Bodies::new(&bodies);
     let plain = last.is_none_or(|row| 4.0 * median(&row.plain) <= args.longest && !row.plain.is_empty());
     let mut baseline = |turns| (0..turns).for_each(|_| drop(std::hint::black_box(bodies.evaluate(SOFTENING_F32))));
-    let (device, plain) = super::in_turns(args, &mut simulation, plain.then_some(&mut baseline))?;
+    let (device, plain) = crate::in_turns(args, &mut simulation, plain.then_some(&mut baseline))?;
     Ok(Row { count, device, plain })
 }
 
 const SOFTENING_F32: f32 = 0.02;
 
-fn integrators(args: &BenchArgs, found: &gpu::Found) -> Result<Vec<(&'static str, usize, f64)>, Failure> {
+fn integrators(args: &Args, found: &gpu::Found) -> Result<Vec<(&'static str, usize, f64)>, Failure> {
     let mut simulations = Vec::new();
     for entry in integrators::INTEGRATORS {
         let setup = setup(INTEGRATED, entry.name)?;
@@ -74,10 +73,10 @@ fn integrators(args: &BenchArgs, found: &gpu::Found) -> Result<Vec<(&'static str
         simulations.iter().map(|(name, evaluations, _, times)| (*name, *evaluations, median(times))).collect();
     if !args.json {
         let one = rows.iter().find(|r| r.0 == "leapfrog").map_or(1.0, |r| r.2);
-        out!("\nintegrators, {INTEGRATED} bodies");
-        out!("{:>18}  {:>11}  {:>12}  {:>22}", "", "evaluations", "step", "per evaluation, to\u{a0}leapfrog");
+        println!("\nintegrators, {INTEGRATED} bodies");
+        println!("{:>18}  {:>11}  {:>12}  {:>22}", "", "evaluations", "step", "per evaluation, to\u{a0}leapfrog");
         for (name, evaluations, time) in &rows {
-            out!(
+            println!(
                 "{name:>18}  {evaluations:>11}  {:>9.2} ms  {:>22.2}",
                 time * 1e3,
                 time / one / (*evaluations).max(1) as f64

@@ -8,11 +8,10 @@ use motes::settings::{Settings, Value};
 use motes::{Bounds, Error, POSITION, Setup, Simulation, Solver, forces, gpu, integrators, shapes};
 use serde_json::json;
 
-use super::median;
-use super::sheet::Sheet;
-use crate::cli::args::BenchArgs;
-use crate::cli::failure::Failure;
-use crate::cli::progress::{duration, large};
+use crate::median;
+use crate::sheet::Sheet;
+use crate::words::{duration, large};
+use crate::{Args, Failure};
 
 /// That of NVIDIA Warp's benchmark of cloth: 16 steps in a sixtieth of a second.
 const DT: f64 = 1.0 / 960.0;
@@ -29,22 +28,15 @@ struct Row {
 }
 
 /// Measures sheets over sizes.
-pub fn bench(args: &BenchArgs, found: &gpu::Found) -> Result<serde_json::Value, Failure> {
+pub fn bench(args: &Args, found: &gpu::Found) -> Result<serde_json::Value, Failure> {
     if !args.json {
-        out!("\nsprings: a square sheet, about 6 springs to a particle, whole steps of symplectic Euler");
-        out!(
+        println!("\nsprings: a square sheet, about 6 springs to a particle, whole steps of symplectic Euler");
+        println!(
             "{:>9}  {:>9}  {:>12}  {:>12}  {:>12}  {:>20}  {:>12}  {:>7}",
-            "particles",
-            "springs",
-            "step",
-            "springs/s",
-            "CG iteration",
-            "plain Rust, 1 thread",
-            "springs/s",
-            "ratio"
+            "particles", "springs", "step", "springs/s", "CG iteration", "plain Rust, 1 thread", "springs/s", "ratio"
         );
     }
-    let rows = super::sizes(
+    let rows = crate::sizes(
         args,
         2.0,
         |count, last| pollster::block_on(measure(args, found, count, last)),
@@ -71,7 +63,7 @@ impl Integrator for Apart {
 }
 
 /// A small sheet, 16 steps to a frame, which launches bound: what it is worth to join kernels.
-fn joined(args: &BenchArgs, found: &gpu::Found) -> Result<serde_json::Value, Failure> {
+fn joined(args: &Args, found: &gpu::Found) -> Result<serde_json::Value, Failure> {
     const STEPS: u32 = 16;
     let setup = setup(1024)?;
     let apart = Setup { integrator: Box::new(Apart), ..self::setup(1024)? };
@@ -81,7 +73,7 @@ fn joined(args: &BenchArgs, found: &gpu::Found) -> Result<serde_json::Value, Fai
     let (mut with, mut without) = (Vec::new(), Vec::new());
     for turn in 0..=5 * args.repeat.max(1) {
         let frame = |simulation: &mut Simulation<motes::Gpu>| {
-            super::time(1, || simulation.step(STEPS).and_then(|()| simulation.backend().wait()))
+            crate::time(1, || simulation.step(STEPS).and_then(|()| simulation.backend().wait()))
         };
         let (a, b) = (frame(&mut joined)?, frame(&mut apart)?);
         if turn > 0 {
@@ -92,7 +84,7 @@ fn joined(args: &BenchArgs, found: &gpu::Found) -> Result<serde_json::Value, Fai
     let gain = median(&without.iter().zip(&with).map(|(b, a)| b / a).collect::<Vec<_>>());
     if !args.json {
         let text = |times: &[f64]| duration(Duration::from_secs_f64(median(times)));
-        out!(
+        println!(
             "\n32 by 32, a frame of {STEPS} steps: {} with {} kernels to a step, {} with {} apart: {gain:.2} times faster",
             text(&with),
             plans[0],
@@ -136,7 +128,7 @@ fn setup(count: u32) -> Result<Setup, Failure> {
     })
 }
 
-async fn measure(args: &BenchArgs, found: &gpu::Found, count: u32, last: Option<&Row>) -> Result<Row, Failure> {
+async fn measure(args: &Args, found: &gpu::Found, count: u32, last: Option<&Row>) -> Result<Row, Failure> {
     let setup = setup(count)?;
     let count = setup.check()?;
     let mut simulation = Simulation::new(&found.device, &found.queue, &setup)?;
@@ -148,7 +140,7 @@ async fn measure(args: &BenchArgs, found: &gpu::Found, count: u32, last: Option<
     step(20);
     let there: Vec<Vec4> = simulation.read(POSITION).await?;
     let plain = last.is_none_or(|row| 2.0 * median(&row.plain) <= args.longest && !row.plain.is_empty());
-    let (device, plain) = super::in_turns(args, &mut simulation, if plain { Some(&mut step) } else { None })?;
+    let (device, plain) = crate::in_turns(args, &mut simulation, if plain { Some(&mut step) } else { None })?;
     let mut again = Sheet::new(&setup.state);
     #[expect(clippy::cast_possible_truncation, reason = "the baseline is in single precision")]
     (0..20).for_each(|_| again.step(DT as f32, GRAVITY as f32));
@@ -159,7 +151,7 @@ async fn measure(args: &BenchArgs, found: &gpu::Found, count: u32, last: Option<
 }
 
 /// Seconds of an iteration of conjugate gradients: the difference of steps with many and with few, of which none converges.
-fn iteration(args: &BenchArgs, found: &gpu::Found, setup: Setup) -> Result<f64, Failure> {
+fn iteration(args: &Args, found: &gpu::Found, setup: Setup) -> Result<f64, Failure> {
     const FEW: u32 = 4;
     const MANY: u32 = 24;
     // Too stiff to converge in so few.
@@ -172,7 +164,7 @@ fn iteration(args: &BenchArgs, found: &gpu::Found, setup: Setup) -> Result<f64, 
     let mut differences = Vec::new();
     for turn in 0..=args.repeat.max(1) {
         let step = |simulation: &mut Simulation<motes::Gpu>| {
-            super::time(1, || simulation.step(1).and_then(|()| simulation.backend().wait()))
+            crate::time(1, || simulation.step(1).and_then(|()| simulation.backend().wait()))
         };
         let (a, b) = (step(&mut few)?, step(&mut many)?);
         if turn > 0 {

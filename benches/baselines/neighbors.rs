@@ -12,11 +12,10 @@ use motes::shapes::random::Random;
 use motes::{Bounds, Error, POSITION, Setup, Side, Simulation, State, gpu, integrators};
 use serde_json::json;
 
-use super::agents::{Agents, RADIUS};
-use super::{median, time};
-use crate::cli::args::BenchArgs;
-use crate::cli::failure::Failure;
-use crate::cli::progress::{duration, large};
+use crate::agents::{Agents, RADIUS};
+use crate::words::{duration, large};
+use crate::{Args, Failure};
+use crate::{median, time};
 
 const DT: f64 = 0.01;
 /// Agents of the comparison with the search by force.
@@ -28,7 +27,7 @@ struct Circles(Over);
 
 impl Component for Circles {
     fn laws(&self) -> Vec<Law> {
-        let source = Source::ours("benches/circles.wgsl", include_str!("../../../benches/circles.wgsl"));
+        let source = Source::ours("benches/circles.wgsl", include_str!("../circles.wgsl"));
         vec![Law::between("circles", self.0, source, Vec::new(), |_, _, r| {
             let separation = r.length();
             let k = (-std::f64::consts::PI * separation).sin() * 0.05;
@@ -47,31 +46,25 @@ struct Row {
 }
 
 /// Measures searches over sizes.
-pub async fn bench(args: &BenchArgs, found: &gpu::Found) -> Result<serde_json::Value, Failure> {
+pub async fn bench(args: &Args, found: &gpu::Found) -> Result<serde_json::Value, Failure> {
     let header = |what: &str| {
         if !args.json {
-            out!("\n{what}, whole steps");
-            out!(
+            println!("\n{what}, whole steps");
+            println!(
                 "{:>9}  {:>12}  {:>14}  {:>14}  {:>16}  {:>16}  {:>7}",
-                "agents",
-                "step",
-                "agents/s",
-                "candidates/s",
-                "plain Rust, step",
-                "near, candidates",
-                "ratio"
+                "agents", "step", "agents/s", "candidates/s", "plain Rust, step", "near, candidates", "ratio"
             );
         }
     };
     header("circles: radius 2, one agent per unit of volume");
-    let circles = super::sizes(
+    let circles = crate::sizes(
         args,
         2.0,
         |count, last| measure(args, found, &circles(count), last, true),
         |r| median(&r.device),
     )?;
     header("boids: about 7 neighbours");
-    let boids = super::sizes(
+    let boids = crate::sizes(
         args,
         2.0,
         |count, last| measure(args, found, &boids(count)?, last, false),
@@ -122,7 +115,7 @@ fn boids(count: u32) -> Result<(Setup, f64), Failure> {
 }
 
 fn measure(
-    args: &BenchArgs,
+    args: &Args,
     found: &gpu::Found,
     (setup, range): &(Setup, f64),
     last: Option<&Row>,
@@ -141,7 +134,7 @@ fn measure(
         (0..turns).for_each(|_| agents.step(DT as f32));
         std::hint::black_box(agents.positions());
     };
-    let (device, plain) = super::in_turns(args, &mut simulation, plain.then_some(&mut baseline))?;
+    let (device, plain) = crate::in_turns(args, &mut simulation, plain.then_some(&mut baseline))?;
     Ok(Row { count, device, plain, candidates, neighbors })
 }
 
@@ -152,7 +145,7 @@ fn numbers(setup: &Setup, range: f64) -> Result<(f64, f64), Failure> {
 }
 
 /// The search by force, at one size: how much longer it takes, and how much longer it should by what both look at.
-async fn forced(args: &BenchArgs, found: &gpu::Found) -> Result<serde_json::Value, Failure> {
+async fn forced(args: &Args, found: &gpu::Found) -> Result<serde_json::Value, Failure> {
     let count = FORCED.clamp(args.from, args.to.max(args.from));
     let (mut setup, range) = circles(count);
     let (candidates, _) = numbers(&setup, range)?;
@@ -176,7 +169,7 @@ async fn forced(args: &BenchArgs, found: &gpu::Found) -> Result<serde_json::Valu
     let (predicted, measured) = (f64::from(count) / candidates, median(&by_force) / median(&times));
     if !args.json {
         let text = |times: &[f64]| duration(Duration::from_secs_f64(median(times)));
-        out!(
+        println!(
             "\n{count} agents by force: {}, through the grid {}: {measured:.0} times faster; by what both look at, {predicted:.0} times\n\
              (positions after {} steps differ by {apart:.1e} at most)",
             text(&by_force),

@@ -1,4 +1,8 @@
-//! `motes bench`
+//! Steps of motes beside plain Rust and beside one another, in turns: gravity, trees, searches for neighbours, springs and fluids.
+//!
+//! `cargo bench --bench baselines -- tree --json` measures one topic; `benches/README.md` says what each number is.
+#![allow(missing_docs, reason = "a program")]
+#![allow(unused_imports, reason = "the tests of its files run in `tests/commands`")]
 
 mod agents;
 mod bodies;
@@ -7,6 +11,7 @@ mod direct;
 mod effort;
 mod fluids;
 mod gravity;
+mod met;
 mod neighbors;
 mod plot;
 mod scaling;
@@ -14,26 +19,80 @@ mod sheet;
 mod springs;
 mod tree;
 mod water;
+#[path = "../../src/cli/words.rs"]
+mod words;
 
+use std::path::PathBuf;
 use std::time::Instant;
 
+use clap::{Parser, ValueEnum};
 use motes::{Error, Gpu, Simulation, gpu};
 use serde_json::json;
-
-use super::args::{BenchArgs, Topic};
-use super::engine;
-use super::failure::Failure;
-use super::progress::large;
 
 /// One measurement takes about this long, unless a step is longer \[s\].
 const SPAN: f64 = 0.15;
 
+/// Why a bench did not end well.
+type Failure = Error;
+
+/// What is measured.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Topic {
+    /// All pairs, and the integrators
+    Gravity,
+    /// Gravity through a tree, beside all pairs
+    Tree,
+    /// Searches for neighbours
+    Neighbors,
+    /// Sheets of springs
+    Springs,
+    /// Fluids, beside plain Rust
+    Fluids,
+}
+
+/// Measures motes beside plain Rust.
+#[derive(Debug, Parser)]
+struct Args {
+    /// What to measure; all, if it is left out
+    #[arg(value_enum)]
+    topic: Option<Topic>,
+    /// The smallest number of bodies
+    #[arg(long, value_name = "N", default_value_t = 1024)]
+    from: u32,
+    /// The largest number of bodies
+    #[arg(long, value_name = "N", default_value_t = 1_048_576)]
+    to: u32,
+    /// Leave out sizes of which a step is expected to take longer than this [s]
+    #[arg(long, value_name = "S", default_value_t = 10.0)]
+    longest: f64,
+    /// Draw how the time of a step grows into this SVG: with the bodies for `tree`, with the agents otherwise
+    #[arg(long, value_name = "FILE")]
+    plot: Option<PathBuf>,
+    /// How often each thing is measured; the median counts
+    #[arg(long, value_name = "N", default_value_t = 7)]
+    repeat: usize,
+    /// An adapter, by a part of its name or by its number in `motes doctor`
+    #[arg(long, value_name = "NAME")]
+    adapter: Option<String>,
+    /// Print the result as JSON
+    #[arg(long)]
+    json: bool,
+    /// What `cargo bench` says to every bench
+    #[arg(long, hide = true)]
+    bench: bool,
+}
+
+fn main() -> Result<(), Error> {
+    pollster::block_on(bench(&Args::parse()))
+}
+
 /// Measures what was asked for.
-pub async fn bench(args: &BenchArgs) -> Result<(), Failure> {
-    let found = engine::open(gpu::adapters(&gpu::instance()).await, args.adapter.as_deref()).await?;
+async fn bench(args: &Args) -> Result<(), Failure> {
+    let choice = args.adapter.clone().map_or(gpu::Choice::Best, gpu::Choice::Named);
+    let found = gpu::open(gpu::choose(gpu::adapters(&gpu::instance()).await, &choice)?).await?;
     let cores = rayon::current_num_threads();
     if !args.json {
-        out!("{}\ncommit {}, {cores} cores, {} repeats, medians", found.describe(), commit(), args.repeat);
+        println!("{}\ncommit {}, {cores} cores, {} repeats, medians", found.describe(), commit(), args.repeat);
     }
     let mut value = json!({ "device": found.describe(), "commit": commit(), "version": env!("CARGO_PKG_VERSION"),
         "cores": cores, "repeat": args.repeat });
@@ -58,7 +117,7 @@ pub async fn bench(args: &BenchArgs) -> Result<(), Failure> {
         }
     }
     if args.json {
-        out!("{value:#}");
+        println!("{value:#}");
     }
     Ok(())
 }
@@ -66,7 +125,7 @@ pub async fn bench(args: &BenchArgs) -> Result<(), Failure> {
 /// The sizes from `--from` to `--to`, each twice the last. `measure` gives the seconds that a step took; sizes of which
 /// that is expected to be more than `--longest` are left out.
 fn sizes<R>(
-    args: &BenchArgs,
+    args: &Args,
     growth: f64,
     mut measure: impl FnMut(u32, Option<&R>) -> Result<R, Failure>,
     seconds: impl Fn(&R) -> f64,
@@ -80,21 +139,21 @@ where
         let expected = rows.last().map_or(0.0, |row| growth * seconds(row));
         if expected > args.longest {
             if !args.json {
-                out!("{count:>9}  left out: a step is expected to take {expected:.0} s (--longest)");
+                println!("{count:>9}  left out: a step is expected to take {expected:.0} s (--longest)");
             }
             break;
         }
         let row = match measure(count, rows.last()) {
-            Err(Failure::Error(Error::Limit(text) | Error::OutOfMemory(text))) if !rows.is_empty() => {
+            Err(Error::Limit(text) | Error::OutOfMemory(text)) if !rows.is_empty() => {
                 if !args.json {
-                    out!("{count:>9}  left out: {text}");
+                    println!("{count:>9}  left out: {text}");
                 }
                 break;
             }
             other => other?,
         };
         if !args.json {
-            out!("{row}");
+            println!("{row}");
         }
         rows.push(row);
         count = count.saturating_mul(2);
@@ -105,7 +164,7 @@ where
 /// Seconds of a step of a simulation and of its baseline, where there is one. Both are warm before they count, and take
 /// turns, so that what else the machine does falls on both.
 fn in_turns(
-    args: &BenchArgs,
+    args: &Args,
     simulation: &mut Simulation<Gpu>,
     mut baseline: Option<&mut dyn FnMut(u32)>,
 ) -> Result<(Vec<f64>, Vec<f64>), Failure> {
