@@ -50,8 +50,10 @@ pub(super) fn read(sections: &[(&'static str, Table<'_>)], files: &Files, most: 
         table.settings(render::KEYS, &[], report);
     }
     let largest = amounts.iter().max_by(|a, b| a.1.bytes().total_cmp(&b.1.bytes()));
-    let allowed = whole.particles <= f64::from(most);
-    if let (Some((table, _)), Some(why)) = (largest, whole.fits().err().filter(|_| allowed)) {
+    // Memory is not asked for on behalf of what is refused by its number.
+    if whole.particles <= f64::from(most)
+        && let (Some((table, _)), Err(why)) = (largest, whole.fits())
+    {
         report.push(Fault::at(table.place, why).label("ask for fewer"));
     }
     true
