@@ -193,7 +193,7 @@ fn seeds(folder: &Path) -> Vec<Seed> {
                  property list uchar int vertex_indices\nend_header\n0 0 0\n1 2 3\n3 0 1 0\n";
     seeds.push(Seed { name: "b.ply".to_owned(), bytes: ascii.into(), read: particles, beside: BUFFERS });
     seeds.push(text("a.csv", "a,b,rest,stiffness,damping,tie\n0,1,1,10,0,spring\n1,2,0.5,3,0.1,rope\n", |path| {
-        scene(LINKED, path)
+        scene(LINKED, path);
     }));
     let mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1/1/1 2//1 4\nf -1 -2 -3\n";
     seeds.push(text("a.obj", mesh, |path| scene(MESHED, path)));
