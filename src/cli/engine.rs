@@ -59,7 +59,8 @@ impl Engine {
         let rounded = if single { rounding::remarks(setup) } else { Vec::new() };
         Ok(self.own().into_iter().chain(far).chain(rounded).collect())
     }
-    fn own(&self) -> Vec<String> {
+    /// What a user should know of it.
+    pub fn own(&self) -> Vec<String> {
         match self {
             Self::Cpu(Some(reason)) => {
                 vec![format!("{reason}; running the f64 references instead, which are exact and slow")]

@@ -20,6 +20,16 @@ pub enum Failure {
 }
 
 impl Failure {
+    /// What it says.
+    pub fn words(&self) -> String {
+        match self {
+            Self::Scene(faults) => faults.to_string(),
+            Self::Error(error) => error.to_string(),
+            Self::Explained(error, more) => format!("{error}\n{more}"),
+            Self::Disagreement => "device and references disagree".to_owned(),
+            Self::Stopped => "stopped".to_owned(),
+        }
+    }
     /// Says it, and gives the exit code that `motes --help` lists.
     pub fn report(self) -> ExitCode {
         ExitCode::from(match self {

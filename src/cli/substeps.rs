@@ -49,8 +49,8 @@ pub async fn load(args: &SceneArgs, more: &[String]) -> Result<Loaded, Failure> 
             .into());
         }
         (Some(verdict), Some(parts)) => {
-            let old: Vec<String> =
-                args.overrides.iter().filter(|o| !o.trim_start().starts_with("simulation.until")).cloned().collect();
+            let all = args.overrides.iter().chain(more);
+            let old: Vec<String> = all.filter(|o| !o.trim_start().starts_with("simulation.until")).cloned().collect();
             // Rust's shortest digits are read back as the same number.
             let new = [
                 format!("simulation.dt={:?}", dt / parts as f64),
@@ -72,7 +72,7 @@ pub async fn load(args: &SceneArgs, more: &[String]) -> Result<Loaded, Failure> 
                 culprit(&verdict, &loaded.setup),
                 limit(&verdict)
             );
-            loaded = judge(engine::load_with(&divided, more)?).await?;
+            loaded = judge(engine::load_with(&divided, &[])?).await?;
             text
         }
     };

@@ -22,6 +22,13 @@ pub fn go_on(setup: &mut Setup, scene: &Scene, path: &Path) -> Result<(), Error>
         if scene.adaptive_step.is_some() {
             return refuse("is a table, which holds no clock, and steps are adaptive: give the NPZ file".to_owned());
         }
+        if let Some(given) = scene.given_dt {
+            return refuse(format!(
+                "is a table, which holds no clock, and dt = {given} does not divide the length of this run, so that its steps may have been \
+                 others: give the NPZ file, or the length of its steps with --set simulation.dt=… and an `until` that is a whole number \
+                 of these"
+            ));
+        }
         (state.step, state.time) = (step, step as f64 * scene.dt);
     }
     if state.step == 0 && state.time > 0.0 && scene.adaptive_step.is_none() {
@@ -29,6 +36,16 @@ pub fn go_on(setup: &mut Setup, scene: &Scene, path: &Path) -> Result<(), Error>
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "above 0, or saturated")]
         let steps = (state.time / scene.dt).round() as u64;
         state.step = steps;
+    }
+    if let (Some(given), true) = (scene.given_dt, state.step > 0) {
+        let made = state.time / state.step as f64;
+        if (made - scene.dt).abs() > 1e-9 * scene.dt {
+            return refuse(format!(
+                "was made by steps of {made}, and here steps are {}, so that a whole number of them ends at {} (the scene has dt = {given}): \
+                 go on with --set simulation.dt={made:?} and an `until` that is a whole number of these",
+                scene.dt, scene.until
+            ));
+        }
     }
     if setup.breaks() && !state.keeps() {
         return refuse(

@@ -76,6 +76,8 @@ pub struct Scene {
     pub about: String,
     /// The length of a step \[time\]; positive.
     pub dt: f64,
+    /// The step that the scene gives, where `dt` is made smaller so that a whole number of steps ends at `until` \[time\].
+    pub given_dt: Option<f64>,
     /// How many steps; at least one. Where they are adaptive, of the longest: others come in between.
     pub steps: u64,
     /// When it ends \[time\].
@@ -321,6 +323,7 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
         name: String::new(),
         about: String::new(),
         dt: simulation.dt,
+        given_dt: simulation.given_dt,
         steps: simulation.steps,
         until: simulation.until,
         adaptive_step: simulation.adaptive_step.map(|(adaptive_step, _)| adaptive_step),

@@ -47,6 +47,8 @@ pub(super) struct Simulation {
     pub(super) adaptive_step: Option<(AdaptiveStep, Place)>,
     /// When it ends.
     pub(super) until: f64,
+    /// The step that the scene gives, where it is made smaller so that a whole number of them ends at `until`.
+    pub(super) given_dt: Option<f64>,
     /// What the user may want to know.
     pub(super) remark: Option<String>,
 }
@@ -61,6 +63,7 @@ pub(super) fn read(table: Option<&Table<'_>>, report: &mut Report) -> Simulation
         integrator_settings,
         adaptive_step: None,
         until: 1.0,
+        given_dt: None,
         remark: None,
     };
     let Some(table) = table else {
@@ -102,6 +105,7 @@ pub(super) fn read(table: Option<&Table<'_>>, report: &mut Report) -> Simulation
                     if let Some((dt, remark)) = divided(until, simulation.dt, steps) {
                         // How long adaptive steps are, is found as they go.
                         if !settings.flag("adaptive") {
+                            simulation.given_dt = Some(simulation.dt);
                             simulation.dt = dt;
                             simulation.remark = Some(remark);
                         }
@@ -177,7 +181,8 @@ fn divided(until: f64, dt: f64, steps: u64) -> Option<(f64, String)> {
     let even = until / count;
     let text = || {
         format!(
-            "until = {until:?} is no whole number of steps of dt = {dt:?}: {steps} steps of dt = {even:?} are made, which end there"
+            "until = {until:?} is no whole number of steps of dt = {dt:?}: {} of dt = {even:?} reach it",
+            if steps == 1 { "one step".to_owned() } else { format!("{steps} steps") }
         )
     };
     ((count * dt - until).abs() > 1e-6 * dt.max(until * 1e-6)).then(|| (even, text()))

@@ -27,7 +27,7 @@ pub(super) fn counted(setup: &Setup, problem: Problem) -> Result<Problem, Error>
     // A run that goes on, or has got more rows, keeps the room that it had.
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
     let room = setup.state.kept.get(KEPT_ROOM).and_then(|list| list.first()).map_or(0, |room| *room as u32);
-    let kept = room.max(u32::try_from(pair_history::longest(&setup.state)).unwrap_or(u32::MAX));
+    let kept = room.min(count).max(u32::try_from(pair_history::longest(&setup.state)).unwrap_or(u32::MAX));
     let capacity = if kept < most { shape.capacity } else { kept.div_ceil(4).saturating_mul(4) };
     Ok(problem.listed(Some(ListShape { capacity, ..shape })))
 }

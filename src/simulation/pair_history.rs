@@ -53,7 +53,12 @@ pub(super) fn longest(state: &State) -> usize {
 /// The number of words of each pair of a state, if it says anything of pairs.
 pub(super) fn width(state: &State) -> Option<usize> {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
-    state.kept.get(KEPT_PAIR_WORDS).and_then(|list| list.first()).map(|words| *words as usize)
+    state
+        .kept
+        .get(KEPT_PAIR_WORDS)
+        .and_then(|list| list.first())
+        .filter(|words| words.fract() == 0.0)
+        .map(|words| *words as usize)
 }
 
 /// Two rows and their words, one pair behind another.
@@ -77,21 +82,27 @@ fn pairs(state: &State, words: u32) -> Result<Pairs, Error> {
              made with, or `state.begin_anew()`"
         )));
     }
+    let refuse = |what: &str| {
+        let text =
+            format!("the state's history of pairs {what}: take the state as it was written, or `state.begin_anew()`");
+        Err(Error::Scene(text))
+    };
+    let count = state.len();
+    if state.kept.get(KEPT_PAIRS).is_some_and(|list| list.len() % (width + 2) != 0) {
+        return refuse(&format!("is no whole number of pairs of {} numbers each", width + 2));
+    }
     let mut pairs = Pairs::new();
     for group in groups(state) {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates, and is compared")]
         let rows = [group[0] as u32, group[1] as u32];
-        let is_row = |(row, number): (&u32, &f64)| {
-            f64::from(*row).to_bits() == number.to_bits() && (*row as usize) < state.len()
-        };
-        if !rows.iter().zip(group).all(is_row) || group[2..].iter().any(|x| !x.is_finite()) || rows[0] == rows[1] {
-            return Err(Error::Scene(format!(
-                "the state's history of pairs names {group:?}, which are not two of its {} particles and finite numbers: take the state \
-                 as it was written",
-                state.len()
-            )));
+        let is_row =
+            |(row, number): (&u32, &f64)| f64::from(*row).to_bits() == number.to_bits() && (*row as usize) < count;
+        if !rows.iter().zip(group).all(is_row) || rows[0] == rows[1] {
+            return refuse(&format!("names the particles {:?}, which are not two of its {count}", &group[..2]));
         }
-        pairs.insert(rows, group[2..].to_vec());
+        if pairs.insert(rows, group[2..].to_vec()).is_some() {
+            return refuse(&format!("names the particles {rows:?} twice"));
+        }
     }
     Ok(pairs)
 }
@@ -122,7 +133,7 @@ impl<B: Backend> Simulation<B> {
                 let other = list[List::place(k, n, capacity)];
                 let values: Vec<f64> =
                     (0..words).map(|w| history[List::word([k, n, half, w], words, capacity)]).collect();
-                if id != NONE && stayed(id) && stayed(other) && values.iter().any(|x| *x != 0.0) {
+                if id != NONE && stayed(id) && stayed(other) && values.iter().any(|x| x.to_bits() != 0) {
                     pairs.insert([id, other], values);
                 }
             }
@@ -165,5 +176,47 @@ impl<B: Backend> Simulation<B> {
         self.backend.write(HISTORY, &Array::Float(history))?;
         self.backend.write(LIST_ORIGIN, &Array::Vec4(vec![ELSEWHERE; capacity]))?;
         self.backend.write(LIST_STATE, &Array::Uint(moved))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+
+    fn state(words: f64, numbers: &[f64]) -> State {
+        let mut state = State::default();
+        (0..3).for_each(|k| state.push(DVec3::splat(f64::from(k)), DVec3::ZERO, 1.0, 0.0));
+        state.step = 7;
+        state.kept.put(KEPT_PAIR_WORDS, vec![words]);
+        state.kept.put(KEPT_PAIRS, numbers.to_vec());
+        state
+    }
+
+    #[test]
+    fn pairs_that_make_no_sense_are_refused() {
+        let good = [0.0, 2.0, -0.0, f64::NAN, 2.0, 0.0, f64::INFINITY, 5.0];
+        let known = pairs(&state(2.0, &good), 2).expect("two pairs");
+        assert!(
+            known[&[0, 2]][0].is_sign_negative()
+                && known[&[0, 2]][1].is_nan()
+                && known[&[2, 0]] == [f64::INFINITY, 5.0]
+        );
+        for (words, numbers, why) in [
+            (2.0, &good[..7], "no whole number of pairs"),
+            (2.0, &[0.0, 3.0, 1.0, 1.0], "[0.0, 3.0]"),
+            (2.0, &[1.0, 1.0, 1.0, 1.0], "[1.0, 1.0]"),
+            (2.0, &[0.5, 1.0, 1.0, 1.0], "[0.5, 1.0]"),
+            (2.0, &[-0.0, 1.0, 1.0, 1.0], "[-0.0, 1.0]"),
+            (2.0, &[0.0, 1.0, 1.0, 1.0, 0.0, 1.0, 1.0, 1.0], "[0, 1] twice"),
+            (1.0, &[0.0, 1.0, 1.0], "1 numbers for each pair"),
+            (1.9, &[0.0, 1.0, 1.0], "holds nothing"),
+        ] {
+            match pairs(&state(words, numbers), 2) {
+                Err(Error::Scene(text)) => assert!(text.contains(why), "{why}: {text}"),
+                other => panic!("{numbers:?}: {other:?}"),
+            }
+        }
     }
 }

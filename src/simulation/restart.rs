@@ -20,7 +20,9 @@ use crate::life::Life;
 use crate::links::Links;
 use crate::motion;
 use crate::sph::{DFSPH_ERRORS, DFSPH_REPORT};
-use crate::state::{KEPT, KEPT_BROKEN, KEPT_EXTENT, KEPT_HOME, KEPT_PAIRS, KEPT_ROOM, KEPT_ROWS, KEPT_STEP, State};
+use crate::state::{
+    KEPT, KEPT_BROKEN, KEPT_EXTENT, KEPT_HOME, KEPT_PAIR_WORDS, KEPT_PAIRS, KEPT_ROOM, KEPT_ROWS, KEPT_STEP, State,
+};
 
 /// How far time and step may disagree, as a part of a step: 2³² steps of a time in double precision.
 const AGREEMENT: f64 = 1e-6;
@@ -162,6 +164,9 @@ fn mark(step: u64, state: &State) -> Vec<f64> {
         print.add(&[link.ends[0].to_le_bytes(), link.ends[1].to_le_bytes()].concat());
         [link.rest, link.stiffness, link.damping].iter().for_each(|x| print.add(&x.to_bits().to_le_bytes()));
         print.add(&[u8::from(link.rope)]);
+    }
+    for name in [KEPT_PAIRS, KEPT_PAIR_WORDS] {
+        state.kept.get(name).unwrap_or_default().iter().for_each(|x| print.add(&x.to_bits().to_le_bytes()));
     }
     [print.0 >> 32, print.0 & 0xffff_ffff].map(|word| word as f64).to_vec()
 }

@@ -2,22 +2,21 @@
 
 mod outcome;
 mod picture;
+mod runs;
 mod table;
 mod vary;
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
 use std::time::Instant;
 
-use motes::run::{Options, Run, Stop};
-use motes::{Cpu, Error, Simulation};
+use motes::Error;
 use serde_json::json;
 
-use super::args::{DeviceArgs, SceneArgs, SweepArgs};
-use super::engine::Engine;
+use super::args::{SceneArgs, SweepArgs};
 use super::failure::Failure;
 use super::{stop, substeps};
-use outcome::{Ended, Outcome};
+use outcome::Ended;
 use vary::Varied;
 
 /// So many runs are made at most.
@@ -29,83 +28,91 @@ const NO_FILES: [&str; 2] = ["output.formats=[]", "output.frames=0"];
 pub async fn sweep(args: &SweepArgs) -> Result<(), Failure> {
     let varied = args.vary.iter().map(|text| Varied::parse(text)).collect::<Result<Vec<_>, _>>()?;
     vary::check(&varied)?;
-    let cases = vary::combinations(&varied);
-    if cases.len() > MOST {
-        let text = format!("{} combinations are to be run, and {MOST} are the most: give fewer values", cases.len());
+    settled(args, &varied)?;
+    let count = varied.iter().fold(1_usize, |count, one| count.saturating_mul(one.values.len()));
+    if count > MOST {
+        let text = format!("{count} combinations are to be run, and {MOST} are the most: give fewer values");
         return Err(Error::Scene(text).into());
     }
-    let args = &plain(args);
+    let (args, cases) = (&plain(args), vary::combinations(&varied));
     // What is wrong with any of them is said before the first one runs.
+    let (mut name, mut remarks) = (String::new(), BTreeSet::new());
     for case in &cases {
-        substeps::load(&args.scene, case).await?;
+        let scene = substeps::load(&args.scene, case).await?.scene;
+        remarks.extend(scene.remarks.iter().map(|remark| format!("{}: {remark}", case.join(" "))));
+        name = scene.name;
     }
-    let name = substeps::load(&args.scene, &cases[0]).await?.scene.name;
     let output = args.output.clone().unwrap_or_else(|| PathBuf::from("out").join(format!("{name}_sweep")));
-    let names: Vec<String> = if args.adapters.is_empty() { vec![String::new()] } else { args.adapters.clone() };
-    let mut engines = Vec::new();
-    for name in names {
-        let adapter = Some(name).filter(|name| !name.is_empty()).or_else(|| args.scene.device.adapter.clone());
-        engines.push(Engine::choose(&DeviceArgs { adapter, ..args.scene.device.clone() }).await?);
-    }
+    let engines = runs::Engines::open(args).await?;
+    let (csv, svg) = files(&output, args.overwrite)?;
+    remarks.extend(engines.remarks());
+    remarks.iter().for_each(|remark| args.said(&format!("note: {remark}")));
     let (stop, begun) = (stop::listen(&args.stop), Instant::now());
-    let left = Mutex::new(cases.iter().enumerate());
-    let found: Mutex<Vec<Option<Outcome>>> = Mutex::new(cases.iter().map(|_| None).collect());
-    std::thread::scope(|scope| {
-        for engine in &engines {
-            let (left, found, stop, output, of) = (&left, &found, &stop, &output, cases.len());
-            scope.spawn(move || {
-                while !stop.is_asked() {
-                    let Some((place, case)) = left.lock().ok().and_then(|mut left| left.next()) else { return };
-                    let folder = output.join(vary::folder(case));
-                    let outcome = pollster::block_on(one(args, case, engine, &folder, stop));
-                    args.said(&format!("{:>3} of {}  {}  {}", place + 1, of, case.join(" "), outcome.words()));
-                    if let Ok(mut found) = found.lock() {
-                        found[place] = Some(outcome);
-                    }
-                }
-            });
-        }
-    });
-    let found = found.into_inner().unwrap_or_default();
+    let found = runs::all(args, &cases, &engines, &output, &stop);
     let ended: Vec<Ended<'_>> = outcome::compared(&cases, &found);
-    if ended.is_empty() {
-        return Err(Failure::Stopped);
-    }
-    std::fs::create_dir_all(&output).map_err(|why| Error::Output { file: output.clone(), message: why.to_string() })?;
-    let files = (output.join("sweep.csv"), output.join("sweep.svg"));
-    table::write(&files.0, &varied, &ended)?;
-    let drawn = picture::draw(&files.1, &name, &varied, &ended)?;
+    table::write(&csv, &varied, &ended)?;
+    let drawn = picture::draw(&svg, &name, &varied, &ended)?;
     let order = outcome::order(&varied, &ended);
     if !outcome::end_together(&found) {
-        args.said(
-            "the runs end at different times, and their ends are compared only where these are the same: give --until",
-        );
+        args.said("the runs end at different times, and final states are compared only at the same time: give --until");
     }
     if args.show.json {
         let rows: Vec<_> = ended.iter().map(|one| one.json(&varied)).collect();
-        let value = json!({ "scene": name, "device": engines.iter().map(Engine::describe).collect::<Vec<_>>(), "runs": rows,
-            "order": order, "output": output, "seconds": begun.elapsed().as_secs_f64() });
+        let value = json!({ "scene": name, "device": engines.names(), "runs": rows, "order": order, "output": output,
+            "seconds": begun.elapsed().as_secs_f64() });
         out!("{value:#}");
     } else if !args.show.quiet {
         out!("\n{}", table::text(&varied, &ended));
-        order.into_iter().for_each(|order| {
-            out!("ends differ from that of the last run as {} to the power {order:.2}", varied[0].key);
-        });
-        out!("{}{}", files.0.display(), if drawn { format!(", {}", files.1.display()) } else { String::new() });
+        order.into_iter().for_each(|order| out!("estimated order of convergence: {order:.2}"));
+        out!("{}{}", csv.display(), if drawn { format!(", {}", svg.display()) } else { String::new() });
     }
     if stop.is_asked() {
         return Err(Failure::Stopped);
     }
-    // Where nothing came to its end there is nothing to compare.
-    match ended.iter().find_map(|one| one.error.as_ref()).filter(|_| ended.iter().all(|one| one.error.is_some())) {
-        Some(text) => Err(Error::Scene(format!("no run came to its end; the first failed so: {text}")).into()),
-        None => Ok(()),
+    // Where nothing came to its end there is nothing to compare: the first failure is that of the sweep.
+    if ended.iter().any(|one| one.error.is_none()) {
+        return Ok(());
     }
+    args.said("no run came to its end; the first failed so:");
+    found.into_iter().flatten().find_map(outcome::Outcome::failure).map_or(Ok(()), Err)
+}
+
+/// Refuses to vary what another argument sets.
+fn settled(args: &SweepArgs, varied: &[Varied]) -> Result<(), Error> {
+    let set = [("simulation.until", args.scene.until.is_some()), ("simulation.steps", args.scene.steps.is_some())];
+    let length = ["simulation.until", "simulation.steps"];
+    let clash = varied.iter().find(|one| {
+        set.iter().any(|(key, is_set)| *is_set && length.contains(&one.key.as_str()) && length.contains(key))
+    });
+    clash.map_or(Ok(()), |one| {
+        Err(Error::Scene(format!(
+            "{} is varied, and --until or --steps sets how long all runs are: leave one of them",
+            one.key
+        )))
+    })
+}
+
+/// The table and the plot. Those of an earlier sweep are removed only where that is asked for.
+fn files(output: &Path, overwrite: bool) -> Result<(PathBuf, PathBuf), Error> {
+    let failed = |file: &Path, message: String| Error::Output { file: file.to_owned(), message };
+    std::fs::create_dir_all(output).map_err(|why| failed(output, why.to_string()))?;
+    let [csv, svg] = ["sweep.csv", "sweep.svg"].map(|name| output.join(name));
+    if csv.exists() && !overwrite {
+        return Err(failed(
+            output,
+            "the folder holds an earlier sweep: choose another with -o, or remove it with --overwrite".to_owned(),
+        ));
+    }
+    for file in [&csv, &svg].into_iter().filter(|file| file.exists()) {
+        std::fs::remove_file(file).map_err(|why| failed(file, why.to_string()))?;
+    }
+    Ok((csv, svg))
 }
 
 /// The same without pictures and snapshots, unless they are asked for.
 fn plain(args: &SweepArgs) -> SweepArgs {
-    let asked = args.scene.overrides.iter().chain(&args.vary).any(|set| set.trim_start().starts_with("output."));
+    let set = |key: &str| args.scene.overrides.iter().chain(&args.vary).any(|set| set.trim_start().starts_with(key));
+    let asked = set("output.formats") || set("output.frames");
     let none = NO_FILES.iter().filter(|_| !asked).map(|set| (*set).to_owned());
     let overrides = args.scene.overrides.iter().cloned().chain(none).collect();
     SweepArgs { scene: SceneArgs { overrides, ..args.scene.clone() }, ..args.clone() }
@@ -117,43 +124,5 @@ impl SweepArgs {
         if !self.show.json && !self.show.quiet {
             note!("{text}");
         }
-    }
-}
-
-/// One of the runs, into a folder of its own.
-async fn one(args: &SweepArgs, case: &[String], engine: &Engine, folder: &Path, stop: &Stop) -> Outcome {
-    let made = async {
-        let loaded = substeps::load(&args.scene, case).await.map_err(words)?;
-        let (scene, setup) = (loaded.scene, loaded.setup);
-        let options = Options {
-            overwrite: args.overwrite,
-            device: engine.describe(),
-            precision: engine.precision(),
-            stop: stop.clone(),
-            ..Options::into(folder)
-        };
-        let mut run = Run::new(scene, &setup, options).map_err(|error| error.to_string())?;
-        let end = match engine {
-            Engine::Gpu(found) => {
-                let simulation = Simulation::new(&found.device, &found.queue, &setup);
-                let driven = run.drive(&mut simulation.map_err(|e| e.to_string())?, &mut ()).await;
-                found.faults.check().and(driven)
-            }
-            Engine::Cpu(_) => {
-                let host = setup.check().and_then(Cpu::new).and_then(|host| Simulation::on(host, &setup));
-                run.drive(&mut host.map_err(|e| e.to_string())?, &mut ()).await
-            }
-        };
-        end.map(|end| (run, end)).map_err(|error| error.to_string())
-    };
-    Outcome::of(made.await)
-}
-
-fn words(failure: Failure) -> String {
-    match failure {
-        Failure::Scene(faults) => faults.to_string(),
-        Failure::Error(error) => error.to_string(),
-        Failure::Explained(error, more) => format!("{error}\n{more}"),
-        Failure::Disagreement | Failure::Stopped => "stopped".to_owned(),
     }
 }

@@ -1,17 +1,20 @@
 //! What came of a run, and how far its end is from that of another.
 
+use std::path::Path;
 use std::time::Duration;
 
 use motes::run::{End, Run};
-use motes::{Measure, State};
+use motes::{Bounds, Measure, State};
 use serde_json::{Value, json};
 
 use super::vary::Varied;
+use crate::cli::failure::Failure;
 
 /// What a run left.
 pub struct Outcome {
     /// Its measurements and its last state, or why it did not come to its end.
-    result: Result<Left, String>,
+    result: Result<Left, Failure>,
+    error: Option<String>,
     steps: u64,
     /// How long its steps took.
     took: Duration,
@@ -22,6 +25,7 @@ struct Left {
     ends: [Measure; 2],
     change: f64,
     state: State,
+    bounds: Bounds,
 }
 
 /// A run beside the others.
@@ -30,6 +34,8 @@ pub struct Ended<'a> {
     pub case: &'a [String],
     pub steps: u64,
     pub seconds: f64,
+    /// The length of its steps, in the mean \[time\].
+    pub dt: f64,
     /// The change of the total energy from the first measurement to the last, relative to the first, and the largest on the way.
     pub energy: f64,
     pub worst_energy: f64,
@@ -44,21 +50,32 @@ pub struct Ended<'a> {
 
 impl Outcome {
     /// Of a run that was made.
-    pub fn of(made: Result<(Run, End), String>) -> Self {
+    pub fn of(made: Result<(Run, End), Failure>) -> Self {
         let (steps, took) = made.as_ref().map_or((0, Duration::ZERO), |(_, end)| (end.steps, end.stepping));
         let result = made.and_then(|(run, end)| {
             let ends = [run.energies.first(), run.energies.rows().last().copied().unwrap_or_default()];
-            let state = run.last.ok_or("it left no state")?;
-            if end.stopped { Err("stopped".to_owned()) } else { Ok(Left { ends, change: run.looks.change, state }) }
+            let (bounds, change) = (run.scene().bounds, run.looks.change);
+            let state = run.last.filter(|_| !end.stopped).ok_or(Failure::Stopped)?;
+            Ok(Left { ends, change, state, bounds })
         });
-        Self { result, steps, took }
+        let error = result.as_ref().err().map(Failure::words);
+        Self { result, error, steps, took }
     }
     /// In a few words.
-    pub fn words(&self) -> String {
-        match &self.result {
-            Ok(_) => format!("{} steps in {:.2} s", self.steps, self.took.as_secs_f64()),
-            Err(error) => format!("failed: {}", error.lines().next().unwrap_or_default()),
+    pub fn words(&self, folder: &Path) -> String {
+        match (&self.result, &self.error) {
+            (Err(Failure::Stopped), _) => format!("stopped; motes resume {} goes on with it", folder.display()),
+            (_, Some(error)) => format!("failed: {}", error.lines().next().unwrap_or_default()),
+            _ => format!("{} steps in {:.2} s", self.steps, self.took.as_secs_f64()),
         }
+    }
+    /// Whether it did not come to its end, and was not stopped.
+    pub fn has_failed(&self) -> bool {
+        matches!(&self.result, Err(failure) if !matches!(failure, Failure::Stopped))
+    }
+    /// Why.
+    pub fn failure(self) -> Option<Failure> {
+        self.result.err()
     }
 }
 
@@ -76,13 +93,16 @@ pub fn compared<'a>(cases: &'a [Vec<String>], found: &'a [Option<Outcome>]) -> V
             worst_energy: f64::NAN,
             momentum: f64::NAN,
             difference: None,
-            error: one.result.as_ref().err().map(String::as_str),
+            dt: f64::NAN,
+            error: one.error.as_deref(),
         };
-        if let Ok(Left { ends: [first, end], change, state }) = &one.result {
+        if let Ok(Left { ends: [first, end], change, state, bounds }) = &one.result {
+            ended.dt = state.time / state.step as f64;
             ended.energy = end.drift_from(first);
             ended.worst_energy = if first.total() == 0.0 { *change } else { change / first.total().abs() };
             ended.momentum = (end.momentum - first.momentum).length();
-            ended.difference = reference.filter(|_| Some(place) != last).and_then(|other| apart(state, &other.state));
+            ended.difference =
+                reference.filter(|_| Some(place) != last).and_then(|other| apart(bounds, [state, &other.state]));
         }
         ended
     };
@@ -100,35 +120,28 @@ pub fn end_together(found: &[Option<Outcome>]) -> bool {
     states.next().is_none_or(|first| states.all(|other| simultaneous(first, other)))
 }
 
-/// How far the particles of two states of one time are from each other, by their ids.
-fn apart(a: &State, b: &State) -> Option<[f64; 2]> {
+/// How far the particles of two states of one time are from each other, by their ids and to the nearest image.
+fn apart(bounds: &Bounds, [a, b]: [&State; 2]) -> Option<[f64; 2]> {
     if !simultaneous(a, b) || a.len() != b.len() || a.ids() != b.ids() || a.is_empty() {
         return None;
     }
-    let squares = || a.position().iter().zip(b.position()).map(|(x, y)| (*x - *y).length_squared());
+    let squares = || a.position().iter().zip(b.position()).map(|(x, y)| bounds.shortest(*x - *y).length_squared());
     Some([(squares().sum::<f64>() / a.len() as f64).sqrt(), squares().fold(0.0, f64::max).sqrt()])
 }
 
-/// The power of a varied number with which differences from the last run fall, by least squares of their logarithms; `None` unless
-/// one number above 0 is varied and three runs or more differ from the last. The last run is taken for exact.
+/// The order of convergence, where steps alone are varied and fall from run to run: by least squares of the logarithms of differences
+/// from the last run, which is taken for exact, over those of steps; `None` where fewer than three runs differ from it.
 pub fn order(varied: &[Varied], ended: &[Ended<'_>]) -> Option<f64> {
-    let [one] = varied else { return None };
-    let numbers = one.numbers()?;
-    if numbers.len() != ended.len() {
+    let falls = ended.windows(2).all(|two| two[1].dt < two[0].dt);
+    if varied.len() != 1 || varied[0].key != "simulation.dt" || !falls {
         return None;
     }
-    let points: Vec<[f64; 2]> = numbers
-        .iter()
-        .zip(ended)
-        .filter_map(|(x, one)| Some([*x, one.difference?[0]]))
-        .filter(|point| point.iter().all(|x| *x > 0.0))
-        .map(|point| point.map(f64::ln))
-        .collect();
+    let points: Vec<[f64; 2]> =
+        ended.iter().filter_map(|one| Some([one.dt.ln(), one.difference.filter(|d| d[0] > 0.0)?[0].ln()])).collect();
     if points.len() < 3 {
         return None;
     }
-    let count = points.len() as f64;
-    let mean = |k: usize| points.iter().map(|point| point[k]).sum::<f64>() / count;
+    let mean = |k: usize| points.iter().map(|point| point[k]).sum::<f64>() / points.len() as f64;
     let [mx, my] = [mean(0), mean(1)];
     let sum = |f: &dyn Fn(&[f64; 2]) -> f64| points.iter().map(f).sum::<f64>();
     let slope = sum(&|p| (p[0] - mx) * (p[1] - my)) / sum(&|p| (p[0] - mx) * (p[0] - mx));
@@ -144,7 +157,7 @@ impl Ended<'_> {
     pub fn json(&self, varied: &[Varied]) -> Value {
         let set: serde_json::Map<String, Value> =
             varied.iter().zip(self.values()).map(|(one, value)| (one.key.clone(), json!(value))).collect();
-        json!({ "set": set, "steps": self.steps, "seconds": self.seconds, "energy_error": self.energy,
+        json!({ "set": set, "steps": self.steps, "dt": self.dt, "seconds": self.seconds, "energy_error": self.energy,
             "worst_energy_error": self.worst_energy, "momentum_change": self.momentum,
             "difference_rms": self.difference.map(|d| d[0]), "difference_max": self.difference.map(|d| d[1]), "error": self.error })
     }

@@ -12,7 +12,7 @@ use super::vary::Varied;
 
 const SIZE: (u32, u32) = (960, 600);
 const ENERGY: RGBColor = RGBColor(150, 40, 110);
-const APART: RGBColor = RGBColor(36, 104, 196);
+const DIFFERENCE: RGBColor = RGBColor(36, 104, 196);
 
 type Points = Vec<(f64, f64)>;
 
@@ -30,8 +30,8 @@ pub fn draw(path: &Path, name: &str, varied: &[Varied], ended: &[Ended<'_>]) -> 
         points
     };
     let lines = [
-        ("worst energy error", ENERGY, points(&|one| Some(one.worst_energy))),
-        ("apart from the last run (rms)", APART, points(&|one| one.difference.map(|d| d[0]))),
+        ("largest energy error", ENERGY, points(&|one| Some(one.worst_energy))),
+        ("difference from the last run (rms)", DIFFERENCE, points(&|one| one.difference.map(|d| d[0]))),
     ];
     if lines.iter().all(|(_, _, points)| points.len() < 2) {
         return Ok(false);

@@ -9,8 +9,16 @@ use motes::formats::atomically;
 use super::outcome::Ended;
 use super::vary::Varied;
 
-const COLUMNS: [&str; 7] =
-    ["steps", "seconds", "energy_error", "worst_energy_error", "momentum_change", "difference_rms", "difference_max"];
+const COLUMNS: [&str; 8] = [
+    "steps",
+    "dt",
+    "seconds",
+    "energy_error",
+    "worst_energy_error",
+    "momentum_change",
+    "difference_rms",
+    "difference_max",
+];
 
 fn numbers(one: &Ended<'_>) -> [Option<f64>; 5] {
     let some = |x: f64| Some(x).filter(|x| x.is_finite());
@@ -37,7 +45,7 @@ pub fn write(path: &Path, varied: &[Varied], ended: &[Ended<'_>]) -> Result<(), 
             .iter()
             .map(|value| if value.contains([',', '"']) { quoted(value) } else { (*value).to_owned() })
             .collect();
-        words.extend([one.steps.to_string(), format!("{:?}", one.seconds)]);
+        words.extend([one.steps.to_string(), format!("{:?}", one.dt), format!("{:?}", one.seconds)]);
         words.extend(numbers(one).map(|x| x.map_or_else(String::new, |x| format!("{x:?}"))));
         words.push(one.error.map_or_else(String::new, quoted));
         text += &(words.join(",") + "\n");
@@ -47,7 +55,7 @@ pub fn write(path: &Path, varied: &[Varied], ended: &[Ended<'_>]) -> Result<(), 
 
 /// The same for eyes.
 pub fn text(varied: &[Varied], ended: &[Ended<'_>]) -> String {
-    let head = ["steps", "seconds", "energy error", "worst", "momentum", "apart (rms)", "at most"];
+    let head = ["steps", "seconds", "energy error", "largest", "momentum", "difference (rms)", "largest"];
     let mut rows: Vec<Vec<String>> =
         vec![varied.iter().map(|one| one.key.as_str()).chain(head).map(str::to_owned).collect()];
     for one in ended {
@@ -73,6 +81,6 @@ pub fn text(varied: &[Varied], ended: &[Ended<'_>]) -> String {
         });
         cells.collect::<Vec<_>>().join("  ")
     };
-    let what = "apart: how far particles end from those of the last run that came to its end";
+    let what = "difference: of the final positions from those of the last run that came to its end";
     rows.iter().map(line).chain([what.to_owned()]).collect::<Vec<_>>().join("\n")
 }

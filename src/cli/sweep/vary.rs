@@ -2,6 +2,9 @@
 
 use motes::Error;
 
+/// Characters of values in the name of a folder.
+const LONGEST: usize = 120;
+
 /// A key and its values, as they are written.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Varied {
@@ -30,7 +33,12 @@ impl Varied {
         if values.iter().any(String::is_empty) {
             return Err(wrong("a value is empty"));
         }
-        if let Some((_, twice)) = values.iter().enumerate().find(|(place, value)| values[..*place].contains(value)) {
+        let same = |a: &String, b: &String| {
+            let number = |text: &String| text.parse::<f64>().ok().map(f64::to_bits);
+            a == b || number(a).is_some() && number(a) == number(b)
+        };
+        let twice = |(place, value): &(usize, &String)| values[..*place].iter().any(|other| same(other, value));
+        if let Some((_, twice)) = values.iter().enumerate().find(twice) {
             return Err(wrong(&format!("{twice} is there twice")));
         }
         Ok(Self { key: key.to_owned(), values })
@@ -79,11 +87,12 @@ pub fn combinations(all: &[Varied]) -> Vec<Vec<String>> {
     })
 }
 
-/// The name of a folder for a combination: its values, without characters that systems refuse.
-pub fn folder(case: &[String]) -> String {
-    let plain = |c: char| if c.is_ascii_alphanumeric() || "=.-+_".contains(c) { c } else { '_' };
+/// The name of a folder for one of so many combinations: its number and its values, without characters that systems refuse.
+pub fn folder(place: usize, of: usize, case: &[String]) -> String {
+    let plain = |c: char| if c.is_ascii_alphanumeric() || "=.-+".contains(c) { c } else { '_' };
     let words = case.iter().map(|set| set.chars().map(plain).collect::<String>());
-    words.collect::<Vec<_>>().join(",")
+    let words: String = words.collect::<Vec<_>>().join(",").chars().take(LONGEST).collect();
+    format!("{:0width$}_{words}", place + 1, width = of.to_string().len())
 }
 
 #[cfg(test)]
@@ -97,16 +106,15 @@ mod tests {
         assert_eq!(one.numbers(), None);
         let two = Varied::parse(" a.b = 1,2.5e-3 ").expect("two values");
         assert_eq!((two.key.as_str(), two.numbers()), ("a.b", Some(vec![1.0, 2.5e-3])));
-        for wrong in ["a", "=1", "a=", "a=1,,2", "a=1,1"] {
+        for wrong in ["a", "=1", "a=", "a=1,,2", "a=1,1", "a=0.1,0.10", "a=1e-1,0.1"] {
             assert!(Varied::parse(wrong).is_err(), "{wrong}");
         }
         assert_eq!(combinations(&[one, two]).len(), 4);
     }
     #[test]
     fn folders_have_plain_names() {
-        assert_eq!(
-            folder(&["simulation.dt=0.1".to_owned(), "a.b=[1, ../2]".to_owned()]),
-            "simulation.dt=0.1,a.b=_1__.._2_"
-        );
+        let case = ["simulation.dt=0.1".to_owned(), "a.b=[1, ../2]".to_owned()];
+        assert_eq!(folder(4, 120, &case), "005_simulation.dt=0.1,a.b=_1__.._2_");
+        assert!(folder(0, 9, &["x=".to_owned() + &"y".repeat(500)]).len() < 130);
     }
 }

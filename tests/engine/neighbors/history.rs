@@ -236,14 +236,24 @@ fn goes_on<B: Backend>(whole: &Setup, stops: &[u64], on: impl Fn(&Setup) -> Simu
     for (column, values) in want.columns() {
         assert!(got.get(&column.name) == Some(values), "{} is other after {stops:?}", column.name);
     }
-    if !want.births.is_empty() {
-        return;
-    }
-    // Without what pairs remember it would be another run.
-    let mut forgotten = on(&Setup { state: want.begin_anew(), ..whole.clone() });
-    forgotten.step(9).expect("steps");
-    step(&mut never, last + 9);
-    assert!(snapshot(&mut forgotten).position() != snapshot(&mut never).position(), "history does nothing");
+}
+
+/// Where a force goes by history alone, a run that forgets it is another one.
+#[test]
+fn history_does_something() {
+    let shared = support::device();
+    let whole = setup(&flock(), Bounds::default(), Box::new(Steps { skin: 0.1 }), DT);
+    let mut simulation = on(&shared, variants(&shared)[0].1, &whole);
+    simulation.step(20).expect("steps");
+    let state = pollster::block_on(simulation.snapshot()).expect("a state");
+    let after = |state: State| {
+        let mut simulation = on(&shared, variants(&shared)[0].1, &Setup { state, ..whole.clone() });
+        simulation.step(9).expect("steps");
+        positions(&mut simulation)
+    };
+    simulation.step(9).expect("steps");
+    assert_eq!(after(state.clone()), positions(&mut simulation));
+    assert_ne!(after(state.begin_anew()), positions(&mut simulation));
 }
 
 #[test]

@@ -81,9 +81,7 @@ fn a_scene_of_everything_reloads_as_the_same() {
     assert_eq!(scene.about, "What one\n  should see: \"quotes\" and \\ and é.");
     assert_eq!(
         scene.remarks,
-        [
-            "until = 1.0 is no whole number of steps of dt = 0.30000000000000004: 4 steps of dt = 0.25 are made, which end there"
-        ]
+        ["until = 1.0 is no whole number of steps of dt = 0.30000000000000004: 4 steps of dt = 0.25 reach it"]
     );
     assert_eq!((scene.dt.to_bits(), scene.steps), (0.25_f64.to_bits(), 4));
     let formats: Vec<&str> = scene.output.formats.iter().map(|format| format.name).collect();
