@@ -21,8 +21,8 @@ struct Frame {
     points: u32,   // of all trails together
     sky: f32,      // brightness of the background
     line: f32,     // half the width of a trail [pixels]
-    bloom: f32,    // brightness of the halo
-    reach: u32,    // of the halo [pixels of it]
+    bloom: f32,    // brightness of the bloom
+    reach: u32,    // of the bloom [pixels of it]
     tail: f32,     // how long ago a stroke of light begins [time]
     bleach: f32,   // how white the brightest lights become
     ink: f32,      // how far particles darken a bright sky; 0 for lights in a dark one
@@ -38,7 +38,7 @@ struct Frame {
     oblate: f32,   // how far a drop's rim is behind its front [drop]
     grain: f32,    // parts in which the thickness of a drop is counted
     layer: f32,    // thickness that one of those stands for [length]
-    murk: f32,     // how much a fluid absorbs [1 / length]
+    absorption: f32,     // how much a fluid absorbs [1 / length]
     stain: f32,    // how much less of its own colour
     foam: f32,     // the speed from which on it is white
     range: f32,    // how much farther and nearer the same surface may be, and how wide it is made smooth [drop]

@@ -3,7 +3,7 @@
 @group(1) @binding(0) var<storage, read> position: array<vec4f>;             // xyz, mass
 @group(1) @binding(1) var<storage, read> velocity: array<vec4f>;             // xyz, radius
 @group(1) @binding(2) var<storage, read_write> projected: array<vec4f>;      // pixels right and down, depth of its front, radius
-@group(3) @binding(1) var<storage, read_write> missed: array<atomic<u32>>;   // out of the picture, not a number
+@group(3) @binding(1) var<storage, read_write> not_drawn: array<atomic<u32>>;   // out of the picture, not a number
 
 const WORKGROUP: u32 = 64u;
 const HIDDEN: f32 = -1.0;
@@ -24,7 +24,7 @@ fn project(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups:
         let v = velocity[i];
         var result = vec4f(0.0, 0.0, 0.0, HIDDEN);
         if broken(x) || broken(v) {
-            atomicAdd(&missed[1], 1u);
+            atomicAdd(&not_drawn[1], 1u);
         } else {
             let seen = see(x.xyz);
             let size = max(max(v.w, frame.drop) * seen.scale, marker(x.w));
@@ -35,7 +35,7 @@ fn project(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups:
             if seen.visible && all(touched.low < touched.high) {
                 result = vec4f(seen.place, seen.depth - radius / seen.scale, radius);
             } else {
-                atomicAdd(&missed[0], 1u);
+                atomicAdd(&not_drawn[0], 1u);
             }
         }
         projected[i] = result;

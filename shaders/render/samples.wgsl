@@ -1,6 +1,6 @@
 // The samples of the picture that each facet touches, some rows in each layer of a dispatch: what is done with each,
 // fn mark(i: u32, at: u32, depth: u32) says.
-@group(1) @binding(7) var<storage, read> torn: array<u32>;
+@group(1) @binding(7) var<storage, read> broken_facet: array<u32>;
 
 override FIRST: u32 = 0u;
 override END: u32 = 1u;
@@ -11,7 +11,7 @@ fn columns() -> i32 { return i32(frame.width * frame.fine); }
 // The middle of a sample [pixels].
 fn sample(x: i32, y: i32) -> vec2f { return middle(x, y) / f32(frame.fine); }
 
-fn drawn(i: u32, f: Facet) -> bool { return torn[i] == 0u && f.a.w * f.b.w * f.c.w > 0.0; }
+fn drawn(i: u32, f: Facet) -> bool { return broken_facet[i] == 0u && f.a.w * f.b.w * f.c.w > 0.0; }
 
 fn band(f: Facet, layer: u32) -> Box {
     let fine = f32(frame.fine);

@@ -10,14 +10,14 @@ const FLOOR: vec3f = vec3f(0.20, 0.21, 0.25);
 const LINES: f32 = 0.09;
 const LINE: f32 = 0.012;
 
-struct Looks { color: vec3f, cover: f32, depth: f32 }
+struct Sample { color: vec3f, cover: f32, depth: f32 }
 
 fn tint(f: Facet, w: vec4f) -> vec3f {
     let all = mat3x3f(unpack4x8unorm(color[f.ids.x]).rgb, unpack4x8unorm(color[f.ids.y]).rgb, unpack4x8unorm(color[f.ids.z]).rgb);
     return all * w.xyz;
 }
 
-fn facet_looks(f: Facet, w: vec4f, p: vec3f, view: vec3f, jitter: vec2f) -> vec3f {
+fn facet_color(f: Facet, w: vec4f, p: vec3f, view: vec3f, jitter: vec2f) -> vec3f {
     let sum = w.x * vertex[2u * f.ids.x + 1u] + w.y * vertex[2u * f.ids.y + 1u] + w.z * vertex[2u * f.ids.z + 1u];
     let mean = sum.xyz / max(length(sum), 1e-30);
     if f.line { return strand(tint(f, w), mean, view, sees_lamp(p, LAMP, jitter)); }
@@ -28,7 +28,7 @@ fn facet_looks(f: Facet, w: vec4f, p: vec3f, view: vec3f, jitter: vec2f) -> vec3
     return matte(dyed, normal, view, sees_lamp(p, normal, jitter));
 }
 
-fn solid_looks(m: Meeting, p: vec3f, view: vec3f, jitter: vec2f) -> vec4f {
+fn solid_color(m: Meeting, p: vec3f, view: vec3f, jitter: vec2f) -> vec4f {
     let s = solid[m.number];
     let light = sees_lamp(p, m.normal, jitter);
     if s.shape != PLANE { return vec4f(matte(STONE, m.normal, view, light), 1.0); }
@@ -38,7 +38,7 @@ fn solid_looks(m: Meeting, p: vec3f, view: vec3f, jitter: vec2f) -> vec4f {
     return vec4f(matte(FLOOR + line, m.normal, view, light), clamp(1.6 - 0.6 * length(p) / frame.lamp, 0.0, 1.0));
 }
 
-fn look_at(place: vec2f, id: u32, jitter: vec2f) -> Looks {
+fn sample_at(place: vec2f, id: u32, jitter: vec2f) -> Sample {
     let half = 0.5 * vec2f(f32(frame.width), f32(frame.height));
     let off = (place - half) * vec2f(1.0, -1.0) / frame.scale;
     let eye = frame.distance > 0.0;
@@ -49,11 +49,11 @@ fn look_at(place: vec2f, id: u32, jitter: vec2f) -> Looks {
         let f = facet_of(id);
         let w = parts(f, place);
         let depth = depth_of(f, w);
-        if depth < m.way { return Looks(facet_looks(f, w, o + depth * d, -normalize(d), jitter), 1.0, depth); }
+        if depth < m.way { return Sample(facet_color(f, w, o + depth * d, -normalize(d), jitter), 1.0, depth); }
     }
-    if m.way >= NEVER { return Looks(vec3f(), 0.0, m.way); }
-    let c = solid_looks(m, o + m.way * d, -normalize(d), jitter);
-    return Looks(c.rgb, c.a, m.way);
+    if m.way >= NEVER { return Sample(vec3f(), 0.0, m.way); }
+    let c = solid_color(m, o + m.way * d, -normalize(d), jitter);
+    return Sample(c.rgb, c.a, m.way);
 }
 
 @compute @workgroup_size(WORKGROUP)
@@ -68,7 +68,7 @@ fn shade(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: v
                 let id = holder[y * frame.width * frame.fine + x];
                 if id == NONE && frame.solids == 0u { continue; }
                 let place = vec2f(f32(x) + 0.5, f32(y) + 0.5) / f32(frame.fine);
-                let one = look_at(place, id, fract(place) - 0.5);
+                let one = sample_at(place, id, fract(place) - 0.5);
                 sum += one.cover * vec4f(one.color, 1.0);
                 depth = min(depth, one.depth);
             }

@@ -3,7 +3,7 @@
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read> position: array<vec4f>;      // xyz, mass
 @group(1) @binding(4) var<storage, read> facet: array<u32>;           // three ids; of a line the third is NONE
-@group(1) @binding(7) var<storage, read> torn: array<u32>;
+@group(1) @binding(7) var<storage, read> broken_facet: array<u32>;
 @group(1) @binding(8) var<storage, read> around_start: array<u32>;    // one for each particle, and the end
 @group(1) @binding(9) var<storage, read> around: array<u32>;          // facets
 @group(3) @binding(11) var<storage, read_write> vertex: array<vec4f>; // pixels right and down, flat depth, 1 if seen; normal, 0
@@ -25,7 +25,7 @@ fn vertices(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups
             var part = position[facet[3u * t + 1u]].xyz - a;
             let third = facet[3u * t + 2u];
             if third != NONE { part = cross(part, position[third].xyz - a); }
-            if torn[t] == 0u && !broken(vec4f(part, 1.0)) { sum += part; }
+            if broken_facet[t] == 0u && !broken(vec4f(part, 1.0)) { sum += part; }
         }
         let turned = vec3f(dot(sum, frame.right), dot(sum, frame.up), dot(sum, frame.back));
         vertex[2u * i] = place;

@@ -59,10 +59,10 @@ fn normal_at(x: i32, y: i32, z: f32) -> vec3f {
     return normalize(cross(slope(x, y, z, vec2i(0, 1)), slope(x, y, z, vec2i(1, 0))));
 }
 
-fn look(i: u32, here: vec3f, normal: vec3f, behind: vec3f) -> vec3f {
+fn shaded(i: u32, here: vec3f, normal: vec3f, behind: vec3f) -> vec3f {
     let view = select(vec3f(0.0, 0.0, 1.0), -normalize(here), frame.distance > 0.0);
     let paint = unpack4x8unorm(dye[i]);
-    let clear = exp(-thickness[i] * frame.murk * (ABSORB - frame.stain * paint.rgb));
+    let clear = exp(-thickness[i] * frame.absorption * (ABSORB - frame.stain * paint.rgb));
     let day = max(0.6 * dot(normal, LAMP) + 0.4, 0.0);
     let facing = clamp(dot(normal, view), 0.0, 1.0);
     let mirror = (0.03 + 0.97 * pow(1.0 - facing, 5.0)) * (1.0 - paint.a);
@@ -90,7 +90,7 @@ fn water(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: v
             bend = min(BEND * scale * thickness[i], FURTHEST) * vec2f(normal.x, -normal.y);
         }
         var c = under(middle(x, y) + bend, z);
-        if z < NEVER { c = mix(c, look(i, place_of(x, y, z), normal, c), f32(rim[i]) / 255.0); }
+        if z < NEVER { c = mix(c, shaded(i, place_of(x, y, z), normal, c), f32(rim[i]) / 255.0); }
         c = mix(c, GLASS, BEFORE * edges(middle(x, y), z, front[i]).y);
         wet[i] = pack4x8unorm(vec4f(c, 1.0));
     }

@@ -1,6 +1,6 @@
 //! Draws a picture on any backend.
 
-use super::frame::{COLOR, HISTOGRAM, MISSED, OWN, PIXELS, TRAIL};
+use super::frame::{COLOR, FIELDS, HISTOGRAM, NOT_DRAWN, PIXELS, TRAIL};
 use super::{Color, Exposure, Picture, plain};
 use crate::error::Error;
 use crate::kernel::{Array, Backend, Element};
@@ -39,7 +39,7 @@ pub(super) async fn exposed<B: Backend>(
     }
     let image = attempt(backend, picture, choose).await;
     // The next picture may have another size.
-    for field in OWN {
+    for field in FIELDS {
         backend.forget(field);
     }
     image
@@ -66,14 +66,14 @@ async fn attempt<B: Backend>(
     let exposure = choose(Exposure::of(&histogram, frame, picture.exposure));
     let develop = backend.compile(&picture.development(exposure)?)?;
     backend.run(&develop, 1)?;
-    let missed = words(backend, MISSED.name, 2).await?;
+    let not_drawn = words(backend, NOT_DRAWN.name, 2).await?;
     let pixels = words(backend, PIXELS.name, frame.area() as usize).await?;
     Ok(Image {
         width: frame.width,
         height: frame.height,
         rgba: pixels.iter().flat_map(|p| p.to_le_bytes()).collect(),
-        outside: missed.first().copied().unwrap_or(0),
-        broken: missed.get(1).copied().unwrap_or(0),
+        outside: not_drawn.first().copied().unwrap_or(0),
+        broken: not_drawn.get(1).copied().unwrap_or(0),
     })
 }
 

@@ -7,21 +7,21 @@ use crate::kernel::Field;
 pub const PROJECTED: Field<Vec4> = Field::new("projected");
 pub const COLOR: Field<u32> = Field::new("color");
 pub const TRAIL: Field<Vec4> = Field::new("trail");
-pub const MISSED: Field<u32> = Field::new("missed");
+pub const NOT_DRAWN: Field<u32> = Field::new("not_drawn");
 pub const CANVAS: Field<u32> = Field::new("canvas");
 pub const FRONT: Field<u32> = Field::new("front");
 pub const OWNER: Field<u32> = Field::new("owner");
 pub const STREAK: Field<u32> = Field::new("streak");
 pub const HISTOGRAM: Field<u32> = Field::new("histogram");
-pub const HALO: Field<Vec4> = Field::new("halo");
-pub const SPREAD: Field<Vec4> = Field::new("spread");
+pub const BLOOM: Field<Vec4> = Field::new("bloom");
+pub const BLURRED: Field<Vec4> = Field::new("blurred");
 pub const PIXELS: Field<u32> = Field::new("pixels");
 pub const FACET: Field<u32> = Field::new("facet");
 pub const SLOT: Field<u32> = Field::new("slot");
-pub const TORN: Field<u32> = Field::new("torn");
+pub const BROKEN_FACET: Field<u32> = Field::new("broken_facet");
 pub const AROUND_START: Field<u32> = Field::new("around_start");
 pub const AROUND: Field<u32> = Field::new("around");
-pub const VEIL: Field<u32> = Field::new("veil");
+pub const HIDDEN: Field<u32> = Field::new("hidden");
 pub const VERTEX: Field<Vec4> = Field::new("vertex");
 pub const NEAREST: Field<u32> = Field::new("nearest");
 pub const HOLDER: Field<u32> = Field::new("holder");
@@ -47,25 +47,25 @@ pub const WET: Field<u32> = Field::new("wet");
 pub const EDGE: Field<Vec4> = Field::new("edge");
 
 /// Fields that live as long as one picture is drawn.
-pub const OWN: [&str; 37] = [
+pub const FIELDS: [&str; 37] = [
     PROJECTED.name,
     COLOR.name,
     TRAIL.name,
-    MISSED.name,
+    NOT_DRAWN.name,
     CANVAS.name,
     FRONT.name,
     OWNER.name,
     STREAK.name,
     HISTOGRAM.name,
-    HALO.name,
-    SPREAD.name,
+    BLOOM.name,
+    BLURRED.name,
     PIXELS.name,
     FACET.name,
     SLOT.name,
-    TORN.name,
+    BROKEN_FACET.name,
     AROUND_START.name,
     AROUND.name,
-    VEIL.name,
+    HIDDEN.name,
     VERTEX.name,
     NEAREST.name,
     HOLDER.name,

@@ -44,7 +44,7 @@ pub struct Water {
     /// The thickness that one of those stands for \[length\].
     pub layer: f64,
     /// How much of it absorbs light \[1 / length\].
-    pub murk: f64,
+    pub absorption: f64,
     /// How much less it absorbs of the light of its own colour: 1 for water, 0 for paint.
     pub stain: f64,
     /// The speed from which on it is white \[length / time\].
@@ -72,7 +72,7 @@ impl Water {
             ("oblate", float(self.oblate)),
             ("grain", float(self.grain)),
             ("layer", float(self.layer)),
-            ("murk", float(self.murk)),
+            ("absorption", float(self.absorption)),
             ("stain", float(self.stain)),
             ("foam", float(self.foam)),
             ("range", float(self.range)),
@@ -125,7 +125,7 @@ impl Water {
             grain,
             // A drop overlaps with others: of its ball it has but its own share, a cube.
             layer: 2.0 * drop / grain / (4.0 / 3.0 * std::f64::consts::PI * FULL.powi(3)),
-            murk: depth.recip(),
+            absorption: depth.recip(),
             stain: if painted { 0.0 } else { 1.0 },
             foam: if foam > 0.0 { foam } else { super::frame::NEVER },
             range: RANGE,

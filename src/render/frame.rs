@@ -13,7 +13,7 @@ pub const NONE: u32 = u32::MAX;
 /// Further than anything.
 pub const NEVER: f64 = 1e30;
 pub const BINS: usize = 256;
-/// So many pixels of the picture are one of the halo, each way.
+/// So many pixels of the picture are one of the bloom, each way.
 pub const SHRINK: u32 = 4;
 pub const NEAR: f64 = 0.05;
 const FAR_OUT: f64 = 1e6;
@@ -51,9 +51,9 @@ pub struct Frame {
     pub sky: f64,
     /// Half the width of a trail \[pixels\].
     pub line: f64,
-    /// Brightness of the halo.
+    /// Brightness of the bloom.
     pub bloom: f64,
-    /// How far the halo reaches \[pixels of it\].
+    /// How far the bloom reaches \[pixels of it\].
     pub reach: u32,
     /// How long ago the stroke of light of each particle begins \[time\]; zero for a light without one.
     pub tail: f64,
@@ -105,7 +105,7 @@ impl Frame {
     pub(super) fn samples(&self) -> u32 {
         self.area() * self.fine * self.fine
     }
-    /// Columns and rows of the halo.
+    /// Columns and rows of the bloom.
     pub(super) fn shrunk(&self) -> (u32, u32) {
         (self.width.div_ceil(SHRINK), self.height.div_ceil(SHRINK))
     }
@@ -186,18 +186,18 @@ impl Frame {
         let (columns, rows) = self.shrunk();
         vec![
             (TRAIL.name, u64::from(self.points.max(1))),
-            (MISSED.name, 2),
+            (NOT_DRAWN.name, 2),
             (CANVAS.name, 3 * area),
             (FRONT.name, area),
             (OWNER.name, area),
             (STREAK.name, area),
             (HISTOGRAM.name, BINS as u64),
-            (HALO.name, u64::from(columns) * u64::from(rows)),
-            (SPREAD.name, u64::from(columns) * u64::from(rows)),
+            (BLOOM.name, u64::from(columns) * u64::from(rows)),
+            (BLURRED.name, u64::from(columns) * u64::from(rows)),
             (PIXELS.name, area),
             (FACET.name, 3 * u64::from(self.facets)),
             (SLOT.name, 3 * u64::from(self.facets)),
-            (TORN.name, u64::from(self.facets)),
+            (BROKEN_FACET.name, u64::from(self.facets)),
             (VERTEX.name, 2 * u64::from(self.count)),
             (LIT_VERTEX.name, 2 * u64::from(self.count)),
             (NEAREST.name, u64::from(self.samples())),

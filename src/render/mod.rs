@@ -6,6 +6,7 @@
 
 mod camera;
 mod draw;
+mod exposure;
 mod fields;
 #[cfg(feature = "images")]
 mod file;
@@ -15,7 +16,6 @@ mod frame;
 mod heading;
 mod keys;
 mod light;
-mod meter;
 mod palette;
 mod passes;
 mod picture;
@@ -28,11 +28,11 @@ mod trail;
 
 pub use camera::{Camera, framed};
 pub use draw::{Image, draw};
+pub use exposure::Exposure;
 pub use film::{Film, shoot};
 pub use fluid::Water;
 pub use frame::Frame;
 pub use keys::KEYS;
-pub use meter::Exposure;
 pub use palette::{Color, group_color, pack};
 pub use passes::absent;
 pub use picture::Picture;

@@ -5,9 +5,9 @@ use std::borrow::Cow;
 use glam::DVec3;
 
 use super::camera::FEW;
+use super::exposure::Exposure;
 use super::frame::NEVER;
 use super::light::LAMP_VIEW;
-use super::meter::Exposure;
 use super::palette::pack;
 use super::scenery::Facets;
 use super::styles::{self, STYLES, Style, Subject};
@@ -123,7 +123,7 @@ impl Picture {
                 _ => 1.0,
             },
             line: (short / 800.0).max(0.5),
-            // A bright sky outshines every halo.
+            // A bright sky outshines every bloom.
             bloom: if bright || wet { 0.0 } else { 1.8 },
             reach: super::frame::whole(short / 48.0).max(1),
             tail: settings.number("tail"),
@@ -177,7 +177,7 @@ impl Picture {
             plan.add(passes::absent(frame.count)?);
         }
         passes::color(self, &mut plan)?;
-        if facets.veils() {
+        if facets.hides() {
             plan.add(passes::hide(frame, facets)?);
         }
         if !facets.is_empty() {

@@ -6,7 +6,7 @@ use glam::{DQuat, DVec3};
 
 use super::camera::FEW;
 use super::fluid::drop_of;
-use super::frame::{AROUND, AROUND_START, EDGE, FACET, Frame, NONE, SLOT, SOLID, VEIL};
+use super::frame::{AROUND, AROUND_START, EDGE, FACET, Frame, HIDDEN, NONE, SLOT, SOLID};
 use super::solid::{Shape, Solid};
 use super::tank;
 use crate::error::Error;
@@ -103,7 +103,7 @@ pub struct Facets {
     slot: Arc<Vec<u32>>,
     around_start: Arc<Vec<u32>>,
     around: Arc<Vec<u32>>,
-    veil: Arc<Vec<u32>>,
+    hidden: Arc<Vec<u32>>,
     link: Arc<Vec<u32>>,
 }
 
@@ -121,8 +121,8 @@ impl Facets {
             *walls.get_mut(*id as usize).ok_or_else(|| beyond(*id, count))? = true;
         }
         if links.is_empty() || draw == "points" {
-            let veil = if hidden.is_empty() { Vec::new() } else { walls.into_iter().map(u32::from).collect() };
-            return Ok(Self { solids, tanks, veil: Arc::new(veil), ..Self::default() });
+            let hidden = if hidden.is_empty() { Vec::new() } else { walls.into_iter().map(u32::from).collect() };
+            return Ok(Self { solids, tanks, hidden: Arc::new(hidden), ..Self::default() });
         }
         let mut cloth = vec![false; count as usize];
         let mut tied = cloth.clone();
@@ -154,7 +154,7 @@ impl Facets {
         let slots = facets.iter().flat_map(|facet| sides(*facet)).collect();
         let few = count as usize <= FEW;
         let alone = cloth.iter().zip(&tied).zip(&walls);
-        let veil = alone.map(|((cloth, tied), wall)| u32::from(*cloth || *tied && !few || *wall)).collect();
+        let hidden = alone.map(|((cloth, tied), wall)| u32::from(*cloth || *tied && !few || *wall)).collect();
         let (around_start, around) = around(&facets, &cloth, count)?;
         Ok(Self {
             triangles: number(triangles)?,
@@ -165,7 +165,7 @@ impl Facets {
             slot: Arc::new(slots),
             around_start: Arc::new(around_start),
             around: Arc::new(around),
-            veil: Arc::new(veil),
+            hidden: Arc::new(hidden),
             link: network.link,
         })
     }
@@ -187,7 +187,7 @@ impl Facets {
         (0..count).filter_map(move |id| Some((id, self.around.get(row(id)?)?)))
     }
     /// Whether a side of a facet is a broken spring; without the table of links as it is now, as it was at the start.
-    pub fn is_torn(&self, facet: usize, link: Option<&[u32]>) -> bool {
+    pub fn is_broken(&self, facet: usize, link: Option<&[u32]>) -> bool {
         let link = link.unwrap_or(&self.link);
         let words = |slot: &u32| link.get(*slot as usize * WORDS..).and_then(|rest| rest.get(..WORDS));
         let sides = self.slot[3 * facet..3 * facet + 3].iter().filter(|slot| **slot != NONE);
@@ -195,7 +195,7 @@ impl Facets {
     }
     /// The particles that are not drawn by themselves.
     pub fn hidden(&self) -> impl Iterator<Item = usize> {
-        self.veil.iter().enumerate().filter(|(_, veil)| **veil == 1).map(|(id, _)| id)
+        self.hidden.iter().enumerate().filter(|(_, hidden)| **hidden == 1).map(|(id, _)| id)
     }
     /// All solids.
     pub fn standing(&self) -> &[Solid] {
@@ -214,8 +214,8 @@ impl Facets {
         self.tanks = tanks;
     }
     /// Whether some particles are not drawn by themselves.
-    pub fn veils(&self) -> bool {
-        self.veil.contains(&1)
+    pub fn hides(&self) -> bool {
+        self.hidden.contains(&1)
     }
     /// Other solids, or the same at other places.
     pub fn set(&mut self, solids: Vec<Solid>) {
@@ -230,7 +230,7 @@ impl Facets {
             (SLOT.name, &self.slot),
             (AROUND_START.name, &self.around_start),
             (AROUND.name, &self.around),
-            (VEIL.name, &self.veil),
+            (HIDDEN.name, &self.hidden),
             (LINK, &self.link),
             (SOLID.name, &Arc::new(solid)),
             (EDGE.name, &Arc::new(edge)),

@@ -86,9 +86,9 @@ pub fn altered(
     let program = gpu.compile(&developing).ok()?;
     gpu.run(&program, 1).ok()?;
     let (width, height) = (picture.frame.width, picture.frame.height);
-    let missed = words(gpu, "missed", 2)?;
+    let not_drawn = words(gpu, "not_drawn", 2)?;
     let rgba = words(gpu, "pixels", (width * height) as usize)?.into_iter().flat_map(u32::to_le_bytes).collect();
-    Some(Image { width, height, rgba, outside: missed[0], broken: missed[1] })
+    Some(Image { width, height, rgba, outside: not_drawn[0], broken: not_drawn[1] })
 }
 
 fn expose(gpu: &mut Gpu, picture: &Picture, plan: &Plan) -> Option<Exposure> {

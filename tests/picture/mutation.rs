@@ -25,7 +25,7 @@ struct Stage {
     gpu: Gpu,
     plans: Plans,
     want: Vec<u8>,
-    missed: [u32; 2],
+    not_drawn: [u32; 2],
 }
 
 /// Mutants of a file, and how many of them are noticed.
@@ -33,7 +33,7 @@ struct Count {
     file: String,
     all: usize,
     noticed: usize,
-    missed: Vec<String>,
+    unnoticed: Vec<String>,
 }
 
 fn stages(shared: &Shared) -> Vec<Stage> {
@@ -43,7 +43,7 @@ fn stages(shared: &Shared) -> Vec<Stage> {
         let image = altered(&mut gpu, &scene.picture, &plans, |_| Some(())).expect("a picture");
         let want = snapshot(scene.name);
         assert!(Difference::between(&rgb(&image), &want).is_within(1.0), "{}: not the snapshot", scene.name);
-        Stage { missed: [image.outside, image.broken], scene, gpu, plans, want }
+        Stage { not_drawn: [image.outside, image.broken], scene, gpu, plans, want }
     };
     scenes::all().into_iter().map(stage).collect()
 }
@@ -68,7 +68,7 @@ impl Stage {
     fn notices(&mut self, file: &str, mutant: &Mutant) -> bool {
         let image = altered(&mut self.gpu, &self.scene.picture, &self.plans, |plan| replace(plan, file, &mutant.text));
         image.is_none_or(|image| {
-            [image.outside, image.broken] != self.missed
+            [image.outside, image.broken] != self.not_drawn
                 || !Difference::between(&rgb(&image), &self.want).is_within(1.0)
         })
     }
@@ -84,7 +84,7 @@ fn count(stages: &mut [Stage], file: String, text: &str) -> Count {
     // The one that noticed the last mutant is asked first about the next.
     let mut order: Vec<usize> = (0..stages.len()).filter(|k| stages[*k].uses(&file)).collect();
     assert!(!order.is_empty(), "{file}: no scene runs it");
-    let mut count = Count { file, all: 0, noticed: 0, missed: Vec::new() };
+    let mut count = Count { file, all: 0, noticed: 0, unnoticed: Vec::new() };
     for mutant in mutants(text).iter().filter(|mutant| !is_idle(mutant)) {
         count.all += 1;
         match order.iter().position(|k| stages[*k].notices(&count.file, mutant)) {
@@ -92,7 +92,9 @@ fn count(stages: &mut [Stage], file: String, text: &str) -> Count {
                 order[..=first].rotate_right(1);
                 count.noticed += 1;
             }
-            None => count.missed.push(format!("{}: {} → {} in {}", mutant.column, mutant.old, mutant.new, mutant.line)),
+            None => {
+                count.unnoticed.push(format!("{}: {} → {} in {}", mutant.column, mutant.old, mutant.new, mutant.line));
+            }
         }
     }
     count
@@ -118,7 +120,7 @@ fn snapshots_notice_broken_shaders() {
                 while let Some((file, text)) = next() {
                     let count = count(&mut stages, file, &text);
                     println!("{}: {} of {} noticed", count.file, count.noticed, count.all);
-                    count.missed.iter().for_each(|missed| println!("    not noticed: {missed}"));
+                    count.unnoticed.iter().for_each(|one| println!("    not noticed: {one}"));
                     counts.lock().expect("no thread panics").push(count);
                 }
                 // Had a mutant broken the device, all after it would have been noticed for nothing.

@@ -187,8 +187,8 @@ fn sheet() -> State {
         }
     }
     state.push(DVec3::new(-0.2, -1.4, 1.0), DVec3::ZERO, 1.0, 0.08);
-    let torn = links.springs.iter_mut().find(|spring| spring.ends == [id(5, 3), id(6, 3)]).expect("a spring");
-    (torn.stiffness, torn.damping) = (0.0, 0.0);
+    let broken = links.springs.iter_mut().find(|spring| spring.ends == [id(5, 3), id(6, 3)]).expect("a spring");
+    (broken.stiffness, broken.damping) = (0.0, 0.0);
     state.links = links;
     state
 }

@@ -14,12 +14,12 @@ use crate::primitives::fill;
 pub fn fluid(frame: &Frame, facets: &Facets, plan: &mut Plan) -> Result<(), Error> {
     plan.add(frame.simple("foam", &[crate::shader!("render/foam.wgsl")], frame.count, 1)?);
     plan.add(drops(frame)?);
-    plan.add(frame.simple("level", &[crate::shader!("render/level.wgsl")], frame.area(), 1)?);
-    plan.add(settle(frame)?);
+    plan.add(frame.simple("surface", &[crate::shader!("render/surface.wgsl")], frame.area(), 1)?);
+    plan.add(smooth(frame)?);
     let files = [
         crate::shader!("render/flat.wgsl"),
         crate::shader!("render/sky.wgsl"),
-        crate::shader!("render/edge.wgsl"),
+        crate::shader!("render/tank_edge.wgsl"),
         crate::shader!("render/water.wgsl"),
     ];
     let water = frame.simple("water", &files, frame.area(), 16 + 2 * u64::from(frame.water.edges))?;
@@ -34,7 +34,7 @@ fn drops(frame: &Frame) -> Result<Kernel, Error> {
         passes.extend(fill::passes(&field.name.into(), frame.area(), value)?);
     }
     let (threads, rows) = layers(frame);
-    for file in [crate::shader!("render/drops.wgsl"), crate::shader!("render/source.wgsl")] {
+    for file in [crate::shader!("render/drops.wgsl"), crate::shader!("render/drop_id.wgsl")] {
         let files = [crate::shader!("render/disc.wgsl"), crate::shader!("render/drop.wgsl"), file];
         let mut pass = frame.pass(&files, threads, 64)?;
         pass.constants = vec![("ROWS", f64::from(rows))];
@@ -44,9 +44,9 @@ fn drops(frame: &Frame) -> Result<Kernel, Error> {
 }
 
 /// A smooth surface: twice as many dispatches as rounds.
-fn settle(frame: &Frame) -> Result<Kernel, Error> {
+fn smooth(frame: &Frame) -> Result<Kernel, Error> {
     let each = 4 * u64::from(frame.water.farthest);
-    let across = frame.pass(&[crate::shader!("render/settle.wgsl")], Threads::new(frame.area()), each)?;
+    let across = frame.pass(&[crate::shader!("render/smooth.wgsl")], Threads::new(frame.area()), each)?;
     let mut down = across.clone().on(&[
         ("level", NEXT_LEVEL.name.into()),
         ("thickness", NEXT_THICKNESS.name.into()),
@@ -58,5 +58,5 @@ fn settle(frame: &Frame) -> Result<Kernel, Error> {
     down.constants = vec![("DOWN", 1.0)];
     let passes = (0..ROUNDS).flat_map(|_| [across.clone(), down.clone()]).collect();
     let scratch = vec![NEXT_LEVEL.name.into(), NEXT_THICKNESS.name.into(), NEXT_DYE.name.into()];
-    Ok(Kernel { scratch, ..frame.kernel("settle", passes) })
+    Ok(Kernel { scratch, ..frame.kernel("smooth", passes) })
 }

@@ -18,7 +18,7 @@ const DIAGONAL: f64 = 1.4143;
 pub fn prepare(frame: &Frame, plan: &mut Plan) -> Result<(), Error> {
     // Every bin of the histogram is emptied, however small the picture.
     let threads = frame.area().max(u32::try_from(BINS).unwrap_or(u32::MAX));
-    plan.add(frame.simple("blank", &[crate::shader!("render/blank.wgsl")], threads, 1)?);
+    plan.add(frame.simple("clear", &[crate::shader!("render/clear.wgsl")], threads, 1)?);
     plan.add(frame.simple("project", &[crate::shader!("render/project.wgsl")], frame.count, 1)?);
     Ok(())
 }
@@ -46,8 +46,8 @@ pub fn absent(count: u32) -> Result<Kernel, Error> {
 /// Colours that are no given ones.
 pub fn color(picture: &Picture, plan: &mut Plan) -> Result<(), Error> {
     let (name, file) = match picture.color {
-        Color::Speed { .. } => ("color by speed", crate::shader!("render/paint.wgsl")),
-        Color::Heading => ("color by heading", crate::shader!("render/heading.wgsl")),
+        Color::Speed { .. } => ("color by speed", crate::shader!("render/speed_color.wgsl")),
+        Color::Heading => ("color by heading", crate::shader!("render/heading_color.wgsl")),
         Color::Given(_) => return Ok(()),
     };
     plan.add(picture.frame.simple(name, &[file], picture.frame.count, 4)?);
@@ -79,7 +79,7 @@ pub fn lights(frame: &Frame, plan: &mut Plan) -> Result<(), Error> {
 fn balls(frame: &Frame) -> Result<Kernel, Error> {
     let (threads, rows) = layers(frame);
     let mut passes = Vec::new();
-    for file in [crate::shader!("render/cover.wgsl"), crate::shader!("render/claim.wgsl")] {
+    for file in [crate::shader!("render/ball_depth.wgsl"), crate::shader!("render/ball_id.wgsl")] {
         let mut pass = frame.pass(&[crate::shader!("render/disc.wgsl"), file], threads, 64)?;
         pass.constants = vec![("ROWS", f64::from(rows))];
         passes.push(pass);
@@ -112,5 +112,5 @@ fn trails(frame: &Frame) -> Result<Kernel, Error> {
 
 /// How bright the canvas is.
 pub fn histogram(frame: &Frame) -> Result<Kernel, Error> {
-    frame.simple("luminance histogram", &[crate::shader!("render/meter.wgsl")], frame.area(), 1)
+    frame.simple("luminance histogram", &[crate::shader!("render/histogram.wgsl")], frame.area(), 1)
 }

@@ -23,7 +23,7 @@ struct Fields {
 
 /// Hides particles that a surface or a line stands for.
 pub fn hide(frame: &Frame, facets: &Facets) -> Result<Kernel, Error> {
-    let kernel = frame.simple("hide", &[crate::shader!("render/hide.wgsl")], frame.count, 1)?;
+    let kernel = frame.simple("hidden", &[crate::shader!("render/hidden.wgsl")], frame.count, 1)?;
     Ok(facets.bind(kernel, frame))
 }
 
@@ -32,7 +32,7 @@ pub fn surfaces(frame: &Frame, facets: &Facets, plan: &mut Plan) -> Result<(), E
     let lamp = from_lamp(frame);
     let mut add = |kernel: Kernel| plan.add(facets.bind(kernel, frame));
     if frame.facets > 0 {
-        add(frame.simple("tear", &[crate::shader!("render/tear.wgsl")], frame.facets, 3)?);
+        add(frame.simple("broken facets", &[crate::shader!("render/broken_facets.wgsl")], frame.facets, 3)?);
         add(vertices("vertex", frame, VERTEX)?);
         add(vertices("vertex of the lamp", &lamp, LIT_VERTEX)?);
     }
@@ -61,10 +61,10 @@ fn vertices(name: &str, frame: &Frame, to: Field<Vec4>) -> Result<Kernel, Error>
 fn raster(name: &str, frame: &Frame, fields: Fields) -> Result<Kernel, Error> {
     let samples = frame.samples();
     let mut passes = fill::passes(&fields.nearest.name.into(), samples, NONE)?;
-    passes.extend(sweep(frame, crate::shader!("render/facet_cover.wgsl"), fields)?);
+    passes.extend(sweep(frame, crate::shader!("render/facet_depth.wgsl"), fields)?);
     if let Some(holder) = fields.holder {
         passes.extend(fill::passes(&holder.name.into(), samples, NONE)?);
-        passes.extend(sweep(frame, crate::shader!("render/facet_claim.wgsl"), fields)?);
+        passes.extend(sweep(frame, crate::shader!("render/facet_id.wgsl"), fields)?);
     }
     Ok(frame.kernel(name, passes))
 }

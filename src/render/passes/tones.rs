@@ -1,7 +1,7 @@
 //! From light to pixels.
 
 use super::super::Exposure;
-use super::super::frame::{Frame, SHRINK, SPREAD, WET};
+use super::super::frame::{BLURRED, Frame, SHRINK, WET};
 use super::expose;
 use crate::error::Error;
 use crate::kernel::{Kernel, Plan, Threads};
@@ -13,7 +13,7 @@ pub fn tones(frame: &Frame, exposure: Exposure, plan: &mut Plan) -> Result<(), E
         plan.add(bloom(frame, exposure)?);
     }
     let files =
-        [crate::shader!("render/look.wgsl"), crate::shader!("render/sky.wgsl"), crate::shader!("render/tone.wgsl")];
+        [crate::shader!("render/shading.wgsl"), crate::shader!("render/sky.wgsl"), crate::shader!("render/tone.wgsl")];
     let mut pass = frame.pass(&files, Threads::new(frame.area()), 8)?;
     expose(&mut pass, frame, exposure)?;
     if frame.water.is_there() {
@@ -27,12 +27,12 @@ pub fn tones(frame: &Frame, exposure: Exposure, plan: &mut Plan) -> Result<(), E
 fn bloom(frame: &Frame, exposure: Exposure) -> Result<Kernel, Error> {
     let (columns, rows) = frame.shrunk();
     let threads = Threads::new(columns * rows);
-    let files = [crate::shader!("render/look.wgsl"), crate::shader!("render/shrink.wgsl")];
+    let files = [crate::shader!("render/shading.wgsl"), crate::shader!("render/bloom_shrink.wgsl")];
     let mut shrink = frame.pass(&files, threads, u64::from(4 * SHRINK * SHRINK))?;
     expose(&mut shrink, frame, exposure)?;
-    let across = frame.pass(&[crate::shader!("render/blur.wgsl")], threads, 2 * u64::from(frame.reach) + 1)?;
+    let across = frame.pass(&[crate::shader!("render/bloom_blur.wgsl")], threads, 2 * u64::from(frame.reach) + 1)?;
     let mut down = across.clone();
     down.constants = vec![("DOWN", 1.0)];
     let kernel = frame.kernel("bloom", vec![shrink, across, down]);
-    Ok(Kernel { scratch: vec![SPREAD.name.into()], ..kernel })
+    Ok(Kernel { scratch: vec![BLURRED.name.into()], ..kernel })
 }

@@ -131,7 +131,7 @@ impl Pool<'_> {
                 self.slope(pixel, wet.level, DVec2::Y).cross(self.slope(pixel, wet.level, DVec2::X)).normalize();
             let aside = (BEND * frame.scale_at(wet.level) * wet.thickness).min(FURTHEST);
             let under = self.under(pixel + aside * DVec2::new(normal.x, -normal.y), wet.level);
-            under.lerp(self.look(&wet, self.place(pixel, wet.level), normal, under), wet.rim)
+            under.lerp(self.shaded(&wet, self.place(pixel, wet.level), normal, under), wet.rim)
         } else {
             self.under(pixel, wet.level)
         };
@@ -168,11 +168,11 @@ impl Pool<'_> {
         let c = background(self.frame, q).lerp(stands.truncate(), stands.w);
         c.lerp(GLASS, BEHIND * cover(self.edges, self.frame, q, depth, self.canvas.front[at]).behind)
     }
-    fn look(&self, wet: &Wet, place: DVec3, normal: DVec3, behind: DVec3) -> DVec3 {
+    fn shaded(&self, wet: &Wet, place: DVec3, normal: DVec3, behind: DVec3) -> DVec3 {
         let water = &self.frame.water;
         let view = if self.frame.camera.distance > 0.0 { -place.normalize() } else { DVec3::Z };
         let (paint, foam) = (wet.dye.truncate(), wet.dye.w);
-        let clear = (-wet.thickness * water.murk * (ABSORB - water.stain * paint)).exp();
+        let clear = (-wet.thickness * water.absorption * (ABSORB - water.stain * paint)).exp();
         let day = (0.6 * normal.dot(LAMP) + 0.4).max(0.0);
         let facing = normal.dot(view).clamp(0.0, 1.0);
         let mirror = (0.03 + 0.97 * (1.0 - facing).powi(5)) * (1.0 - foam);

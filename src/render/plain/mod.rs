@@ -9,8 +9,8 @@ mod tones;
 
 use glam::{DVec2, DVec3, DVec4};
 
+use super::exposure::bin;
 use super::frame::{BINS, Frame, NEVER, middle, whole};
-use super::meter::bin;
 use super::scenery::LINK;
 use super::{Exposure, Image, Picture};
 use crate::error::Error;
@@ -79,7 +79,7 @@ pub fn draw(host: &Host, picture: &Picture, choose: impl FnOnce(Exposure) -> Exp
         let is_active = host.is_active()?;
         (0..canvas.discs.len()).filter(|id| !is_active(*id)).for_each(|id| canvas.hide(id));
     }
-    canvas.paint();
+    canvas.set_colors();
     canvas.stand();
     picture.style().plain(&mut canvas);
     let exposure = choose(Exposure::of(&canvas.histogram(), &canvas.frame, picture.exposure));

@@ -40,7 +40,7 @@ impl Canvas<'_> {
         is_seen.then(|| Disc { place: seen.place, depth: seen.depth - radius / seen.scale, radius })
     }
     /// The colour of every particle.
-    pub(super) fn paint(&mut self) {
+    pub(super) fn set_colors(&mut self) {
         let (slow, fast) = self.frame.speeds;
         self.color = match &self.picture.color {
             Color::Given(words) => words.iter().map(|word| unpack(*word)).collect(),

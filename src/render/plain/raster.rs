@@ -37,17 +37,17 @@ pub struct Facet {
 }
 
 impl<'a> Raster<'a> {
-    /// All facets that are not torn, as a frame sees them.
-    pub fn new(frame: &Frame, facets: &'a Facets, torn: &[bool], position: &[DVec4]) -> Self {
+    /// All facets that are not broken, as a frame sees them.
+    pub fn new(frame: &Frame, facets: &'a Facets, broken: &[bool], position: &[DVec4]) -> Self {
         let samples = frame.samples() as usize;
         let mut raster = Self {
             frame: *frame,
             facets,
-            vertices: vertices(frame, facets, torn, position),
+            vertices: vertices(frame, facets, broken, position),
             nearest: vec![NEVER; samples],
             holder: vec![NONE; samples],
         };
-        for (i, _) in (0..facets.count).zip(torn).filter(|(_, torn)| !**torn) {
+        for (i, _) in (0..facets.count).zip(broken).filter(|(_, broken)| !**broken) {
             let facet = raster.facet(i);
             if facet.corners.iter().all(|corner| corner.is_seen) {
                 raster.draw(i, &facet);
@@ -124,10 +124,10 @@ pub fn mean(parts: DVec3, of: impl Fn(usize) -> DVec3) -> DVec3 {
 }
 
 /// Corners, with the normal of the surface around them, or the direction of the lines.
-fn vertices(frame: &Frame, facets: &Facets, torn: &[bool], position: &[DVec4]) -> Vec<Vertex> {
+fn vertices(frame: &Frame, facets: &Facets, broken: &[bool], position: &[DVec4]) -> Vec<Vertex> {
     let mut sums = vec![DVec3::ZERO; position.len()];
     for (id, around) in facets.around(position.len()) {
-        for t in around.iter().filter(|t| !torn[**t as usize]) {
+        for t in around.iter().filter(|t| !broken[**t as usize]) {
             let ids = facets.corners(*t as usize);
             let at = |k: usize| position[ids[k] as usize].truncate();
             let way = at(1) - at(0);

@@ -41,9 +41,9 @@ impl Canvas<'_> {
             return;
         }
         let frame = self.frame;
-        let torn: Vec<bool> = (0..facets.count as usize).map(|i| facets.is_torn(i, self.link.as_deref())).collect();
-        let raster = Raster::new(&frame, facets, &torn, &self.position);
-        let shadows = Raster::new(&from_lamp(&frame), facets, &torn, &self.position);
+        let broken: Vec<bool> = (0..facets.count as usize).map(|i| facets.is_broken(i, self.link.as_deref())).collect();
+        let raster = Raster::new(&frame, facets, &broken, &self.position);
+        let shadows = Raster::new(&from_lamp(&frame), facets, &broken, &self.position);
         let solids: Vec<_> = facets.standing().iter().map(|solid| solid.seen_by(&frame.camera)).collect();
         let lamp = Lamp { solids: &solids, map: &shadows.nearest, frame: &frame };
         let stage = Stage { frame: &frame, raster: &raster, color: &self.color, lamp };

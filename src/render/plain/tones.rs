@@ -96,8 +96,8 @@ impl Canvas<'_> {
         };
         let small: Vec<DVec3> = (0..columns * rows).into_par_iter().map(block).collect();
         let (columns, rows) = (columns as usize, rows as usize);
-        let spread = blur(&small, self.frame.reach, columns, 1, |at| at % columns);
-        blur(&spread, self.frame.reach, rows, columns, |at| at / columns)
+        let blurred = blur(&small, self.frame.reach, columns, 1, |at| at % columns);
+        blur(&blurred, self.frame.reach, rows, columns, |at| at / columns)
     }
 }
 

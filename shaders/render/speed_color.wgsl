@@ -15,7 +15,7 @@ fn map(part: f32) -> vec3f {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn paint(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
+fn speed_color(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let i = folded(group, groups) * WORKGROUP + lane;
     if i < world.count {
         let part = clamp((length(velocity[i].xyz) - frame.slow) / (frame.fast - frame.slow), 0.0, 1.0);

@@ -39,7 +39,7 @@ impl Exposure {
             });
             brightness(found.unwrap_or(0))
         };
-        // A single light is never lost, and never white: the halo has yet to be added.
+        // A single light is never lost, and never white: the bloom has yet to be added.
         let (white, middle) = if lit == 0 { (frame.unit, frame.unit) } else { (quantile(0.998), quantile(0.5)) };
         let white = white.max(frame.unit) * 1.4;
         let knee = (middle / 2.5).min(0.5 * frame.unit);

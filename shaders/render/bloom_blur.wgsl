@@ -1,8 +1,8 @@
-// A halo: light spreads along the rows, or along the columns, with weights w = (1 − k² / K²)⁴, nearly as round as Gauss's.
-@group(3) @binding(9) var<storage, read_write> halo: array<vec4f>;
-@group(3) @binding(10) var<storage, read_write> spread: array<vec4f>;
+// A bloom: light spreads along the rows, or along the columns, with weights w = (1 − k² / K²)⁴, nearly as round as Gauss's.
+@group(3) @binding(9) var<storage, read_write> bloom: array<vec4f>;
+@group(3) @binding(10) var<storage, read_write> blurred: array<vec4f>;
 
-// From `halo` to `spread` along the rows, or back along the columns.
+// From `bloom` to `blurred` along the rows, or back along the columns.
 override DOWN: bool = false;
 
 const WORKGROUP: u32 = 64u;
@@ -28,13 +28,13 @@ fn blur(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
             // Beyond the edge it is dark.
             if at + k >= 0 && at + k <= last {
                 let there = i32(i) + k * stride;
-                if DOWN { sum += weight * spread[there].rgb; } else { sum += weight * halo[there].rgb; }
+                if DOWN { sum += weight * blurred[there].rgb; } else { sum += weight * bloom[there].rgb; }
             }
         }
         if DOWN {
-            halo[i] = vec4f(sum / weights, 0.0);
+            bloom[i] = vec4f(sum / weights, 0.0);
         } else {
-            spread[i] = vec4f(sum / weights, 0.0);
+            blurred[i] = vec4f(sum / weights, 0.0);
         }
     }
 }

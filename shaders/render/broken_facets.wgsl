@@ -1,14 +1,14 @@
-// Which facets are torn: those with a side whose spring has neither stiffness nor damping left.
+// Which facets are broken: those with a side whose spring has neither stiffness nor damping left.
 struct Link { partner: u32, rest: f32, stiffness: f32, damping: f32 }
 
 @group(1) @binding(5) var<storage, read> slot: array<u32>; // of each of a facet's three sides: its place among the links
 @group(1) @binding(6) var<storage, read> link: array<Link>;
-@group(1) @binding(7) var<storage, read_write> torn: array<u32>;
+@group(1) @binding(7) var<storage, read_write> broken_facet: array<u32>;
 
 const WORKGROUP: u32 = 64u;
 
 @compute @workgroup_size(WORKGROUP)
-fn tear(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
+fn broken_facets(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let i = folded(group, groups) * WORKGROUP + lane;
     if i < frame.facets {
         var result = 0u;
@@ -18,6 +18,6 @@ fn tear(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
                 if one.stiffness == 0.0 && one.damping == 0.0 { result = 1u; }
             }
         }
-        torn[i] = result;
+        broken_facet[i] = result;
     }
 }

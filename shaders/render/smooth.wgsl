@@ -44,7 +44,7 @@ fn smooth_at(i: u32) {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn settle(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
+fn smooth_surface(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let i = folded(group, groups) * WORKGROUP + lane;
     if i < frame.width * frame.height {
         next_level[i] = level[i];

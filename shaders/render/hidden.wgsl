@@ -1,15 +1,15 @@
 // Particles that a surface or a line stands for are not drawn by themselves.
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(2) var<storage, read_write> projected: array<vec4f>; // pixels right and down, depth of its front, radius
-@group(1) @binding(11) var<storage, read> veil: array<u32>;            // 1 for those
+@group(1) @binding(11) var<storage, read> hidden: array<u32>;            // 1 for those
 
 const WORKGROUP: u32 = 64u;
 const HIDDEN: vec4f = vec4f(0.0, 0.0, 0.0, -2.0);
 
 @compute @workgroup_size(WORKGROUP)
-fn hide(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
+fn hide_particles(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let i = folded(group, groups) * WORKGROUP + lane;
     if i < world.count {
-        if veil[i] == 1u { projected[i] = HIDDEN; }
+        if hidden[i] == 1u { projected[i] = HIDDEN; }
     }
 }

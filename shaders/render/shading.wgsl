@@ -10,7 +10,7 @@ struct Exposure { unused_word: u32, knee: f32, slope: f32, body: f32 }
 @group(3) @binding(8) var<uniform> exposure: Exposure;
 
 const WORKGROUP: u32 = 64u;
-// So many pixels of the picture are one of the halo, each way.
+// So many pixels of the picture are one of the bloom, each way.
 const SHRINK: u32 = 4u;
 const LAMP: vec3f = vec3f(-0.48, 0.6, 0.64); // right, up, towards the eye; of length 1
 const HALFWAY: vec3f = vec3f(-0.265035, 0.331294, 0.905537); // between the lamp and the eye
@@ -53,8 +53,8 @@ fn ink(under: vec3f, light: vec3f) -> vec3f {
 // Two lights on one pixel never pass white.
 fn screen(a: vec3f, b: vec3f) -> vec3f { return a + b - a * b; }
 
-// A pixel without its halo, in front of a background.
-fn look(i: u32, under: vec3f) -> vec3f {
+// A pixel without its bloom, in front of a background.
+fn shaded(i: u32, under: vec3f) -> vec3f {
     let place = middle(i32(i % frame.width), i32(i / frame.width));
     var c = under;
     if owner[i] != NONE { c = ball(c, owner[i], place); }

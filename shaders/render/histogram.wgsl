@@ -5,7 +5,7 @@
 const WORKGROUP: u32 = 64u;
 
 @compute @workgroup_size(WORKGROUP)
-fn meter(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
+fn luminance_histogram(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let i = folded(group, groups) * WORKGROUP + lane;
     if i < frame.width * frame.height {
         let light = max(canvas[3u * i], max(canvas[3u * i + 1u], canvas[3u * i + 2u]));

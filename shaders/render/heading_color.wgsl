@@ -33,7 +33,7 @@ fn oklab(l: f32, a: f32, b: f32) -> vec3f {
 }
 
 @compute @workgroup_size(WORKGROUP)
-fn paint(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
+fn heading_color(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let i = folded(group, groups) * WORKGROUP + lane;
     if i < world.count {
         let v = velocity[i];
