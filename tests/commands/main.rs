@@ -9,6 +9,7 @@ mod baselines;
 mod bench;
 mod checkpoints;
 mod cli;
+mod convert;
 mod cpu_backend;
 mod far;
 mod film;

@@ -1,0 +1,86 @@
+//! `motes convert`, `motes info`, and the list of states that ParaView opens.
+
+use std::fs;
+use std::process::{Command, Stdio};
+
+use motes::State;
+use motes::formats::vtp::Collection;
+
+fn motes(args: &[&str]) -> (i32, String, String) {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_motes"));
+    let output = command.args(args).stdin(Stdio::null()).output().expect("the program starts");
+    let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("output is UTF-8");
+    (output.status.code().unwrap_or(-1), text(output.stdout), text(output.stderr))
+}
+
+fn path(folder: &tempfile::TempDir, name: &str) -> String {
+    folder.path().join(name).to_str().expect("a path of words").to_owned()
+}
+
+#[test]
+fn a_file_is_converted_once_and_described() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (table, stars) = (path(&folder, "a.csv"), path(&folder, "stars.hdf5"));
+    fs::write(&table, "x,y,z,vx,mass,charge\n1,2,3,4,0.5,-1\n-1,0.25,0,0,2,7\n").expect("a file");
+    let (code, said, notes) = motes(&["convert", &table, &stars]);
+    assert_eq!((code, notes.as_str()), (0, ""), "{said}");
+    assert!(said.starts_with("2 particles from ") && said.contains("(hdf5, single precision)"), "{said}");
+    let (code, said, notes) = motes(&["info", &stars]);
+    assert_eq!(code, 0, "{notes}");
+    for line in [
+        "particles  2",
+        "time       0.0, step 0",
+        "box        the file tells of none",
+        "extent     (-1.0, 0.25, 0.0) to (1.0, 2.0, 3.0)",
+        "species    2 of 0",
+        "mass       2.5, momentum (2.0, 0.0, 0.0)",
+        "energy     4.0 is kinetic",
+        "charge    scalar, -1.0 to 7.0",
+    ] {
+        assert!(said.contains(line), "no `{line}` in\n{said}");
+    }
+    let before = fs::read(&stars).expect("a file");
+    let (code, _, notes) = motes(&["convert", &table, &stars]);
+    assert!(code == 8 && notes.contains("say --overwrite"), "{code}: {notes}");
+    let (code, _, notes) = motes(&["convert", &stars, &stars]);
+    assert!(code == 8 && notes.contains("is the file that is read"), "{code}: {notes}");
+    assert_eq!(fs::read(&stars).expect("a file"), before);
+    let (code, _, notes) = motes(&["convert", &stars, &path(&folder, "b.tipsy")]);
+    assert!(code == 0 && notes.contains("does not hold `charge`"), "{code}: {notes}");
+    let (code, _, notes) = motes(&["info", &path(&folder, "none.ply")]);
+    assert!(code == 4 && notes.contains("none.ply"), "{code}: {notes}");
+}
+
+#[test]
+fn a_run_lists_its_states_for_paraview() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = path(&folder, "out");
+    let sets = ["--set", "output.formats=[\"vtp\", \"hdf5\", \"ply\"]", "--set", "output.every=2"];
+    let args = [&["run", "kepler", "--backend", "cpu", "--steps", "4", "-q", "-o", &out][..], &sets].concat();
+    let (code, _, notes) = motes(&args);
+    assert_eq!(code, 0, "{notes}");
+    let listed = fs::read_to_string(folder.path().join("out/snapshots.pvd")).expect("a list");
+    for step in [0, 2, 4] {
+        assert!(listed.contains(&format!("file=\"snapshot_{step}.vtp\"/>")), "{listed}");
+        for ending in ["vtp", "hdf5", "ply"] {
+            assert!(folder.path().join(format!("out/snapshot_{step}.{ending}")).is_file(), "{step} {ending}");
+        }
+    }
+    assert_eq!(listed.matches("<DataSet timestep=").count(), 3, "{listed}");
+    // A second run into the folder knows the list for a result.
+    let (code, _, notes) = motes(&[&args[..], &["--overwrite"]].concat());
+    assert_eq!(code, 0, "{notes}");
+    // A run that goes on lists what was before it, and what it writes anew.
+    let file = folder.path().join("out/snapshots.pvd");
+    let mut again = Collection::before(&file, 2);
+    for step in [2, 4] {
+        let time = listed.split("timestep=\"").nth(step / 2 + 1).and_then(|rest| rest.split('"').next());
+        let mut state = State::default();
+        state.step = step as u64;
+        state.time = time.and_then(|time| time.parse().ok()).expect("a time");
+        again.add(&state, &folder.path().join(format!("out/snapshot_{step}.vtp")));
+    }
+    let mut bytes = Vec::new();
+    again.write(&mut bytes).expect("memory");
+    assert_eq!(String::from_utf8(bytes).expect("text"), listed);
+}
