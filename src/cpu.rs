@@ -1,9 +1,10 @@
 //! The backend that runs the references: f64 on the host, over all cores, with no driver at all.
 
 use std::sync::OnceLock;
+use std::task::Waker;
 
 use crate::error::Error;
-use crate::kernel::{Access, Array, Backend, Host, Machine, Next, POSITION, Plan, VELOCITY, World};
+use crate::kernel::{Access, Array, Arrival, Backend, Host, Machine, Next, POSITION, Plan, VELOCITY, World};
 
 /// How many threads kernels run on. They are started here, once; a program that has made rayon's global pool by itself keeps it.
 ///
@@ -124,6 +125,27 @@ impl Backend for Cpu {
         self.host.remove(name);
     }
     async fn read(&mut self, name: &str, like: &Array, len: usize) -> Result<Array, Error> {
+        self.copy(name, like, len)
+    }
+    fn request(&mut self, name: &str, like: &Array, len: usize) -> Result<Box<dyn Arrival>, Error> {
+        Ok(Box::new(Copied(Some(self.copy(name, like, len)?))))
+    }
+}
+
+/// A copy that waits for nothing.
+struct Copied(Option<Array>);
+
+impl Arrival for Copied {
+    fn look(&mut self) -> Option<Result<Array, Error>> {
+        self.0.take().map(Ok)
+    }
+    fn wake(&mut self, waker: &Waker) {
+        waker.wake_by_ref();
+    }
+}
+
+impl Cpu {
+    fn copy(&self, name: &str, like: &Array, len: usize) -> Result<Array, Error> {
         let missing = || Error::Device(format!("there is no field `{name}` on the host"));
         let mut array = self.host.get(name).ok_or_else(missing)?;
         match &mut array {

@@ -1,9 +1,15 @@
 //! What a scene may say to a force or a shape: names, kinds, defaults and units, declared once, next to the thing itself.
 
+mod kind;
+mod nearest;
+
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use glam::DVec3;
+
+pub use kind::{Kind, Outside, is_lost};
+pub use nearest::{listed, nearest, unknown};
 
 /// One value out of a scene.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,6 +24,60 @@ pub enum Value {
     Flag(bool),
     /// Coefficients of pairs of species.
     Pairs(Vec<Pair>),
+}
+
+impl Value {
+    /// What it is, in words.
+    #[must_use]
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Number(_) => "a number",
+            Self::Vector(_) => "three numbers",
+            Self::Text(_) => "a text",
+            Self::Flag(_) => "true or false",
+            Self::Pairs(_) => "a list of pairs of species",
+        }
+    }
+    /// Why single precision does not hold it, if it does not.
+    #[must_use]
+    pub fn beyond(&self) -> Option<String> {
+        let bad = |x: &f64| Kind::Number.outside(*x).is_some();
+        let numbers = match self {
+            Self::Number(x) => vec![*x],
+            Self::Vector(v) => v.to_array().to_vec(),
+            Self::Text(_) | Self::Flag(_) | Self::Pairs(_) => Vec::new(),
+        };
+        let first = numbers.into_iter().find(bad)?;
+        Some(format!(
+            "is {first:e}: it must be finite, and of a size that single precision holds (1.2e-38 to 3.4e38, or 0)"
+        ))
+    }
+}
+
+impl From<f64> for Value {
+    fn from(x: f64) -> Self {
+        Self::Number(x)
+    }
+}
+impl From<u32> for Value {
+    fn from(n: u32) -> Self {
+        Self::Number(f64::from(n))
+    }
+}
+impl From<DVec3> for Value {
+    fn from(v: DVec3) -> Self {
+        Self::Vector(v)
+    }
+}
+impl From<bool> for Value {
+    fn from(flag: bool) -> Self {
+        Self::Flag(flag)
+    }
+}
+impl From<&'static str> for Value {
+    fn from(word: &'static str) -> Self {
+        Self::Text(Cow::Borrowed(word))
+    }
 }
 
 /// The coefficients of a pair of species.
@@ -39,60 +99,6 @@ impl Pair {
     fn fits(&self, keys: &[Key]) -> bool {
         let has = |key: &Key| self.values.iter().any(|(name, _)| name == key.name);
         self.values.len() == keys.len() && keys.iter().all(has)
-    }
-}
-
-/// What values a key accepts.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Kind {
-    /// Any finite number.
-    Number,
-    /// A finite number above zero.
-    Positive,
-    /// A finite number, zero or above.
-    NotNegative,
-    /// A number above zero, one at most.
-    Fraction,
-    /// A whole number, one or above, that fits 32 bits.
-    Count,
-    /// A whole number, zero or above, that fits 53 bits (a seed).
-    Whole,
-    /// A species: a whole number below 2³² − 1, or the word `all`.
-    Species,
-    /// Three finite numbers.
-    Vector,
-    /// Three finite numbers, not all zero: a direction.
-    Direction,
-    /// One of these words.
-    Choice(&'static [&'static str]),
-    /// Yes or no.
-    Flag,
-    /// The name of a motion of the scene, or an empty text: none.
-    Motion,
-    /// The name of a file of the scene, or an empty text: none. A shape gets what is in it.
-    File,
-    /// Some of [`SIDES`], with blanks between them, or an empty text: none.
-    Sides,
-    /// A colour by name or as "#ffcc88", or an empty text: none.
-    Color,
-    /// Coefficients of each pair of species, by these keys, as in `[{ species = [0, 1], epsilon = 1.0 }, …]`. Every pair of species that
-    /// particles have is given once, in any order.
-    Pairs(&'static [Key]),
-}
-
-impl Kind {
-    /// Whether a value is of the sort that it accepts, whatever its range.
-    fn takes(self, value: &Value) -> bool {
-        match self {
-            Self::Number | Self::Positive | Self::NotNegative | Self::Fraction | Self::Count | Self::Whole => {
-                matches!(value, Value::Number(_))
-            }
-            Self::Species => matches!(value, Value::Number(_) | Value::Text(_)),
-            Self::Vector | Self::Direction => matches!(value, Value::Vector(_)),
-            Self::Choice(_) | Self::Motion | Self::File | Self::Sides | Self::Color => matches!(value, Value::Text(_)),
-            Self::Flag => matches!(value, Value::Flag(_)),
-            Self::Pairs(keys) => matches!(value, Value::Pairs(rows) if rows.iter().all(|row| row.fits(keys))),
-        }
     }
 }
 
@@ -150,16 +156,23 @@ impl Settings {
         self.0.insert(name, value);
         self
     }
-    /// What is wrong with these, for the owner of such keys: a name that is none of them, or a value of another kind.
+    /// What is wrong with these, for the owner of such keys: a name that is none of them, a value of another kind or out of its range, or
+    /// one that is missing.
     #[must_use]
     pub fn fault(&self, keys: &[Key]) -> Option<String> {
-        self.0.iter().find_map(|(name, value)| {
+        let wrong = self.0.iter().find_map(|(name, value)| {
             let Some(key) = keys.iter().find(|key| key.name == *name) else {
-                let known: Vec<_> = keys.iter().map(|key| key.name).collect();
-                return Some(format!("has no key `{name}`; its keys are {}", known.join(", ")));
+                return Some(unknown(name, keys.iter().map(|key| key.name)));
             };
-            (!key.kind.takes(value))
-                .then(|| format!("has a key `{name}` of another kind than {value:?}: {}", key.about))
+            if !key.kind.takes(value) {
+                return Some(format!("has a key `{name}` of another kind than {value:?}: {}", key.about));
+            }
+            let why = key.kind.refuses(value)?;
+            Some(format!("has a key `{name}` ({}) that must be {}, and it is {why}", key.about, key.kind.wanted()))
+        });
+        wrong.or_else(|| {
+            let missing = keys.iter().find(|key| key.default.is_none() && !self.0.contains_key(key.name))?;
+            Some(format!("wants a value for its key `{}`: {}", missing.name, missing.about))
         })
     }
     /// A number.

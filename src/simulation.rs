@@ -3,6 +3,7 @@
 mod adaptive_step;
 mod alarm;
 mod columns;
+mod fields;
 mod grow;
 mod inactive;
 mod initial_projection;
@@ -12,8 +13,10 @@ mod pair_history;
 mod pictures;
 mod population;
 mod pressures;
+mod readback;
 mod restart;
 mod rows;
+mod set;
 mod setup;
 mod solves;
 mod spawn;
@@ -23,6 +26,7 @@ mod unwritten;
 pub use adaptive_step::Clock;
 pub use inactive::serves;
 pub use pressures::PressureSolves;
+pub use readback::Readback;
 pub use setup::{Plans, Setup};
 pub use solves::{Outcome, Solves};
 
@@ -30,13 +34,15 @@ use crate::cpu::threads;
 use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::integrators::SOLVE_REPORT;
-use crate::kernel::{AdaptiveStep, Backend, Element, Field, HOME, ListShape, POSITION, VELOCITY};
+use crate::kernel::{AdaptiveStep, Array, Backend, Element, Field, HOME, ListShape, POSITION, Problem, VELOCITY};
 use crate::sph::DFSPH_REPORT;
 use crate::state::State;
 use columns::Store;
+use fields::Fields;
 use glam::DVec3;
 use restart::Carried;
 use rows::Rows;
+use std::collections::BTreeMap;
 use ties::Ties;
 
 /// What a simulation is made from.
@@ -89,6 +95,13 @@ pub struct Simulation<B: Backend> {
     /// Where particles were at the start of the run, and how many held ones began somewhere.
     extent: (DVec3, DVec3),
     anchored: usize,
+    /// For what its plans were written, and these: a setting that changes has them written anew.
+    problem: Problem,
+    plans: Plans,
+    /// The fields that they name.
+    fields: Fields,
+    /// The largest values of columns that forces limit.
+    largest: BTreeMap<&'static str, setup::Largest>,
 }
 
 impl<B: Backend> Simulation<B> {
@@ -108,11 +121,12 @@ impl<B: Backend> Simulation<B> {
         if padded.is_some() {
             backend.resize(count);
         }
-        let plans = setup.plans(backend.machine())?;
-        let (plan, marks) = (plans.step.to_string(), alarm::marks(&plans));
+        let problem = setup.problem(backend.machine())?;
+        let plans = setup.plans_of(&problem)?;
+        let (plan, marks, largest) = (plans.step.to_string(), alarm::marks(&plans), setup.largest(&BTreeMap::new()));
         let reports =
             [SOLVE_REPORT, DFSPH_REPORT].map(|name| plans.step.kernels.iter().any(|kernel| kernel.names(name)));
-        let list = plans.list;
+        let (list, fields) = (plans.list, Fields::of(&plans, count));
         let start = backend.compile(&plans.start)?;
         let step = backend.compile(&plans.step)?;
         let measure = (backend.compile(&plans.measure.0)?, backend.compile(&plans.measure.1)?);
@@ -127,7 +141,7 @@ impl<B: Backend> Simulation<B> {
         let extent = setup.extent();
         let ties = Ties::of(state);
         let (has_inactive, breaks) = (state.has_inactive(), setup.breaks());
-        let (begun, begins) = (false, setup.begins(backend.machine())?);
+        let (begun, begins) = (false, setup.begins(&problem)?);
         let (dt, steps, adaptive_step) = (setup.dt, state.step, setup.integrator.adaptive_step());
         let mut made = Self {
             backend,
@@ -156,10 +170,14 @@ impl<B: Backend> Simulation<B> {
             goes_on: false,
             extent,
             anchored,
+            problem,
+            plans,
+            fields,
+            largest,
         };
         made.unstop()?;
         made.recall_pairs(state)?;
-        made.resume(setup, &plans, whole)?;
+        made.resume(setup, whole)?;
         Ok(made)
     }
     /// Advances. May return before the device is done; reading waits.
@@ -190,13 +208,33 @@ impl<B: Backend> Simulation<B> {
         }
         Ok(())
     }
-    /// Reads a field, one element for each row in use.
+    /// Reads a field, one element for each row in use. It waits for all steps that were submitted; [`Simulation::request`] waits for
+    /// none.
     ///
     /// # Errors
     /// When there is no such field, the device is lost, or it does not answer in time.
     pub async fn read<T: Element>(&mut self, field: Field<T>) -> Result<Vec<T>, Error> {
-        let array = self.backend.read(field.name, &T::array(Vec::new()), self.rows.used() as usize).await?;
+        let like = T::array(Vec::new());
+        let len = self.len_of(field, &like)?;
+        let array = self.backend.read(field.name, &like, len).await?;
         Ok(T::view(&array).map_or_else(Vec::new, |values| values.iter().map(|v| T::narrow(*v)).collect()))
+    }
+    /// The elements of a field that are read: of rows in use, or all where they are fewer than rows, as those of a user's table.
+    fn len_of<T>(&self, field: Field<T>, like: &Array) -> Result<usize, Error> {
+        let (all, rows) = (self.fields.len(field.name, like)?, self.rows.capacity() as usize);
+        Ok(if all < rows { all } else { self.rows.used() as usize })
+    }
+    /// Asks for a field as it is behind all steps that were submitted, one element for each row in use, and goes on: the answer is
+    /// looked at in a later frame, or awaited elsewhere. It borrows nothing, several may be under way, and one that is dropped costs
+    /// nothing. What a caller has encoded counts once it is submitted.
+    ///
+    /// # Errors
+    /// When there is no such field, or the device is lost.
+    pub fn request<T: Element>(&mut self, field: Field<T>) -> Result<Readback<T>, Error> {
+        let like = T::array(Vec::new());
+        let len = self.len_of(field, &like)?;
+        let arrival = self.backend.request(field.name, &like, len)?;
+        Ok(Readback::new(arrival))
     }
     /// Writes a field from its first element on: a renderer's pull, a kinematic target. Where positions or velocities
     /// change, the next step begins with the forces there.
@@ -211,8 +249,10 @@ impl<B: Backend> Simulation<B> {
     /// # Errors
     /// When there is no such field, it ends before, or the device is lost.
     pub fn write_at<T: Element>(&mut self, field: Field<T>, first: usize, values: &[T]) -> Result<(), Error> {
+        let array = T::array(values.iter().map(|v| v.widen()).collect());
+        self.fields.hold(field.name, &array, first)?;
         self.begun &= field.name != POSITION.name && field.name != VELOCITY.name;
-        self.backend.write_at(field.name, first, &T::array(values.iter().map(|v| v.widen()).collect()))
+        self.backend.write_at(field.name, first, &array)
     }
     /// The state at the end of the last step, with the column `potential` and all that ties, moves, spawns and removes particles. It
     /// evaluates the forces once more, and leaves no trace of that in the run.
@@ -284,6 +324,12 @@ impl<B: Backend> Simulation<B> {
     #[must_use]
     pub fn generation(&self) -> u32 {
         self.generation
+    }
+    /// What it is made of now, without its state: forces as they were [set](Simulation::set). With the state of
+    /// [`Simulation::snapshot`] another simulation goes on from here.
+    #[must_use]
+    pub fn setup(&self) -> &Setup {
+        &self.setup
     }
     /// The backend.
     pub fn backend(&mut self) -> &mut B {

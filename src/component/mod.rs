@@ -4,16 +4,17 @@ pub(crate) mod keys;
 pub(crate) mod kind;
 mod misnamed;
 mod register;
+mod registered;
 
-pub(crate) use misnamed::misnamed;
 pub(crate) use register::components;
+pub(crate) use registered::registered;
 
-use glam::DVec3;
+use glam::{DVec3, Vec4};
 
 use crate::error::Error;
 use crate::kernel::{Bounds, Column, Plan, Problem, Way};
 use crate::neighbors::Grid;
-use crate::settings::{Key, Settings};
+use crate::settings::{Key, Settings, Value};
 use crate::solids::Standing;
 use crate::sph::{Continuum, Rates};
 use crate::visit::Law;
@@ -28,6 +29,17 @@ pub trait Component: Copied + Send + Sync {
     /// Its laws, in the order in which they are evaluated; a later one may read what an earlier one wrote.
     fn laws(&self) -> Vec<Law> {
         Vec::new()
+    }
+    /// The name by which [`Simulation::set`](crate::Simulation::set) knows it; an empty one cannot be set.
+    fn name(&self) -> &str {
+        ""
+    }
+    /// The same with one of its settings, or a table of its law, changed.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] or [`Error::Scene`] when it has none of that name, or the value does not fit it.
+    fn changed(&self, name: &str, _to: &Change) -> Result<Box<dyn Component>, Error> {
+        Err(Error::Scene(format!("the component has no setting `{name}`: it has none")))
     }
     /// What it says of itself, as its settings have it.
     fn properties(&self) -> Properties {
@@ -58,6 +70,36 @@ pub trait Component: Copied + Send + Sync {
             Stage::Carry { earlier } => carry(self.laws(), earlier, plan, problem),
             _ => Ok(()),
         }
+    }
+}
+
+/// What becomes of a setting or of a table, in [`Simulation::set`](crate::Simulation::set).
+#[derive(Debug, Clone, PartialEq)]
+pub enum Change {
+    /// A setting, or a parameter of a user's law.
+    Value(Value),
+    /// The words of a table of a user's law, as many as it had.
+    Table(Vec<u32>),
+}
+
+impl<T: Into<Value>> From<T> for Change {
+    fn from(value: T) -> Self {
+        Self::Value(value.into())
+    }
+}
+impl From<&[f32]> for Change {
+    fn from(elements: &[f32]) -> Self {
+        Self::Table(bytemuck::cast_slice(elements).to_vec())
+    }
+}
+impl From<&[u32]> for Change {
+    fn from(elements: &[u32]) -> Self {
+        Self::Table(elements.to_vec())
+    }
+}
+impl From<&[Vec4]> for Change {
+    fn from(elements: &[Vec4]) -> Self {
+        Self::Table(bytemuck::cast_slice(elements).to_vec())
     }
 }
 

@@ -9,9 +9,10 @@ macro_rules! components {
             about: $about,
             keys: $module::KEYS,
             role: crate::component::Role::$role,
-            build: |settings| match settings.fault($module::KEYS) {
-                Some(fault) => crate::component::misnamed(format!("the force `{}` {fault}", stringify!($module))),
-                None => Box::new($type::new(settings)),
+            build: |settings| {
+                let make: fn(&crate::settings::Settings) -> Box<dyn crate::component::Component> =
+                    |settings| Box::new($type::new(settings));
+                crate::component::registered(stringify!($module), $module::KEYS, settings, make)
             },
         }),*];
     };

@@ -1,8 +1,11 @@
 //! A user's own law: a WGSL file that is the equal of ours, with no Rust and no compiler.
 
-use super::{Component, Distant, Law, Over};
+use std::sync::Arc;
+
+use super::{Change, Component, Distant, Law, Over};
+use crate::error::Error;
 use crate::kernel::{ACCELERATION, Name, Scalar, Source, Table};
-use crate::settings::Value;
+use crate::settings::{Value, unknown};
 use crate::visit::PairTable;
 
 /// A user's law. It has no reference, so the CPU backend cannot run it and nothing checks it.
@@ -36,7 +39,59 @@ impl Custom {
     }
 }
 
+impl Custom {
+    /// The same with another value of one of its parameters.
+    fn with_param(&self, name: &str, value: &Value) -> Result<Self, Error> {
+        let mut custom = self.clone();
+        let Some((_, old)) = custom.params.iter_mut().find(|(known, _)| known == name) else {
+            let known = self.params.iter().map(|(name, _)| name.as_str());
+            return Err(Error::Scene(format!("the law `{}` {}", self.name, unknown(name, known))));
+        };
+        if std::mem::discriminant(old) != std::mem::discriminant(value) {
+            return Err(Error::Scene(format!(
+                "the parameter `{name}` of the law `{}` is {}, and the new value is {}: give it one of its kind",
+                self.name,
+                old.kind(),
+                value.kind()
+            )));
+        }
+        if let Some(why) = value.beyond() {
+            return Err(Error::Scene(format!("the parameter `{name}` of the law `{}` {why}", self.name)));
+        }
+        *old = value.clone();
+        Ok(custom)
+    }
+    /// The same with other contents of one of its tables.
+    fn with_table(&self, name: &str, words: &[u32]) -> Result<Self, Error> {
+        let mut custom = self.clone();
+        let Some((_, old)) = custom.tables.iter_mut().find(|(known, _)| known == name) else {
+            let known = self.tables.iter().map(|(name, _)| name.as_ref());
+            return Err(Error::Scene(format!("the law `{}` {}", self.name, unknown(name, known))));
+        };
+        if old.len() != words.len() {
+            return Err(Error::Scene(format!(
+                "the table `{name}` of the law `{}` has {} words of 4 bytes, and these are {}: give as many, or a new setup the state \
+                 of `snapshot()`",
+                self.name,
+                old.len(),
+                words.len()
+            )));
+        }
+        *old = Arc::new(words.to_vec());
+        Ok(custom)
+    }
+}
+
 impl Component for Custom {
+    fn name(&self) -> &str {
+        &self.name
+    }
+    fn changed(&self, name: &str, to: &Change) -> Result<Box<dyn Component>, Error> {
+        Ok(Box::new(match to {
+            Change::Value(value) => self.with_param(name, value)?,
+            Change::Table(words) => self.with_table(name, words)?,
+        }))
+    }
     fn laws(&self) -> Vec<Law> {
         vec![Law {
             name: self.name.clone(),

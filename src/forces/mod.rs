@@ -4,7 +4,9 @@ mod custom;
 
 pub use custom::{Custom, scalar};
 
-pub use crate::component::{Component, Entry, Projection, Properties, Resolved, Role, Stage, evaluate, numbered};
+pub use crate::component::{
+    Change, Component, Entry, Projection, Properties, Resolved, Role, Stage, evaluate, numbered,
+};
 pub use crate::constraints::*;
 pub use crate::interactions::*;
 pub use crate::kernel::Problem;

@@ -21,10 +21,11 @@ use buffers::Buffers;
 pub use fault::Faults;
 use pipeline::Pipelines;
 pub use program::Program;
+use read::Incoming;
 use submit::Queue;
 
 use crate::error::Error;
-use crate::kernel::{Array, Backend, Flag, Machine, Packed, Plan, Shader, World};
+use crate::kernel::{Array, Arrival, Backend, Flag, Machine, Packed, Plan, Shader, World};
 
 /// A device that is borrowed from its owner, with the fields and pipelines made on it.
 pub struct Gpu {
@@ -233,5 +234,11 @@ impl Backend for Gpu {
     async fn read(&mut self, name: &str, like: &Array, len: usize) -> Result<Array, Error> {
         let bytes = like.zeros(1).to_bytes().len() as u64 * len as u64;
         Ok(like.like(&self.bytes(name, 0, bytes).await?))
+    }
+    fn request(&mut self, name: &str, like: &Array, len: usize) -> Result<Box<dyn Arrival>, Error> {
+        let bytes = like.zeros(1).to_bytes().len() as u64 * len as u64;
+        let buffer = self.buffers.get(name).ok_or_else(|| buffers::missing(name))?;
+        let request = read::request(&self.device, &mut self.queue, buffer, 0, bytes)?;
+        Ok(Box::new(Incoming::new(request, like.zeros(0))))
     }
 }

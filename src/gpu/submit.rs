@@ -1,12 +1,15 @@
 //! Submissions, cut so that each is short. Where a run is cut changes no bit: all state is in buffers.
 
 use std::collections::VecDeque;
+use std::future::poll_fn;
+use std::task::Poll;
 use std::time::Duration;
 
 use web_time::Instant;
 
 use super::fault;
 use super::program::{Dispatch, Program};
+use super::read::LOOK;
 use crate::error::Error;
 
 /// Submissions in flight, at most: one that runs, one that waits.
@@ -120,6 +123,30 @@ impl Queue {
             self.land()?;
         }
         Ok(())
+    }
+
+    /// Waits for all that is in flight, and leaves the executor its turn while that goes on.
+    pub async fn idle(&mut self) -> Result<(), Error> {
+        let mut deadline = Instant::now() + self.patience;
+        poll_fn(|context| {
+            while let Some((index, _)) = self.flying.front() {
+                let wait = wgpu::PollType::Wait { submission_index: Some(index.clone()), timeout: Some(LOOK) };
+                match self.device.poll(wait) {
+                    Ok(_) => self.land()?,
+                    Err(wgpu::PollError::Timeout) if Instant::now() > deadline => {
+                        return Poll::Ready(Err(self.timeout("a batch of steps")));
+                    }
+                    Err(wgpu::PollError::Timeout) => {
+                        context.waker().wake_by_ref();
+                        return Poll::Pending;
+                    }
+                    Err(error) => return Poll::Ready(Err(Error::Lost(error.to_string()))),
+                }
+                deadline = Instant::now() + self.patience;
+            }
+            Poll::Ready(Ok(()))
+        })
+        .await
     }
 
     fn wait_for(&self, index: wgpu::SubmissionIndex) -> Result<(), Error> {

@@ -1,5 +1,7 @@
 //! What a backend does: hold fields by name, and run plans.
 
+use std::task::Waker;
+
 use super::{Array, Host, Plan, World};
 use crate::error::Error;
 
@@ -26,6 +28,25 @@ impl Machine {
         Self { software: true, subgroup: 0, invocations: 1, bindable: 0, workgroups: 65_535, turns: Self::TURNS };
     /// Turns below which no known driver ends a loop, with room for a turn that is not counted.
     pub const TURNS: u32 = 60_000;
+}
+
+/// What may go to other threads: everything that does, but in a browser, where devices stay in theirs.
+#[cfg(not(target_arch = "wasm32"))]
+pub trait Mobile: Send + Sync {}
+#[cfg(not(target_arch = "wasm32"))]
+impl<T: Send + Sync> Mobile for T {}
+/// What may go to other threads: everything that does, but in a browser, where devices stay in theirs.
+#[cfg(target_arch = "wasm32")]
+pub trait Mobile {}
+#[cfg(target_arch = "wasm32")]
+impl<T> Mobile for T {}
+
+/// An array that is on its way to the host.
+pub trait Arrival: Mobile {
+    /// The array, once it is there, or why it will not come. Waits for nothing.
+    fn look(&mut self) -> Option<Result<Array, Error>>;
+    /// Wakes a task once there is something to look at.
+    fn wake(&mut self, waker: &Waker);
 }
 
 /// Runs plans. The two backends are the GPU and the references.
@@ -87,4 +108,9 @@ pub trait Backend {
     /// # Errors
     /// When there is no such field, the device is lost, or it does not answer in time.
     fn read(&mut self, name: &str, like: &Array, len: usize) -> impl Future<Output = Result<Array, Error>>;
+    /// Asks for a field as it is behind all that was run, and waits for nothing: `len` elements of the kind of `like`.
+    ///
+    /// # Errors
+    /// When there is no such field, or the device is lost.
+    fn request(&mut self, name: &str, like: &Array, len: usize) -> Result<Box<dyn Arrival>, Error>;
 }

@@ -28,7 +28,7 @@ pub use adaptive_step::{
     AdaptiveStep, LARGEST_CRITERION, Reason, STEP_CLOCK, STEP_CLOCK_WORDS, STEP_CRITERIA, STOP, TICKS, split, ticks,
     time,
 };
-pub use backend::{Backend, Machine};
+pub use backend::{Arrival, Backend, Machine, Mobile};
 pub use bounds::{Bounds, Side};
 pub use column::{Advance, Column, Kind, Place, Role, Shape};
 pub use columns::{Columns, base};

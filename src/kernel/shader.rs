@@ -13,7 +13,7 @@ use super::{Binding, Scalar, message, own};
 use crate::error::Error;
 
 /// One file of WGSL.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub struct Source {
     /// The name that messages give.
     pub file: Cow<'static, str>,
@@ -113,7 +113,7 @@ pub struct Shader {
 }
 
 impl Shader {
-    /// Joins files, parses and validates them.
+    /// Joins files, parses and validates them; what was joined before and is still in use is taken again.
     ///
     /// # Errors
     /// [`Error::Shader`] with file, line and caret of naga's complaint.

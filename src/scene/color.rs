@@ -1,5 +1,7 @@
 //! Colours by name or by number.
 
+use crate::settings::Kind;
+
 use super::report::{Fault, Report, nearest, shorten};
 use super::tree::{Data, Node};
 
@@ -31,15 +33,13 @@ const NAMED: &[(&str, [u8; 3])] = &[
     ("skyblue", [0x87, 0xce, 0xeb]),
 ];
 
-/// What a colour is, for "… must be …".
-pub(super) const WANTED: &str = "a colour such as \"#ffcc88\" or \"gold\"";
-
 /// Reads `"#ffcc88"`, `"#fc8"` or a name; red, green and blue come back in sRGB.
 pub(super) fn read(node: &Node, key: &str, report: &mut Report) -> Option<[u8; 3]> {
-    let Data::Text(text) = &node.data else { return super::value::refuse(node, key, WANTED, report) };
+    let Data::Text(text) = &node.data else { return super::value::refuse(node, key, &Kind::Color.wanted(), report) };
     let hex = known(text);
     if hex.is_none() {
-        let mut fault = Fault::at(&node.place, format!("`{key}` must be {WANTED}, not \"{}\"", shorten(text)));
+        let mut fault =
+            Fault::at(&node.place, format!("`{key}` must be {}, not \"{}\"", Kind::Color.wanted(), shorten(text)));
         if text.starts_with('#') {
             fault = fault.label("three or six digits, 0 to 9 and a to f");
         } else if let Some(near) = nearest(text, NAMED.iter().map(|(name, _)| *name)) {

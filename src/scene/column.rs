@@ -118,11 +118,11 @@ pub(super) fn given(node: &Node, key: &str, kind: Kind, report: &mut Report) -> 
     use settings::Kind as Wanted;
     match kind {
         Kind::Scalar => {
-            let x = value::number(node, key, Wanted::Number, &value::wanted(Wanted::Number), report)?;
+            let x = value::number(node, key, Wanted::Number, &Wanted::Number.wanted(), report)?;
             Some([x, 0.0, 0.0, 0.0])
         }
         Kind::Whole => {
-            let x = value::number(node, key, Wanted::Whole, &value::wanted(Wanted::Whole), report)?;
+            let x = value::number(node, key, Wanted::Whole, &Wanted::Whole.wanted(), report)?;
             if x > f64::from(u32::MAX) {
                 let fault = Fault::at(&node.place, format!("`{key}` is too large"));
                 report.push(fault.label(format!("it may be at most {}", u32::MAX)));

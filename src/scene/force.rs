@@ -81,7 +81,7 @@ fn read_own(table: &Table<'_>, wgsl: &Entry, files: &Files, report: &mut Report)
 /// Which pairs are evaluated, with the cut-off radius or the number of neighbours that this needs.
 fn over(table: &Table<'_>, report: &mut Report) -> Option<Over> {
     let Some(entry) = table.get("over") else {
-        report.push(table.lacks("over", &value::wanted(Kind::Choice(Over::NAMES)), "which pairs are evaluated"));
+        report.push(table.lacks("over", &Kind::Choice(Over::NAMES).wanted(), "which pairs are evaluated"));
         return None;
     };
     let word = walk::choice(entry, "over", Over::NAMES, report)?;
@@ -118,10 +118,10 @@ fn over(table: &Table<'_>, report: &mut Report) -> Option<Over> {
             "theta" => "the opening angle, at most 1: a group of size l is approximated from the distance l / theta on",
             _ => "how many are met",
         };
-        report.push(table.lacks(wanted, &value::wanted(kind), about));
+        report.push(table.lacks(wanted, &kind.wanted(), about));
         return None;
     };
-    let number = value::number(&given.node, wanted, kind, &value::wanted(kind), report)?;
+    let number = value::number(&given.node, wanted, kind, &kind.wanted(), report)?;
     match word {
         "within" => Some(Over::Within { range: number }),
         "near" => Some(Over::Near { range: number, of: None }),
@@ -143,7 +143,7 @@ fn over(table: &Table<'_>, report: &mut Report) -> Option<Over> {
 #[expect(clippy::option_option, reason = "a number that is wrong is not one that is left out")]
 fn optional(table: &Table<'_>, key: &str, kind: Kind, report: &mut Report) -> Option<Option<f64>> {
     match table.get(key) {
-        Some(given) => value::number(&given.node, key, kind, &value::wanted(kind), report).map(Some),
+        Some(given) => value::number(&given.node, key, kind, &kind.wanted(), report).map(Some),
         None => Some(None),
     }
 }

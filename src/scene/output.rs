@@ -68,7 +68,7 @@ pub(super) fn read(table: Option<&Table<'_>>, steps: u64, known: &Columns, repor
         }
     }
     if let Some(entry) = table.get("frames") {
-        let frames = value::number(&entry.node, "frames", Kind::Whole, &value::wanted(Kind::Whole), report);
+        let frames = value::number(&entry.node, "frames", Kind::Whole, &Kind::Whole.wanted(), report);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "whole, and from 0 to 2^53")]
         let frames = frames.map_or(0, |x| x as u64);
         if frames > steps + 1 {

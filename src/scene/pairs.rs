@@ -12,9 +12,6 @@ use super::tree::{Data, Node};
 use super::value;
 use super::walk::Table;
 
-pub(super) const WANTED: &str =
-    "a list of tables, one for each pair of species, as in [{ species = [0, 1], epsilon = 1.0 }]";
-
 /// A table of numbers by declared keys.
 pub(super) fn read(node: &Node, key: &str, keys: &[Key], report: &mut Report) -> Option<Vec<Pair>> {
     let values = |table: &Table<'_>, report: &mut Report| {
@@ -47,12 +44,12 @@ fn rows<T>(
     report: &mut Report,
     read: impl Fn(&Table<'_>, &mut Report) -> Vec<(String, T)>,
 ) -> Option<Vec<Row<T>>> {
-    let Data::List(list) = &node.data else { return value::refuse(node, key, WANTED, report) };
+    let Data::List(list) = &node.data else { return value::refuse(node, key, &Kind::Pairs(&[]).wanted(), report) };
     let faults = report.len();
     let (mut rows, mut given) = (Vec::new(), BTreeSet::new());
     for node in list {
         let Data::Table(entries) = &node.data else {
-            value::refuse::<()>(node, key, WANTED, report);
+            value::refuse::<()>(node, key, &Kind::Pairs(&[]).wanted(), report);
             continue;
         };
         let one = Table { entries, place: &node.place, name: format!("a pair of `{key}`") };

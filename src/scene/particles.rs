@@ -112,7 +112,7 @@ fn beside<'a>(what: &'static str, columns: &[&'a Column]) -> Vec<&'a str> {
 }
 
 fn species(entry: &Entry, report: &mut Report) -> Option<u32> {
-    let wanted = value::wanted(Kind::Whole);
+    let wanted = Kind::Whole.wanted();
     let number = value::number(&entry.node, "species", Kind::Whole, &wanted, report)?;
     if number > f64::from(u32::MAX) {
         report.push(

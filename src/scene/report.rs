@@ -1,10 +1,11 @@
 //! The collector: every fault that a reader of the scene finds goes in here, with the place it was found at.
 
 use std::collections::BTreeSet;
-use std::fmt::Write;
 use std::ops::Range;
 
 use unicode_width::UnicodeWidthChar;
+
+pub(super) use crate::settings::{listed, nearest};
 
 use super::diagnostic::{Diagnostic, Diagnostics, Excerpt, Mended};
 
@@ -223,35 +224,4 @@ pub(super) fn shorten(text: &str) -> String {
         out.push('…');
     }
     out
-}
-
-/// Words as a list: `` `a`, `b`, `c` ``.
-pub(super) fn listed<'a>(words: impl IntoIterator<Item = &'a str>) -> String {
-    let mut out = String::new();
-    for word in words {
-        let separator = if out.is_empty() { "" } else { ", " };
-        // Writing to a String cannot fail.
-        let _ = write!(out, "{separator}`{word}`");
-    }
-    out
-}
-
-/// The known word that is nearest to what was written, when it is near enough to have been meant.
-pub(super) fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    if word.len() > 64 {
-        return None;
-    }
-    let plain = |w: &str| w.to_lowercase().replace('-', "_");
-    let written = plain(word);
-    let limit = (written.chars().count() / 3).max(1);
-    known
-        .into_iter()
-        .map(|k| {
-            let extended = written.len() >= 3 && (k.starts_with(&written) || written.starts_with(k) && k.len() >= 3);
-            let distance = strsim::osa_distance(&written, &plain(k));
-            (if extended { distance.min(limit) } else { distance }, k)
-        })
-        .filter(|&(distance, _)| distance <= limit)
-        .min_by_key(|&(distance, _)| distance)
-        .map(|(_, k)| k)
 }

@@ -96,7 +96,7 @@ pub(super) fn read(table: Option<&Table<'_>>, report: &mut Report) -> Simulation
     }
     simulation.until = simulation.steps as f64 * simulation.dt;
     if let Some(entry) = length.filter(|e| e.key == "until") {
-        let until = value::number(&entry.node, "until", Kind::Positive, &value::wanted(Kind::Positive), report);
+        let until = value::number(&entry.node, "until", Kind::Positive, &Kind::Positive.wanted(), report);
         if let (Some(until), true) = (until, has_dt) {
             match steps(until, simulation.dt) {
                 Some(steps) => {

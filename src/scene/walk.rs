@@ -43,7 +43,7 @@ impl<'a> Table<'a> {
             }
         }
         for key in keys.iter().filter(|k| k.default.is_none() && self.get(k.name).is_none()) {
-            report.push(self.lacks(key.name, &value::wanted(key.kind), key.about));
+            report.push(self.lacks(key.name, &key.kind.wanted(), key.about));
         }
         settings
     }

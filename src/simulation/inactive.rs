@@ -20,6 +20,29 @@ pub fn serves(particles: &State, forces: &[Box<dyn Component>], integrator: &dyn
             "where particles are spawned or removed, no implicit integrator steps: its equations hold all particles. Choose leapfrog".to_owned(),
         );
     }
+    evaluate_active(forces)?;
+    let links = &particles.links;
+    let mut waits = vec![false; particles.len()];
+    particles.births.iter().for_each(|birth| waits[birth.id as usize] = true);
+    let springs = links.springs.iter().map(|link| link.ends).chain(links.rods.iter().map(|rod| rod.ends)).flatten();
+    let corners = links.joints.iter().map(|joint| joint.ids).chain(links.triangles.iter().copied()).flatten();
+    let idle = |id: &u32| waits.get(*id as usize).is_some_and(|waits| *waits) || !particles.is_active(*id as usize);
+    let mut tied = springs.chain(corners);
+    if !particles.drains.is_empty() && tied.next().is_some() {
+        return refuse(
+            "a drain takes particles, and here some are tied: links cannot lose an end. Take away one of them"
+                .to_owned(),
+        );
+    }
+    match tied.find(idle) {
+        Some(id) => refuse(format!("particle {id} is tied, and does not live from the start: tie others")),
+        None => Ok(()),
+    }
+}
+
+/// Refuses laws that take inactive particles for active ones.
+pub(super) fn evaluate_active(forces: &[Box<dyn Component>]) -> Result<(), Error> {
+    let refuse = |text: String| Err(Error::Scene(text));
     for force in forces {
         for law in force.laws() {
             let (name, over) = (&law.name, law.over.name());
@@ -41,21 +64,5 @@ pub fn serves(particles: &State, forces: &[Box<dyn Component>], integrator: &dyn
             }
         }
     }
-    let links = &particles.links;
-    let mut waits = vec![false; particles.len()];
-    particles.births.iter().for_each(|birth| waits[birth.id as usize] = true);
-    let springs = links.springs.iter().map(|link| link.ends).chain(links.rods.iter().map(|rod| rod.ends)).flatten();
-    let corners = links.joints.iter().map(|joint| joint.ids).chain(links.triangles.iter().copied()).flatten();
-    let idle = |id: &u32| waits.get(*id as usize).is_some_and(|waits| *waits) || !particles.is_active(*id as usize);
-    let mut tied = springs.chain(corners);
-    if !particles.drains.is_empty() && tied.next().is_some() {
-        return refuse(
-            "a drain takes particles, and here some are tied: links cannot lose an end. Take away one of them"
-                .to_owned(),
-        );
-    }
-    match tied.find(idle) {
-        Some(id) => refuse(format!("particle {id} is tied, and does not live from the start: tie others")),
-        None => Ok(()),
-    }
+    Ok(())
 }

@@ -273,7 +273,7 @@ impl<B: Backend> Simulation<B> {
         self.goes_on
     }
     /// Fills what a step keeps for the next one.
-    pub(super) fn resume(&mut self, setup: &Setup, plans: &Plans, whole: bool) -> Result<(), Error> {
+    pub(super) fn resume(&mut self, setup: &Setup, whole: bool) -> Result<(), Error> {
         let state = &setup.state;
         let mut arrays = Vec::new();
         for one in &self.carried {
@@ -299,7 +299,7 @@ impl<B: Backend> Simulation<B> {
         let free = self.rows.capacity() - count;
         self.backend.set_world(World { time: state.time, dt, step, count, free, bounds })?;
         if step > 0 || state.time > 0.0 || self.goes_on {
-            let wake = self.backend.compile(&plans.wake(self.goes_on))?;
+            let wake = self.backend.compile(&self.plans.wake(self.goes_on))?;
             self.backend.run(&wake, 1)?;
         }
         Ok(())

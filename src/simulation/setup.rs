@@ -1,5 +1,7 @@
 //! What a simulation is made of, checked, and the plans that come of it.
 
+use std::collections::BTreeMap;
+
 use glam::DVec3;
 
 use super::{columns, inactive, initial_projection, lists, pair_history, unwritten};
@@ -69,8 +71,11 @@ impl Setup {
         if let Some(padded) = self.padded() {
             return padded.plans(machine);
         }
-        let problem = self.problem(machine)?;
-        self.weigh(&problem)?;
+        self.plans_of(&self.problem(machine)?)
+    }
+    /// The same for a problem of this setup.
+    pub(super) fn plans_of(&self, problem: &Problem) -> Result<Plans, Error> {
+        self.weigh(problem)?;
         let list = problem.list;
         let mut start = Step::new(&self.forces, problem.clone());
         start.enclose();
@@ -84,8 +89,8 @@ impl Setup {
         step.open();
         self.integrator.step(&mut step);
         let columns = problem.columns.clone();
-        let time = Step::time(&problem)?;
-        let measure = Step::measurement(&self.forces, problem)?;
+        let time = Step::time(problem)?;
+        let measure = Step::measurement(&self.forces, problem.clone())?;
         let plans = Plans { start: start.begun()?, step: step.done()?, measure, time, list };
         claims(&plans.all(), &columns)?;
         pair_history::once(&self.forces, &plans.step)?;
@@ -112,7 +117,7 @@ impl Setup {
         kept.unwrap_or_else(|| self.state.free_rows())
     }
     /// Refuses what does not go with steps of different lengths.
-    fn bear(&self) -> Result<(), Error> {
+    pub(super) fn bear(&self) -> Result<(), Error> {
         if let Some(why) = self.integrator.fixed_step() {
             return Err(Error::Scene(format!("steps cannot be adaptive: {why}; choose leapfrog, or a fixed dt")));
         }
@@ -186,9 +191,9 @@ impl Setup {
         Columns::with(all)
     }
     /// Whether forces do something once, before the first step.
-    pub(super) fn begins(&self, machine: Machine) -> Result<bool, Error> {
-        let (mut plan, problem) = (Plan::default(), self.problem(machine)?);
-        self.forces.iter().try_for_each(|force| force.stage(Stage::Start, &mut plan, &problem))?;
+    pub(super) fn begins(&self, problem: &Problem) -> Result<bool, Error> {
+        let mut plan = Plan::default();
+        self.forces.iter().try_for_each(|force| force.stage(Stage::Start, &mut plan, problem))?;
         Ok(!plan.is_empty())
     }
     /// How its fluid starts, if there is one: how dense it is before the first step, by direct summation, which takes as
@@ -234,7 +239,7 @@ impl Setup {
         Ok(initial_projection::projected(self, &self.problem(Machine::HOST)?)?.moved)
     }
     /// Refuses settings that make no sense, and two fluids: each would take all particles for its own.
-    fn fluids(&self) -> Result<(), Error> {
+    pub(super) fn fluids(&self) -> Result<(), Error> {
         self.forces.iter().try_for_each(|force| force.check(&self.bounds))?;
         let count = self.forces.iter().filter(|force| force.properties().makes_fluid).count();
         if count > 1 {
@@ -272,21 +277,20 @@ impl Setup {
         }
         Ok(())
     }
-    /// Refuses values that are above what a force can serve.
-    fn limited(&self) -> Result<(), Error> {
+    /// The largest values of the columns that forces limit, and of which particle; no smaller than those that are known.
+    pub(super) fn largest(&self, known: &BTreeMap<&'static str, Largest>) -> BTreeMap<&'static str, Largest> {
+        let mut all = known.clone();
         for limit in self.forces.iter().flat_map(|force| force.properties().largest) {
-            let values = self.state.scalar(limit.column).unwrap_or_default();
-            // As the device holds both.
-            #[expect(clippy::cast_possible_truncation, reason = "rounding to f32 is what the device does")]
-            let above = |x: &f64| (*x as f32) > limit.value as f32;
-            if let Some(place) = values.iter().position(above) {
-                return Err(Error::Scene(format!(
-                    "particle {place} has the {} {}, and a force here serves {} at most: {}",
-                    limit.column, values[place], limit.value, limit.why
-                )));
+            let values = self.state.scalar(limit.column).unwrap_or_default().iter().zip(0..);
+            let largest =
+                values.max_by(|a, b| a.0.total_cmp(b.0)).map(|(value, particle)| Largest { value: *value, particle });
+            let Some(largest) = largest else { continue };
+            let entry = all.entry(limit.column).or_insert(largest);
+            if largest.value > entry.value {
+                *entry = largest;
             }
         }
-        Ok(())
+        all
     }
     /// Refuses particles with numbers that are none, and columns that are not complete.
     pub(super) fn particles(&self) -> Result<(), Error> {
@@ -306,7 +310,8 @@ impl Setup {
             )));
         }
         self.complete()?;
-        self.limited()
+        let largest = self.largest(&BTreeMap::new());
+        limited(&self.forces, &largest)
     }
     /// Whether no particle changes what accelerates another.
     pub(super) fn accelerates_each_alone(&self) -> bool {
@@ -371,4 +376,27 @@ impl Setup {
             .filter(|n| *n > 0)
             .ok_or_else(|| Error::Scene(format!("there are {count} particles: a simulation takes 1 to {}", u32::MAX)))
     }
+}
+
+/// The largest value of a column, and the particle that has it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Largest {
+    value: f64,
+    particle: usize,
+}
+
+/// Refuses values that are above what a force can serve.
+pub(super) fn limited(forces: &[Box<dyn Component>], largest: &BTreeMap<&'static str, Largest>) -> Result<(), Error> {
+    for limit in forces.iter().flat_map(|force| force.properties().largest) {
+        let Some(Largest { value, particle }) = largest.get(limit.column) else { continue };
+        // As the device holds both.
+        #[expect(clippy::cast_possible_truncation, reason = "rounding to f32 is what the device does")]
+        if (*value as f32) > limit.value as f32 {
+            return Err(Error::Scene(format!(
+                "particle {particle} has the {} {value}, and a force here serves {} at most: {}",
+                limit.column, limit.value, limit.why
+            )));
+        }
+    }
+    Ok(())
 }

@@ -52,6 +52,7 @@ impl<B: Backend> Simulation<B> {
         self.changed_hands(&rows, before)?;
         self.backend.set_rows(self.count(), self.capacity() - self.count())?;
         self.begun = false;
+        self.largest = self.setup.with_state(new.clone()).largest(&self.largest);
         Ok(ids)
     }
     /// Takes particles away, between two steps. Their ids are not given again, and their rows are free.

@@ -27,6 +27,10 @@ impl Ties {
         let (links, held, motions) = (state.all_links().into_owned(), held.clone(), motions.clone());
         Self { links, held, motions, births: births.clone(), drains: drains.clone() }
     }
+    /// Has other motions from now on.
+    pub fn lead(&mut self, motions: Vec<Motion>) {
+        self.motions = motions;
+    }
     /// Where particles are removed.
     pub fn drains(&self) -> &[Drain] {
         &self.drains

@@ -1,0 +1,71 @@
+//! A component of a register, which keeps its settings, so that one of them can be changed.
+
+use super::misnamed::misnamed;
+use super::{Change, Component, Properties, Resolved, Stage};
+use crate::error::Error;
+use crate::kernel::{Bounds, Column, Plan, Problem};
+use crate::settings::{Key, Settings, unknown};
+use crate::visit::Law;
+
+/// What makes a component from checked settings.
+type Make = fn(&Settings) -> Box<dyn Component>;
+
+/// A component, and what it was made of.
+#[derive(Clone)]
+struct Registered {
+    name: &'static str,
+    keys: &'static [Key],
+    settings: Settings,
+    make: Make,
+    made: Box<dyn Component>,
+}
+
+/// A component of that name, or one that is an error wherever a plan is written.
+pub fn registered(name: &'static str, keys: &'static [Key], settings: &Settings, make: Make) -> Box<dyn Component> {
+    match settings.fault(keys) {
+        Some(fault) => misnamed(format!("the force `{name}` {fault}")),
+        None => Box::new(Registered { name, keys, settings: settings.clone(), make, made: make(settings) }),
+    }
+}
+
+/// All that it does is done by the component that was made.
+impl Component for Registered {
+    fn name(&self) -> &str {
+        self.name
+    }
+    fn changed(&self, name: &str, to: &Change) -> Result<Box<dyn Component>, Error> {
+        let Some(key) = self.keys.iter().find(|key| key.name == name) else {
+            let known = self.keys.iter().map(|key| key.name);
+            return Err(Error::Scene(format!("the force `{}` {}", self.name, unknown(name, known))));
+        };
+        let Change::Value(value) = to else {
+            return Err(Error::Setting {
+                key: key.name,
+                why: format!("`{name}` of `{}` is {}, and no table", self.name, key.kind.wanted()),
+            });
+        };
+        let settings = self.settings.clone().with(key.name, value.clone());
+        if let Some(fault) = settings.fault(self.keys) {
+            return Err(Error::Setting { key: key.name, why: format!("the force `{}` {fault}", self.name) });
+        }
+        Ok(Box::new(Self { made: (self.make)(&settings), settings, ..self.clone() }))
+    }
+    fn columns(&self) -> Vec<Column> {
+        self.made.columns()
+    }
+    fn laws(&self) -> Vec<Law> {
+        self.made.laws()
+    }
+    fn properties(&self) -> Properties {
+        self.made.properties()
+    }
+    fn check(&self, bounds: &Bounds) -> Result<(), Error> {
+        self.made.check(bounds)
+    }
+    fn resolved(&self, problem: &Problem) -> Result<Resolved, Error> {
+        self.made.resolved(problem)
+    }
+    fn stage(&self, stage: Stage, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
+        self.made.stage(stage, plan, problem)
+    }
+}

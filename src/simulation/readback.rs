@@ -1,0 +1,55 @@
+//! Values on their way to the host.
+
+use std::future::Future;
+use std::marker::PhantomData;
+use std::pin::Pin;
+use std::task::{Context, Poll};
+
+use crate::error::Error;
+use crate::kernel::{Arrival, Element};
+
+/// The values of a field that [`Simulation::request`](super::Simulation::request) asked for. [`Readback::look`] gives them once they are
+/// there; `.await` waits for them, while the simulation and its device go on. It may go to another thread.
+#[must_use = "the values are in it"]
+pub struct Readback<T> {
+    /// Until it has given its values.
+    arrival: Option<Box<dyn Arrival>>,
+    element: PhantomData<fn() -> T>,
+}
+
+impl<T: Element> Readback<T> {
+    pub(super) fn new(arrival: Box<dyn Arrival>) -> Self {
+        Self { arrival: Some(arrival), element: PhantomData }
+    }
+    /// The values, once they are there; `None` before. Returns at once.
+    ///
+    /// # Errors
+    /// [`Error::Lost`] when the device is gone, [`Error::Timeout`] when it does not answer in time, and [`Error::Scene`] when the values
+    /// were given already.
+    pub fn look(&mut self) -> Option<Result<Vec<T>, Error>> {
+        let Some(arrival) = &mut self.arrival else {
+            return Some(Err(Error::Scene(
+                "these values were given already: request the field again for those of now".to_owned(),
+            )));
+        };
+        let answer = arrival.look()?;
+        self.arrival = None;
+        Some(answer.map(|array| {
+            T::view(&array).map_or_else(Vec::new, |values| values.iter().map(|v| T::narrow(*v)).collect())
+        }))
+    }
+}
+
+impl<T: Element> Future for Readback<T> {
+    type Output = Result<Vec<T>, Error>;
+
+    fn poll(mut self: Pin<&mut Self>, context: &mut Context<'_>) -> Poll<Self::Output> {
+        if let Some(answer) = self.look() {
+            return Poll::Ready(answer);
+        }
+        if let Some(arrival) = &mut self.arrival {
+            arrival.wake(context.waker());
+        }
+        Poll::Pending
+    }
+}
