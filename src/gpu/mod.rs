@@ -81,6 +81,11 @@ impl Gpu {
     pub fn forget_pipelines(&mut self) {
         self.pipelines.forget();
     }
+    /// Pipelines that there are: shaders with their constants, each compiled once.
+    #[must_use]
+    pub fn pipelines(&self) -> usize {
+        self.pipelines.len()
+    }
     /// Submissions so far.
     #[must_use]
     pub fn submissions(&self) -> u64 {

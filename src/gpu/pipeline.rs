@@ -34,6 +34,11 @@ impl Pipelines {
         self.kept.extend(self.made.drain());
     }
 
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.made.len() + self.kept.len()
+    }
+
     /// Lets go of all that are not kept; programs keep theirs.
     pub fn forget(&mut self) {
         self.made.clear();

@@ -155,7 +155,9 @@ impl Request {
 }
 
 fn copied(stage: &wgpu::Buffer, len: u64) -> Result<Vec<u8>, Error> {
-    let view = stage.slice(..len).get_mapped_range().map_err(|e| Error::Device(e.to_string()))?;
+    // Nothing else has the buffer: it is gone with its device.
+    let view = stage.slice(..len).get_mapped_range();
+    let view = view.map_err(|why| Error::Lost(format!("a field cannot be read: {why}")))?;
     let copy = view.to_vec();
     drop(view);
     stage.unmap();

@@ -24,7 +24,7 @@ pub struct Moment<'a> {
 }
 
 /// Takes the state of every output of a run: writes a table, a file of particles, a picture, or shows it elsewhere.
-pub trait Writer {
+pub trait Writer: Send + Sync {
     /// Opens its files in the folder of the run. Where the run goes on, `past` has the lengths of its tables.
     ///
     /// # Errors

@@ -9,6 +9,7 @@ mod columns;
 mod drivers;
 mod errors;
 mod laws;
+mod library;
 mod neighbors;
 mod own_laws;
 mod primitives;
