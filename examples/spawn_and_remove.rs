@@ -6,8 +6,8 @@
 use std::error::Error;
 
 use glam::{DVec3, Vec4};
-use motes::settings::{Settings, Value};
-use motes::{Bounds, Gpu, POSITION, Setup, Simulation, Solver, State, forces, gpu, integrators};
+use motes::typed::{Uniform, default};
+use motes::{POSITION, Setup, Simulation, State, gpu};
 
 /// Particles of a burst, and what is between two of them \[time\].
 const BURST: u32 = 64;
@@ -24,24 +24,15 @@ fn burst(number: u32) -> State {
     state
 }
 
-fn main() -> Result<(), Box<dyn Error>> {
-    let weight = forces::entry("uniform").ok_or("no such force")?;
-    let down = Settings::defaults(weight.keys).with("acceleration", Value::Vector(-9.81 * DVec3::Y));
+pub(crate) fn main() -> Result<(), Box<dyn Error>> {
+    let down = Uniform { acceleration: -9.81 * DVec3::Y, ..default() };
     // Room for all that fly at a time: for 0.75 units of it, that is 15 bursts, and one more.
     let mut state = burst(0);
     state.capacity = Some(16 * BURST);
-    let setup = Setup {
-        state,
-        forces: vec![(weight.build)(&down)],
-        integrator: Box::new(integrators::Leapfrog),
-        dt: 0.0025,
-        bounds: Bounds::default(),
-        solver: Solver::default(),
-    };
+    let setup = Setup::new(state, vec![down.into()], 0.0025);
     pollster::block_on(async {
-        let found = gpu::open(gpu::choose(gpu::adapters(&gpu::instance()).await, &gpu::Choice::Best)?).await?;
-        let gpu = Gpu::new(&found.device, &found.queue, setup.check()?)?;
-        let mut simulation = Simulation::on(gpu, &setup)?;
+        let found = gpu::best().await?;
+        let mut simulation = Simulation::new(&found.device, &found.queue, &setup)?;
         let mut spawned = BURST;
         for number in 1..60 {
             simulation.step(STEPS)?;

@@ -35,15 +35,17 @@ pub mod sph;
 pub mod stability;
 pub mod state;
 pub mod tree;
+pub mod typed;
 pub mod updaters;
 pub mod visit;
 
 pub use cpu::Cpu;
 pub use error::Error;
+pub use forces::{Change, Component, Custom, Over};
 pub use gpu::Gpu;
 pub use kernel::{ACCELERATION, Bounds, LIFE, POSITION, SPECIES, Side, Solver, TARGET, VELOCITY};
 pub use measure::Measure;
-pub use simulation::{Setup, Simulation};
+pub use simulation::{Readback, Setup, Simulation};
 pub use state::State;
 /// The version of wgpu whose devices this crate takes.
 pub use wgpu;

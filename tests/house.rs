@@ -141,7 +141,7 @@ fn no_binding_number_is_written_in_rust() {
 }
 
 /// A module may name only what stands before it.
-const ORDER: [&str; 34] = [
+const ORDER: [&str; 35] = [
     "error",
     "settings",
     "links",
@@ -163,6 +163,7 @@ const ORDER: [&str; 34] = [
     "updaters",
     "forces",
     "shapes",
+    "typed",
     "integrators",
     "cpu",
     "gpu",

@@ -6,6 +6,7 @@ mod misnamed;
 mod register;
 mod registered;
 
+pub(crate) use misnamed::misnamed;
 pub(crate) use register::components;
 pub(crate) use registered::registered;
 

@@ -183,6 +183,14 @@ pub async fn open(adapter: wgpu::Adapter) -> Result<Found, Error> {
     Ok(Found { adapter, device, queue, faults })
 }
 
+/// Opens the best device that there is: discrete, integrated, virtual, software, in this order.
+///
+/// # Errors
+/// [`Error::NoAdapter`] when there is none.
+pub async fn best() -> Result<Found, Error> {
+    open(choose(adapters(&instance()).await, &Choice::Best)?).await
+}
+
 /// Name, kind, backend and driver.
 pub(super) fn describe(info: &wgpu::AdapterInfo) -> String {
     let kind = match info.device_type {

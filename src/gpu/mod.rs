@@ -16,7 +16,9 @@ mod timing;
 
 use std::time::Duration;
 
-pub use adapter::{Choice, Found, NO_DRIVER, adapters, choose, flags, instance, open, wanted_features, wanted_limits};
+pub use adapter::{
+    Choice, Found, NO_DRIVER, adapters, best, choose, flags, instance, open, wanted_features, wanted_limits,
+};
 use buffers::Buffers;
 pub use fault::Faults;
 use pipeline::Pipelines;

@@ -18,7 +18,7 @@ pub const LOOK: Duration = Duration::from_millis(2);
 #[cfg(not(target_arch = "wasm32"))]
 const WATCH: Duration = Duration::from_millis(1);
 
-/// Where the device says that a copy is there, and to whom.
+/// Where the device says that a copy is there, and which task it wakes then.
 #[derive(Default)]
 struct Slot {
     answer: Option<Result<(), String>>,

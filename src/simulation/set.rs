@@ -13,7 +13,7 @@ use crate::motion::{self, Motion};
 use crate::settings::nearest;
 use crate::visit::{self, LINK};
 
-/// What a setting that needs another plan is told.
+/// The way out where a setting needs another plan.
 const ANEW: &str = "make another simulation of it: a setup with the state of `snapshot()`";
 
 impl<B: Backend> Simulation<B> {

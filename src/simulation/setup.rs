@@ -8,7 +8,7 @@ use super::{columns, inactive, initial_projection, lists, pair_history, unwritte
 use crate::boundary;
 use crate::error::Error;
 use crate::forces::{Component, Over, Problem, Stage};
-use crate::integrators::{Integrator, Step};
+use crate::integrators::{Integrator, Leapfrog, Step};
 use crate::kernel::{Array, Bounds, Column, Columns, ListShape, Machine, Plan, Solver, claims};
 use crate::life;
 use crate::motion::{self, Hold};
@@ -63,6 +63,12 @@ impl Plans {
 }
 
 impl Setup {
+    /// A state in open space under some forces, in steps of `dt` by leapfrog; its fields say all else.
+    #[must_use]
+    pub fn new(state: State, forces: Vec<Box<dyn Component>>, dt: f64) -> Self {
+        let (bounds, solver) = (Bounds::default(), Solver::default());
+        Self { state, forces, integrator: Box::new(Leapfrog), dt, bounds, solver }
+    }
     /// Writes the plans for a machine.
     ///
     /// # Errors

@@ -4,3 +4,4 @@ mod formats;
 mod misnamed;
 mod scenes;
 mod shapes;
+mod typed;

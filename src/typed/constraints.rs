@@ -1,0 +1,62 @@
+//! Constraints, written from the register.
+
+use std::borrow::Cow;
+
+use glam::DVec3;
+
+use super::{Field, typed};
+use crate::settings::Settings;
+
+typed! {
+    force;
+    /// The least and the greatest speed of a species.
+    SpeedLimit "speed_limit" speed_limit(max: f64) {
+        /// The minimum speed; a particle at rest sets off along x \[length / time\].
+        min: f64,
+        /// The maximum speed \[length / time\].
+        max: f64,
+        /// What it acts on: a species, or "all".
+        species: Option<u32>,
+    }
+    /// A sphere, a box, a plane or a capsule that lets no particle in, or out: bounces and friction.
+    Solid "solid" solid() {
+        /// What it is: sphere, box, plane, capsule.
+        shape: Cow<'static, str>,
+        /// Its middle, or a point on the plane \[length\].
+        position: DVec3,
+        /// Sphere and capsule: the radius \[length\].
+        radius: f64,
+        /// Box: its sides \[length\].
+        size: DVec3,
+        /// Plane: the direction to the free side.
+        normal: DVec3,
+        /// Capsule: from the centre of one end to the other's \[length\].
+        axis: DVec3,
+        /// How far off centres of particles keep \[length\].
+        thickness: f64,
+        /// The part of the speed that bounces back, 0 to 1.
+        restitution: f64,
+        /// Coulomb's coefficient of friction.
+        friction: f64,
+        /// Whether it is a container, and keeps particles in.
+        inside: bool,
+        /// The motion that it goes along with, if any.
+        motion: Cow<'static, str>,
+        /// What it acts on: a species, or "all".
+        species: Option<u32>,
+        /// What is evaluated: each particle alone.
+        over: Cow<'static, str>,
+    }
+    /// Rigid rods in chains keep their lengths, whatever the other forces do (RATTLE: Andersen 1983).
+    Rod "rod" rod() {
+    }
+    /// Springs that are not stretched farther than so much (Provot 1995).
+    StrainLimit "strain_limit" strain_limit() {
+        /// How much longer than at rest a spring may get, as a part of that.
+        strain: f64,
+        /// How often all springs are looked at after a drift: more bring long rows nearer to the limit.
+        sweeps: u32,
+        /// What is limited: springs and ropes.
+        over: Cow<'static, str>,
+    }
+}

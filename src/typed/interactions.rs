@@ -1,0 +1,350 @@
+//! Interactions, written from the register.
+
+use std::borrow::Cow;
+
+use glam::DVec3;
+
+use super::{Field, typed};
+use crate::settings::{Pair, Settings};
+
+typed! {
+    force;
+    /// All particles attract each other, softened (Newton 1687).
+    Gravity "gravity" gravity() {
+        /// The gravitational constant \[length³ / mass / time²\].
+        g: f64,
+        /// The Plummer softening ε; the spline ends at 2.8 ε, so for PKDGRAV's own ε (which ends at 2 ε) say 2/2.8 of it \[length\].
+        softening: f64,
+        /// How close encounters are softened: plummer, spline.
+        kernel: Cow<'static, str>,
+        /// Which pairs are evaluated: all of them, or far groups as one, through a tree; "auto": whichever is faster: pairs, tree, auto.
+        over: Cow<'static, str>,
+        /// The opening angle θ of the tree, at most 1: a group of size l is approximated from the distance l / θ on.
+        theta: f64,
+        /// Above 0: the tree opens by relative force (GADGET): a group is approximated where its quadrupole is below α of the last acceleration.
+        alpha: f64,
+        /// In a periodic box: nearest images alone, or all images in a uniform background, in a cube (Ewald 1921): nearest, ewald.
+        images: Cow<'static, str>,
+        /// What the tree knows of a far group: quadrupole, monopole.
+        multipoles: Cow<'static, str>,
+    }
+    /// The same acceleration everywhere: weight.
+    Uniform "uniform" uniform() {
+        /// The acceleration \[length / time²\].
+        acceleration: DVec3,
+        /// What is evaluated: each particle alone.
+        over: Cow<'static, str>,
+    }
+    /// Linear and quadratic resistance of a medium that may move (Stokes 1851, Newton 1687).
+    Drag "drag" drag() {
+        /// The rate of linear (Stokes) drag \[1 / time\].
+        linear: f64,
+        /// The coefficient of quadratic (Newton) drag \[1 / length\].
+        quadratic: f64,
+        /// The velocity of the medium \[length / time\].
+        wind: DVec3,
+        /// What is evaluated: each particle alone.
+        over: Cow<'static, str>,
+    }
+    /// A wind that blows in gusts and carries particles along.
+    Wind "wind" wind() {
+        /// The mean velocity of the air \[length / time\].
+        velocity: DVec3,
+        /// How fast particles take the air's velocity \[1 / time\].
+        rate: f64,
+        /// The strength of gusts, as a part of the mean.
+        gust: f64,
+        /// The time from gust to gust \[time\].
+        period: f64,
+        /// The way from gust to gust, along the wind \[length\].
+        wavelength: f64,
+        /// What is evaluated: each particle alone.
+        over: Cow<'static, str>,
+    }
+    /// A whirl about an axis that carries particles along (Kaufmann 1962).
+    Vortex "vortex" vortex() {
+        /// A point on the axis \[length\].
+        center: DVec3,
+        /// The axis; the whirl turns about it by the right hand.
+        axis: DVec3,
+        /// The circulation Γ far outside \[length² / time\].
+        circulation: f64,
+        /// The radius of the fastest flow \[length\].
+        core: f64,
+        /// How fast particles take the flow's velocity \[1 / time\].
+        rate: f64,
+        /// What is evaluated: each particle alone.
+        over: Cow<'static, str>,
+    }
+    /// A fixed or moving centre: point mass, spring or logarithmic halo.
+    Attractor "attractor" attractor() {
+        /// Where the centre is at time 0 \[length\].
+        position: DVec3,
+        /// How it moves \[length / time\]; energy is kept only if it rests.
+        velocity: DVec3,
+        /// How the pull falls off: point, harmonic, logarithmic.
+        profile: Cow<'static, str>,
+        /// Point: G M \[length³ / time²\]; harmonic: ω² \[1 / time²\]; logarithmic: v₀² \[length² / time²\].
+        strength: f64,
+        /// Point, logarithmic: the core radius ε \[length\].
+        softening: f64,
+        /// What is evaluated: each particle alone.
+        over: Cow<'static, str>,
+    }
+    /// A flock: separation, alignment and cohesion within a field of view (Reynolds 1987, 1999).
+    Boids "boids" boids() {
+        /// The range of view, near and within \[length\].
+        range: f64,
+        /// The range of separation; no larger than the range of view \[length\].
+        separation_range: f64,
+        /// The weight of separation.
+        separation: f64,
+        /// The weight of alignment.
+        alignment: f64,
+        /// The weight of cohesion.
+        cohesion: f64,
+        /// Half of the angle of view; 180 and more is all round, and so is the view of a bird at rest \[degrees\].
+        vision: f64,
+        /// The speed of the wishes, and the maximum speed \[length / time\].
+        max_speed: f64,
+        /// The minimum speed; a bird at rest sets off along x \[length / time\].
+        min_speed: f64,
+        /// The maximum acceleration of each rule, and of all together \[length / time²\].
+        max_force: f64,
+        /// What it acts on: a species, or "all".
+        species: Option<u32>,
+        /// Which neighbours: all in range, by a cell list, by a list that is kept over steps, or by brute force; or the nearest, of all species, however far (Ballerini et al. 2008): near, list, within, nearest.
+        over: Cow<'static, str>,
+        /// Over = "list": how much farther than the range the list reaches; 0: a fifth of the range \[length\].
+        skin: f64,
+        /// How many are nearest.
+        neighbors: u32,
+    }
+    /// A sphere, a box or a plane that is seen ahead and avoided (after Reynolds 1999).
+    Obstacle "obstacle" obstacle() {
+        /// What it is: sphere, box, plane.
+        shape: Cow<'static, str>,
+        /// Its middle, or a point on the plane \[length\].
+        position: DVec3,
+        /// Sphere: its radius \[length\].
+        radius: f64,
+        /// Box: its sides \[length\].
+        size: DVec3,
+        /// Plane: the direction to the free side.
+        normal: DVec3,
+        /// How far ahead it is seen \[time\].
+        look_ahead: f64,
+        /// The distance kept from it: the radius of a bird \[length\].
+        clearance: f64,
+        /// The acceleration of particles that touch it \[length / time²\].
+        max_force: f64,
+        /// What it acts on: a species, or "all".
+        species: Option<u32>,
+        /// What is evaluated: each particle alone.
+        over: Cow<'static, str>,
+    }
+    /// Prey flee from predators.
+    Flee "flee" flee() {
+        /// How far a predator is seen \[length\].
+        range: f64,
+        /// What a predator does at no distance \[length / time²\].
+        strength: f64,
+        /// The species that flees.
+        species: Option<u32>,
+        /// The species that it flees.
+        predators: Option<u32>,
+        /// Which neighbours: all in range, by a cell list, by a list that is kept over steps, or by brute force: near, list, within.
+        over: Cow<'static, str>,
+        /// Over = "list": how much farther than the range the list reaches; 0: a fifth of the range \[length\].
+        skin: f64,
+    }
+    /// Predators chase prey.
+    Chase "chase" chase() {
+        /// How far prey is seen \[length\].
+        range: f64,
+        /// The speed of the wish; for a limit see speed_limit \[length / time\].
+        max_speed: f64,
+        /// The most that steering does \[length / time²\].
+        max_force: f64,
+        /// The species that chases.
+        species: Option<u32>,
+        /// The species that is chased.
+        prey: Option<u32>,
+        /// Which neighbours: all in range, by a cell list, by a list that is kept over steps, or by brute force: near, list, within.
+        over: Cow<'static, str>,
+        /// Over = "list": how much farther than the range the list reaches; 0: a fifth of the range \[length\].
+        skin: f64,
+    }
+    /// A place to steer to and arrive at, or a roost to keep to (Reynolds 1999).
+    Goal "goal" goal() {
+        /// Where it is at time 0 \[length\].
+        position: DVec3,
+        /// How it moves \[length / time\].
+        velocity: DVec3,
+        /// The speed of the wish \[length / time\].
+        max_speed: f64,
+        /// The most that steering does \[length / time²\].
+        max_force: f64,
+        /// Within it particles slow down, to rest at the goal \[length\].
+        slow_radius: f64,
+        /// Within it particles are free: a roost, steered to from outside alone \[length\].
+        free_radius: f64,
+        /// What it acts on: a species, or "all".
+        species: Option<u32>,
+        /// What is evaluated: each particle alone.
+        over: Cow<'static, str>,
+    }
+    /// A random walk of velocities, the same numbers on every device.
+    Wander "wander" wander() {
+        /// σ: after the time t a velocity has walked σ √t, whatever dt \[length / time^(3/2)\].
+        strength: f64,
+        /// Seed of the random numbers, counted by id and step.
+        seed: u64,
+        /// What it acts on: a species, or "all".
+        species: Option<u32>,
+        /// What is evaluated: each particle alone.
+        over: Cow<'static, str>,
+    }
+    /// A box with soft walls that turn back.
+    SoftTurn "soft_turn" soft_turn() {
+        /// The lowest corner of the box \[length\].
+        low: DVec3,
+        /// The highest corner \[length\].
+        high: DVec3,
+        /// How deep the wall is, inside of the box; outside it has no end \[length\].
+        margin: f64,
+        /// How strong it is, for every side by itself \[length / time²\].
+        acceleration: f64,
+        /// What it acts on: a species, or "all".
+        species: Option<u32>,
+        /// What is evaluated: each particle alone.
+        over: Cow<'static, str>,
+    }
+    /// Each particle takes the mean heading around it, with noise, in the plane (Vicsek et al. 1995).
+    Vicsek "vicsek" vicsek() {
+        /// The range of view, in which a particle sees itself too \[length\].
+        range: f64,
+        /// The speed of all particles; v₀ of the paper is this times dt \[length / time\].
+        speed: f64,
+        /// η: angular, the width of the random turn \[0 to 2π\]; vectorial, the length of the random arrow \[0 to 1\].
+        noise: f64,
+        /// Whether the noise turns the mean heading, or adds to the headings: angular, vectorial.
+        noise_kind: Cow<'static, str>,
+        /// Seed of the random numbers, counted by id and step.
+        seed: u64,
+        /// Which neighbours: all in range, by a cell list, by a list that is kept over steps, or by brute force: near, list, within.
+        over: Cow<'static, str>,
+        /// Over = "list": how much farther than the range the list reaches; 0: a fifth of the range \[length\].
+        skin: f64,
+    }
+    /// Ions: repulsion and dispersion by pair of species, and damped Coulomb forces of their charges (Born & Mayer 1932).
+    BornMayer "born_mayer" born_mayer(pairs: Vec<Pair>, range: f64) {
+        /// The coefficients of each pair of species, as in \[{ species = \[0, 1\], repulsion = 1.0, decay = 0.3 }\].
+        pairs: Vec<Pair>,
+        /// The cut-off radius, where energy and force end \[length\].
+        range: f64,
+        /// Coulomb's constant, 1 / 4π ε₀ \[energy length / charge²\].
+        coulomb: f64,
+        /// α: Coulomb's energy is erfc(α r) / r; 0: it is only shifted \[1 / length\].
+        damping: f64,
+        /// Which neighbours: all in range, by a cell list, by a list that is kept over steps, or by brute force: near, list, within.
+        over: Cow<'static, str>,
+        /// Over = "list": how much farther than the range the list reaches; 0: a fifth of the range \[length\].
+        skin: f64,
+    }
+    /// Spheres that touch: normal springs and dashpots, friction with history, torques (Cundall & Strack 1979).
+    Contact "contact" contact(range: f64) {
+        /// The largest sum of two radii; larger ones are refused \[length\].
+        range: f64,
+        /// K, the normal force per overlap \[mass / time²\].
+        stiffness: f64,
+        /// The speed after a head-on impact, as a part of that before.
+        restitution: f64,
+        /// μ: spheres slide where the tangential force would be above μ times the normal one.
+        friction: f64,
+        /// The stiffness across the contact, as a part of the normal one.
+        tangential_stiffness: f64,
+        /// The damping across the contact, as a part of the normal one.
+        tangential_damping: f64,
+        /// How much farther than the range the list of neighbours reaches; 0: a fifth of the range \[length\].
+        skin: f64,
+    }
+    /// Springs and ropes, damped along themselves (Hooke 1678).
+    Spring "spring" spring() {
+        /// Which pairs are evaluated: those that a spring or a rope ties; its length, stiffness and damping come with it.
+        over: Cow<'static, str>,
+    }
+    /// Joints that resist bending: elastic rods, hair (Euler 1744).
+    Joint "joint" joint() {
+        /// What is evaluated: the three particles of a joint; its stiffness comes with it.
+        over: Cow<'static, str>,
+    }
+    /// A fluid by smoothed particle hydrodynamics, weakly compressible (Monaghan 1994); held particles are its walls.
+    Fluid "fluid" fluid(spacing: f64) {
+        /// The density at rest \[mass / length³, or mass / length² in two dimensions\].
+        density: f64,
+        /// How far apart particles are at rest, on a cubic lattice \[length\].
+        spacing: f64,
+        /// How far the kernel reaches \[spacings\].
+        support: f64,
+        /// What smooths: the cubic spline, or Wendland's C2: cubic, wendland.
+        kernel: Cow<'static, str>,
+        /// Pressure by an equation of state, or solved for (Bender & Koschier 2015): wcsph, dfsph.
+        solver: Cow<'static, str>,
+        /// Wcsph: the speed of sound: ten times the fastest flow makes the density vary by 1 % \[length / time\].
+        sound_speed: f64,
+        /// The exponent of Tait's equation p = (ρ₀ c² / γ) ((ρ/ρ₀)^γ − 1), 2 to 15.
+        gamma: u32,
+        /// Whether pressure may be below 0: where there is no free surface.
+        negative_pressure: bool,
+        /// The artificial viscosity α (Monaghan 1992).
+        alpha: f64,
+        /// The kinematic viscosity ν (Morris, Fox & Zhu 1997) \[length² / time\].
+        viscosity: f64,
+        /// ε of XSPH: how much of the mean velocity around is taken on in each step (Schechter & Bridson 2012).
+        xsph: f64,
+        /// How much of both viscosities walls have; 0 lets slip.
+        wall_friction: f64,
+        /// The pressure of walls: that of the particle at the wall (Akinci et al. 2012), or that of the fluid around them (Adami, Hu & Adams 2012, as if they were not accelerated): mirror, extrapolate.
+        walls: Cow<'static, str>,
+        /// What walls weigh: by how close they are, for one layer (Akinci et al. 2012), or each a share of the lattice, for several: sampled, lattice.
+        wall_mass: Cow<'static, str>,
+        /// Where density comes from: masses around, or the continuity equation (Monaghan 1994), which knows of no surface: summation, continuity.
+        density_by: Cow<'static, str>,
+        /// δ of the diffusion of density by continuity, 0.1 say (Molteni & Colagrossi 2009).
+        diffusion: f64,
+        /// The acceleration of weight that a force gives, so that diffusion (Fourtakas et al. 2019) and walls leave a fluid at rest alone \[length / time²\].
+        weight: DVec3,
+        /// Surface tension γ (Akinci, Akinci & Teschner 2013), which is not σ: with water's 1000 for density, in space, σ is about 25 000, 55 000 or 75 000 γ spacing² where support is 2, 2.5 or 3.
+        tension: f64,
+        /// How walls pull the fluid, β (as above).
+        adhesion: f64,
+        /// Dfsph: the mean error of the density that is left \[parts of the density\].
+        tolerance: f64,
+        /// Dfsph: what the velocity may compress by in a step, in the mean \[parts of the density\].
+        divergence_tolerance: f64,
+        /// Dfsph: the fewest iterations of a solve.
+        min_iterations: u32,
+        /// Dfsph: the most iterations of a solve.
+        max_iterations: u32,
+    }
+    /// Drag and lift on every triangle of a cloth, in gusts (Ling, Damodaran & Gay 1996).
+    Air "air" air() {
+        /// The mean velocity of the air \[length / time\].
+        wind: DVec3,
+        /// The density of the air \[mass / length³\].
+        density: f64,
+        /// The drag coefficient of a triangle that faces the wind.
+        drag: f64,
+        /// The lift coefficient.
+        lift: f64,
+        /// The strength of gusts, as a part of the mean.
+        gust: f64,
+        /// The time from gust to gust \[time\].
+        period: f64,
+        /// The way from gust to gust, along the wind \[length\].
+        wavelength: f64,
+        /// What is evaluated: the corners of each triangle of cloth.
+        over: Cow<'static, str>,
+    }
+}

@@ -1,0 +1,414 @@
+//! Shapes, written from the register.
+
+use std::borrow::Cow;
+
+use glam::DVec3;
+
+use super::{Field, typed};
+use crate::settings::Settings;
+
+typed! {
+    shape;
+    /// Plummer's sphere, a star cluster in equilibrium (Plummer 1911; Aarseth, Hénon & Wielen 1974).
+    Plummer "plummer" plummer(count: u32) {
+        /// Number of particles.
+        count: u32,
+        /// Seed of the random numbers.
+        seed: u64,
+        /// Mass of all particles together \[mass\].
+        mass: f64,
+        /// Plummer radius a \[length\]; half of the mass lies within 1.305 a; 3π/16 gives the energy -1/4 for g = mass = 1.
+        scale: f64,
+        /// Constant of gravity \[length³ / mass / time²\]; as in the force.
+        g: f64,
+        /// Share of the endless model's mass that is drawn from, from the centre outwards (at most 1).
+        cutoff: f64,
+        /// Where the centre is put \[length\].
+        center: DVec3,
+        /// How it moves as a whole \[length / time\].
+        velocity: DVec3,
+        /// How large each particle is drawn \[length\]; 0 lets the picture choose.
+        particle_size: f64,
+    }
+    /// Hernquist's sphere, a galaxy or halo with a cusp ρ ∝ 1/r, in equilibrium (Hernquist 1990).
+    Hernquist "hernquist" hernquist(count: u32) {
+        /// Number of particles.
+        count: u32,
+        /// Seed of the random numbers.
+        seed: u64,
+        /// Mass of all particles together \[mass\].
+        mass: f64,
+        /// Scale a \[length\]; half of the mass lies within 2.414 a; 1/3 gives the energy -1/4 for g = mass = 1.
+        scale: f64,
+        /// Constant of gravity \[length³ / mass / time²\]; as in the force.
+        g: f64,
+        /// Share of the endless model's mass that is drawn from, from the centre outwards (below 1); 0.99 ends at 199 a.
+        cutoff: f64,
+        /// Where the centre is put \[length\].
+        center: DVec3,
+        /// How it moves as a whole \[length / time\].
+        velocity: DVec3,
+        /// How large each particle is drawn \[length\]; 0 lets the picture choose.
+        particle_size: f64,
+    }
+    /// A uniform sphere, cold or with Gaussian velocities (van Albada 1982).
+    Sphere "sphere" sphere(count: u32) {
+        /// Number of particles.
+        count: u32,
+        /// Seed of the random numbers.
+        seed: u64,
+        /// Mass of all particles together \[mass\].
+        mass: f64,
+        /// Radius of the sphere \[length\].
+        radius: f64,
+        /// Kinetic over potential energy, K / |W|, of the random velocities: 0 is cold, 0.5 is balanced.
+        virial: f64,
+        /// Turning as a whole, on top of the random velocities: angular velocity \[1 / time\] along its axis.
+        spin: DVec3,
+        /// Constant of gravity \[length³ / mass / time²\]; as in the force.
+        g: f64,
+        /// Where the centre is put \[length\].
+        center: DVec3,
+        /// How it moves as a whole \[length / time\].
+        velocity: DVec3,
+        /// How large each particle is drawn \[length\]; 0 lets the picture choose.
+        particle_size: f64,
+    }
+    /// A disk galaxy in a halo, with a bulge or without, near equilibrium: the disk's particles first, then the halo's, then the bulge's (Hernquist 1993).
+    Disk "disk" disk(count: u32) {
+        /// Number of particles.
+        count: u32,
+        /// Seed of the random numbers.
+        seed: u64,
+        /// Mass of the disk \[mass\].
+        disk_mass: f64,
+        /// R_d of its surface density exp(-R / R_d) \[length\].
+        disk_scale: f64,
+        /// Z₀ of its profile sech²(z / z₀) \[length\].
+        disk_height: f64,
+        /// Mass of the halo \[mass\]; 0 leaves it out.
+        halo_mass: f64,
+        /// A of the halo's density 1 / (r (r + a)³), which is cut at 10 a \[length\].
+        halo_scale: f64,
+        /// Share of the particles that are halo (below 1); their ids follow the disk's.
+        halo_fraction: f64,
+        /// The halo in pictures; "black" hides it; left out: as the disk.
+        halo_color: Cow<'static, str>,
+        /// Mass of the bulge \[mass\]; 0 leaves it out.
+        bulge_mass: f64,
+        /// A of the bulge's density, as of the halo's \[length\].
+        bulge_scale: f64,
+        /// Share of the particles that are bulge (below 1), where it has a mass; their ids follow the halo's.
+        bulge_fraction: f64,
+        /// The bulge in pictures; left out: as the disk.
+        bulge_color: Cow<'static, str>,
+        /// Toomre's Q at every radius: how warm the disk is; below 1 it breaks into clumps, above 2 it hardly makes arms.
+        toomre_q: f64,
+        /// Softening of the force that the galaxy will run with \[length\], so that its centre is balanced too.
+        softening: f64,
+        /// The axis about which it turns, counter-clockwise.
+        normal: DVec3,
+        /// Constant of gravity \[length³ / mass / time²\]; as in the force.
+        g: f64,
+        /// Where the centre is put \[length\].
+        center: DVec3,
+        /// How it moves as a whole \[length / time\].
+        velocity: DVec3,
+        /// How large each particle is drawn \[length\]; 0 lets the picture choose.
+        particle_size: f64,
+    }
+    /// Clumps of clumps, a fractal, cold or with Gaussian velocities (Soneira & Peebles 1978).
+    Clusters "clusters" clusters(count: u32) {
+        /// Number of particles.
+        count: u32,
+        /// Seed of the random numbers.
+        seed: u64,
+        /// Mass of all particles together \[mass\].
+        mass: f64,
+        /// Radius of the ball that the centres of the largest clumps lie in; what they hold lies up to λ / (λ - 1) as far out \[length\].
+        radius: f64,
+        /// η: how many clumps a clump holds (2 or above).
+        children: u32,
+        /// D = ln η / ln λ, at most 3: 3 is evenly filled; 1.23 is that of galaxies, λ = 1.76 for η = 2.
+        dimension: f64,
+        /// Standard deviation of each component of the velocities \[length / time\].
+        dispersion: f64,
+        /// Where the centre is put \[length\].
+        center: DVec3,
+        /// How it moves as a whole \[length / time\].
+        velocity: DVec3,
+        /// How large each particle is drawn \[length\]; 0 lets the picture choose.
+        particle_size: f64,
+    }
+    /// A simple cubic lattice, straight, jittered, or displaced by random waves that grow by gravity (Zel'dovich 1970).
+    Lattice "lattice" lattice(size: DVec3) {
+        /// Particles along x, y and z: three whole numbers, 1 or above.
+        size: DVec3,
+        /// Distance between neighbours along an axis \[length\].
+        spacing: f64,
+        /// Mass of each particle \[mass\].
+        mass: f64,
+        /// Largest displacement along each axis, in spacings; 0.5 lets neighbours just touch.
+        jitter: f64,
+        /// Random waves, periodic over the lattice: root mean square of their displacement along each axis, in spacings.
+        displacement: f64,
+        /// N of the power k^n of the density in those waves: the lower it is, the more there is in long ones.
+        spectrum: f64,
+        /// Velocity of each particle over its displacement by waves \[1 / time\]; sqrt(4 pi g density) for the growing mode.
+        growth: f64,
+        /// Seed of the random numbers.
+        seed: u64,
+        /// Where the centre is put \[length\].
+        center: DVec3,
+        /// How it moves as a whole \[length / time\].
+        velocity: DVec3,
+        /// How large each particle is drawn \[length\]; 0 lets the picture choose.
+        particle_size: f64,
+    }
+    /// A block of fluid: a cubic lattice that fills a box, or a rectangle.
+    Block "block" block(size: DVec3, spacing: f64) {
+        /// Its sides; 0 along z for a rectangle \[length\].
+        size: DVec3,
+        /// How far apart particles are, as in the force `fluid`, which says it for its shapes where they do not \[length\].
+        spacing: f64,
+        /// The density at rest of the fluid, as in the force \[mass / length³, or mass / length²\].
+        density: f64,
+        /// Largest displacement along each axis, in spacings.
+        jitter: f64,
+        /// The speed of vortices in it, one period along each of x and y (Taylor & Green 1937) \[length / time\].
+        vortices: f64,
+        /// The rate at which it is drawn out along y and pressed together along x \[1 / time\].
+        strain: f64,
+        /// Seed of the random numbers.
+        seed: u64,
+        /// Where the centre is put \[length\].
+        center: DVec3,
+        /// How it moves as a whole \[length / time\].
+        velocity: DVec3,
+        /// How large each particle is drawn \[length\]; 0 lets the picture choose.
+        particle_size: f64,
+    }
+    /// A drop of fluid: a ball, an ellipsoid or a disk out of a cubic lattice.
+    Drop "drop" drop(size: DVec3, spacing: f64) {
+        /// Its diameters along x, y and z; 0 along z for a disk \[length\].
+        size: DVec3,
+        /// How far apart particles are, as in the force `fluid`, which says it for its shapes where they do not \[length\].
+        spacing: f64,
+        /// The density at rest of the fluid, as in the force \[mass / length³, or mass / length²\].
+        density: f64,
+        /// Where the centre is put \[length\].
+        center: DVec3,
+        /// How it moves as a whole \[length / time\].
+        velocity: DVec3,
+        /// How large each particle is drawn \[length\]; 0 lets the picture choose.
+        particle_size: f64,
+    }
+    /// A box, or a rectangle, of walls around a fluid, held; where they meet they do so without a gap (Akinci et al. 2012).
+    Tank "tank" tank(size: DVec3, spacing: f64) {
+        /// The sides of the room within; 0 along z for a rectangle \[length\].
+        size: DVec3,
+        /// How far apart particles are, as in the force `fluid`, which says it for its shapes where they do not \[length\].
+        spacing: f64,
+        /// Which sides are left out, such as "+z" or "-x +x"; none: it is closed.
+        open: Cow<'static, str>,
+        /// How far the fluid's kernel reaches, as in the force \[spacings\].
+        support: f64,
+        /// What smooths the fluid, as in the force: cubic, wendland.
+        kernel: Cow<'static, str>,
+        /// What the force lets walls weigh: sampled ones keep the gap that leaves the fluid at rest, those of a lattice go on with its own: sampled, lattice.
+        wall_mass: Cow<'static, str>,
+        /// How many particles a wall is thick; 0: one where it is sampled, on a lattice as many as the support has spacings.
+        layers: u64,
+        /// The density at rest of the fluid, as in the force \[mass / length³, or mass / length²\].
+        density: f64,
+        /// Where the centre is put \[length\].
+        center: DVec3,
+        /// How large each particle is drawn \[length\]; 0 lets the picture choose.
+        particle_size: f64,
+    }
+    /// A plane, a box, a sphere or a mesh as a wall of a fluid, held, or led by a motion (Akinci et al. 2012).
+    Wall "wall" wall(spacing: f64) {
+        /// What it is the surface of: plane, box, sphere, mesh.
+        surface: Cow<'static, str>,
+        /// Box and sphere: the sides, or three times the diameter, 0 along z for a rectangle or a circle; plane: along the level and up, where 0 up is a line \[length\].
+        size: DVec3,
+        /// Plane: the direction to the fluid.
+        normal: DVec3,
+        /// Mesh: a file in Wavefront's OBJ; its faces look to the fluid.
+        mesh: Cow<'static, str>,
+        /// Mesh: by how much it is made larger.
+        scale: f64,
+        /// Box, sphere and mesh: whether the fluid is within.
+        inside: bool,
+        /// How far apart particles are, as in the force `fluid`, which says it for its shapes where they do not \[length\].
+        spacing: f64,
+        /// How far the fluid's kernel reaches, as in the force \[spacings\].
+        support: f64,
+        /// What smooths the fluid, as in the force: cubic, wendland.
+        kernel: Cow<'static, str>,
+        /// What the force lets walls weigh: sampled ones keep the gap that leaves the fluid at rest, those of a lattice go on with its own: sampled, lattice.
+        wall_mass: Cow<'static, str>,
+        /// How many particles a wall is thick; 0: one where it is sampled, on a lattice as many as the support has spacings.
+        layers: u64,
+        /// The density at rest of the fluid, as in the force \[mass / length³, or mass / length²\].
+        density: f64,
+        /// Where the centre is put \[length\].
+        center: DVec3,
+        /// How large each particle is drawn \[length\]; 0 lets the picture choose.
+        particle_size: f64,
+    }
+    /// A box filled uniformly at random, at rest or warm.
+    RandomBox "box" random_box(count: u32) {
+        /// Number of particles.
+        count: u32,
+        /// Seed of the random numbers.
+        seed: u64,
+        /// Lengths of the sides \[length\], 0 or above: a zero makes it flat, and all that moves in it.
+        size: DVec3,
+        /// Mass of each particle \[mass\].
+        mass: f64,
+        /// Thermal speed: standard deviation of each velocity component, but across a flat box \[length / time\], √(k T / m) of a gas.
+        speed: f64,
+        /// Where the centre is put \[length\].
+        center: DVec3,
+        /// How it moves as a whole \[length / time\].
+        velocity: DVec3,
+        /// How large each particle is drawn \[length\]; 0 lets the picture choose.
+        particle_size: f64,
+    }
+    /// Thrown from a nozzle into a cone: sparks, drops, a fountain.
+    Spray "spray" spray(count: u32) {
+        /// Number of particles.
+        count: u32,
+        /// Seed of the random numbers.
+        seed: u64,
+        /// The axis of the cone.
+        direction: DVec3,
+        /// From the axis to the edge of the cone \[degrees\], up to 180.
+        angle: f64,
+        /// Mean speed \[length / time\].
+        speed: f64,
+        /// Standard deviation of the speed, as a part of its mean.
+        speed_spread: f64,
+        /// Radius of the disk from which they are thrown \[length\].
+        nozzle: f64,
+        /// Mass of each particle \[mass\].
+        mass: f64,
+        /// Where the centre is put \[length\].
+        center: DVec3,
+        /// How it moves as a whole \[length / time\].
+        velocity: DVec3,
+        /// How large each particle is drawn \[length\]; 0 lets the picture choose.
+        particle_size: f64,
+    }
+    /// Particles in a row, tied one to the next by springs, ropes or rods: pendulums, strings, beams.
+    Chain "chain" chain(count: u32) {
+        /// Number of particles, 2 or above.
+        count: u32,
+        /// Where the first is \[length\].
+        from: DVec3,
+        /// Where the last is \[length\].
+        to: DVec3,
+        /// Mass of each particle \[mass\].
+        mass: f64,
+        /// What ties them: spring, rope, rod.
+        tie: Cow<'static, str>,
+        /// Springs, ropes: Hooke's constant of each \[mass / time²\].
+        stiffness: f64,
+        /// Springs, ropes: the damping of each, along itself \[mass / time\].
+        damping: f64,
+        /// Springs, ropes: the length at rest, as a part of the distance; 0 pulls alike in all directions.
+        rest: f64,
+        /// What the joints between three resist bending with, EI / ds \[mass length² / time²\].
+        bending: f64,
+        /// Which of them forces do not move: none, first, ends.
+        pins: Cow<'static, str>,
+        /// How it moves as a whole \[length / time\].
+        velocity: DVec3,
+        /// How large each particle is drawn \[length\]; 0 lets the picture choose.
+        particle_size: f64,
+    }
+    /// A sheet of springs: along the threads, across the squares, and over two against bending (Provot 1995).
+    Cloth "cloth" cloth(columns: u32, rows: u32) {
+        /// Particles along `right`, 2 or above.
+        columns: u32,
+        /// Particles along `down`, 2 or above.
+        rows: u32,
+        /// Distance between neighbours along a thread \[length\].
+        spacing: f64,
+        /// The way along a row.
+        right: DVec3,
+        /// The way from row to row.
+        down: DVec3,
+        /// Mass of each particle \[mass\].
+        mass: f64,
+        /// Stiffness of the springs along the threads \[mass / time²\].
+        stretch: f64,
+        /// Stiffness of the springs across each square \[mass / time²\]; 0: none.
+        shear: f64,
+        /// Stiffness of the springs over two, against bending \[mass / time²\]; 0: none.
+        bend: f64,
+        /// Damping of the springs along the threads, of others by their stiffness \[mass / time\].
+        damping: f64,
+        /// Lengths at rest, as a part of the distances; 0 pulls alike in all directions.
+        rest: f64,
+        /// Which particles forces do not move: of the first row its two corners or all; the first column; all around: none, corners, row, column, rim.
+        pins: Cow<'static, str>,
+        /// Largest displacement of a particle across the sheet, in spacings: what is quite flat does not fold.
+        jitter: f64,
+        /// Seed of the random numbers.
+        seed: u64,
+        /// Where the centre is put \[length\].
+        center: DVec3,
+        /// How it moves as a whole \[length / time\].
+        velocity: DVec3,
+        /// How large each particle is drawn \[length\]; 0 lets the picture choose.
+        particle_size: f64,
+    }
+    /// An elastic block: a cubic lattice of springs along edges and face diagonals, of Young's modulus 2.5 k / a and Poisson's ratio 1/4.
+    Jelly "jelly" jelly(size: DVec3) {
+        /// Particles along x, y and z: three whole numbers, 2 or above.
+        size: DVec3,
+        /// Distance between neighbours along an edge \[length\].
+        spacing: f64,
+        /// Mass of each particle \[mass\].
+        mass: f64,
+        /// K, of edges and face diagonals alike \[mass / time²\].
+        stiffness: f64,
+        /// Damping of each spring, along itself \[mass / time\].
+        damping: f64,
+        /// Where the centre is put \[length\].
+        center: DVec3,
+        /// How it moves as a whole \[length / time\].
+        velocity: DVec3,
+        /// How large each particle is drawn \[length\]; 0 lets the picture choose.
+        particle_size: f64,
+    }
+    /// Strands of rods and joints that stand on a head; the first two particles of each are fixed.
+    Hair "hair" hair(strands: u32) {
+        /// Number of strands.
+        strands: u32,
+        /// Particles of each strand, 3 or above.
+        points: u32,
+        /// The length of a strand \[length\].
+        length: f64,
+        /// How much lengths differ, as a part of the length; below 1.
+        spread: f64,
+        /// The radius of the head \[length\].
+        head: f64,
+        /// How far down from the top of the head it grows \[degrees\], up to 180.
+        cap: f64,
+        /// Mass of each particle \[mass\].
+        mass: f64,
+        /// The bending stiffness EI of a strand \[mass length³ / time²\].
+        bending: f64,
+        /// The way from the middle of the head to its top.
+        up: DVec3,
+        /// Seed of the random numbers.
+        seed: u64,
+        /// Where the centre is put \[length\].
+        center: DVec3,
+        /// How large each particle is drawn \[length\]; 0 lets the picture choose.
+        particle_size: f64,
+    }
+}
