@@ -4,6 +4,7 @@ pub mod boundary;
 pub mod component;
 pub mod constraints;
 pub mod cpu;
+pub mod diagnose;
 pub mod error;
 pub mod forces;
 #[cfg(feature = "scene")]

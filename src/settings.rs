@@ -160,19 +160,25 @@ impl Settings {
     /// one that is missing.
     #[must_use]
     pub fn fault(&self, keys: &[Key]) -> Option<String> {
-        let wrong = self.0.iter().find_map(|(name, value)| {
+        let refused = |(name, value): (&&'static str, &Value)| {
+            let key = keys.iter().find(|key| key.name == *name)?;
+            let why = key.kind.refuses(value)?;
+            Some(format!("has a key `{name}` ({}) that must be {}, and it is {why}", key.about, key.kind.wanted()))
+        };
+        self.misnamed(keys).or_else(|| self.0.iter().find_map(refused)).or_else(|| {
+            let missing = keys.iter().find(|key| key.default.is_none() && !self.0.contains_key(key.name))?;
+            Some(format!("wants a value for its key `{}`: {}", missing.name, missing.about))
+        })
+    }
+    /// The same of names and kinds alone, for an owner that looks at ranges itself.
+    #[must_use]
+    pub fn misnamed(&self, keys: &[Key]) -> Option<String> {
+        self.0.iter().find_map(|(name, value)| {
             let Some(key) = keys.iter().find(|key| key.name == *name) else {
                 return Some(unknown(name, keys.iter().map(|key| key.name)));
             };
-            if !key.kind.takes(value) {
-                return Some(format!("has a key `{name}` of another kind than {value:?}: {}", key.about));
-            }
-            let why = key.kind.refuses(value)?;
-            Some(format!("has a key `{name}` ({}) that must be {}, and it is {why}", key.about, key.kind.wanted()))
-        });
-        wrong.or_else(|| {
-            let missing = keys.iter().find(|key| key.default.is_none() && !self.0.contains_key(key.name))?;
-            Some(format!("wants a value for its key `{}`: {}", missing.name, missing.about))
+            (!key.kind.takes(value))
+                .then(|| format!("has a key `{name}` of another kind than {value:?}: {}", key.about))
         })
     }
     /// A number.

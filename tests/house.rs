@@ -141,7 +141,7 @@ fn no_binding_number_is_written_in_rust() {
 }
 
 /// A module may name only what stands before it.
-const ORDER: [&str; 35] = [
+const ORDER: [&str; 36] = [
     "error",
     "settings",
     "links",
@@ -172,6 +172,7 @@ const ORDER: [&str; 35] = [
     "simulation",
     "measure",
     "stability",
+    "diagnose",
     "lockstep",
     "selftest",
     "scene",

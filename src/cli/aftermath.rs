@@ -7,7 +7,6 @@ use motes::formats::{Format, Options, Precision};
 use motes::{Error, Setup, State};
 
 use super::failure::Failure;
-use super::flow;
 use motes::run::written;
 
 /// So many neighbours are named.
@@ -44,7 +43,7 @@ pub fn explain(
 
 /// What loses the numbers of a fluid.
 fn of_a_fluid(setup: &Setup) -> Option<&'static str> {
-    flow::flows(&setup.forces).then_some(
+    motes::diagnose::flows(&setup.forces).then_some(
         "in a fluid that is a step too long for its sound or friction (`motes check` tells how far it is from that), a flow faster \
          than sound, tension that is too strong, or particles squeezed between walls, solids and what an emitter spawns",
     )

@@ -7,19 +7,17 @@ use motes::kernel::{ACCELERATION, Backend};
 use motes::render::{Picture, Scenery, Trail};
 use motes::{Bounds, Cpu, Gpu, Setup, Simulation};
 
-use super::advice::advice;
 use super::args::SceneArgs;
-use super::births;
 use super::course;
 use super::engine::Engine;
 use super::failure::Failure;
-use super::flow;
-use super::substeps::{self, Loaded};
+use super::load::{self, Loaded};
 use super::words::duration;
+use motes::diagnose::advice;
 
 /// Checks a scene: its faults, its memory, and the time that a run would take.
 pub async fn check(args: &SceneArgs) -> Result<(), Failure> {
-    let Loaded { scene, setup, start, lines, .. } = substeps::load(args, &[]).await?;
+    let Loaded { scene, setup, start, lines, .. } = load::load(args, &[]).await?;
     let count = setup.check()?;
     Picture::with(&scene.picture, &setup.state, &[], Trail::new(0), &Scenery::of(&setup.state))?;
     let engine = Engine::choose(&args.device).await?;
@@ -35,7 +33,7 @@ pub async fn check(args: &SceneArgs) -> Result<(), Failure> {
 
     let plans = setup.plans(engine.machine(count)?)?;
     let end = scene.steps as f64 * scene.dt;
-    for line in births::forecast(&setup, end) {
+    for line in motes::diagnose::forecast(&setup, end) {
         out!("{line}");
     }
     out!("\nmemory on the device");
@@ -62,8 +60,20 @@ pub async fn check(args: &SceneArgs) -> Result<(), Failure> {
     };
     let total = per_step.mul_f64(scene.steps as f64);
     out!("\ntime: {} per step, about {} in all, without writing files", duration(per_step), duration(total));
-    let hurry = start.and_then(|start| flow::hurry(&start.medium, scene.adaptive_step.map_or(setup.dt, |_| 0.0), most));
-    for remark in engine.remarks(&setup)?.into_iter().chain(advice(&scene, &setup)?).chain(hurry) {
+    let hurry = start
+        .and_then(|start| motes::diagnose::hurry(&start.medium, scene.adaptive_step.map_or(setup.dt, |_| 0.0), most));
+    for remark in engine
+        .remarks(&setup)?
+        .into_iter()
+        .chain(
+            scene
+                .remarks
+                .clone()
+                .into_iter()
+                .chain(advice(&setup, Some(scene.steps as f64 * scene.dt))?.iter().map(ToString::to_string)),
+        )
+        .chain(hurry)
+    {
         out!("note: {remark}");
     }
     out!("\nno faults");

@@ -3,11 +3,11 @@
 use motes::run::{Book, Counts, Course, End, Flocks, Run};
 use serde_json::json;
 
-use super::advice::Conserved;
 use super::args::{BackendChoice, DeviceArgs};
 use super::failure::Failure;
 use super::progress::Progress;
 use super::{course, film, summary};
+use motes::diagnose::Conserved;
 
 /// Tells how a run ended.
 pub fn conclude(

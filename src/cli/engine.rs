@@ -8,7 +8,6 @@ use motes::{Cpu, Error, Gpu, Setup};
 
 use super::args::{BackendChoice, DeviceArgs, SceneArgs};
 use super::failure::Failure;
-use super::{far, rounding};
 
 /// What runs the kernels.
 pub enum Engine {
@@ -54,10 +53,9 @@ impl Engine {
     }
     /// What a user should know of it, and of what it makes of a setup.
     pub fn remarks(&self, setup: &Setup) -> Result<Vec<String>, Failure> {
-        let far = far::remarks(setup, self.machine(1)?)?;
         let single = matches!(self, Self::Gpu(_));
-        let rounded = if single { rounding::remarks(setup) } else { Vec::new() };
-        Ok(self.own().into_iter().chain(far).chain(rounded).collect())
+        let of_machine = motes::diagnose::of_machine(setup, self.machine(1)?, single)?;
+        Ok(self.own().into_iter().chain(of_machine.iter().map(ToString::to_string)).collect())
     }
     /// What a user should know of it.
     pub fn own(&self) -> Vec<String> {

@@ -9,11 +9,11 @@ use super::args::SceneArgs;
 use super::course;
 use super::engine::Engine;
 use super::failure::Failure;
-use super::substeps::{self, Loaded};
+use super::load::{self, Loaded};
 
 /// Prints the plan of a step, and what each kernel reads and writes.
 pub async fn explain(args: &SceneArgs) -> Result<(), Failure> {
-    let Loaded { scene, setup, .. } = substeps::load(args, &[]).await?;
+    let Loaded { scene, setup, .. } = load::load(args, &[]).await?;
     let count = setup.check()?;
     let engine = Engine::choose(&args.device).await?;
     let plans = setup.plans(engine.machine(count)?)?;

@@ -15,15 +15,12 @@ macro_rules! note {
     }};
 }
 
-mod advice;
 mod aftermath;
 mod args;
 mod bench;
-mod births;
 mod check;
 mod compare;
 mod conclude;
-mod contradictions;
 mod convert;
 mod course;
 mod doctor;
@@ -32,19 +29,15 @@ mod explain;
 mod failure;
 mod far;
 mod film;
-mod flow;
-mod fluid;
 mod info;
-mod jumps;
+mod load;
 mod progress;
-mod rounding;
 mod run;
 mod scenes;
 mod solves;
 mod stability;
 mod stdout;
 mod stop;
-mod substeps;
 mod summary;
 mod sweep;
 mod words;

@@ -11,13 +11,13 @@ use motes::stability::Verdict;
 use motes::{Cpu, Error, Setup, Simulation};
 use serde_json::json;
 
-use super::advice::{advice, conserved};
 use super::args::{DeviceArgs, ResumeArgs, RunArgs, ShowArgs};
 use super::engine::Engine;
 use super::failure::Failure;
+use super::load::{self, Loaded};
 use super::progress::Progress;
-use super::substeps::{self, Loaded};
 use super::{aftermath, conclude, course, solves, stop};
+use motes::diagnose::{advice, conserved};
 
 /// A checkpoint, the folder that it is in, and what is wrong with newer ones.
 type Kept = (Folder, Box<Checkpoint>, Vec<Error>);
@@ -25,7 +25,7 @@ type Kept = (Folder, Box<Checkpoint>, Vec<Error>);
 /// Runs a scene.
 pub async fn run(args: &RunArgs) -> Result<(), Failure> {
     let frames = args.frames.map(|n| format!("output.frames={n}"));
-    let mut loaded = substeps::load(&args.scene, &Vec::from_iter(frames)).await?;
+    let mut loaded = load::load(&args.scene, &Vec::from_iter(frames)).await?;
     if let Some(path) = &args.from {
         motes::run::go_on(&mut loaded.setup, &loaded.scene, path)?;
     }
@@ -90,7 +90,7 @@ pub async fn resume(args: &ResumeArgs) -> Result<(), Failure> {
         Found::Nothing => return refuse("no run has written there"),
     };
     let scene = Scene::load(&from.source(), &[], &scene::Options::default())?;
-    let mut loaded = substeps::judge(scene).await?;
+    let mut loaded = load::judge(scene).await?;
     if let Some(path) = from.from() {
         motes::run::go_on(&mut loaded.setup, &loaded.scene, &path)?;
     }
@@ -122,7 +122,15 @@ async fn start(
         );
         Run::resume(scene, &mut setup, options, (folder, *from))?
     } else {
-        remarks.extend(engine.remarks(&setup)?.into_iter().chain(advice(&scene, &setup)?));
+        remarks.extend(
+            engine.remarks(&setup)?.into_iter().chain(
+                scene
+                    .remarks
+                    .clone()
+                    .into_iter()
+                    .chain(advice(&setup, Some(scene.steps as f64 * scene.dt))?.iter().map(ToString::to_string)),
+            ),
+        );
         Run::new(scene, &setup, options)?
     };
     let mut progress = Progress::new(show, motes::run::begun(run.scene(), &setup.state), run.scene().steps);
@@ -198,7 +206,7 @@ fn announce(run: &Run, progress: &mut Progress, remarks: &[String]) {
 /// What is to be said, and kept, when numbers are lost.
 fn explain(run: &Run, error: Error, setup: &Setup, verdict: Option<&Verdict>) -> Failure {
     let (scene, Options { output, precision, .. }) = (run.scene(), run.options());
-    let way = verdict.and_then(|verdict| substeps::way_out(verdict, scene, setup));
+    let way = verdict.and_then(|verdict| motes::diagnose::way_out(verdict, setup));
     let to = (output.as_path(), &*scene.output.formats, *precision);
     aftermath::explain(error, setup, way.as_deref(), run.last.as_ref(), to)
 }

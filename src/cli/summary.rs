@@ -7,9 +7,9 @@ use motes::life::Population;
 use motes::measure::Flock;
 use motes::run::Looks;
 
-use super::advice::Conserved;
 use super::course;
 use super::words::{duration, large};
+use motes::diagnose::Conserved;
 
 /// How the energy went, at the end and at most in all measurements. Where the total is next to nothing, as of a pendulum that starts at its pivot's height, changes are
 /// relative to the maximum kinetic energy.

@@ -14,6 +14,9 @@ pub struct Adaptive {
 }
 
 impl Integrator for Adaptive {
+    fn name(&self) -> &'static str {
+        self.integrator.name()
+    }
     fn order(&self) -> u32 {
         self.integrator.order()
     }

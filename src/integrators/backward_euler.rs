@@ -8,6 +8,9 @@ use super::{Explicit, Form, Implicit, Integrator, Step};
 pub struct BackwardEuler;
 
 impl Integrator for BackwardEuler {
+    fn name(&self) -> &'static str {
+        "backward_euler"
+    }
     fn order(&self) -> u32 {
         1
     }

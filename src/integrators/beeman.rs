@@ -16,6 +16,9 @@ pub struct Beeman;
 const EARLIER: Field<glam::Vec4> = Field::new("earlier_acceleration");
 
 impl Integrator for Beeman {
+    fn name(&self) -> &'static str {
+        "beeman"
+    }
     fn order(&self) -> u32 {
         2
     }

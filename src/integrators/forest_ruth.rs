@@ -10,6 +10,9 @@ pub struct ForestRuth;
 const THETA: f64 = 1.351_207_191_959_657_6;
 
 impl Integrator for ForestRuth {
+    fn name(&self) -> &'static str {
+        "forest_ruth"
+    }
     fn order(&self) -> u32 {
         4
     }

@@ -7,6 +7,9 @@ use super::{Integrator, Step};
 pub struct ForwardEuler;
 
 impl Integrator for ForwardEuler {
+    fn name(&self) -> &'static str {
+        "forward_euler"
+    }
     fn order(&self) -> u32 {
         1
     }

@@ -7,6 +7,9 @@ use super::{Integrator, Step};
 pub struct Heun;
 
 impl Integrator for Heun {
+    fn name(&self) -> &'static str {
+        "heun"
+    }
     fn order(&self) -> u32 {
         2
     }

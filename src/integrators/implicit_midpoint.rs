@@ -8,6 +8,9 @@ use super::{Explicit, Form, Implicit, Integrator, Step};
 pub struct ImplicitMidpoint;
 
 impl Integrator for ImplicitMidpoint {
+    fn name(&self) -> &'static str {
+        "implicit_midpoint"
+    }
     fn order(&self) -> u32 {
         2
     }

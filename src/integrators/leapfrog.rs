@@ -8,6 +8,9 @@ use super::{Integrator, Step};
 pub struct Leapfrog;
 
 impl Integrator for Leapfrog {
+    fn name(&self) -> &'static str {
+        "leapfrog"
+    }
     fn order(&self) -> u32 {
         2
     }

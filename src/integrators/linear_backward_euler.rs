@@ -7,6 +7,9 @@ use super::{Explicit, Form, Implicit, Integrator, Step};
 pub struct LinearBackwardEuler;
 
 impl Integrator for LinearBackwardEuler {
+    fn name(&self) -> &'static str {
+        "linear_backward_euler"
+    }
     fn order(&self) -> u32 {
         1
     }

@@ -7,6 +7,9 @@ use super::{Explicit, Form, Implicit, Integrator, Step};
 pub struct LinearImplicitMidpoint;
 
 impl Integrator for LinearImplicitMidpoint {
+    fn name(&self) -> &'static str {
+        "linear_implicit_midpoint"
+    }
     fn order(&self) -> u32 {
         2
     }

@@ -7,6 +7,9 @@ use super::{Explicit, Form, Implicit, Integrator, Step};
 pub struct LinearTrapezoid;
 
 impl Integrator for LinearTrapezoid {
+    fn name(&self) -> &'static str {
+        "linear_trapezoid"
+    }
     fn order(&self) -> u32 {
         2
     }

@@ -7,6 +7,9 @@ use super::{Integrator, Step};
 pub struct Midpoint;
 
 impl Integrator for Midpoint {
+    fn name(&self) -> &'static str {
+        "midpoint"
+    }
     fn order(&self) -> u32 {
         2
     }

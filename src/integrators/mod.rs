@@ -15,6 +15,10 @@ use crate::settings::{Key, Settings};
 
 /// How particles are advanced by one step.
 pub trait Integrator: Copied + Send + Sync {
+    /// Its name in messages: the scene's word for it, where scenes have one.
+    fn name(&self) -> &'static str {
+        "the integrator"
+    }
     /// The order of convergence, for forces that depend on position and time alone.
     fn order(&self) -> u32;
     /// The order when a force depends on velocity too. Kicks take the velocity at hand, so for the symplectic ones it is 1.

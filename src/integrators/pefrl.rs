@@ -13,6 +13,9 @@ const LAMBDA: f64 = -0.212_341_831_062_605_4;
 const CHI: f64 = -0.066_264_582_669_818_5;
 
 impl Integrator for Pefrl {
+    fn name(&self) -> &'static str {
+        "pefrl"
+    }
     fn order(&self) -> u32 {
         4
     }

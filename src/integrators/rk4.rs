@@ -7,6 +7,9 @@ use super::{Integrator, Step};
 pub struct RungeKutta4;
 
 impl Integrator for RungeKutta4 {
+    fn name(&self) -> &'static str {
+        "rk4"
+    }
     fn order(&self) -> u32 {
         4
     }

@@ -7,6 +7,9 @@ use super::{Integrator, Step};
 pub struct SymplecticEuler;
 
 impl Integrator for SymplecticEuler {
+    fn name(&self) -> &'static str {
+        "symplectic_euler"
+    }
     fn order(&self) -> u32 {
         1
     }

@@ -7,6 +7,9 @@ use super::{Explicit, Form, Implicit, Integrator, Step};
 pub struct Trapezoid;
 
 impl Integrator for Trapezoid {
+    fn name(&self) -> &'static str {
+        "trapezoid"
+    }
     fn order(&self) -> u32 {
         2
     }

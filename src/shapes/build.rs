@@ -48,7 +48,7 @@ impl Reader<'_> {
     /// Whether the settings are those of the shape.
     fn named(&self) -> Result<(), Error> {
         let keys = super::shape(self.shape).map_or(super::emitter::KEYS, |shape| shape.keys);
-        let fault = self.settings.fault(keys);
+        let fault = self.settings.misnamed(keys);
         fault.map_or(Ok(()), |fault| Err(Error::Scene(format!("shape `{}` {fault}", self.shape))))
     }
 

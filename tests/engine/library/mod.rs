@@ -1,5 +1,6 @@
 //! What a program that uses the library relies on.
 
+mod diagnose;
 mod examples;
 mod readback;
 mod set;

@@ -1,7 +1,7 @@
 //! What emitters are going to do.
 
-use motes::Setup;
-use motes::life::schedule;
+use crate::life::schedule;
+use crate::simulation::Setup;
 
 /// Rows of an emitter that are cut off by rounding do not count as an early end.
 const ROUNDING: f64 = 1e-6;

@@ -1,10 +1,12 @@
 //! What `check` says of a fluid before it runs.
 
+use crate::error::Error;
+use crate::forces::Over;
+use crate::kernel::Machine;
+use crate::kernel::Side;
+use crate::simulation::Setup;
+use crate::sph::{COURANT, Start};
 use glam::DVec3;
-use motes::forces::Over;
-use motes::kernel::Machine;
-use motes::sph::{COURANT, Start};
-use motes::{Error, Setup, Side};
 
 use super::advice::acceleration_at;
 use super::contradictions;

@@ -1,7 +1,7 @@
 //! What single precision does to a scene: motions and softenings that its last place swallows.
 
-use motes::Setup;
-use motes::kernel::Scalar;
+use crate::kernel::Scalar;
+use crate::simulation::Setup;
 
 /// Slower particles count as being at rest \[parts of the mean speed\].
 const SLOW: f64 = 0.1;
@@ -59,7 +59,7 @@ fn motions(setup: &Setup) -> Option<String> {
 fn softenings(setup: &Setup) -> Vec<String> {
     let far = setup.state.position().iter().map(|x| x.abs().max_element()).fold(0.0, f64::max);
     let place = last_place(far);
-    let remark = |law: motes::forces::Law| {
+    let remark = |law: crate::forces::Law| {
         let softening = law.params.iter().find_map(|(name, value)| match value {
             Scalar::Float(x) if name == "softening" && *x > 0.0 => Some(*x),
             _ => None,

@@ -1,14 +1,16 @@
-//! What one should know of a scene before it runs.
+//! What one should know of a setup before it runs.
 
+use crate::error::Error;
+use crate::forces::{Law, Over};
+use crate::kernel::Bounds;
+use crate::kernel::Side;
+use crate::kernel::{ACCELERATION, Array, Host, Machine, POSITION, Reference, SPECIES, VELOCITY, World};
+use crate::links::Links;
+use crate::motion::Hold;
+use crate::simulation::Setup;
 use glam::{DVec3, DVec4};
-use motes::forces::{Law, Over};
-use motes::kernel::{ACCELERATION, Array, Host, Machine, POSITION, Reference, SPECIES, VELOCITY, World};
-use motes::links::Links;
-use motes::motion::Hold;
-use motes::scene::Scene;
-use motes::{Bounds, Error, Setup, Side};
 
-use super::{births, jumps, rounding, solves};
+use super::{Remark, births, jumps, rounding, solves};
 
 /// What a law's reference says to a particle at rest somewhere.
 pub fn acceleration_at(
@@ -59,7 +61,7 @@ fn in_the_plane(name: &str, reference: &Reference, setup: &Setup) -> Result<(), 
     })
 }
 
-/// What should stay as it is.
+/// What a run conserves.
 #[derive(Debug, Clone)]
 pub struct Conserved {
     /// The total energy.
@@ -92,6 +94,9 @@ fn idle(links: &Links, laws: &[Law]) -> Vec<String> {
 
 /// What all forces and the sides of the box keep. A mirror takes momentum and keeps energy; where particles leave at one
 /// side and come in at the other, momentum stays, and the angular momentum is about nothing.
+///
+/// # Errors
+/// When the setup makes no sense.
 pub fn conserved(setup: &Setup) -> Result<Conserved, Error> {
     let (periodic, reflecting) = (setup.bounds.has(Side::Periodic), setup.bounds.has(Side::Reflecting));
     let mut conserved = Conserved {
@@ -153,12 +158,15 @@ fn inside(setup: &Setup) -> Result<Option<String>, Error> {
     )))
 }
 
-/// Remarks of the scene itself, and of how its forces and its integrator go together.
-pub fn advice(scene: &Scene, setup: &Setup) -> Result<Vec<String>, Error> {
-    let mut remarks = scene.remarks.clone();
+/// How forces, obstacles, motions and the integrator of a setup go together, in a run that ends at a time, if it does.
+///
+/// # Errors
+/// [`Error::Scene`] when a force leads out of the plane of a flat box, or the setup makes no sense.
+pub fn advice(setup: &Setup, end: Option<f64>) -> Result<Vec<Remark>, Error> {
+    let mut remarks: Vec<String> = Vec::new();
     remarks.extend(inside(setup)?);
-    let end = scene.steps as f64 * scene.dt;
-    remarks.extend(births::early(setup, end));
+    remarks.extend(end.into_iter().flat_map(|end| births::early(setup, end)));
+    let end = end.unwrap_or(f64::INFINITY);
     remarks.extend(rounding::crossings(setup));
     remarks.extend(jumps::remarks(setup, end));
     let problem = setup.problem(MACHINE)?;
@@ -166,7 +174,7 @@ pub fn advice(scene: &Scene, setup: &Setup) -> Result<Vec<String>, Error> {
     remarks.extend(idle(&setup.state.links, &laws));
     let implicit = setup.integrator.is_implicit();
     if implicit {
-        remarks.push(solves::remark(setup, scene.integrator.name)?);
+        remarks.push(solves::remark(setup)?);
     }
     let (order, reduced) = (setup.integrator.order(), setup.integrator.order_with_velocity());
     let loses = reduced < order || implicit && order > 1;
@@ -174,7 +182,7 @@ pub fn advice(scene: &Scene, setup: &Setup) -> Result<Vec<String>, Error> {
         format!(
             "`{name}` depends on velocity: {} is of order {order} for other forces, and of order {} with it; \
              midpoint, heun and rk4 keep their order",
-            scene.integrator.name,
+            setup.integrator.name(),
             if implicit { 1 } else { reduced },
         )
     };
@@ -216,7 +224,7 @@ pub fn advice(scene: &Scene, setup: &Setup) -> Result<Vec<String>, Error> {
             remarks.push(format!("`{name}` has no f64 reference: nothing checks it, and it needs a device"));
         }
     }
-    let name = scene.integrator.name;
+    let name = setup.integrator.name();
     for (force, properties) in setup.forces.iter().map(|force| (force, force.properties())) {
         if let Some(length) = properties.largest_move {
             let caution = properties.caution.map_or_else(String::new, |text| format!("; {text}"));
@@ -257,5 +265,5 @@ pub fn advice(scene: &Scene, setup: &Setup) -> Result<Vec<String>, Error> {
         remarks
             .push("forward_euler gains energy in every step, whatever the step: it is here to show why not".to_owned());
     }
-    Ok(remarks)
+    Ok(remarks.into_iter().map(Remark::note).collect())
 }

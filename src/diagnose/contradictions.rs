@@ -1,9 +1,10 @@
 //! Where the parts of a scene of a fluid say different things.
 
+use crate::error::Error;
+use crate::kernel::Machine;
+use crate::simulation::Setup;
+use crate::sph::{Medium, Start};
 use glam::DVec3;
-use motes::kernel::Machine;
-use motes::sph::{Medium, Start};
-use motes::{Error, Setup};
 
 use super::fluid::Weight;
 

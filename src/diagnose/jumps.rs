@@ -1,7 +1,7 @@
 //! Motions whose velocity jumps, and the rods that must follow at once.
 
-use motes::Setup;
-use motes::motion::{Hold, Motion};
+use crate::motion::{Hold, Motion};
+use crate::simulation::Setup;
 
 /// By what part of a rod a jump may move its end in a step. Constraints are linearized about where they are: of hair that a
 /// jump moved by 0.17 of a rod in a step numbers were lost, by 0.12 they were not.

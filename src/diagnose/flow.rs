@@ -1,12 +1,13 @@
 //! Steps at which a fluid is stable: remarks on them, and the refusal of those that would end in an explosion.
 
-use motes::Error;
-use motes::forces::Component;
-use motes::scene::Scene;
-use motes::sph::Medium;
-use motes::stability::{Asks, Flow};
+use crate::error::Error;
+use crate::forces::Component;
+use crate::simulation::Setup;
+use crate::sph::Medium;
+use crate::stability::{Asks, Flow};
 
-use super::substeps::digits;
+use super::Remark;
+use super::steps::digits;
 
 /// The part of the time in which an acceleration crosses a smoothing length that a step may have (Monaghan 1992).
 const COURANT: f64 = 0.25;
@@ -39,11 +40,11 @@ pub fn line(flow: &Flow, dt: f64) -> Option<String> {
 ///
 /// # Errors
 /// [`Error::Scene`] when they are so long that nothing would be left.
-pub fn warning(flow: &Flow, scene: &Scene) -> Result<Option<String>, Error> {
+pub fn warning(flow: &Flow, setup: &Setup) -> Result<Option<Remark>, Error> {
     if flow.excess <= 1.0 {
         return Ok(None);
     }
-    let (dt, name) = (scene.dt, scene.integrator.name);
+    let (dt, name) = (setup.dt, setup.integrator.name());
     let culprit = match flow.asks {
         Asks::Sound => "the fluid's speed of sound",
         Asks::Friction => "the fluid's viscosity (alpha, viscosity)",
@@ -64,11 +65,11 @@ pub fn warning(flow: &Flow, scene: &Scene) -> Result<Option<String>, Error> {
     said(flow, &format!("dt = {dt} is too long for {name} and {culprit}; {way}"))
 }
 
-fn said(flow: &Flow, text: &str) -> Result<Option<String>, Error> {
+fn said(flow: &Flow, text: &str) -> Result<Option<Remark>, Error> {
     if flow.is_lost() {
         return Err(Error::Scene(format!("this run would explode: {text}")));
     }
-    Ok(Some(format!("this run may explode: {text}")))
+    Ok(Some(Remark::warning(format!("this run may explode: {text}"))))
 }
 
 /// What the largest acceleration of a start says: whether a step is too long for it, and sound too slow to carry it.

@@ -1,0 +1,88 @@
+//! Scenes of arguments: loaded, judged, and divided into steps that their springs bear.
+
+use motes::diagnose::{Judged, Remark, culprit, limit, others, unsafe_steps};
+use motes::scene::Scene;
+use motes::sph::Start;
+use motes::stability::Verdict;
+use motes::{Error, Setup};
+
+use super::args::SceneArgs;
+use super::engine;
+use super::failure::Failure;
+
+/// A scene, ready to run.
+pub struct Loaded {
+    /// Without its particles and forces, which are in the setup. Its remarks tell what its steps are to its springs.
+    pub scene: Scene,
+    /// What the simulation is made of.
+    pub setup: Setup,
+    /// What springs ask of its steps, if there are any.
+    pub verdict: Option<Verdict>,
+    /// How its fluid starts, if there is one, and the lines that tell of it; what is to be noted is among the scene's remarks.
+    pub start: Option<Start>,
+    pub lines: Vec<String>,
+}
+
+/// Loads the scene of the arguments, with more values set; with `--auto-substeps` in steps that its springs bear.
+pub async fn load(args: &SceneArgs, more: &[String]) -> Result<Loaded, Failure> {
+    let mut loaded = judge(engine::load_with(args, more)?).await?;
+    let (dt, steps, every) = (loaded.scene.dt, loaded.scene.steps, loaded.scene.output.every);
+    let parts = loaded.verdict.map_or(Some(1), |verdict| verdict.substeps(dt));
+    if !args.auto_substeps {
+        let words = loaded.verdict.and_then(|verdict| unsafe_steps(&verdict, &loaded.setup));
+        loaded.scene.remarks.extend(words.map(|words| words.to_string()));
+        return Ok(loaded);
+    }
+    let text = match (loaded.verdict, parts) {
+        (None, _) => "--auto-substeps goes by springs, and there are none: steps stay as they are".to_owned(),
+        (Some(verdict), Some(1)) => {
+            format!("--auto-substeps: dt = {dt} is safe by {}{}", loaded.scene.integrator.name, limit(&verdict))
+        }
+        (Some(verdict), None) => {
+            let name = loaded.scene.integrator.name;
+            return Err(Error::Scene(format!(
+                "no dt makes {name} safe for {}: choose another integrator{}",
+                culprit(&verdict, &loaded.setup),
+                others(&loaded.setup, &verdict)
+            ))
+            .into());
+        }
+        (Some(verdict), Some(parts)) => {
+            let all = args.overrides.iter().chain(more);
+            let old: Vec<String> = all.filter(|o| !o.trim_start().starts_with("simulation.until")).cloned().collect();
+            // Rust's shortest digits are read back as the same number.
+            let new = [
+                format!("simulation.dt={:?}", dt / parts as f64),
+                format!("simulation.steps={}", steps.saturating_mul(parts)),
+                format!("output.every={}", every.saturating_mul(parts)),
+            ];
+            let divided = SceneArgs {
+                scene: args.scene.clone(),
+                steps: None,
+                until: None,
+                overrides: [old, new.to_vec()].concat(),
+                allow_outside: args.allow_outside,
+                auto_substeps: true,
+                device: args.device.clone(),
+            };
+            let text = format!(
+                "--auto-substeps: {parts} steps of {:e} in place of one of {dt}, because of {}{}",
+                dt / parts as f64,
+                culprit(&verdict, &loaded.setup),
+                limit(&verdict)
+            );
+            loaded = judge(engine::load_with(&divided, &[])?).await?;
+            text
+        }
+    };
+    loaded.scene.remarks.push(text);
+    Ok(loaded)
+}
+
+/// The same of a scene that is loaded.
+pub async fn judge(mut scene: Scene) -> Result<Loaded, Failure> {
+    let setup = scene.setup();
+    let Judged { verdict, start, lines, remarks } = Judged::of(&setup, scene.steps).await?;
+    scene.remarks.extend(remarks.iter().map(Remark::to_string));
+    Ok(Loaded { scene, setup, verdict, start, lines })
+}

@@ -1,0 +1,117 @@
+//! What one should know of a setup before it runs: forces that lead out of the plane, what is conserved, steps that springs and fluids do
+//! not bear, particles that overlap, numbers that single precision loses.
+
+mod advice;
+mod births;
+mod contradictions;
+mod far;
+mod flow;
+mod fluid;
+mod jumps;
+mod rounding;
+mod solves;
+mod steps;
+
+use std::fmt;
+
+pub use advice::{Conserved, advice, conserved};
+pub use births::forecast;
+pub use flow::{flows, hurry};
+pub use steps::{culprit, digits, limit, others, unsafe_steps, way_out};
+
+use crate::error::Error;
+use crate::kernel::Machine;
+use crate::simulation::Setup;
+use crate::sph::Start;
+use crate::stability::{Flow, Verdict};
+
+/// How much a remark weighs. What cannot run is an error, and no remark.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Severity {
+    /// One should know it.
+    Note,
+    /// The run may be lost, or is wrong.
+    Warning,
+}
+
+/// What is to be said of a setup: the subject, the number, the consequence and the way out.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Remark {
+    /// How much it weighs.
+    pub severity: Severity,
+    /// In words.
+    pub text: String,
+}
+
+impl Remark {
+    fn note(text: String) -> Self {
+        Self { severity: Severity::Note, text }
+    }
+    fn warning(text: String) -> Self {
+        Self { severity: Severity::Warning, text }
+    }
+}
+
+impl fmt::Display for Remark {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.text)
+    }
+}
+
+/// Steps of which a run has so many where nothing is said of its length: modes that grow tenfold in these are too fast.
+const STEPS: u64 = 10_000;
+
+/// Looks at a setup before it runs: the remarks of the command `motes check`, without those of its device.
+///
+/// # Errors
+/// [`Error::Scene`] when it makes no sense, or could not but be lost: forces that lead out of the plane of a flat box, a fluid whose
+/// steps are far too long or that starts under a pressure that blows it apart.
+pub async fn diagnose(setup: &Setup) -> Result<Vec<Remark>, Error> {
+    let Judged { verdict, mut remarks, .. } = Judged::of(setup, STEPS).await?;
+    remarks.extend(verdict.and_then(|verdict| unsafe_steps(&verdict, setup)));
+    remarks.extend(advice(setup, None)?);
+    Ok(remarks)
+}
+
+/// What springs and fluids of a setup say of its steps.
+pub struct Judged {
+    /// What springs ask of steps, if there are any.
+    pub verdict: Option<Verdict>,
+    /// How its fluid starts, if there is one.
+    pub start: Option<Start>,
+    /// Lines that tell of it.
+    pub lines: Vec<String>,
+    /// What is to be noted of it.
+    pub remarks: Vec<Remark>,
+}
+
+impl Judged {
+    /// Of a setup that runs for so many steps.
+    ///
+    /// # Errors
+    /// As of [`diagnose`].
+    pub async fn of(setup: &Setup, steps: u64) -> Result<Self, Error> {
+        let build = || setup.integrator.clone();
+        let (start, mut lines, mut remarks) = (setup.start()?, Vec::new(), Vec::new());
+        if let Some(start) = &start {
+            let (said, notes) = fluid::remarks(setup, start)?;
+            lines = said;
+            remarks.extend(notes.into_iter().map(Remark::note));
+        }
+        if let Some(flow) = Flow::of(setup, &build).await? {
+            lines.extend(flow::line(&flow, setup.dt));
+            remarks.extend(flow::warning(&flow, setup)?);
+        }
+        let verdict = Verdict::of(setup, &build, steps).await?;
+        Ok(Self { verdict, start, lines, remarks })
+    }
+}
+
+/// What a machine makes of a setup: trees or direct sums, and, in single precision, motions and softenings that are rounded.
+///
+/// # Errors
+/// When the setup makes no sense.
+pub fn of_machine(setup: &Setup, machine: Machine, single: bool) -> Result<Vec<Remark>, Error> {
+    let rounded = if single { rounding::remarks(setup) } else { Vec::new() };
+    Ok(far::remarks(setup, machine)?.into_iter().chain(rounded).map(Remark::note).collect())
+}
