@@ -15,7 +15,7 @@ use serde_json::json;
 
 use super::args::{SceneArgs, SweepArgs};
 use super::failure::Failure;
-use super::{stop, substeps};
+use super::{load, stop};
 use outcome::Ended;
 use vary::Varied;
 
@@ -38,7 +38,7 @@ pub async fn sweep(args: &SweepArgs) -> Result<(), Failure> {
     // What is wrong with any of them is said before the first one runs.
     let (mut name, mut remarks) = (String::new(), BTreeSet::new());
     for case in &cases {
-        let scene = substeps::load(&args.scene, case).await?.scene;
+        let scene = load::load(&args.scene, case).await?.scene;
         remarks.extend(scene.remarks.iter().map(|remark| format!("{}: {remark}", case.join(" "))));
         name = scene.name;
     }

@@ -11,7 +11,7 @@ use super::vary;
 use crate::cli::args::{DeviceArgs, SweepArgs};
 use crate::cli::engine::Engine;
 use crate::cli::failure::Failure;
-use crate::cli::substeps;
+use crate::cli::load;
 
 /// Where runs are made: one after another on each of these.
 pub struct Engines(Vec<(DeviceArgs, Engine)>);
@@ -88,7 +88,7 @@ async fn one(
     folder: &Path,
     stop: &Stop,
 ) -> Result<(Run, End), Failure> {
-    let loaded = substeps::load(&args.scene, case).await?;
+    let loaded = load::load(&args.scene, case).await?;
     let (scene, setup) = (loaded.scene, loaded.setup);
     let options = Options {
         overwrite: args.overwrite,
