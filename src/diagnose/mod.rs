@@ -14,9 +14,14 @@ mod steps;
 
 use std::fmt;
 
-pub use advice::{Conserved, advice, conserved};
+#[doc(hidden)]
+pub use advice::advice;
+pub use advice::{Conserved, conserved};
+#[doc(hidden)]
 pub use births::forecast;
+#[doc(hidden)]
 pub use flow::{flows, hurry};
+#[doc(hidden)]
 pub use steps::{culprit, digits, limit, others, unsafe_steps, way_out};
 
 use crate::error::Error;
@@ -74,6 +79,7 @@ pub async fn diagnose(setup: &Setup) -> Result<Vec<Remark>, Error> {
 }
 
 /// What springs and fluids of a setup say of its steps.
+#[doc(hidden)]
 pub struct Judged {
     /// What springs ask of steps, if there are any.
     pub verdict: Option<Verdict>,

@@ -16,12 +16,14 @@ mod timing;
 
 use std::time::Duration;
 
-pub use adapter::{
-    Choice, Found, NO_DRIVER, adapters, best, choose, flags, instance, open, wanted_features, wanted_limits,
-};
+pub use adapter::{Choice, Found, adapters, best, choose, instance, open, wanted_features, wanted_limits};
+#[doc(hidden)]
+pub use adapter::{NO_DRIVER, flags};
 use buffers::Buffers;
+#[doc(hidden)]
 pub use fault::Faults;
 use pipeline::Pipelines;
+#[doc(hidden)]
 pub use program::Program;
 use read::Incoming;
 use submit::Queue;

@@ -6,8 +6,11 @@ mod verbs;
 
 pub use adaptive::Adaptive;
 pub(crate) use step::kept_rates;
+#[doc(hidden)]
 pub use step::{Explicit, Form, Implicit, Step, implicit};
+#[doc(hidden)]
 pub use verbs::solve::STATE as SOLVE_STATE;
+#[doc(hidden)]
 pub use verbs::solve::report::{NAME as SOLVE_REPORT, WORDS as SOLVE_REPORT_WORDS};
 
 use crate::kernel::{AdaptiveStep, Column};
@@ -55,6 +58,7 @@ pub trait Integrator: Copied + Send + Sync {
     fn step(&self, step: &mut Step);
 }
 
+#[doc(hidden)]
 /// What makes a copy of an integrator in a box; whatever is `Clone` has it.
 pub trait Copied {
     /// The copy.
@@ -73,6 +77,7 @@ impl Clone for Box<dyn Integrator> {
     }
 }
 
+#[doc(hidden)]
 /// A line of the register.
 pub struct Entry {
     /// The scene's word for it.
@@ -97,6 +102,7 @@ macro_rules! register {
     ($($module:ident: $type:ident $(($keys:ident))?, $about:literal;)*) => {
         $(mod $module; pub use $module::$type;)*
         /// All integrators, in the order of their cost.
+        #[doc(hidden)]
         pub const INTEGRATORS: &[Entry] = &[$(Entry {
             name: stringify!($module),
             about: $about,
@@ -128,6 +134,7 @@ register! {
     implicit_midpoint: ImplicitMidpoint, "order 2, symplectic, for stiff springs: its equations solved by Newton's method";
 }
 
+#[doc(hidden)]
 /// The integrator of a scene's word.
 #[must_use]
 pub fn entry(name: &str) -> Option<&'static Entry> {

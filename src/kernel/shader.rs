@@ -71,6 +71,7 @@ impl Source {
 }
 
 /// The source of a shader of this crate, by its path under `shaders/`.
+#[doc(hidden)]
 #[macro_export]
 macro_rules! shader {
     ($path:literal) => {

@@ -6,7 +6,9 @@ mod population;
 
 use glam::DVec3;
 
+#[doc(hidden)]
 pub use check::check;
+#[doc(hidden)]
 pub use population::{Population, schedule};
 
 use crate::solids::Solid;
@@ -71,6 +73,7 @@ pub struct Drain {
 const WORDS: usize = 8;
 
 /// That table, one `Birth` of the shader behind another.
+#[doc(hidden)]
 #[must_use]
 pub fn table(births: &[Birth]) -> Vec<u32> {
     #[expect(clippy::cast_possible_truncation, reason = "rounding to f32 is what the device does")]

@@ -7,8 +7,11 @@ mod half;
 mod network;
 mod rods;
 
+#[doc(hidden)]
 pub use chains::{Chains, MOST_RODS, Node};
+#[doc(hidden)]
 pub use half::{Corner, Half, WORDS};
+#[doc(hidden)]
 pub use network::{MOST_LINKS, Network};
 
 /// A spring between two particles, or a rope, which only pulls.

@@ -6,8 +6,10 @@ mod table;
 
 use glam::DVec3;
 
+#[doc(hidden)]
 pub use check::check;
 pub use pose::Pose;
+#[doc(hidden)]
 pub use table::{Tables, list, mask, tables};
 
 /// A particle that forces do not move. At the start of each step it gets the velocity that brings it, on a straight line,
@@ -34,6 +36,7 @@ pub enum Hold {
 }
 
 /// The same ones in the order in which kernels take them: fixed, with a target, with a motion; each by id.
+#[doc(hidden)]
 #[must_use]
 pub fn sorted(held: &[Held]) -> Vec<Held> {
     let mut held = held.to_vec();

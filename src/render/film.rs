@@ -67,7 +67,7 @@ impl Film {
 /// Draws the current state of a backend's particles as the next picture of a film.
 ///
 /// # Errors
-/// As for [`draw`](super::draw).
+/// As for `draw`.
 pub async fn shoot<B: Backend>(backend: &mut B, film: &mut Film) -> Result<Image, Error> {
     let picture = film.picture.clone();
     exposed(backend, &picture, |metered| film.follow(metered)).await

@@ -6,9 +6,9 @@
 //! moments \[mass length²\], which are constant; about an axis whose moment is 0 it does not turn.
 //!
 //! With kicks and drifts it is advanced by the splitting of Dullweber, Leimkuhler & McLachlan (1997, J. Chem. Phys. 107, 5840),
-//! written in quaternions as by Miller et al. (2002, J. Chem. Phys. 116, 8649): [`kick`] changes the angular momentum
-//! L = R I Rᵀ ω by the torque, and [`drift`] turns the free body. It is of order 2 under every integrator of kicks and drifts,
-//! symplectic, reversible, and keeps L but for rounding. Between the stages of a Runge–Kutta step [`slopes`] are q' = ω q / 2 and
+//! written in quaternions as by Miller et al. (2002, J. Chem. Phys. 116, 8649): `kick` changes the angular momentum
+//! L = R I Rᵀ ω by the torque, and `drift` turns the free body. It is of order 2 under every integrator of kicks and drifts,
+//! symplectic, reversible, and keeps L but for rounding. Between the stages of a Runge–Kutta step `slopes` are q' = ω q / 2 and
 //! Euler's equations (1765), and `unit` brings q back onto the units at its end; it has the order of the method.
 
 mod drift;

@@ -46,19 +46,32 @@ use std::sync::Arc;
 use web_time::{Duration, Instant};
 
 pub use checkpoint::Checkpoint;
+#[doc(hidden)]
 pub use course::{Course, begun};
+#[doc(hidden)]
 pub use energy::Energies;
+#[doc(hidden)]
 pub use film::Film;
+#[doc(hidden)]
 pub use flock::Flocks;
+#[doc(hidden)]
 pub use fluid::Book;
 pub use from::go_on;
+#[doc(hidden)]
 pub use looks::Looks;
+#[doc(hidden)]
 pub use pictures::Pictures;
+#[doc(hidden)]
 pub use population::Counts;
-pub use progress::{Progress, plain};
+pub use progress::Progress;
+#[doc(hidden)]
+pub use progress::plain;
+#[doc(hidden)]
 pub use resume::{Found, is_of};
+#[doc(hidden)]
 pub use states::{States, written};
 pub use stop::Stop;
+#[doc(hidden)]
 pub use table::{Lengths, Rows, Table};
 pub use writer::{Moment, Writer};
 

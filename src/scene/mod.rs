@@ -53,12 +53,18 @@ use crate::settings::Settings;
 use crate::simulation::Setup;
 use crate::state::State;
 
+#[doc(hidden)]
 pub use builtin::{Builtin, SCENES};
+#[doc(hidden)]
 pub use checkpoint::{Checkpoints, Every};
+#[doc(hidden)]
 pub use column::COLUMN_KEYS;
 pub use diagnostic::{Diagnostic, Diagnostics, Excerpt, Mended};
+#[doc(hidden)]
 pub use output::Output;
+#[doc(hidden)]
 pub use own::Own;
+#[doc(hidden)]
 pub use sections::{SECTIONS, Section};
 pub use source::Source;
 

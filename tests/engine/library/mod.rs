@@ -4,6 +4,7 @@ mod diagnose;
 mod examples;
 mod readback;
 mod set;
+mod subgroups;
 mod threads;
 
 use motes::forces::Component;
