@@ -96,8 +96,8 @@ pub struct Simulation<B: Backend> {
     extent: (DVec3, DVec3),
     anchored: usize,
     /// For what its plans were written, and these: a setting that changes has them written anew.
-    problem: Problem,
-    plans: Plans,
+    problem: Box<Problem>,
+    plans: Box<Plans>,
     /// The fields that they name.
     fields: Fields,
     /// The largest values of columns that forces limit.
@@ -170,8 +170,8 @@ impl<B: Backend> Simulation<B> {
             goes_on: false,
             extent,
             anchored,
-            problem,
-            plans,
+            problem: Box::new(problem),
+            plans: Box::new(plans),
             fields,
             largest,
         };

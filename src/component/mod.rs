@@ -32,6 +32,7 @@ pub trait Component: Copied + Send + Sync {
         Vec::new()
     }
     /// The name by which [`Simulation::set`](crate::Simulation::set) knows it; an empty one cannot be set.
+    #[expect(clippy::unnecessary_literal_bound, reason = "a user's law has a name of its own")]
     fn name(&self) -> &str {
         ""
     }

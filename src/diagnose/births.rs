@@ -7,6 +7,7 @@ use crate::simulation::Setup;
 const ROUNDING: f64 = 1e-6;
 
 /// A line for each emitter: how many it has, and when they leave.
+#[must_use]
 pub fn forecast(setup: &Setup, end: f64) -> Vec<String> {
     let births = &setup.state.births;
     let line = |(number, (count, first, last)): (usize, &(u64, f64, f64))| {

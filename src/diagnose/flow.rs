@@ -15,6 +15,7 @@ const COURANT: f64 = 0.25;
 const PRESSED: f64 = 0.05;
 
 /// Whether one of these forces makes a fluid.
+#[must_use]
 pub fn flows(forces: &[Box<dyn Component>]) -> bool {
     forces.iter().any(|force| force.properties().makes_fluid)
 }
@@ -73,6 +74,7 @@ fn said(flow: &Flow, text: &str) -> Result<Option<Remark>, Error> {
 }
 
 /// What the largest acceleration of a start says: whether a step is too long for it, and sound too slow to carry it.
+#[must_use]
 pub fn hurry(medium: &Medium, dt: f64, (particle, most): (usize, f64)) -> Option<String> {
     let length = 0.5 * medium.range();
     let longest = COURANT * (length / most).sqrt();

@@ -36,6 +36,7 @@ pub fn limit(verdict: &Verdict) -> String {
 }
 
 /// Three digits, rounded down: what is safe stays safe.
+#[must_use]
 pub fn digits(x: f64) -> String {
     let scale = 10f64.powf(2.0 - x.abs().log10().floor());
     let down = if x > 0.0 { (x * scale).floor() / scale } else { x };

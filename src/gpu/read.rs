@@ -174,12 +174,12 @@ pub async fn bytes(
 ) -> Result<Vec<u8>, Error> {
     queue.idle().await?;
     let mut request = request(device, queue, buffer, from, len)?;
-    poll_fn(|context| match request.look(Some(LOOK)) {
-        Some(answer) => Poll::Ready(answer),
-        None => {
+    poll_fn(|context| {
+        let answer = request.look(Some(LOOK));
+        if answer.is_none() {
             context.waker().wake_by_ref();
-            Poll::Pending
         }
+        answer.map_or(Poll::Pending, Poll::Ready)
     })
     .await
 }

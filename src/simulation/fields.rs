@@ -5,7 +5,7 @@ use std::mem::discriminant;
 
 use super::Plans;
 use crate::error::Error;
-use crate::kernel::{Access, Array};
+use crate::kernel::{Access, Array, Kernel};
 use crate::settings::nearest;
 
 /// A field: what its elements are, each shader as it has them, and its bytes.
@@ -28,7 +28,7 @@ impl Fields {
                 let known = all.entry(name).or_insert(Known { kinds: Vec::new(), bytes });
                 known.bytes = known.bytes.max(bytes);
             }
-            let bindings = plan.kernels.iter().flat_map(|kernel| kernel.bindings());
+            let bindings = plan.kernels.iter().flat_map(Kernel::bindings);
             for (name, binding) in bindings.filter(|(_, binding)| binding.access != Access::Uniform) {
                 let Some(known) = all.get_mut(name) else { continue };
                 let kind = binding.zeros(1).zeros(0);

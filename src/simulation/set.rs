@@ -33,7 +33,7 @@ impl<B: Backend> Simulation<B> {
         let mut forces = self.setup.forces.clone();
         forces[place] = forces[place].changed(setting, &to.into())?;
         let setup = Setup { forces, ..self.setup.clone() };
-        self.exchange(setup, self.problem.clone(), &format!("`{setting}` of `{force}`"))
+        self.exchange(setup, (*self.problem).clone(), &format!("`{setting}` of `{force}`"))
     }
     /// Puts a motion in place of the one of its name, from the next step on: what is led by it goes to where it is then. Keys are at
     /// times of the run, as at its start.
@@ -54,7 +54,7 @@ impl<B: Backend> Simulation<B> {
         let what = format!("the motion \"{}\"", motion.name);
         motions[place] = motion;
         motion::check(&[], &motions, 0, self.setup.bounds.dimensions, self.setup.dt)?;
-        let problem = self.problem.clone().moved(&motions, self.setup.dt);
+        let problem = (*self.problem).clone().moved(&motions, self.setup.dt);
         self.exchange(self.setup.clone(), problem, &what)?;
         self.ties.lead(motions);
         Ok(())
@@ -108,7 +108,7 @@ impl<B: Backend> Simulation<B> {
         self.print = restart::print(&plans.step);
         self.marks = alarm::marks(&plans);
         self.plan = plans.step.to_string();
-        (self.setup, self.problem, self.plans, self.fields) = (setup, problem, plans, fields);
+        (self.setup, self.problem, self.plans, self.fields) = (setup, Box::new(problem), Box::new(plans), fields);
         Ok(())
     }
 }
