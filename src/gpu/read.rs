@@ -1,10 +1,13 @@
-//! Reading back. A request waits for nothing: it is looked at, or awaited while a thread of its own looks at the device.
+//! Reading back. A request waits for nothing: it is looked at, or awaited while a thread of its own looks at the device. The only place
+//! that knows futures-intrusive.
 
 use std::future::poll_fn;
-use std::sync::{Arc, Mutex};
-use std::task::{Poll, Waker};
+use std::pin::Pin;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::task::{Context, Poll, Waker};
 use std::time::Duration;
 
+use futures_intrusive::channel::shared::{OneshotSender, oneshot_channel};
 use web_time::Instant;
 
 use super::fault;
@@ -18,12 +21,12 @@ pub const LOOK: Duration = Duration::from_millis(2);
 #[cfg(not(target_arch = "wasm32"))]
 const WATCH: Duration = Duration::from_millis(1);
 
-/// Where the device says that a copy is there, and which task it wakes then.
-#[derive(Default)]
-struct Slot {
-    answer: Option<Result<(), String>>,
-    waker: Option<Waker>,
-}
+/// Holders of a sender when the device has let go of its own: the request, and the thread that watches it.
+#[cfg(not(target_arch = "wasm32"))]
+const ALONE: usize = 2;
+
+/// That a copy is there, or why it will not come.
+type Answer = Result<(), Error>;
 
 /// A copy of part of a buffer that is under way to the host.
 pub struct Request {
@@ -31,7 +34,12 @@ pub struct Request {
     /// None where nothing is asked for.
     stage: Option<wgpu::Buffer>,
     index: Option<wgpu::SubmissionIndex>,
-    slot: Arc<Mutex<Slot>>,
+    /// The device sends the answer, or a watch when the time is over. The first one counts.
+    sender: Arc<OneshotSender<Answer>>,
+    /// Never locked: it makes a request one that threads can share.
+    coming: Mutex<Pin<Box<dyn Future<Output = Option<Answer>> + Send>>>,
+    /// What has come while no look was taken.
+    answer: Option<Answer>,
     len: u64,
     deadline: Instant,
     patience: Duration,
@@ -49,12 +57,15 @@ pub fn request(
     if from + len > buffer.size() {
         return Err(Error::Device(format!("{len} bytes from {from} on are asked of a field of {}", buffer.size())));
     }
-    let slot = Arc::new(Mutex::new(Slot::default()));
+    let (sender, receiver) = oneshot_channel();
+    let sender = Arc::new(sender);
     let mut request = Request {
         device: device.clone(),
         stage: None,
         index: None,
-        slot: slot.clone(),
+        sender: sender.clone(),
+        coming: Mutex::new(Box::pin(async move { receiver.receive().await })),
+        answer: None,
         len,
         deadline: Instant::now() + queue.patience(),
         patience: queue.patience(),
@@ -74,10 +85,9 @@ pub fn request(
     })?;
     request.index = Some(queue.submit_commands(commands)?);
     let answer = move |result: Result<(), wgpu::BufferAsyncError>| {
-        if let Ok(mut slot) = slot.lock() {
-            slot.answer = Some(result.map_err(|why| why.to_string()));
-            slot.waker.take().into_iter().for_each(Waker::wake);
-        }
+        let unread = |why: wgpu::BufferAsyncError| Error::Lost(format!("a field cannot be read: {why}"));
+        // Where the time was over before, nothing listens any more.
+        let _ = sender.send(result.map_err(unread));
     };
     // A device that is lost makes invalid buffers, and says nothing: the first complaint is of their use.
     let map = || stage.slice(..).map_async(wgpu::MapMode::Read, answer);
@@ -89,7 +99,9 @@ pub fn request(
 impl Request {
     /// The bytes, once they are there; waits for them so long at most, and not at all without a time.
     pub fn look(&mut self, time: Option<Duration>) -> Option<Result<Vec<u8>, Error>> {
-        let Some(stage) = &self.stage else { return Some(Ok(Vec::new())) };
+        if self.stage.is_none() {
+            return Some(Ok(Vec::new()));
+        }
         // A browser maps while its own loop runs; elsewhere it must be polled.
         let poll = match (&self.index, time) {
             (Some(index), Some(time)) => {
@@ -102,27 +114,32 @@ impl Request {
         {
             return Some(Err(Error::Lost(why.to_string())));
         }
-        let answer = self
-            .slot
-            .lock()
-            .map_or_else(|_| Some(Err("its callback failed".to_owned())), |mut slot| slot.answer.take());
-        match answer {
-            Some(Ok(())) => Some(copied(stage, self.len)),
-            Some(Err(why)) => Some(Err(Error::Lost(format!("a field cannot be read: {why}")))),
-            None if Instant::now() > self.deadline => {
-                Some(Err(Error::Timeout { what: "a read".to_owned(), seconds: self.patience.as_secs() }))
-            }
+        match self.come(Waker::noop()) {
+            Some(Ok(())) => self.stage.as_ref().map(|stage| copied(stage, self.len)),
+            Some(Err(why)) => Some(Err(why)),
+            None if Instant::now() > self.deadline => Some(Err(late(self.patience))),
             None => None,
+        }
+    }
+    /// The answer, if it has come; else the task of this waker is woken when it comes.
+    fn come(&mut self, waker: &Waker) -> Option<Answer> {
+        if let Some(answer) = self.answer.take() {
+            return Some(answer);
+        }
+        let coming = self.coming.get_mut().unwrap_or_else(PoisonError::into_inner);
+        match coming.as_mut().poll(&mut Context::from_waker(waker)) {
+            Poll::Ready(answer) => Some(answer.unwrap_or_else(|| {
+                Err(Error::Lost("a field cannot be read: the device dropped the request".to_owned()))
+            })),
+            Poll::Pending => None,
         }
     }
     /// Wakes a task once there is something to look at.
     fn wake(&mut self, waker: &Waker) {
-        let Ok(mut slot) = self.slot.lock() else { return waker.wake_by_ref() };
-        if slot.answer.is_some() {
+        self.answer = self.come(waker);
+        if self.answer.is_some() {
             return waker.wake_by_ref();
         }
-        slot.waker = Some(waker.clone());
-        drop(slot);
         if !self.watched {
             self.watched = true;
             self.watch(waker);
@@ -134,16 +151,20 @@ impl Request {
     /// Looks at the device from a thread, until there is an answer, the time is over, or the request is dropped.
     #[cfg(not(target_arch = "wasm32"))]
     fn watch(&self, waker: &Waker) {
-        let (device, slot, deadline) = (self.device.clone(), Arc::downgrade(&self.slot), self.deadline);
+        let (device, sender) = (self.device.clone(), Arc::downgrade(&self.sender));
+        let (deadline, patience) = (self.deadline, self.patience);
         let work = move || {
-            while let Some(slot) = slot.upgrade() {
-                let polled = device.poll(wgpu::PollType::Poll);
-                let Ok(mut slot) = slot.lock() else { return };
-                if slot.answer.is_some() || polled.is_err() || Instant::now() > deadline {
-                    slot.waker.take().into_iter().for_each(Waker::wake);
+            // The device lets go of its own when it has answered.
+            while let Some(sender) = sender.upgrade().filter(|sender| Arc::strong_count(sender) > ALONE) {
+                let over = match device.poll(wgpu::PollType::Poll) {
+                    Err(why) => Some(Error::Lost(why.to_string())),
+                    Ok(_) => (Instant::now() > deadline).then(|| late(patience)),
+                };
+                if let Some(why) = over {
+                    let _ = sender.send(Err(why));
                     return;
                 }
-                drop(slot);
+                drop(sender);
                 std::thread::sleep(WATCH);
             }
         };
@@ -152,6 +173,10 @@ impl Request {
             waker.wake_by_ref();
         }
     }
+}
+
+fn late(patience: Duration) -> Error {
+    Error::Timeout { what: "a read".to_owned(), seconds: patience.as_secs() }
 }
 
 fn copied(stage: &wgpu::Buffer, len: u64) -> Result<Vec<u8>, Error> {
