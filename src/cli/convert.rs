@@ -9,11 +9,9 @@ use super::failure::Failure;
 /// Writes the particles of a file in another format.
 pub fn convert(args: &ConvertArgs) -> Result<(), Failure> {
     let refuse = |message: &str| Error::Output { file: args.to.clone(), message: message.to_owned() };
-    if args.to.exists() && !args.overwrite {
-        let same = |path: &std::path::Path| std::fs::canonicalize(path).ok();
-        if same(&args.from) == same(&args.to) {
-            return Err(refuse("is the file that is read: choose another name").into());
-        }
+    let real = |path: &std::path::Path| std::fs::canonicalize(path).ok();
+    // `formats::convert` refuses a file that would replace itself.
+    if args.to.exists() && !args.overwrite && real(&args.from) != real(&args.to) {
         return Err(refuse("the file is there already: choose another name, or say --overwrite").into());
     }
     let precision = match args.precision {

@@ -13,10 +13,48 @@ use crate::error::Error;
 /// # Errors
 /// [`Error::Output`] with the path, if the folder, the disk or `write` fails; a file that was there before is then untouched.
 pub fn atomically(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> Result<(), Error> {
-    replaced(path, write).map_err(|error| Error::Output { file: path.to_owned(), message: error.to_string() })
+    replaced(path, write, |_| Ok(())).map_err(|error| failed(path, &error))
 }
 
-fn replaced(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> io::Result<()> {
+/// The same, and the new file takes the name only if `check`, which gets the path of the temporary file, finds no fault with it.
+///
+/// # Errors
+/// [`Error::Output`] as before, and what `check` says; when the path is that of a pipe or a device, which cannot be read back.
+pub(super) fn verified<T>(
+    path: &Path,
+    write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
+    check: impl FnOnce(&Path) -> Result<T, Error>,
+) -> Result<T, Error> {
+    if fs::metadata(path).is_ok_and(|there| !there.is_file()) {
+        return Err(failed(
+            path,
+            &io::Error::other("is not a regular file, and what is written is read back: name a file"),
+        ));
+    }
+    let mut found = None;
+    let checked = replaced(path, write, |temporary| {
+        let result = check(temporary);
+        let fault = result.as_ref().err().map(|error| io::Error::other(error.to_string()));
+        found = Some(result);
+        fault.map_or(Ok(()), Err)
+    });
+    match (found, checked) {
+        (Some(Ok(value)), Ok(())) => Ok(value),
+        (Some(Err(error)), _) => Err(error),
+        (_, Err(error)) => Err(failed(path, &error)),
+        (None, Ok(())) => Err(failed(path, &io::Error::other("was not checked"))),
+    }
+}
+
+fn failed(path: &Path, error: &io::Error) -> Error {
+    Error::Output { file: path.to_owned(), message: error.to_string() }
+}
+
+fn replaced(
+    path: &Path,
+    write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
+    check: impl FnOnce(&Path) -> io::Result<()>,
+) -> io::Result<()> {
     match fs::metadata(path) {
         Ok(there) if !there.is_file() => {
             return filled(OpenOptions::new().write(true).open(path)?, write).map(drop);
@@ -38,6 +76,7 @@ fn replaced(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> io::Result<
     }
     let (file, temporary) = builder.tempfile_in(folder)?.into_parts();
     filled(file, write)?.sync_all()?;
+    check(&temporary)?;
     temporary.persist(&target).map_err(|error| error.error)?;
     settle(folder)
 }

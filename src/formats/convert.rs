@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::{Format, Options, Precision, atomically, by_ending, contents, input, known, of, read};
+use super::{Format, Options, Precision, by_ending, contents, input, known, of, read, verified};
 use crate::error::Error;
 use crate::kernel::Array;
 use crate::state::State;
@@ -27,7 +27,7 @@ pub struct Converted {
 ///
 /// # Errors
 /// [`Error::Input`] when the file cannot be read, [`Error::Output`] when the other's ending says no format that states can be written
-/// in, or it cannot be written: what was there before is then untouched.
+/// in, it is the file that is read, it cannot be written, or it cannot be read back: what was there before is then untouched.
 pub fn convert(from: &Path, to: &Path, precision: Option<Precision>) -> Result<Converted, Error> {
     let refuse = |message: String| Error::Output { file: to.to_owned(), message };
     let format = by_ending(to).ok_or_else(|| {
@@ -38,19 +38,47 @@ pub fn convert(from: &Path, to: &Path, precision: Option<Precision>) -> Result<C
         let names: Vec<_> = writable().map(|format| format.name).collect();
         refuse(format!("files of {} are read, not written: choose one of {}", format.about, names.join(", ")))
     })?;
+    if std::fs::canonicalize(to).is_ok_and(|to| std::fs::canonicalize(from).is_ok_and(|from| from == to)) {
+        return Err(refuse("is the file that is read: choose another name".to_owned()));
+    }
     let source = of(from)?.ok_or_else(|| input(from, "is of no format that is known"))?;
     let before = contents(from)?;
     let state = read(from, &known(&before))?;
     let precision = precision.unwrap_or_else(|| if is_single(&state) { Precision::Single } else { Precision::Double });
     let options = Options { precision, bounds: before.bounds };
-    atomically(to, |out| write(out, &state, &options))?;
-    let after = contents(to)?;
-    let back = read(to, &known(&after))?;
+    let (after, back) = verified(
+        to,
+        |out| write(out, &state, &options),
+        |temporary| {
+            let back = || -> Result<_, Error> {
+                let after = (format.contents)(temporary)?;
+                let columns = known(&after);
+                let state = format.read.map(|read| read(temporary, &columns)).transpose()?;
+                Ok((after, state.unwrap_or_default()))
+            };
+            let whole = |(after, back): (_, State)| {
+                let (wrote, found) = (state.len(), back.len());
+                if found == wrote {
+                    Ok((after, back))
+                } else {
+                    Err(input(to, format!("{found} of {wrote} particles are there")))
+                }
+            };
+            back().and_then(whole).map_err(|why| {
+                refuse(format!("what was written cannot be read back, so it is not kept: {}", told(&why)))
+            })
+        },
+    )?;
     let mut lost = lost(&state, &back);
     if before.bounds.is_some() && after.bounds.is_none() {
         lost.push("the box".to_owned());
     }
     Ok(Converted { from: source, to: format, count: state.len(), precision, lost })
+}
+
+/// What an error says of a file, without the name of the file.
+fn told(error: &Error) -> String {
+    if let Error::Input { message, .. } = error { message.clone() } else { error.to_string() }
 }
 
 fn writable() -> impl Iterator<Item = &'static Format> {
@@ -89,7 +117,7 @@ fn lost(state: &State, back: &State) -> Vec<String> {
             Some(same) if same == values => {}
             None => lost.push(format!("`{}`", column.name)),
             Some(other) => lost.push(match widest(values, other) {
-                Some(worst) => format!("digits of `{}` (by up to {worst:.1e} of a number)", column.name),
+                Some(worst) => format!("digits of `{}` (relative error up to {worst:.1e})", column.name),
                 None => format!("`{}`", column.name),
             }),
         }

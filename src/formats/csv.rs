@@ -71,7 +71,7 @@ pub fn read(path: &Path, columns: &Columns) -> Result<State, Error> {
                 real(&record, *place, &title.text, &line, &mut problems)
             };
             if let (Some(number), Some(fault)) = (number, number.and_then(|number| title.fault(number))) {
-                problems.note(|| format!("{line}, column {}: {number} {fault}", title.text));
+                problems.note(|| format!("{line}, column {}: {number:?} {fault}", title.text));
             }
             list.push(number.unwrap_or(0.0));
         }
@@ -218,12 +218,13 @@ pub(super) fn unknown(what: &str, title: &str, titles: &[Title<'_>], others: &[&
 /// the same bits of the precision, also where it is read as f64 first.
 ///
 /// # Errors
-/// Those of `out`.
+/// Those of `out`; a number that does not fit single precision, where that is asked for.
 pub fn write_csv(mut out: impl Write, state: &State, precision: Precision) -> io::Result<()> {
     /// Rows per piece of work, and pieces that are in memory at once: about 16 MB of text.
     const ROWS: usize = 4096;
     const PIECES: usize = 32;
     let (strips, ids) = (titles::strips(state), state.ids());
+    titles::fit(&strips, state.len(), precision)?;
     let header = strips.iter().fold(ID.to_owned(), |all, strip| all + "," + &strip.text);
     out.write_all(header.as_bytes())?;
     out.write_all(b"\n")?;

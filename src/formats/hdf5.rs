@@ -3,7 +3,7 @@
 //!
 //! Where the state has a density, species 0 is `PartType0`, gas, species 1 is `PartType1`, and so on; else species 0 is `PartType1`, dark
 //! matter. What comes behind the last type is of that type, with a dataset `species`. `Header` holds the time, the step, counts and the
-//! box. Sets of several files are read by the name of any of them. Quantities that only some types have are 0 for the others. Numbers
+//! box. Sets of several files are read by the name of any of them, and all must be in one folder. Quantities that only some types have are 0 for the others. Numbers
 //! stay in the units of the file.
 
 use std::collections::{BTreeMap, HashMap};
@@ -157,7 +157,9 @@ fn sheet(path: &Path, wanted: &dyn Fn(&str) -> bool) -> Result<Sheet, Error> {
             input(path, format!("is one of {parts} files, and its name has no number, as in snapshot_007.0.hdf5"))
         })?;
         for part in 0..parts {
-            gathered.file(&PathBuf::from(format!("{before}.{part}.{after}")), wanted)?;
+            let file = PathBuf::from(format!("{before}.{part}.{after}"));
+            beside(path, &file)?;
+            gathered.file(&file, wanted)?;
         }
     }
     let number = |name: &str| gathered.header.get(name).map(numbers).and_then(|list| list.first().copied());
@@ -176,6 +178,16 @@ fn sheet(path: &Path, wanted: &dyn Fn(&str) -> bool) -> Result<Sheet, Error> {
         sheet.enter(&title, whole, wanted, || (values, place));
     }
     Ok(sheet)
+}
+
+/// Refuses a part that a link leads out of the folder of the file that was named: only that one was allowed to be read.
+fn beside(named: &Path, part: &Path) -> Result<(), Error> {
+    let real = |path: &Path| std::fs::canonicalize(path).map_err(|why| input(path, why.to_string()));
+    let (named, real) = (real(named)?, real(part)?);
+    if named.parent().is_some_and(|folder| real.starts_with(folder)) {
+        return Ok(());
+    }
+    Err(input(part, "is a part of a set, and a link leads outside of the set's folder: put all parts into one folder"))
 }
 
 /// What stands before and behind the number of a part: `snapshot_007`, `hdf5`.

@@ -26,6 +26,7 @@ use std::io::{self, BufReader, BufWriter, Read};
 use std::path::Path;
 
 pub use self::atomic::atomically;
+use self::atomic::verified;
 pub use self::contents::{Contents, Heading, contents, known};
 pub use self::convert::{Converted, convert};
 #[cfg(feature = "scene")]
@@ -165,10 +166,15 @@ fn input(path: &Path, message: impl Into<String>) -> Error {
 
 /// A file, and its length in bytes.
 fn open(path: &Path) -> Result<(BufReader<File>, u64), Error> {
-    let file = File::open(path).map_err(|error| input(path, error.to_string()))?;
-    let data = file.metadata().map_err(|error| input(path, error.to_string()))?;
+    let failed = |error: io::Error| input(path, error.to_string());
+    // Before it is opened: to open a pipe is to wait for its other end.
+    let data = std::fs::metadata(path).map_err(failed)?;
     if data.is_dir() {
         return Err(input(path, "is a folder, not a file of particles"));
     }
+    if !data.is_file() {
+        return Err(input(path, "is not a regular file: files are read more than once, so copy it into one"));
+    }
+    let file = File::open(path).map_err(failed)?;
     Ok((BufReader::with_capacity(1 << 16, file), data.len()))
 }

@@ -131,7 +131,7 @@ fn check<T: std::fmt::Display>(
     }
     for (place, value) in values.iter().enumerate() {
         if let Some(fault) = fault(*value) {
-            problems.note(|| format!("{name}[{place}] is {value}, which {fault}"));
+            problems.note(|| format!("{name}[{place}] is {value:?}, which {fault}"));
         }
     }
 }
@@ -149,7 +149,7 @@ fn whole(x: f64) -> u64 {
 /// the system, and the single numbers `time` (f8) and `step` (u8). The same state gives the same bytes: no date is stored.
 ///
 /// # Errors
-/// Those of `out`.
+/// Those of `out`; a number that does not fit single precision, where that is asked for.
 pub fn write_npz(out: impl Write + Seek, state: &State, precision: Precision) -> io::Result<()> {
     write_beside(out, state, precision, &[])
 }
@@ -157,7 +157,7 @@ pub fn write_npz(out: impl Write + Seek, state: &State, precision: Precision) ->
 /// The same with more entries behind the arrays, by their names.
 ///
 /// # Errors
-/// Those of `out`.
+/// Those of `out`; a number that does not fit single precision, where that is asked for.
 pub(crate) fn write_beside(
     out: impl Write + Seek,
     state: &State,
@@ -170,7 +170,9 @@ pub(crate) fn write_beside(
     put(&mut archive, "step", &[], [state.step.to_le_bytes()], 0_u64)?;
     u32::try_from(count).map_err(|_| io::Error::other(format!("{count} particles; ids have 32 bits")))?;
     put(&mut archive, "id", &[count], state.ids().iter().copied().map(u32::to_le_bytes), 0_u32)?;
-    for strip in titles::strips(state) {
+    let strips = titles::strips(state);
+    titles::fit(&strips, state.len(), precision)?;
+    for strip in strips {
         numbers(&mut archive, &strip, state.len(), precision)?;
     }
     for (column, values) in state.columns().filter(|(column, _)| matches!(column.shape, Shape::System(_))) {

@@ -182,7 +182,7 @@ pub fn write_tipsy(mut out: impl Write, state: &State, softening: f64) -> io::Re
             #[expect(clippy::cast_possible_truncation, reason = "the format is single precision")]
             let narrow = *value as f32;
             if !narrow.is_finite() {
-                return Err(io::Error::other(format!("particle {id} holds {value}, which a Tipsy file (f32) cannot")));
+                return Err(io::Error::other(format!("particle {id} holds {value:?}, which a Tipsy file (f32) cannot")));
             }
             bytes.copy_from_slice(&narrow.to_be_bytes());
         }

@@ -2,8 +2,10 @@
 
 use std::borrow::Cow;
 use std::fmt::Write as _;
+use std::io;
 
 use super::Precision;
+use super::binary::single;
 use crate::kernel::{Array, Column, Columns, ID, Kind, LIFE, Shape};
 use crate::life::Life;
 use crate::state::State;
@@ -174,6 +176,24 @@ impl Strip<'_> {
     pub fn is_whole(&self) -> bool {
         matches!(self.values, Array::Uint(_))
     }
+}
+
+/// Looks whether single precision holds all numbers, where that is asked for.
+///
+/// # Errors
+/// The title and the particle of the first that is beyond it.
+pub(super) fn fit(strips: &[Strip<'_>], particles: usize, precision: Precision) -> io::Result<()> {
+    if precision == Precision::Double {
+        return Ok(());
+    }
+    for strip in strips.iter().filter(|strip| !strip.is_whole()) {
+        for row in 0..particles {
+            if let Number::Real(number) = strip.of(row) {
+                single(number).map_err(|why| io::Error::other(format!("{} of particle {row}: {why}", strip.text)))?;
+            }
+        }
+    }
+    Ok(())
 }
 
 /// The numbers of one slot of a column: what formats of vectors write as one array.

@@ -66,7 +66,8 @@ fn property_of<'a>(column: &'a Column, columns: &[&Column]) -> &'a str {
 /// Writes a state: species, positions, and all that a CSV file has, one line for each particle in the order of the ids.
 ///
 /// # Errors
-/// Those of `out`; a species above 118, for which there is no element.
+/// Those of `out`; a species above 118, for which there is no element; a number that does not fit single precision, where that is
+/// asked for.
 pub fn write_xyz(mut out: impl Write, state: &State, options: &Options) -> io::Result<()> {
     let precision = options.precision;
     let elements: Vec<&str> = ELEMENTS.split_whitespace().collect();
@@ -95,6 +96,7 @@ pub fn write_xyz(mut out: impl Write, state: &State, options: &Options) -> io::R
     let pbc = pbc.map(|side| if periodic(side) { "T" } else { "F" }).join(" ");
     writeln!(out, "Properties={properties} pbc=\"{pbc}\" Time={:?} Step={}", state.time, state.step)?;
     let strips: Vec<_> = titles::strips(state).into_iter().filter(|strip| strip.text != "species").collect();
+    titles::fit(&strips, state.len(), precision)?;
     let (mut line, ids) = (String::new(), state.ids());
     for (id, name) in ids.iter().enumerate() {
         line.clear();

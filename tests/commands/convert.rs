@@ -44,11 +44,28 @@ fn a_file_is_converted_once_and_described() {
     assert!(code == 8 && notes.contains("say --overwrite"), "{code}: {notes}");
     let (code, _, notes) = motes(&["convert", &stars, &stars]);
     assert!(code == 8 && notes.contains("is the file that is read"), "{code}: {notes}");
+    let (code, _, notes) = motes(&["convert", &stars, &stars, "--overwrite"]);
+    assert!(code == 8 && notes.contains("is the file that is read"), "{code}: {notes}");
     assert_eq!(fs::read(&stars).expect("a file"), before);
     let (code, _, notes) = motes(&["convert", &stars, &path(&folder, "b.tipsy")]);
     assert!(code == 0 && notes.contains("does not hold `charge`"), "{code}: {notes}");
     let (code, _, notes) = motes(&["info", &path(&folder, "none.ply")]);
     assert!(code == 4 && notes.contains("none.ply"), "{code}: {notes}");
+}
+
+#[test]
+fn a_conversion_that_fails_leaves_what_was_there() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let big = path(&folder, "big.csv");
+    fs::write(&big, "x,y,z\n1e300,0,0\n").expect("a file");
+    for ending in ["npz", "xyz", "csv", "hdf5", "ply", "vtp", "tipsy"] {
+        let kept = path(&folder, &format!("kept.{ending}"));
+        fs::write(&kept, "what was there").expect("a file");
+        let (code, _, notes) = motes(&["convert", &big, &kept, "--precision", "single", "--overwrite"]);
+        assert!(code == 8 && notes.contains("1e300"), "{ending} {code}: {notes}");
+        assert_eq!(fs::read(&kept).expect("a file"), b"what was there", "{ending}");
+    }
+    assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 8, "nothing else is left there");
 }
 
 #[test]

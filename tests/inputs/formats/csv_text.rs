@@ -80,7 +80,7 @@ fn a_csv_reports_all_that_is_wrong_at_once() {
             "line 5, column y: `1e999` is not finite",
             "line 5, column mass: the cell is missing",
             "line 6: 8 cells, but 7 columns",
-            "line 6, column mass: -7 is below 0",
+            "line 6, column mass: -7.0 is below 0",
         ],
     );
     refused("a.csv", "x,y,z,temperature\n", &["unknown column `temperature`; known are x, y, z, mass"]);

@@ -4,6 +4,7 @@
 
 mod blank_tables;
 mod csv_text;
+mod hdf5_files;
 mod links_text;
 mod npz_archives;
 mod readers;

@@ -105,10 +105,10 @@ fn archives_that_lie_are_refused() {
     let (x, y, z) = (("x", two.clone()), ("y", two.clone()), ("z", two.clone()));
     let with = |name, bytes| stored(&[x.clone(), y.clone(), z.clone(), (name, bytes)]);
     says(&with("mas", two.clone()), &["unknown array `mas`; did you mean `mass`?"]);
-    says(&with("mass", f4(&[1.0, -1.0])), &["mass[1] is -1, which is below 0"]);
+    says(&with("mass", f4(&[1.0, -1.0])), &["mass[1] is -1.0, which is below 0"]);
     says(&with("id", f4(&[0.0, 2.5])), &["id[1] is 2.5, which is not a whole number"]);
     says(&with("species", f4(&[0.0, 2.5])), &["species[1] is 2.5, which is not a whole number"]);
-    says(&with("species", f4(&[-1.0, 2.0])), &["species[0] is -1, which is not a whole number"]);
+    says(&with("species", f4(&[-1.0, 2.0])), &["species[0] is -1.0, which is not a whole number"]);
     says(&with("species", f4(&[1.0])), &["the array `species` holds 1 numbers"]);
     says(&with("id", f4(&[2.0, 2.0])), &["id[1]: id 2 again; it is already at id[0]"]);
     says(&with("time", two.clone()), &["`time` holds 2 numbers"]);
