@@ -28,7 +28,7 @@ pub(super) fn counted(setup: &Setup, problem: Problem) -> Result<Problem, Error>
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
     let room = setup.state.kept.get(KEPT_ROOM).and_then(|list| list.first()).map_or(0, |room| *room as u32);
     let kept = room.min(count).max(u32::try_from(pair_history::longest(&setup.state)).unwrap_or(u32::MAX));
-    let capacity = if kept < most { shape.capacity } else { kept.div_ceil(4).saturating_mul(4) };
+    let capacity = if kept == 0 || kept < most { shape.capacity } else { kept.div_ceil(4).saturating_mul(4) };
     Ok(problem.listed(Some(ListShape { capacity, ..shape })))
 }
 
