@@ -97,7 +97,7 @@ impl Judged {
     /// # Errors
     /// As of [`diagnose`].
     pub async fn of(setup: &Setup, steps: u64) -> Result<Self, Error> {
-        let build = || setup.integrator.clone();
+        let build = || setup.integrator.in_fixed_steps();
         let (start, mut lines, mut remarks) = (setup.start()?, Vec::new(), Vec::new());
         if let Some(start) = &start {
             let (said, notes) = fluid::remarks(setup, start)?;

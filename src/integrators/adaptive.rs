@@ -32,6 +32,9 @@ impl Integrator for Adaptive {
     fn fixed_step(&self) -> Option<&'static str> {
         self.integrator.fixed_step()
     }
+    fn in_fixed_steps(&self) -> Box<dyn Integrator> {
+        self.integrator.in_fixed_steps()
+    }
     fn columns(&self) -> Vec<Column> {
         self.integrator.columns()
     }

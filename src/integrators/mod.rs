@@ -48,6 +48,10 @@ pub trait Integrator: Copied + Send + Sync {
     fn adaptive_step(&self) -> Option<AdaptiveStep> {
         None
     }
+    /// The same method in steps that are all alike.
+    fn in_fixed_steps(&self) -> Box<dyn Integrator> {
+        self.copied()
+    }
     /// The columns that it keeps beside those of all simulations: what a step leaves to the next.
     fn columns(&self) -> Vec<Column> {
         Vec::new()

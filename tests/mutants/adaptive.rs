@@ -11,7 +11,7 @@ use motes::kernel::{
 };
 use motes::{Bounds, Gpu, Setup, Simulation, Solver};
 
-use crate::stages::{Device, FEW, Stage, fill, moving};
+use crate::stages::{Device, FEW, Stage, fill, moving, put};
 use crate::support::equivalents::{Equivalent, same};
 use crate::support::machines::alone;
 use crate::support::states::{force, integrator, vector};
@@ -89,7 +89,7 @@ pub fn staged(
 ) {
     let plan = alone(kernel);
     fill(&mut simulation, &plan);
-    simulation.write(STEP_CLOCK, clock).expect("a clock");
+    put(&mut simulation, STEP_CLOCK, clock);
     more(&mut simulation);
     stages.push(Stage::of(name, simulation, plan));
 }
@@ -150,8 +150,8 @@ fn steps(device: &Device, stages: &mut Vec<Stage>) {
         let kernel = kernel(&setup(Box::new(Thick(viscous)), DT / 64.0), "adaptive");
         staged(stages, &format!("adaptive dt {case}"), moving(device, FEW, None), kernel, &clock, |simulation| {
             let most = Vec4::new(wants[0], wants[1], wants[2], 0.0);
-            simulation.write(LARGEST_CRITERION, &[most]).expect("largest_criterion");
-            simulation.write(STOP, &stop).expect("a stop");
+            put(simulation, LARGEST_CRITERION, &[most]);
+            put(simulation, STOP, &stop);
         });
     }
     // Fewer ticks than digits, about as many, and none.
@@ -164,10 +164,8 @@ fn steps(device: &Device, stages: &mut Vec<Stage>) {
             kernel,
             &usual,
             |simulation| {
-                simulation
-                    .write(LARGEST_CRITERION, &[Vec4::new(TICKS as f32 / ticks, 0.2, 0.3, 0.0)])
-                    .expect("largest_criterion");
-                simulation.write(STOP, &far).expect("a stop");
+                put(simulation, LARGEST_CRITERION, &[Vec4::new(TICKS as f32 / ticks, 0.2, 0.3, 0.0)]);
+                put(simulation, STOP, &far);
             },
         );
     }
@@ -199,8 +197,8 @@ fn limiting(device: &Device, stages: &mut Vec<Stage>) {
                 kernel,
                 &state,
                 |simulation| {
-                    simulation.write(STEP_CRITERIA, &step_criteria).expect("step_criteria");
-                    simulation.write(LARGEST_CRITERION, &[Vec4::new(2.5, 2.5, 2.5, 0.0)]).expect("largest_criterion");
+                    put(simulation, STEP_CRITERIA, &step_criteria);
+                    put(simulation, LARGEST_CRITERION, &[Vec4::new(2.5, 2.5, 2.5, 0.0)]);
                 },
             );
         }
@@ -232,7 +230,7 @@ fn clocks(device: &Device, stages: &mut Vec<Stage>) {
                     kernel(&setup(), "tick"),
                     &state,
                     |it| {
-                        it.write(ALARM, &alarm).expect("an alarm");
+                        put(it, ALARM, &alarm);
                     },
                 );
             }

@@ -12,7 +12,7 @@ use motes::{Bounds, Gpu, Setup, Side, Simulation, Solver};
 
 use crate::adaptive::{DT, MACHINE, NONE, staged, words};
 use crate::laws::resting;
-use crate::stages::{Device, FEW, Stage};
+use crate::stages::{Device, FEW, Stage, put};
 use crate::support::fluids::{SPACING, bounds, cloud, fluid};
 use crate::support::machines::{alone, subgroups_of_eight};
 use crate::support::states::{force, integrator, vector, word};
@@ -60,7 +60,9 @@ fn motions(device: &Device, stages: &mut Vec<Stage>) {
         for field in [HOME, TARGET] {
             let last = |id: usize| [0.7, 1.2, 1.9, 5.3][id % 4];
             let values: Vec<Vec4> = (0..FEW).map(|id| random.vector().as_vec3().extend(last(id))).collect();
-            it.write(field, &values).unwrap_or(());
+            if it.backend().size(field.name) > 0 {
+                put(it, field, &values);
+            }
         }
     };
     let periodic = Bounds::new(glam::DVec3::new(-0.9, -1.1, -1.0), glam::DVec3::new(0.7, 0.8, 0.9), Side::Periodic);

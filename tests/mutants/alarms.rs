@@ -2,7 +2,7 @@
 
 use motes::kernel::{ACCELERATION, ALARM, Backend, Kernel, POSITION, QUIET, VELOCITY, World};
 
-use crate::stages::{Device, FEW, Stage, moving};
+use crate::stages::{Device, FEW, Stage, moving, put};
 
 /// The kernel of a stage that is there already: every plan has one.
 fn known(name: &str, stages: &[Stage]) -> Kernel {
@@ -28,8 +28,8 @@ pub fn watches(device: &Device, stages: &mut Vec<Stage>) {
         let mut simulation = moving(device, FEW, None);
         let mut values = pollster::block_on(simulation.read(field)).expect("a field");
         values[id][place] = bad;
-        simulation.write(field, &values).expect("a field");
-        simulation.write(ALARM, &alarm).expect("a field");
+        put(&mut simulation, field, &values);
+        put(&mut simulation, ALARM, &alarm);
         stages.push(Stage::new(&format!("watch {case}"), simulation, watch.clone()));
     }
 }
@@ -65,8 +65,8 @@ pub fn runaways(device: &Device, stages: &mut Vec<Stage>) {
         ];
         for (case, alarm) in cases.into_iter().enumerate() {
             let mut simulation = moving(device, FEW, None);
-            simulation.write(VELOCITY, &v).expect("velocities");
-            simulation.write(ALARM, &alarm).expect("an alarm");
+            put(&mut simulation, VELOCITY, &v);
+            put(&mut simulation, ALARM, &alarm);
             stages.push(Stage::new(&format!("runaway {axis} {case}"), simulation, watch.clone()));
         }
     }
@@ -75,7 +75,7 @@ pub fn runaways(device: &Device, stages: &mut Vec<Stage>) {
             let mut simulation = moving(device, FEW, None);
             let clock = pollster::block_on(simulation.backend().world()).expect("a clock");
             simulation.backend().set_world(World { step, ..clock }).expect("a clock");
-            simulation.write(ALARM, &words([5, 6], [now, before], 4)).expect("an alarm");
+            put(&mut simulation, ALARM, &words([5, 6], [now, before], 4));
             stages.push(Stage::new(&format!("tick {case} {step}"), simulation, tick.clone()));
         }
     }

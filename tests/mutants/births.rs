@@ -14,7 +14,7 @@ use motes::solids::Solid;
 use motes::{Bounds, Gpu, POSITION, Side, Simulation};
 
 use crate::curious::{CHOOSY, MOVING, OTHERS, STILL, law};
-use crate::stages::{Device, FEW, Stage, fill, moving, stage};
+use crate::stages::{Device, FEW, Stage, fill, moving, put, stage};
 use crate::support::equivalents::{Equivalent, same};
 use crate::support::machines::{alone, subgroups_of_eight};
 use crate::support::states::force;
@@ -96,12 +96,12 @@ fn staged(name: &str, mut simulation: Simulation<Gpu>, bounds: Bounds, plan: Pla
     simulation.backend().set_world(clock).expect("a clock");
     if plan.kernels.len() > 1 {
         // Slots that become free later hold another particle first.
-        simulation.write(LIFE, &[1; FEW]).expect("lives");
+        put(&mut simulation, LIFE, &[1; FEW]);
         let gpu = simulation.backend();
         let program = gpu.compile(&plan).expect("a good plan");
         gpu.run(&program, 1).expect("a run");
     }
-    simulation.write(LIFE, &life()).expect("lives");
+    put(&mut simulation, LIFE, &life());
     Stage::of(name, simulation, plan)
 }
 

@@ -8,7 +8,7 @@ use motes::settings::Value;
 use motes::{Bounds, Gpu, Side, Simulation};
 
 use crate::laws::resting;
-use crate::stages::{Device, FEW, Stage, fill, moving};
+use crate::stages::{Device, FEW, Stage, fill, moving, put};
 use crate::support::machines::{alone, kernel_in};
 use crate::support::states::{force, integrator, vector, word};
 use crate::support::{Random, choices};
@@ -82,7 +82,9 @@ fn staged(name: &str, mut simulation: Simulation<Gpu>, kernel: Kernel) -> Stage 
     for (field, count) in [(HOME, gpu.size(HOME.name) / 16), (TARGET, gpu.size(TARGET.name) / 16)] {
         let count = usize::try_from(count).expect("few").min(FEW);
         let values = places(&|id| [0.7, 1.2, 1.9, 5.3][id % 4], &mut random);
-        simulation.write(field, &values[..count]).unwrap_or(());
+        if simulation.backend().size(field.name) > 0 {
+            put(&mut simulation, field, &values[..count]);
+        }
     }
     Stage::of(name, simulation, plan)
 }

@@ -9,7 +9,7 @@ use motes::neighbors::{LIST_STATE, List};
 use motes::{Bounds, Gpu, POSITION, Side, Simulation};
 
 use crate::curious::{MOVING, law};
-use crate::stages::{Device, FEW, Stage, fill, moving};
+use crate::stages::{Device, FEW, Stage, fill, moving, put};
 use crate::support::equivalents::{Equivalent, same};
 use crate::support::machines::subgroups_of_eight;
 use crate::support::{self, Random, Shared};
@@ -132,11 +132,11 @@ impl Place<'_> {
         let mass = |i: usize| 0.2 + 0.1 * (i % 3) as f64;
         let mut now: Vec<Vec4> = places.iter().enumerate().map(|(i, x)| x.extend(mass(i)).as_vec4()).collect();
         simulation.write(POSITION, &now).expect("places");
-        simulation.write(ALARM, &[u32::MAX; 3]).expect("an alarm");
+        put(&mut simulation, ALARM, &[u32::MAX; 3]);
         begin(&mut simulation);
         let mut life: Vec<u32> = (0..count as u32).map(|i| if i % 5 == 3 { i % 2 * 2 } else { 1 }).collect();
         if self.has_inactive {
-            simulation.write(LIFE, &life).expect("lives");
+            put(&mut simulation, LIFE, &life);
         }
         if since != Since::Never {
             let program = simulation.backend().compile(&plan).expect("a good plan");
@@ -161,7 +161,7 @@ impl Place<'_> {
             }
             simulation.write(POSITION, &now).expect("places");
             if self.has_inactive {
-                simulation.write(LIFE, &life).expect("lives");
+                put(&mut simulation, LIFE, &life);
             }
             if since == Since::First {
                 begin(&mut simulation);

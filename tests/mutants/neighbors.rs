@@ -8,7 +8,7 @@ use motes::kernel::{ALARM, Backend, Machine, Plan, World};
 use motes::{Bounds, Gpu, POSITION, SPECIES, Side, Simulation};
 
 use crate::curious::{CHOOSY, MOVING, OTHERS, STILL, TOUCHING, law};
-use crate::stages::{Device, FEW, Stage, fill, moving};
+use crate::stages::{Device, FEW, Stage, fill, moving, put};
 use crate::support::machines::{alone, subgroups_of_eight};
 use crate::support::{Random, Shared};
 
@@ -55,14 +55,14 @@ impl<'a> Place<'a> {
         let mass = |i: usize| 0.2 + 0.1 * (i % 3) as f64;
         let places: Vec<Vec4> = self.positions.iter().enumerate().map(|(i, x)| x.extend(mass(i)).as_vec4()).collect();
         simulation.write(POSITION, &places).expect("places");
-        simulation.write(ALARM, &[u32::MAX; 3]).expect("an alarm");
+        put(&mut simulation, ALARM, &[u32::MAX; 3]);
         fill(&mut simulation, plan);
         if plan.fields(1).contains_key(SPECIES.name) {
             // A law that does not ask would meet others, were there any.
             let mixed = plan.kernels.iter().all(|kernel| kernel.name != "curious" || kernel.names(SPECIES.name));
             let of = |i| if mixed && i % 3 > 0 { OTHERS } else { OTHERS + 1 };
             let species: Vec<u32> = (0..count).map(of).collect();
-            simulation.write(SPECIES, &species).expect("species");
+            put(&mut simulation, SPECIES, &species);
         }
         simulation
     }

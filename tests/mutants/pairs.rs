@@ -11,7 +11,7 @@ use motes::life::Life;
 use motes::motion::{Held, Hold};
 use motes::{Gpu, Setup, Simulation};
 
-use crate::stages::{Device, FEW, Stage};
+use crate::stages::{Device, FEW, Stage, put};
 use crate::support::columns::{Bodies, Columned, Grouped, fill, give, numbers};
 use crate::support::equivalents::{Equivalent, same};
 use crate::support::machines::alone;
@@ -153,7 +153,7 @@ fn watches(shared: &Rc<RefCell<Simulation<Gpu>>>, kernel: &Kernel, columns: &Col
         let mut words = QUIET;
         words[..2].copy_from_slice(&alarm);
         let mut simulation = shared.borrow_mut();
-        simulation.write(ALARM, &words).expect("an alarm");
+        put(&mut simulation, ALARM, &words);
         simulation.backend().write(&buffer.name, &broken).expect("a column");
         drop(simulation);
         stages.push(Stage::amid(&format!("{} {case}", kernel.name), shared, alone(kernel.clone())));

@@ -8,7 +8,8 @@ use std::time::Duration;
 use motes::forces::{Component, Law};
 use motes::integrators::INTEGRATORS;
 use motes::kernel::{
-    ALARM, Backend, Kernel, Machine, Next, POSITION, Plan, SPECIES, Shader, Source, VELOCITY, Walk, World,
+    ALARM, Backend, Element, Field, Kernel, Machine, Next, POSITION, Plan, SPECIES, Shader, Source, VELOCITY, Walk,
+    World,
 };
 use motes::lockstep::{Verdict, compare_while};
 use motes::settings::Value;
@@ -172,6 +173,11 @@ pub fn stage(name: &str, mut simulation: Simulation<Gpu>, kernel: Kernel) -> Sta
     let plan = alone(kernel);
     fill(&mut simulation, &plan);
     Stage::of(name, simulation, plan)
+}
+
+/// Writes a field of a plan, which need not be one of the simulation's own.
+pub fn put<T: Element>(simulation: &mut Simulation<Gpu>, field: Field<T>, values: &[T]) {
+    simulation.backend().write_bytes(field.name, 0, bytemuck::cast_slice(values)).expect(field.name);
 }
 
 /// Numbers for every field but position, velocity and alarm.

@@ -9,7 +9,7 @@ use glam::Vec4;
 use motes::kernel::{ACCELERATION, Backend, Machine, POSITION, Problem};
 use motes::tree::{Opening, Tree};
 
-use crate::stages::{Device, Stage, moving};
+use crate::stages::{Device, Stage, moving, put};
 use crate::support::equivalents::{Equivalent, same};
 use crate::support::machines::alone;
 use crate::support::{Random, Shared};
@@ -46,7 +46,7 @@ fn with_free(
 ) {
     let mut simulation = moving(device, bodies.len(), Some(MACHINE));
     simulation.write(POSITION, bodies).expect("bodies");
-    simulation.write(ACCELERATION, last).expect("their last accelerations");
+    put(&mut simulation, ACCELERATION, last);
     let count = u32::try_from(bodies.len()).expect("few");
     simulation.backend().set_rows(count - free, free).expect("rows");
     let problem = Problem::new(count, MACHINE);

@@ -13,7 +13,7 @@ use motes::settings::Value;
 use motes::tree::Opening;
 use motes::{Gpu, Simulation};
 
-use crate::stages::{Device, Stage, moving};
+use crate::stages::{Device, Stage, moving, put};
 use crate::support::equivalents::{Equivalent, same};
 use crate::support::machines::{alone, parts, walkers};
 use crate::support::states::{force, word};
@@ -130,9 +130,9 @@ fn scene(device: &Device, machine: Machine, bodies: &[Vec4], scale: f64, law: Bo
     let mut last: Vec<Vec4> = bodies.iter().map(|_| (random.vector() * scale).extend(0.3).as_vec4()).collect();
     // One group of them has no last acceleration yet.
     last[bodies.len() / 3] = Vec4::ZERO;
-    simulation.write(ACCELERATION, &last).expect("their last accelerations");
+    put(&mut simulation, ACCELERATION, &last);
     simulation.backend().run(&program, 1).expect("a run");
-    simulation.write(ACCELERATION, &last).expect("what is there already");
+    put(&mut simulation, ACCELERATION, &last);
     let walk = plan.kernels.into_iter().find(|kernel| kernel.passes[0].shader.reflection().entry == "walk");
     Scene { simulation: Rc::new(RefCell::new(simulation)), walk: walk.expect("a walk") }
 }
@@ -155,13 +155,13 @@ impl Scene {
     fn holds(&self, field: &str, words: u64, plan: &Plan) -> Vec<f32> {
         let mut simulation = self.simulation.borrow_mut();
         let last = pollster::block_on(simulation.read(ACCELERATION)).expect("what is there");
-        simulation.write(ALARM, &QUIET).expect("an alarm");
+        put(&mut simulation, ALARM, &QUIET);
         let gpu = simulation.backend();
         let program = gpu.compile(plan).expect("a program");
         gpu.run(&program, 1).expect("a run");
         let bytes = pollster::block_on(gpu.bytes(field, 0, 4 * words)).expect("a field");
-        simulation.write(ALARM, &QUIET).expect("an alarm");
-        simulation.write(ACCELERATION, &last).expect("what was there");
+        put(&mut simulation, ALARM, &QUIET);
+        put(&mut simulation, ACCELERATION, &last);
         bytemuck::pod_collect_to_vec(&bytes)
     }
     /// A stage that is judged by the bits of a field.
