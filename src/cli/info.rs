@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use glam::DVec3;
-use motes::formats;
+use motes::formats::{self, Contents};
 use motes::kernel::{Array, Column, Shape};
 use motes::measure::Measure;
 use motes::{Error, State};
@@ -27,25 +27,36 @@ pub fn info(args: &InfoArgs) -> Result<(), Failure> {
     if let Some((low, high)) = extent(state.position()) {
         out!("extent     {} to {}", corner(low), corner(high));
     }
-    if let ([first, ..], [.., last]) = (&*state.ids(), &*state.ids()) {
+    let there = |name: &str| is_there(name, &contents);
+    if let ([first, ..], [.., last]) = (&*state.ids(), &*state.ids())
+        && there("id")
+    {
         out!("ids        {first} to {last}");
     }
     let mut species: BTreeMap<u32, u64> = BTreeMap::new();
     state.species().iter().for_each(|of| *species.entry(*of).or_default() += 1);
     let listed: Vec<_> = species.iter().take(SHOWN).map(|(of, count)| format!("{count} of {of}")).collect();
     let more = if species.len() > SHOWN { format!(" and {} more", species.len() - SHOWN) } else { String::new() };
-    out!("species    {}{more}", listed.join(", "));
+    if there("species") {
+        out!("species    {}{more}", listed.join(", "));
+    }
     if state.has_inactive() {
         let population = state.population();
         out!("active     {}, {} pending, {} removed", population.active, population.pending, population.removed);
     }
-    energies(&state)?;
-    let wide = state.columns().map(|(column, _)| column.name.len()).max().unwrap_or(0);
-    for (column, values) in state.columns() {
+    match (there("mass"), there("velocity")) {
+        (true, true) => energies(&state)?,
+        (true, false) => out!("mass       {}", number(state.mass().iter().sum())),
+        (false, _) => {}
+    }
+    let listed = || state.columns().filter(|(column, _)| there(&column.name));
+    let wide = listed().map(|(column, _)| column.name.len()).max().unwrap_or(0);
+    for (column, values) in listed() {
         out!("column     {:wide$}  {}{}", column.name, kind(column), range(values));
     }
     let read: Vec<&str> = contents.headings.iter().map(|heading| heading.title.as_str()).collect();
-    let unread: Vec<&str> = read.into_iter().filter(|title| !is_held(title, &state)).take(SHOWN).collect();
+    let unread = read.into_iter().filter(|title| !is_held(title, &state));
+    let unread: Vec<&str> = unread.chain(contents.left_out.iter().map(String::as_str)).take(SHOWN).collect();
     if !unread.is_empty() {
         out!("left out   {}", unread.join(", "));
     }
@@ -114,6 +125,20 @@ fn energies(state: &State) -> Result<(), Error> {
         out!("energy     {} is kinetic; the file has no column `potential`", number(kinetic));
     }
     Ok(())
+}
+
+/// Whether a file has numbers of a column: those that all states have are in few files together.
+fn is_there(column: &str, contents: &Contents) -> bool {
+    let own: &[&str] = match column {
+        "velocity" => &["vx", "vy", "vz"],
+        "mass" => &["mass", "m"],
+        "size" => &["size"],
+        "species" => &["species"],
+        "life" => &["life"],
+        "id" => &["id"],
+        _ => return true,
+    };
+    contents.headings.iter().any(|heading| own.contains(&heading.title.as_str()))
 }
 
 /// Whether a title of the file is of a column of the state.

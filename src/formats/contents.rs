@@ -18,6 +18,8 @@ pub struct Contents {
     pub headings: Vec<Heading>,
     /// The box, if it tells of one.
     pub bounds: Option<Bounds>,
+    /// What readers pass over, in words: `97026 edges`.
+    pub left_out: Vec<String>,
 }
 
 /// A list of numbers.
@@ -38,6 +40,11 @@ pub fn contents(path: &Path) -> Result<Contents, Error> {
         Some(format) => (format.contents)(path),
         None => Err(input(path, "is of no format that is known")),
     }
+}
+
+/// So many things of a kind.
+pub(super) fn counted(count: u64, what: &str) -> String {
+    if count == 1 { format!("1 {what}") } else { format!("{count} {what}s") }
 }
 
 /// More columns than this are left out, as a file of another kind may seem to have them.

@@ -70,6 +70,7 @@ pub fn convert(from: &Path, to: &Path, precision: Option<Precision>) -> Result<C
         },
     )?;
     let mut lost = lost(&state, &back);
+    lost.extend(before.left_out);
     if before.bounds.is_some() && after.bounds.is_none() {
         lost.push("the box".to_owned());
     }

@@ -225,6 +225,12 @@ pub fn write_csv(mut out: impl Write, state: &State, precision: Precision) -> io
     const PIECES: usize = 32;
     let (strips, ids) = (titles::strips(state), state.ids());
     titles::fit(&strips, state.len(), precision)?;
+    let meant = |name: &str| match name {
+        SHORT => Some("mass".to_owned()),
+        NAME => Some("words that are passed over".to_owned()),
+        _ => None,
+    };
+    titles::reserved(strips.iter().map(|strip| strip.text.as_str()), "CSV", meant)?;
     let header = strips.iter().fold(ID.to_owned(), |all, strip| all + "," + &strip.text);
     out.write_all(header.as_bytes())?;
     out.write_all(b"\n")?;

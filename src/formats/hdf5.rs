@@ -3,14 +3,15 @@
 //!
 //! Where the state has a density, species 0 is `PartType0`, gas, species 1 is `PartType1`, and so on; else species 0 is `PartType1`, dark
 //! matter. What comes behind the last type is of that type, with a dataset `species`. `Header` holds the time, the step, counts and the
-//! box. Sets of several files are read by the name of any of them, and all must be in one folder. Quantities that only some types have are 0 for the others. Numbers
+//! box. Sets of several files are read by the name of any of them, and all must be in one folder. Quantities that only some types have are 0 for the others. Where
+//! no type has masses, they are 1. Numbers
 //! stay in the units of the file.
 
 use std::collections::{BTreeMap, HashMap};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use hdf5_pure::{AttrValue, DType, Dataset, File, FileBuilder, Group};
+use hdf5_pure::{AttrValue, DType, Dataset, File, FileBuilder, FormatError, Group};
 
 use super::binary::single;
 use super::sheet::{self, Place, Sheet};
@@ -45,15 +46,25 @@ const NAMES: [(&str, &str); 9] = [
     ("internal_energy", "InternalEnergy"),
     ("smoothing_length", "SmoothingLength"),
 ];
+/// What SWIFT calls some of them (Schaller et al. 2024).
+const PLURALS: [(&str, &str); 5] = [
+    ("density", "Densities"),
+    ("potential", "Potentials"),
+    ("acceleration", "Accelerations"),
+    ("internal_energy", "InternalEnergies"),
+    ("smoothing_length", "SmoothingLengths"),
+];
 /// The attribute of a group that says of which species all of it is.
 const SPECIES: &str = "Species";
 
 /// Writes a state.
 ///
 /// # Errors
-/// Those of `out`; a number that does not fit single precision, where that is asked for.
+/// Those of `out`; a number that does not fit single precision, where that is asked for; a column that has the name of another in GADGET.
 pub fn write_hdf5(out: impl Write, state: &State, options: &Options) -> io::Result<()> {
     let (fields, ids) = (titles::fields(state), state.ids());
+    let meant = |name: &str| Some(column_of(name)).filter(|column| *column != name).map(str::to_owned);
+    titles::reserved(fields.iter().map(|field| field.name.as_str()), "HDF5", meant)?;
     let first = usize::from(state.get("density").is_none());
     let mut types: [Vec<usize>; TYPES] = Default::default();
     for row in 0..state.len() {
@@ -117,7 +128,7 @@ fn name_of(column: &str) -> &str {
 }
 
 fn column_of(name: &str) -> &str {
-    NAMES.iter().find(|(_, known)| *known == name).map_or(name, |(column, _)| column)
+    NAMES.iter().chain(&PLURALS).find(|(_, known)| *known == name).map_or(name, |(column, _)| column)
 }
 
 fn real<'a>(field: &'a Field<'_>, rows: &'a [usize]) -> impl Iterator<Item = f64> + 'a {
@@ -146,6 +157,11 @@ struct Gathered {
     lists: BTreeMap<String, (bool, Vec<f64>)>,
     /// Attributes of the header of the first file.
     header: HashMap<String, AttrValue>,
+    /// Datasets that are passed over.
+    left_out: Vec<String>,
+    /// Whether a group has masses, and the first one that has none.
+    massive: bool,
+    massless: Option<String>,
 }
 
 fn sheet(path: &Path, wanted: &dyn Fn(&str) -> bool) -> Result<Sheet, Error> {
@@ -162,12 +178,19 @@ fn sheet(path: &Path, wanted: &dyn Fn(&str) -> bool) -> Result<Sheet, Error> {
             gathered.file(&file, wanted)?;
         }
     }
+    if let (true, Some(name)) = (gathered.massive, &gathered.massless) {
+        let why = "has neither `Masses` nor a mass in MassTable, and others have: give it the dataset `Masses`";
+        return Err(input(path, format!("{name} {why}")));
+    }
     let number = |name: &str| gathered.header.get(name).map(numbers).and_then(|list| list.first().copied());
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates, which suits a step")]
     let step = number("Step").unwrap_or(0.0) as u64;
     let mut sheet = Sheet { time: number("Time").unwrap_or(0.0), step, ..Sheet::default() };
     sheet.contents.rows = gathered.rows;
     sheet.contents.bounds = bounds(&gathered.header);
+    gathered.left_out.sort_unstable();
+    gathered.left_out.dedup();
+    sheet.contents.left_out = gathered.left_out;
     if gathered.rows == 0 {
         for title in ["x", "y", "z"] {
             gathered.lists.entry(title.to_owned()).or_default();
@@ -205,19 +228,22 @@ impl Gathered {
         let refuse = |why: hdf5_pure::Error| input(path, format!("cannot be read as HDF5: {why}"));
         let file = File::open(path).map_err(refuse)?;
         let root = file.root();
-        let mut groups = root.groups().map_err(refuse)?;
-        groups.sort_unstable();
-        if !groups.iter().any(|name| name == "Header") {
-            return Err(input(path, "has no group `Header`: HDF5 files in the layout of GADGET are read"));
-        }
-        let header = root.group("Header").and_then(|group| group.attrs()).map_err(refuse)?;
+        // By their names: a list of all fails at soft links, which SWIFT writes.
+        let group = |name: &str| match root.group(name) {
+            Ok(group) => Ok(Some(group)),
+            Err(hdf5_pure::Error::Format(FormatError::PathNotFound(_))) => Ok(None),
+            Err(why) => Err(refuse(why)),
+        };
+        let header = group("Header")?.ok_or_else(|| {
+            input(path, "has no group `Header`: HDF5 files in the layout of GADGET are read")
+        })?;
+        let header = header.attrs().map_err(refuse)?;
         let parts = header.get("NumFilesPerSnapshot").map(numbers).and_then(|list| list.first().copied()).unwrap_or(1.0);
         let table = header.get("MassTable").map(numbers).unwrap_or_default();
         let announced = header.get("NumPart_ThisFile").map(numbers);
         for (number, name) in (0..TYPES).map(|number| (number, format!("PartType{number}"))) {
             let promised = announced.as_ref().and_then(|list| list.get(number)).copied();
-            let there = if groups.contains(&name) {
-                let group = root.group(&name).map_err(refuse)?;
+            let there = if let Some(group) = group(&name)? {
                 let mass = table.get(number).copied().unwrap_or(0.0);
                 self.group(&group, (&name, number, mass), length, wanted).map_err(|why| input(path, why))?
             } else {
@@ -250,18 +276,30 @@ impl Gathered {
         let rows = positions.first().copied().unwrap_or(0);
         let rows = usize::try_from(rows).map_err(|_| format!("{name}: {rows} particles are too many"))?;
         let (start, end) = (self.rows, self.rows.saturating_add(rows));
-        let mut found = Vec::new();
-        for name in &datasets {
-            let dataset = group.dataset(name).map_err(refuse)?;
-            let lists = lists(&dataset, column_of(name), rows, length, wanted).map_err(|why| format!("{name}: {why}"))?;
-            found.extend(lists);
+        let mut found: Vec<(String, bool, Vec<f64>)> = Vec::new();
+        for own in &datasets {
+            let dataset = group.dataset(own).map_err(refuse)?;
+            let lists = lists(&dataset, column_of(own), rows, length, wanted).map_err(|why| format!("{own}: {why}"))?;
+            // Not of numbers, of another shape, or of a column that another dataset is of: `Density` beside `Densities`.
+            let again = lists.iter().any(|(title, ..)| found.iter().any(|(known, ..)| known == title));
+            if lists.is_empty() || again {
+                self.left_out.push(format!("{name}/{own}"));
+            } else {
+                found.extend(lists);
+            }
         }
         let has = |title: &str, found: &[(String, bool, Vec<f64>)]| found.iter().any(|(known, ..)| known == title);
         if !has("x", &found) {
             return Err(format!("{name}: Coordinates holds no numbers"));
         }
-        if !has("mass", &found) {
+        // Without any, masses are those of other formats.
+        if !has("mass", &found) && mass != 0.0 {
             found.push(("mass".to_owned(), false, if wanted("mass") { vec![mass; rows] } else { Vec::new() }));
+        }
+        if has("mass", &found) {
+            self.massive |= rows > 0;
+        } else if rows > 0 {
+            self.massless.get_or_insert_with(|| name.to_owned());
         }
         if !has("species", &found) {
             let attributes = group.attrs().map_err(refuse)?;
@@ -304,7 +342,8 @@ fn lists(
     let width = match shape[..] {
         [count] if count == rows as u64 => 1,
         [count, width] if count == rows as u64 && (1..=MOST).contains(&width) => width,
-        _ => return Err(format!("has the shape {shape:?}, and there are {rows} particles")),
+        _ if is_known(column, wanted) => return Err(format!("has the shape {shape:?}, and there are {rows} particles")),
+        _ => return Ok(Vec::new()),
     };
     let bytes = dataset.element_size().map_err(refuse)?.checked_mul(rows as u64).and_then(|bytes| bytes.checked_mul(width));
     let bytes = bytes.ok_or_else(|| format!("announces {rows} rows"))?;
@@ -317,12 +356,21 @@ fn lists(
     if !titles.iter().any(|title| wanted(title)) {
         return Ok(titles.into_iter().map(|title| (title, whole, Vec::new())).collect());
     }
+    if column == sheet::ID && dataset.dtype().map_err(refuse)? == DType::U64 {
+        sheet::narrow(&dataset.read_u64().map_err(refuse)?)?;
+    }
     let numbers = dataset.read_f64().map_err(refuse)?;
     if numbers.len() != rows * width {
         return Err(format!("holds {} numbers, and {} are announced", numbers.len(), rows * width));
     }
     let list = |k: usize| numbers.iter().skip(k).step_by(width).copied().collect();
     Ok(titles.into_iter().enumerate().map(|(k, title)| (title, whole, list(k))).collect())
+}
+
+/// Whether a column is one of GADGET's, or one that is asked for.
+fn is_known(column: &str, wanted: &dyn Fn(&str) -> bool) -> bool {
+    let usual = NAMES.iter().any(|(known, _)| *known == column);
+    usual || ["", "_x", "_0", "_0_x"].iter().any(|suffix| wanted(&format!("{column}{suffix}")))
 }
 
 /// More components than this is none.

@@ -172,6 +172,14 @@ pub(crate) fn write_beside(
     put(&mut archive, "id", &[count], state.ids().iter().copied().map(u32::to_le_bytes), 0_u32)?;
     let strips = titles::strips(state);
     titles::fit(&strips, state.len(), precision)?;
+    let names = strips.iter().map(|strip| strip.text.as_str());
+    let others = state.columns().filter(|(column, _)| matches!(column.shape, Shape::System(_)));
+    let meant = |name: &str| match name {
+        "time" | "step" => Some(format!("the {name} of the state")),
+        "id" => Some("ids".to_owned()),
+        _ => name.starts_with(KEPT).then(|| "what a step keeps".to_owned()),
+    };
+    titles::reserved(names.chain(others.map(|(column, _)| column.name.as_ref())), "NPZ", meant)?;
     for strip in strips {
         numbers(&mut archive, &strip, state.len(), precision)?;
     }

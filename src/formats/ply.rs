@@ -2,13 +2,15 @@
 //! triangles are faces.
 //!
 //! Titles of properties are those of a CSV file: `x`, `y`, `z`, `vx`, …, `id`. Comments hold the time, the step and the box. Files are
-//! written binary and little-endian; ASCII and big-endian ones are read too. Edges and faces are not read: `[[links]]` makes them.
+//! written binary and little-endian; ASCII and big-endian ones are read too. Edges and faces are not read: `[[links]]` makes them. Nor are
+//! properties of vertices that are lists.
 
 use std::fmt::Write as _;
 use std::io::{self, Write};
 use std::path::Path;
 
 use super::binary::{Type, bytes_of, single};
+use super::contents::counted;
 use super::sheet::{self, ID, Place, Sheet};
 use super::titles::{self, Number};
 use super::{Format, Options, Precision, input, shortened};
@@ -139,10 +141,20 @@ fn sheet(path: &Path, wanted: &dyn Fn(&str) -> bool) -> Result<Sheet, Error> {
         let start = at;
         at = passed(&bytes, at, element, header.body).map_err(refuse)?;
         if element.name != "vertex" {
+            sheet.contents.left_out.extend(left_out(element));
             continue;
         }
-        if let Some(list) = element.properties.iter().find(|property| property.length.is_some()) {
-            return Err(input(path, format!("the property `{}` of vertices is a list", list.name)));
+        if element.properties.iter().any(|property| property.length.is_some()) {
+            let columns = uneven(&bytes[start..at], element, header.body).map_err(refuse)?;
+            sheet.contents.rows = usize::try_from(element.count).unwrap_or(usize::MAX);
+            for (Property { name, kind, length }, values) in element.properties.iter().zip(columns) {
+                if length.is_some() {
+                    sheet.contents.left_out.push(format!("the list `{}` of vertices", shortened(name)));
+                } else {
+                    sheet.enter(name, kind.is_whole(), wanted, || (values, Place::Named(name.clone())));
+                }
+            }
+            continue;
         }
         let rows = usize::try_from(element.count).unwrap_or(usize::MAX);
         sheet.contents.rows = rows;
@@ -176,10 +188,55 @@ fn sheet(path: &Path, wanted: &dyn Fn(&str) -> bool) -> Result<Sheet, Error> {
             first += kind.width();
         }
     }
+    if header.body == Body::Text && !bytes[at..].trim_ascii().is_empty() {
+        return Err(input(path, format!("byte {at}: lines follow what the header announces")));
+    }
     if header.body != Body::Text && at != bytes.len() {
         return Err(input(path, format!("byte {at}: {} bytes follow what the header announces", bytes.len() - at)));
     }
     Ok(sheet)
+}
+
+/// What an element that is not read is called in a list.
+fn left_out(element: &Element) -> Option<String> {
+    let Element { name, count, .. } = element;
+    let text = match name.as_str() {
+        "edge" | "face" => counted(*count, name),
+        _ => format!("{count} of `{}`", shortened(name)),
+    };
+    (*count > 0).then_some(text)
+}
+
+/// The numbers of each property of an element some of whose properties are lists; those of the lists are passed over.
+fn uneven(bytes: &[u8], element: &Element, body: Body) -> Result<Vec<Vec<f64>>, String> {
+    let mut columns: Vec<Vec<f64>> = element.properties.iter().map(|_| Vec::new()).collect();
+    let (mut words, mut at) = (words(bytes), 0);
+    let mut next = |kind: Type| {
+        if body == Body::Text {
+            return words.next().and_then(|word| std::str::from_utf8(word).ok()?.parse::<f64>().ok());
+        }
+        let number = bytes.get(at..at + kind.width()).map(|part| kind.number(part, body == Body::Big));
+        at += kind.width();
+        number
+    };
+    for row in 0..element.count {
+        for (Property { name, kind, length }, values) in element.properties.iter().zip(&mut columns) {
+            let cut = || format!("`{}` of `{}` {row} is no number, or is missing", shortened(name), element.name);
+            let Some(length) = length else {
+                values.push(next(*kind).ok_or_else(cut)?);
+                continue;
+            };
+            let items = next(*length).filter(|items| *items >= 0.0 && items.fract() == 0.0).ok_or_else(cut)?;
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "looked at")]
+            for _ in 0..items as u64 {
+                next(*kind).ok_or_else(cut)?;
+            }
+        }
+    }
+    if body == Body::Text && words.next().is_some() {
+        return Err(format!("`{}` has more numbers than its {} properties announce", element.name, element.properties.len()));
+    }
+    Ok(columns)
 }
 
 fn words(bytes: &[u8]) -> impl Iterator<Item = &[u8]> {

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use super::titles;
 use crate::error::Error;
 use crate::kernel::{Array, Columns, ID};
 use crate::state::State;
@@ -61,7 +62,7 @@ pub(super) fn order(ids: &[u64], place: impl Fn(usize) -> String, problems: &mut
                 problems.note(|| format!("{}: id {id} again; it is already at {}", place(*row), place(other)));
             }
             _ if id >= u64::from(u32::MAX) => {
-                problems.note(|| format!("{}: id {id}; ids are below {}", place(*row), u32::MAX));
+                problems.note(|| format!("{}: id {id}; {}", place(*row), titles::LARGE_ID));
             }
             _ => {}
         }

@@ -102,6 +102,17 @@ pub(super) fn read(
     Ok(state)
 }
 
+/// Looks whether ids fit 32 bits.
+///
+/// # Errors
+/// The first that does not.
+pub(super) fn narrow(ids: &[u64]) -> Result<(), String> {
+    match ids.iter().enumerate().find(|(_, id)| **id >= u64::from(u32::MAX)) {
+        Some((row, id)) => Err(format!("[{row}] is the id {id}; {}", titles::LARGE_ID)),
+        None => Ok(()),
+    }
+}
+
 /// The titles of an array of so many numbers for each particle: those of the column of this name, if it has as many.
 pub(super) fn titles_of(name: &str, components: usize) -> Vec<String> {
     let kind = match components {

@@ -10,6 +10,9 @@ use crate::kernel::{Array, Column, Columns, ID, Kind, LIFE, Shape};
 use crate::life::Life;
 use crate::state::State;
 
+/// What to say of an id that has more than 32 bits; the last one is kept free.
+pub(super) const LARGE_ID: &str = "ids above 4294967294 are not supported: renumber the particles";
+
 /// A component of a column, by the title that it has in files.
 #[derive(Debug, Clone)]
 pub(super) struct Title<'a> {
@@ -66,6 +69,9 @@ impl Title<'_> {
             "mass" | "size" if value < 0.0 => Some("is below 0".into()),
             name if name == LIFE.name && !(whole && value <= f64::from(Life::Removed.word())) => {
                 Some("is none of 0 (pending), 1 (active) and 2 (removed)".into())
+            }
+            name if name == ID.name && value.fract() == 0.0 && value >= f64::from(u32::MAX) => {
+                Some(format!("is too large: {LARGE_ID}").into())
             }
             _ if self.column.kind == Kind::Whole && !whole => {
                 Some(format!("is not a whole number from 0 to {}", u32::MAX).into())
@@ -175,6 +181,23 @@ impl Strip<'_> {
     /// Whether they are whole numbers.
     pub fn is_whole(&self) -> bool {
         matches!(self.values, Array::Uint(_))
+    }
+}
+
+/// Refuses columns whose names mean something else in files of a format; `meant` says what.
+///
+/// # Errors
+/// The first of them.
+pub(super) fn reserved<'a>(
+    mut names: impl Iterator<Item = &'a str>,
+    format: &str,
+    meant: impl Fn(&str) -> Option<String>,
+) -> io::Result<()> {
+    match names.find_map(|name| Some((name, meant(name)?))) {
+        Some((name, meant)) => Err(io::Error::other(format!(
+            "the column `{name}` has the name that {format} files give to `{meant}`: rename the column, or choose another format"
+        ))),
+        None => Ok(()),
     }
 }
 

@@ -8,6 +8,7 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use super::binary::{Type, bytes_of, single};
+use super::contents::counted;
 use super::sheet::{self, ID, Place, Sheet};
 use super::tags::{Tag, base64};
 use super::titles::{self, Field, Number};
@@ -263,6 +264,10 @@ fn parsed(bytes: &[u8], wanted: &dyn Fn(&str) -> bool) -> Result<Sheet, String> 
                     return Err(format!("byte {}: a second piece; files of one are read: merge them", tag.from));
                 }
                 sheet.contents.rows = usize::try_from(count).unwrap_or(usize::MAX);
+                let cells = [("NumberOfLines", "line"), ("NumberOfStrips", "strip"), ("NumberOfPolys", "polygon")];
+                let there = |(key, name)| Some((tag.get(key)?.parse::<u64>().ok().filter(|count| *count > 0)?, name));
+                let cells = cells.into_iter().filter_map(there).map(|(count, name)| counted(count, name));
+                sheet.contents.left_out.extend(cells);
             }
             "FieldData" => section = Section::Field,
             "PointData" => section = Section::Data,

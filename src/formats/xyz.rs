@@ -2,7 +2,7 @@
 //! one line for each particle.
 //!
 //! `Properties` names what a line holds: `species` (an element: its number in the periodic table is the species, `X` is species 0),
-//! `pos`, `velo`, `mass`, `radius` (the size), `id`, and any other column by its own name. `Time` and `Step` are those of the state.
+//! `pos`, `velo`, `masses`, `radius` (the size), `id`, and any other column by its own name. `Time` and `Step` are those of the state.
 //! `Lattice`, `Origin` and `pbc` are the box, where it is closed along every axis. Format: the specification of libAtoms (extxyz).
 
 use std::fmt::Write as _;
@@ -56,7 +56,8 @@ fn column_of<'a>(property: &'a str, columns: &Columns) -> &'a str {
 fn property_of<'a>(column: &'a Column, columns: &[&Column]) -> &'a str {
     let usual = match column.name.as_ref() {
         "position" => "pos",
-        "velocity" => "velo",
+ "velocity" => "velo",
+        "mass" => "masses",
         "size" => "radius",
         name => return name,
     };
@@ -125,8 +126,11 @@ fn contents(path: &Path) -> Result<Contents, Error> {
     let properties = properties(said("Properties").unwrap_or(PLAIN), &mut problems);
     problems.check(path)?;
     let mut contents = Contents { rows: count.trim().parse().unwrap_or(0), ..Contents::default() };
-    for property in properties {
-        let name = column_of(&property.name, &Columns::default()).to_owned();
+    for property in &properties {
+        let usual = column_of(&property.name, &Columns::default());
+        // Where a file has `position` too, `pos` is a column of its own.
+        let own = usual != property.name && properties.iter().any(|other| other.name == usual);
+        let name = if own { property.name.clone() } else { usual.to_owned() };
         let headings = sheet::titles_of(&name, property.width).into_iter().map(|title| Heading { title, whole: false });
         contents.headings.extend(headings);
     }

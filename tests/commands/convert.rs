@@ -69,6 +69,23 @@ fn a_conversion_that_fails_leaves_what_was_there() {
 }
 
 #[test]
+fn info_and_convert_tell_what_is_left_out_and_no_more_than_there_is() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mesh = path(&folder, "mesh.ply");
+    let text = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n\
+                property list uchar int vertex_indices\nelement edge 2\nproperty int vertex1\nproperty int vertex2\nend_header\n\
+                0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n0 1\n1 2\n";
+    fs::write(&mesh, text).expect("a file");
+    let (code, said, notes) = motes(&["info", &mesh]);
+    assert!(code == 0 && said.contains("left out   1 face, 2 edges"), "{code}: {said}{notes}");
+    for word in ["velocity", "mass", "size", "species", "ids", "energy"] {
+        assert!(!said.split_whitespace().any(|said| said == word), "{word} is not in the file:\n{said}");
+    }
+    let (code, said, notes) = motes(&["convert", &mesh, &path(&folder, "mesh.npz")]);
+    assert!(code == 0 && notes.contains("does not hold 1 face, 2 edges"), "{code}: {said}{notes}");
+}
+
+#[test]
 fn a_run_lists_its_states_for_paraview() {
     let folder = tempfile::tempdir().expect("a folder");
     let out = path(&folder, "out");

@@ -101,6 +101,7 @@ def read_ase():
     atoms = ase.io.read(folder / "state.xyz", format="extxyz")
     arrays = atoms.arrays
     columns("ASE", arrays["id"], atoms.positions, arrays["velo"], arrays.get("mass", arrays.get("masses")))
+    same("ASE: its masses", by_id(arrays["id"], atoms.get_masses())[0], truth["mass"])
     same("spins", by_id(arrays["id"], arrays["spin"])[0], SPIN)
     same("species", atoms.numbers, truth["species"])
     assert atoms.info["Time"] == TIME, atoms.info

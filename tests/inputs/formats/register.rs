@@ -304,7 +304,10 @@ fn ply_of_other_programs_is_read() {
     big.extend((-7_i16).to_be_bytes());
     big.extend(2.5_f32.to_be_bytes());
     let list = [&big[..], &[1], &[0; 4]].concat();
-    refused_as("b.ply", list, "the property `w` of vertices is a list");
+    let listed = put(&folder, "l.ply", list);
+    assert_eq!(super::read(&listed).expect("a list is passed over").position(), [DVec3::new(0.1, -7.0, 2.5)]);
+    assert_eq!(formats::contents(&listed).expect("a header").left_out, ["the list `w` of vertices"]);
+    refused_as("s.ply", format!("{text}1 2 3 255\r\n"), "lines follow what the header announces");
     let text = String::from_utf8_lossy(&big[..big.len() - 14]).replace("property list uchar float w\n", "");
     let bytes = [text.as_bytes(), &big[big.len() - 14..]].concat();
     let state = super::read(&put(&folder, "b.ply", bytes)).expect("big-endian");

@@ -1,7 +1,7 @@
 //! Extended XYZ: what other programs write, and what is wrong with a file.
 
 use glam::DVec3;
-use motes::formats::{Precision, read as read_state};
+use motes::formats::{self, Precision, read as read_state};
 use motes::kernel::{Array, Column, Columns, Kind};
 
 use crate::formats::{folder, put, read, some, xyz_bytes};
@@ -55,6 +55,13 @@ fn columns_go_there_and_back() {
     for name in ["charge", "spin", "bonds", "radius", "pos", "size", "position"] {
         assert_eq!(back.get(name), state.get(name), "{name}");
     }
+    // And where nothing declares them.
+    let all = formats::known(&formats::contents(&path).expect("headings"));
+    let all = read_state(&path, &all).expect("all columns");
+    assert_eq!(
+        (all.get("pos"), all.get("radius"), all.get("size")),
+        (state.get("pos"), state.get("radius"), state.get("size"))
+    );
     let unknown = read(&path).expect_err("columns that nothing declares").to_string();
     assert!(unknown.contains("line 2: unknown property `charge`; known are id, "), "{unknown}");
 }
