@@ -65,7 +65,7 @@ pub fn convert(from: &Path, to: &Path, precision: Option<Precision>) -> Result<C
                 }
             };
             back().and_then(whole).map_err(|why| {
-                refuse(format!("what was written cannot be read back, so it is not kept: {}", told(&why)))
+                refuse(format!("what was written cannot be read back, so it is not kept: {}", reported(&why)))
             })
         },
     )?;
@@ -78,7 +78,7 @@ pub fn convert(from: &Path, to: &Path, precision: Option<Precision>) -> Result<C
 }
 
 /// What an error says of a file, without the name of the file.
-fn told(error: &Error) -> String {
+fn reported(error: &Error) -> String {
     if let Error::Input { message, .. } = error { message.clone() } else { error.to_string() }
 }
 

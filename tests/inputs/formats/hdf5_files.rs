@@ -62,7 +62,7 @@ fn masses_that_no_type_has_are_one() {
     assert_eq!(state.mass(), [1.0; 4]);
     let mixed = two(&[1, 2], |kind, group| {
         if kind == 1 {
-            dataset(group, "Masses", &[3.0, 4.0])
+            dataset(group, "Masses", &[3.0, 4.0]);
         }
     });
     let said = read(&put(&folder, "b.hdf5", mixed)).expect_err("some masses").to_string();
