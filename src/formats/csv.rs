@@ -71,7 +71,7 @@ pub fn read(path: &Path, columns: &Columns) -> Result<State, Error> {
                 real(&record, *place, &title.text, &line, &mut problems)
             };
             if let (Some(number), Some(fault)) = (number, number.and_then(|number| title.fault(number))) {
-                problems.note(|| format!("{line}, column {}: {number:?} {fault}", title.text));
+                problems.note(|| format!("{line}, column {}: {} {fault}", title.text, title.shown(number)));
             }
             list.push(number.unwrap_or(0.0));
         }

@@ -59,6 +59,11 @@ pub(super) fn all(columns: &Columns) -> Vec<Title<'_>> {
 }
 
 impl Title<'_> {
+    /// A number of a message: of whole columns without a point.
+    pub fn shown(&self, value: f64) -> String {
+        let whole = self.column.kind == Kind::Whole && value.fract() == 0.0 && value.abs() < 1e15;
+        if whole { format!("{value:.0}") } else { format!("{value:?}") }
+    }
     /// What is wrong with a number, if anything.
     pub fn fault(&self, value: f64) -> Option<Cow<'static, str>> {
         if !value.is_finite() {

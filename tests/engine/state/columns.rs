@@ -46,8 +46,9 @@ fn setup(scene: Scene) -> Setup {
 }
 
 fn started(scene: Scene) -> Simulation<Gpu> {
-    let shared = support::device();
-    Simulation::new(&shared.found.device, &shared.found.queue, &setup(scene)).expect("a simulation")
+    // A device of its own: tests side by side would poll one from two threads, which wgpu does not bear where a wait times out.
+    let own = support::open();
+    Simulation::new(&own.found.device, &own.found.queue, &setup(scene)).expect("a simulation")
 }
 
 fn folder() -> tempfile::TempDir {

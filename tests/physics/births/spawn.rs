@@ -58,8 +58,9 @@ fn cases() -> Vec<Case> {
 }
 
 fn on_device(setup: &Setup) -> Simulation<Gpu> {
-    let shared = support::device();
-    Simulation::new(&shared.found.device, &shared.found.queue, setup).expect("a simulation")
+    // A device of its own: tests side by side would poll one from two threads, which wgpu does not bear where a wait times out.
+    let own = support::open();
+    Simulation::new(&own.found.device, &own.found.queue, setup).expect("a simulation")
 }
 
 fn by_references(setup: &Setup) -> Simulation<Cpu> {
