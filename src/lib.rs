@@ -30,7 +30,7 @@
 //!
 //! Each of these is a program of some forty lines under `examples/`, which a test runs.
 //!
-//! [`Simulation`], [`Readback`], [`State`], [`Setup`] and [`Run`](run::Run) are `Send + Sync + 'static` (but in a browser, whose devices
+//! [`Simulation`], [`Readback`], [`State`], [`Setup`] and [`Run`](run::Run) are `Send + Sync + 'static` (but in a browser, where devices
 //! stay in their thread): a simulation may be a resource of a game's schedule, and step in whichever thread that runs.
 //!
 //! What is shown here is what programs use. Other modules are public for the command and for tests, are not documented here, and
@@ -116,7 +116,7 @@ pub use state::State;
 /// The version of wgpu whose devices this crate takes.
 pub use wgpu;
 
-/// The book's page for programs, whose snippets compile.
+/// The book's page for programs: its snippets compile.
 #[cfg(doctest)]
 #[doc = include_str!("../docs/pages/tutorials/embed.md")]
 mod embed {}

@@ -32,22 +32,19 @@ impl Failure {
     }
     /// Says it, and gives the exit code that `motes --help` lists.
     pub fn report(self) -> ExitCode {
-        ExitCode::from(match self {
-            Self::Scene(faults) => {
-                note!("{faults}");
-                faults.exit_code()
-            }
-            Self::Error(error) => {
-                note!("error: {error}");
-                error.exit_code()
-            }
-            Self::Explained(error, words) => {
-                note!("error: {error}\n{words}");
-                error.exit_code()
-            }
+        let code = match &self {
+            Self::Scene(faults) => faults.exit_code(),
+            Self::Error(error) | Self::Explained(error, _) => error.exit_code(),
             Self::Disagreement => 9,
             Self::Stopped => 75,
-        })
+        };
+        match &self {
+            Self::Scene(_) => note!("{}", self.words()),
+            Self::Error(_) | Self::Explained(..) => note!("error: {}", self.words()),
+            // Said already.
+            Self::Disagreement | Self::Stopped => {}
+        }
+        ExitCode::from(code)
     }
 }
 

@@ -69,8 +69,8 @@ const STEPS: u64 = 10_000;
 /// Looks at a setup before it runs: the remarks of the command `motes check`, without those of its device.
 ///
 /// # Errors
-/// [`Error::Scene`] when it makes no sense, or could not but be lost: forces that lead out of the plane of a flat box, a fluid whose
-/// steps are far too long or that starts under a pressure that blows it apart.
+/// [`Error::Scene`] when it makes no sense, or could not but be lost: forces that lead out of the plane of a flat box, a fluid in steps
+/// that are far too long, or one that starts under a pressure that blows it apart.
 pub async fn diagnose(setup: &Setup) -> Result<Vec<Remark>, Error> {
     let Judged { verdict, mut remarks, .. } = Judged::of(setup, STEPS).await?;
     remarks.extend(verdict.and_then(|verdict| unsafe_steps(&verdict, setup)));

@@ -207,7 +207,7 @@ fn left_out(element: &Element) -> Option<String> {
     (*count > 0).then_some(text)
 }
 
-/// The numbers of each property of an element some of whose properties are lists; those of the lists are passed over.
+/// The numbers of each property of an element, of which some properties are lists; those of the lists are passed over.
 fn uneven(bytes: &[u8], element: &Element, body: Body) -> Result<Vec<Vec<f64>>, String> {
     let mut columns: Vec<Vec<f64>> = element.properties.iter().map(|_| Vec::new()).collect();
     let (mut words, mut at) = (words(bytes), 0);

@@ -1,4 +1,4 @@
-//! The tags of an XML file, one behind another: enough of XML for the files of VTK, whose raw data is no XML.
+//! The tags of an XML file, one behind another: enough of XML for the files of VTK, of which raw data is no XML.
 
 /// A tag.
 #[derive(Debug, Clone, PartialEq)]

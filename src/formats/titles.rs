@@ -189,7 +189,7 @@ impl Strip<'_> {
     }
 }
 
-/// Refuses columns whose names mean something else in files of a format; `meant` says what.
+/// Refuses names of columns that mean something else in files of a format; `meant` says what.
 ///
 /// # Errors
 /// The first of them.

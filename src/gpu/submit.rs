@@ -16,7 +16,7 @@ use crate::error::Error;
 const IN_FLIGHT: usize = 2;
 /// What a dispatch costs beside its work, in pair evaluations: about 10 µs of a small device.
 const LAUNCH: u64 = 20_000;
-/// The first submission of a device whose speed is not known, in pair evaluations: 0.1 s of a slow one.
+/// The first submission of a device of unknown speed, in pair evaluations: 0.1 s of a slow one.
 const FIRST: u64 = 50_000_000;
 
 /// A queue that knows how fast its device is.

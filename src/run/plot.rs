@@ -65,7 +65,9 @@ fn panels(root: &Area, rows: &[Measure], title: &str) -> Result<(), String> {
     root.draw_text(title, &style, (fine(20), fine(28))).map_err(|e| e.to_string())?;
     let (_, below) = root.split_vertically(fine(52));
     let (upper, lower) = below.split_vertically(fine(370));
-    legend(root)?;
+    // Above the upper panel, to the right, where no line is.
+    let names = [("kinetic", KINETIC), ("potential", POTENTIAL), ("total", INK)];
+    legend(root, &names, (SIZE.0.cast_signed() - 320, 28), 105)?;
     energies(&upper, rows)?;
     errors(&lower, rows)
 }
@@ -163,11 +165,14 @@ fn energies(area: &Area, rows: &[Measure]) -> Result<(), String> {
     Ok(())
 }
 
-/// Above the upper panel, to the right, where no line is.
-fn legend(area: &Area) -> Result<(), String> {
+/// Names beside dashes of their colours, in a row: the first dash begins at `at`, and each is so many pixels from the one before.
+///
+/// # Errors
+/// What the backend says.
+pub fn legend(area: &Area, names: &[(&str, RGBColor)], at: (i32, i32), apart: i32) -> Result<(), String> {
     let style = text(14).pos(Pos::new(HPos::Left, VPos::Center));
-    for (place, (name, color)) in [("kinetic", KINETIC), ("potential", POTENTIAL), ("total", INK)].iter().enumerate() {
-        let (x, y) = (fine(SIZE.0.cast_signed() - 320 + 105 * i32::try_from(place).unwrap_or(0)), fine(28));
+    for (place, (name, color)) in (0..).zip(names) {
+        let (x, y) = (fine(at.0 + apart * place), fine(at.1));
         let dash = PathElement::new([(x, y), (x + fine(20), y)], line(*color, 3));
         area.draw(&dash).map_err(|e| e.to_string())?;
         area.draw_text(name, &style, (x + fine(27), y)).map_err(|e| e.to_string())?;

@@ -3,7 +3,7 @@
 use super::{Simulation, Start};
 use crate::error::Error;
 use crate::kernel::{Array, Backend, STOP};
-use crate::state::{KEPT_ROOM, KEPT_ROWS};
+use crate::state::KEPT_ROWS;
 
 impl<B: Backend> Simulation<B> {
     /// Makes room for so many rows in all; ids are a column then. The simulation stays as it is until that is done.
@@ -14,7 +14,6 @@ impl<B: Backend> Simulation<B> {
         let mut state = self.gathered(&[]).await?;
         self.complete(&mut state).await?;
         state.kept.put(KEPT_ROWS, vec![f64::from(self.first_rows)]);
-        state.kept.put(KEPT_ROOM, self.list.map(|list| f64::from(list.capacity)).into_iter().collect());
         (state.capacity, state.next) = (Some(rows), self.rows.next());
         let setup = self.setup.with_state(state);
         let mut grown = Self::going(self.backend.alike(rows)?, &setup, Start::Grown)?;

@@ -14,7 +14,6 @@ use crate::cli::failure::Failure;
 pub struct Outcome {
     /// Its measurements and its last state, or why it did not come to its end.
     result: Result<Left, Failure>,
-    error: Option<String>,
     steps: u64,
     /// How long its steps took.
     took: Duration,
@@ -45,7 +44,7 @@ pub struct Ended<'a> {
     /// run, and where there are others.
     pub difference: Option<[f64; 2]>,
     /// Why it did not come to its end.
-    pub error: Option<&'a str>,
+    pub error: Option<String>,
 }
 
 impl Outcome {
@@ -58,15 +57,14 @@ impl Outcome {
             let state = run.last.filter(|_| !end.stopped).ok_or(Failure::Stopped)?;
             Ok(Left { ends, change, state, bounds })
         });
-        let error = result.as_ref().err().map(Failure::words);
-        Self { result, error, steps, took }
+        Self { result, steps, took }
     }
     /// In a few words.
     pub fn words(&self, folder: &Path) -> String {
-        match (&self.result, &self.error) {
-            (Err(Failure::Stopped), _) => format!("stopped; motes resume {} goes on with it", folder.display()),
-            (_, Some(error)) => format!("failed: {}", error.lines().next().unwrap_or_default()),
-            _ => format!("{} steps in {:.2} s", self.steps, self.took.as_secs_f64()),
+        match &self.result {
+            Err(Failure::Stopped) => format!("stopped; motes resume {} goes on with it", folder.display()),
+            Err(failure) => format!("failed: {}", failure.words().lines().next().unwrap_or_default()),
+            Ok(_) => format!("{} steps in {:.2} s", self.steps, self.took.as_secs_f64()),
         }
     }
     /// Whether it did not come to its end, and was not stopped.
@@ -94,7 +92,7 @@ pub fn compared<'a>(cases: &'a [Vec<String>], found: &'a [Option<Outcome>]) -> V
             momentum: f64::NAN,
             difference: None,
             dt: f64::NAN,
-            error: one.error.as_deref(),
+            error: one.result.as_ref().err().map(Failure::words),
         };
         if let Ok(Left { ends: [first, end], change, state, bounds }) = &one.result {
             ended.dt = state.time / state.step as f64;

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use motes::Error;
-use motes::run::plot::{Area, Axis, axes, fine, line, text, write};
+use motes::run::plot::{Area, Axis, axes, fine, legend, line, text, write};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
@@ -68,13 +68,7 @@ fn panel(root: &Area, title: &str, key: &str, lines: &[(&str, RGBColor, Points)]
         let dots = points.iter().map(|at| Circle::new(*at, fine(4), color.filled()));
         chart.draw_series(dots).map_err(|e| e.to_string())?;
     }
-    let names = lines.iter().filter(|(_, _, points)| points.len() > 1);
-    let style = text(14).pos(Pos::new(HPos::Left, VPos::Center));
-    for (place, (name, color, _)) in names.enumerate() {
-        let (x, y) = (fine(86 + 260 * i32::try_from(place).unwrap_or(0)), fine(56));
-        let dash = PathElement::new([(x, y), (x + fine(20), y)], line(*color, 3));
-        root.draw(&dash).map_err(|e| e.to_string())?;
-        root.draw_text(name, &style, (x + fine(27), y)).map_err(|e| e.to_string())?;
-    }
-    Ok(())
+    let drawn = lines.iter().filter(|(_, _, points)| points.len() > 1);
+    let names: Vec<_> = drawn.map(|(name, color, _)| (*name, *color)).collect();
+    legend(root, &names, (86, 56), 260)
 }

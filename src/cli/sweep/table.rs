@@ -47,7 +47,7 @@ pub fn write(path: &Path, varied: &[Varied], ended: &[Ended<'_>]) -> Result<(), 
             .collect();
         words.extend([one.steps.to_string(), format!("{:?}", one.dt), format!("{:?}", one.seconds)]);
         words.extend(numbers(one).map(|x| x.map_or_else(String::new, |x| format!("{x:?}"))));
-        words.push(one.error.map_or_else(String::new, quoted));
+        words.push(one.error.as_deref().map_or_else(String::new, quoted));
         text += &(words.join(",") + "\n");
     }
     atomically(path, |out| out.write_all(text.as_bytes()))
@@ -60,7 +60,7 @@ pub fn text(varied: &[Varied], ended: &[Ended<'_>]) -> String {
         vec![varied.iter().map(|one| one.key.as_str()).chain(head).map(str::to_owned).collect()];
     for one in ended {
         let mut row: Vec<String> = one.values().into_iter().map(str::to_owned).collect();
-        if let Some(error) = one.error {
+        if let Some(error) = &one.error {
             row.push(format!("failed: {}", error.lines().next().unwrap_or_default()));
         } else {
             row.extend([one.steps.to_string(), format!("{:.2}", one.seconds)]);

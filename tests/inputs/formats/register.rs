@@ -341,7 +341,7 @@ fn vtp_of_other_programs_is_read() {
     refused_as("f.vtp", "<VTKFile type=\"ImageData\"></VTKFile>", "is no VTK file of polygons");
 }
 
-/// A snapshot of two gas particles and a dark one whose mass is in the header.
+/// A snapshot of two gas particles and a dark one, of which the mass is in the header.
 fn gadget(big: bool, named: bool, change: impl Fn(&mut Vec<u8>)) -> Vec<u8> {
     let word = |n: u32| if big { n.to_be_bytes() } else { n.to_le_bytes() };
     let single = |x: f32| if big { x.to_be_bytes() } else { x.to_le_bytes() };
