@@ -3,6 +3,7 @@
 
 mod adapter;
 mod buffers;
+mod done;
 mod driver;
 mod fault;
 #[cfg(not(target_arch = "wasm32"))]

@@ -10,6 +10,7 @@ use std::time::Duration;
 use futures_intrusive::channel::shared::{OneshotSender, oneshot_channel};
 use web_time::Instant;
 
+use super::done::wait_until;
 use super::fault;
 use super::submit::Queue;
 use crate::error::Error;
@@ -33,7 +34,6 @@ pub struct Request {
     device: wgpu::Device,
     /// None where nothing is asked for.
     stage: Option<wgpu::Buffer>,
-    index: Option<wgpu::SubmissionIndex>,
     /// The device sends the answer, or a watch when the time is over. The first one counts.
     sender: Arc<OneshotSender<Answer>>,
     /// Never locked: it makes a request one that threads can share.
@@ -62,7 +62,6 @@ pub fn request(
     let mut request = Request {
         device: device.clone(),
         stage: None,
-        index: None,
         sender: sender.clone(),
         coming: Mutex::new(Box::pin(async move { receiver.receive().await })),
         answer: None,
@@ -83,7 +82,7 @@ pub fn request(
         encoder.copy_buffer_to_buffer(buffer, from, &stage, 0, size);
         (stage, encoder.finish())
     })?;
-    request.index = Some(queue.submit_commands(commands)?);
+    queue.submit_commands(commands)?;
     let answer = move |result: Result<(), wgpu::BufferAsyncError>| {
         let unread = |why: wgpu::BufferAsyncError| Error::Lost(format!("a field cannot be read: {why}"));
         // Where the time was over before, nothing listens any more.
@@ -103,16 +102,13 @@ impl Request {
             return Some(Ok(Vec::new()));
         }
         // A browser maps while its own loop runs; elsewhere it must be polled.
-        let poll = match (&self.index, time) {
-            (Some(index), Some(time)) => {
-                wgpu::PollType::Wait { submission_index: Some(index.clone()), timeout: Some(time) }
-            }
-            _ => wgpu::PollType::Poll,
-        };
-        if let Err(why) = self.device.poll(poll)
-            && !matches!(why, wgpu::PollError::Timeout)
-        {
-            return Some(Err(Error::Lost(why.to_string())));
+        let device = self.device.clone();
+        let looked = wait_until(&device, time.unwrap_or_default(), || {
+            self.answer = self.come(Waker::noop());
+            self.answer.is_some()
+        });
+        if let Err(why) = looked {
+            return Some(Err(why));
         }
         match self.come(Waker::noop()) {
             Some(Ok(())) => self.stage.as_ref().map(|stage| copied(stage, self.len)),

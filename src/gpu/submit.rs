@@ -1,14 +1,18 @@
 //! Submissions, cut so that each is short. Where a run is cut changes no bit: all state is in buffers.
 
 use std::collections::VecDeque;
+#[cfg(not(target_arch = "wasm32"))]
 use std::future::poll_fn;
+#[cfg(not(target_arch = "wasm32"))]
 use std::task::Poll;
 use std::time::Duration;
 
 use web_time::Instant;
 
+use super::done::Done;
 use super::fault;
 use super::program::{Dispatch, Program};
+#[cfg(not(target_arch = "wasm32"))]
 use super::read::LOOK;
 use crate::error::Error;
 
@@ -19,11 +23,17 @@ const LAUNCH: u64 = 20_000;
 /// The first submission of a device of unknown speed, in pair evaluations: 0.1 s of a slow one.
 const FIRST: u64 = 50_000_000;
 
+/// A submission that is on its way, and its work in pair evaluations.
+struct Flying {
+    done: Done,
+    work: u64,
+}
+
 /// A queue that knows how fast its device is.
 pub struct Queue {
     device: wgpu::Device,
     inner: wgpu::Queue,
-    flying: VecDeque<(wgpu::SubmissionIndex, u64)>,
+    flying: VecDeque<Flying>,
     last_done: Instant,
     budget: u64,
     target: Duration,
@@ -91,16 +101,23 @@ impl Queue {
             self.inner.submit([encoder.finish()])
         })?;
         self.submissions += 1;
-        self.flying.push_back((index, work));
+        self.flying.push_back(Flying { done: Done::of(&self.inner, index), work });
         Ok(())
     }
 
     /// Waits for the oldest submission, and learns from the time it took.
     fn land(&mut self) -> Result<(), Error> {
-        let Some((index, work)) = self.flying.pop_front() else {
+        let Some(Flying { done, work }) = self.flying.pop_front() else {
             return Ok(());
         };
-        self.wait_for(index)?;
+        if !done.within(&self.device, self.patience)? && cfg!(not(target_arch = "wasm32")) {
+            return Err(self.timeout("a batch of steps"));
+        }
+        self.learn(work);
+        Ok(())
+    }
+    /// From the time that a submission took.
+    fn learn(&mut self, work: u64) {
         let took = self.last_done.elapsed();
         self.last_done = Instant::now();
         // Short submissions say nothing of speed, and one slow moment should not cut the next by much.
@@ -115,7 +132,6 @@ impl Queue {
             let budget = (work as f64 * factor) as u64;
             self.budget = budget.clamp(LAUNCH, 1 << 44);
         }
-        Ok(())
     }
 
     pub fn wait(&mut self) -> Result<(), Error> {
@@ -126,38 +142,35 @@ impl Queue {
     }
 
     /// Waits for all that is in flight, and leaves the executor its turn while that goes on.
+    #[cfg(not(target_arch = "wasm32"))]
     pub async fn idle(&mut self) -> Result<(), Error> {
         let mut deadline = Instant::now() + self.patience;
         poll_fn(|context| {
-            while let Some((index, _)) = self.flying.front() {
-                let wait = wgpu::PollType::Wait { submission_index: Some(index.clone()), timeout: Some(LOOK) };
-                match self.device.poll(wait) {
-                    Ok(_) => self.land()?,
-                    Err(wgpu::PollError::Timeout) if Instant::now() > deadline => {
+            while let Some(next) = self.flying.front() {
+                if !next.done.within(&self.device, LOOK)? {
+                    if Instant::now() > deadline {
                         return Poll::Ready(Err(self.timeout("a batch of steps")));
                     }
-                    Err(wgpu::PollError::Timeout) => {
-                        context.waker().wake_by_ref();
-                        return Poll::Pending;
-                    }
-                    Err(error) => return Poll::Ready(Err(Error::Lost(error.to_string()))),
+                    context.waker().wake_by_ref();
+                    return Poll::Pending;
                 }
+                self.land()?;
                 deadline = Instant::now() + self.patience;
             }
             Poll::Ready(Ok(()))
         })
         .await
     }
-
-    fn wait_for(&self, index: wgpu::SubmissionIndex) -> Result<(), Error> {
-        let wait = wgpu::PollType::Wait { submission_index: Some(index), timeout: Some(self.patience) };
-        match self.device.poll(wait) {
-            Ok(_) => Ok(()),
-            Err(wgpu::PollError::Timeout) => Err(self.timeout("a batch of steps")),
-            // A device that is lost takes submissions without a word, and does not know them afterwards.
-            Err(error) => Err(Error::Lost(error.to_string())),
+    /// A browser says when a submission is done.
+    #[cfg(target_arch = "wasm32")]
+    pub async fn idle(&mut self) -> Result<(), Error> {
+        while let Some(next) = self.flying.front() {
+            next.done.awaited().await;
+            self.land()?;
         }
+        Ok(())
     }
+
     pub fn timeout(&self, what: &str) -> Error {
         Error::Timeout { what: what.to_owned(), seconds: self.patience.as_secs() }
     }
