@@ -1,23 +1,37 @@
-// Targets walk the tree side by side, for processors that play a GPU: a lane for each, no barrier, no memory of where it has
-// been. Below a node its left child comes next; then the next node of its level, or of the level of the first above it that
-// has one. All of a group open the same nodes. A turn has one node, or one body of a leaf: an adapter that runs lanes as
-// vectors takes every way of every branch, so there are few.
-const WORKGROUP: u32 = 32u;
+// Groups of targets walk the tree, for processors that play a GPU and have no subgroups: a vector of eight lanes for each, four
+// targets a lane, no barrier, no memory of where it has been. Below a node its left child comes next; then the next node of
+// its level, or of the level of the first above it that has one. All lanes of a group open the same nodes. A turn has one node,
+// or one body of a leaf: an adapter that runs lanes as vectors takes every way of every branch, so there are few.
+const WORKGROUP: u32 = 8u;
 
 @compute @workgroup_size(WORKGROUP)
 fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let mine = tree.first / GROUP + folded(group, groups);
-    let k = mine * GROUP + lane;
-    if k < last_target() {
-        let me = target_of(k);
-        let here = place_of(mine, mine * GROUP);
+    let first = mine * GROUP;
+    if first < last_target() {
+        let last = world.count - 1u;
+        let k = first + lane;
+        let a = target_of(min(k, last));
+        let b = target_of(min(k + LANES, last));
+        let c = target_of(min(k + 2u * LANES, last));
+        let d = target_of(min(k + 3u * LANES, last));
+        let here = place_of(mine, first);
         let own = leaf_of(mine);
         let kept = k - tree.first;
-        var near = Sum();
-        var far = Sum();
+        var near_a = Sum();
+        var near_b = Sum();
+        var near_c = Sum();
+        var near_d = Sum();
+        var far_a = Sum();
+        var far_b = Sum();
+        var far_c = Sum();
+        var far_d = Sum();
         var node = 1u;
         if tree.again > 0u {
-            near = tree_kept[kept].sum;
+            near_a = tree_kept[kept].sum;
+            near_b = tree_kept[kept + LANES].sum;
+            near_c = tree_kept[kept + 2u * LANES].sum;
+            near_d = tree_kept[kept + 3u * LANES].sum;
             node = tree_kept[kept].at;
         }
         let walks = node > 0u;
@@ -28,10 +42,7 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
         var spent = GROUP;
         while bodies > 0u || more && spent <= MOST {
             if bodies > 0u {
-                if slot != k && slot < world.count {
-                    let you = target_of(slot);
-                    gather(me, you, shortest(you.position - me.position), &near);
-                }
+                meet_others(slot, k, a, b, c, d, &near_a, &near_b, &near_c, &near_d);
                 slot += 1u;
                 bodies -= 1u;
             } else {
@@ -42,7 +53,9 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
                     open = reaches_target(node, here);
                     spent += GROUP;
                 }
-                if real && !open { distant(me, group_at(node), shortest(tree_center[node].xyz - me.position), &far); }
+                if real && !open {
+                    meet_group(tree_center[node].xyz, group_at(node), a, b, c, d, &far_a, &far_b, &far_c, &far_d);
+                }
                 if open && depth < tree.height {
                     node = 2u * node;
                     depth += 1u;
@@ -59,9 +72,21 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
             // A loop that has nothing to do takes a turn to see that.
             spent += 2u;
         }
-        merge(&near, far);
-        tree_kept[kept] = Kept(near, select(0u, node, more));
-        if walks && !more && acts_on(me) { deliver(me, near); }
-        check_turns(me);
+        merge(&near_a, far_a);
+        merge(&near_b, far_b);
+        merge(&near_c, far_c);
+        merge(&near_d, far_d);
+        let at = select(0u, node, more);
+        tree_kept[kept] = Kept(near_a, at);
+        tree_kept[kept + LANES] = Kept(near_b, at);
+        tree_kept[kept + 2u * LANES] = Kept(near_c, at);
+        tree_kept[kept + 3u * LANES] = Kept(near_d, at);
+        if walks && !more {
+            if k < last_target() && acts_on(a) { deliver(a, near_a); }
+            if k + LANES < last_target() && acts_on(b) { deliver(b, near_b); }
+            if k + 2u * LANES < last_target() && acts_on(c) { deliver(c, near_c); }
+            if k + 3u * LANES < last_target() && acts_on(d) { deliver(d, near_d); }
+        }
+        check_turns(a);
     }
 }

@@ -75,11 +75,16 @@ fn variant(machine: &Machine) -> Vec<Source> {
     match (machine.software, machine.subgroup) {
         (true, 8) => vec![
             crate::shader!("visit/tree_kept.wgsl"),
+            crate::shader!("visit/tree_four.wgsl"),
             crate::shader!("visit/tree_broadcast.wgsl"),
             crate::shader!("visit/tree_look.wgsl"),
             crate::shader!("visit/tree_subgroup.wgsl"),
         ],
-        (true, _) => vec![crate::shader!("visit/tree_kept.wgsl"), crate::shader!("visit/tree_alone.wgsl")],
+        (true, _) => vec![
+            crate::shader!("visit/tree_kept.wgsl"),
+            crate::shader!("visit/tree_four.wgsl"),
+            crate::shader!("visit/tree_alone.wgsl"),
+        ],
         (false, _) => vec![crate::shader!("visit/tree_tile.wgsl")],
     }
 }

@@ -24,6 +24,7 @@ const ROOM: &str = "it is more room than there need be";
 const ALL_KNOW: &str = "all lanes hold the same value, so any of them may write it";
 const DEEP: &str =
     "only trees of more than 131 072 bodies wait in a second word; tests/engine/tree/complete.rs counts one";
+const BEHIND: &str = "nothing is delivered to what is behind the last";
 const SET_FIRST: &str = "it is set before it is looked at";
 
 pub const EQUIVALENT: &[Equivalent] = &[
@@ -63,6 +64,9 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("tree_tile", "while top > 0u", ">", ">=", "it turns idly until the driver ends the loop").sometimes(),
     same("tree_alone", "var slot = 0u;", "0u", "1u", SET_FIRST),
     same("tree_alone", "more = node > 1u;", "1u", "2u", "it is odd"),
+    same("tree_alone", "if first < last_target()", "<", "<=", BEHIND),
+    same("tree_alone", "let last =", "-", "+", BEHIND),
+    same("tree_four", "let you =", "-", "+", "a body that is not there is left out"),
 ];
 
 /// Nine workgroups in a row, nine times, are two more than these many have groups.
@@ -233,7 +237,7 @@ pub fn all(shared: &Shared, stages: &mut Vec<Stage>) {
             // One group, and two of which the last is not whole.
             ("a group", bodies(32), gravity(["plummer", "monopole"], 0.9, 0.0)),
             ("two groups", bodies(37), gravity(["plummer", "monopole"], 0.9, 0.0)),
-            ("few", bodies(300), gravity(["plummer", "quadrupole"], 0.7, 0.0)),
+            ("few", bodies(304), gravity(["plummer", "quadrupole"], 0.7, 0.0)),
             ("many", bodies(MANY), gravity(["plummer", "quadrupole"], 0.5, 0.0)),
             ("relative", bodies(1000), gravity(["plummer", "monopole"], 0.6, 0.03)),
             ("spline", bodies(1000), gravity(["spline", "quadrupole"], 0.8, 0.0)),

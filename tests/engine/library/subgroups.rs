@@ -7,12 +7,11 @@ use motes::typed::{Gravity, default, plummer};
 use motes::{Setup, Simulation, wgpu};
 
 /// Particles, of which a step is timed.
-const COUNT: u32 = 100_000;
-/// How many times slower it may be at most.
+const COUNT: u32 = 40_000;
+/// How many times slower it may be at most. Measured 2.4 to 3.3 times with 100 000 particles on lavapipe.
 const SLOWER: f64 = 8.0;
 
 #[test]
-#[ignore = "a measurement: a minute, and nothing beside it"]
 fn a_tree_is_not_eight_times_slower_without_subgroups() {
     let shared = crate::support::device();
     let adapter = &shared.found.adapter;
