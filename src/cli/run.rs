@@ -208,5 +208,5 @@ fn explain(run: &Run, error: Error, setup: &Setup, verdict: Option<&Verdict>) ->
     let (scene, Options { output, precision, .. }) = (run.scene(), run.options());
     let way = verdict.and_then(|verdict| motes::diagnose::way_out(verdict, setup));
     let to = (output.as_path(), &*scene.output.formats, *precision);
-    aftermath::explain(error, setup, way.as_deref(), run.last.as_ref(), to)
+    aftermath::explain(error, setup, way.as_deref(), run.last.as_deref(), to)
 }

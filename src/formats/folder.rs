@@ -279,8 +279,10 @@ fn results(path: &Path, scenes: &[Option<&str>]) -> io::Result<Vec<PathBuf>> {
         }
         if text == FRAMES && kind.is_dir() {
             for frame in fs::read_dir(entry.path())? {
-                let frame = frame?.file_name();
-                if frame.to_str().is_some_and(|frame| is_result(&format!("{FRAMES}/{frame}"), scenes)) {
+                let frame = frame?;
+                let (frame, kind) = (frame.file_name(), frame.file_type()?);
+                if !kind.is_dir() && frame.to_str().is_some_and(|frame| is_result(&format!("{FRAMES}/{frame}"), scenes))
+                {
                     found.push(Path::new(FRAMES).join(frame));
                 }
             }

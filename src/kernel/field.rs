@@ -92,6 +92,16 @@ impl Array {
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
+    /// How much memory its elements take \[bytes\].
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        match self {
+            Self::Vec4(a) => size_of_val(&**a),
+            Self::Vec3(a) => size_of_val(&**a),
+            Self::Float(a) => size_of_val(&**a),
+            Self::Uint(a) => size_of_val(&**a),
+        }
+    }
     /// Makes it as long as said; new elements hold this value.
     pub fn resize(&mut self, len: usize, [x, y, z, w]: [f64; 4]) {
         match self {

@@ -9,6 +9,7 @@ use super::checkpoint::{Checkpoint, Reel};
 use super::images;
 use super::pictures::Pictures;
 use super::progress::Progress;
+use super::stream::Stream;
 use crate::error::Error;
 use crate::formats::Folder;
 use crate::kernel::{Backend, Columns, POSITION, VELOCITY};
@@ -47,11 +48,12 @@ pub struct Film {
     done: Vec<PathBuf>,
     /// Particles out of the last frame.
     outside: u32,
+    stream: Stream,
 }
 
 impl Film {
     /// The film that a scene asks for; there may be none.
-    pub(super) fn of(scene: &Scene, begun: u64, rate: u16) -> Option<Self> {
+    pub(super) fn of(scene: &Scene, begun: u64, rate: u16, stream: &Stream) -> Option<Self> {
         (scene.output.frames > 0).then(|| Self {
             frames: scene.output.frames,
             begun,
@@ -65,6 +67,7 @@ impl Film {
             kept: Vec::new(),
             done: Vec::new(),
             outside: 0,
+            stream: stream.clone(),
         })
     }
     /// The frames that are there.
@@ -104,7 +107,7 @@ impl Film {
         &mut self,
         simulation: &mut Simulation<B>,
         step: u64,
-        to: (&Pictures, &Folder),
+        to: (&Pictures, &Arc<Folder>),
         progress: &mut dyn Progress,
     ) -> Result<(), Error> {
         let trail = &to.0.trail;
@@ -119,7 +122,7 @@ impl Film {
     pub(super) async fn develop<B: Backend>(
         &mut self,
         simulation: &mut Simulation<B>,
-        to: (&Pictures, &Folder),
+        to: (&Pictures, &Arc<Folder>),
         progress: &mut dyn Progress,
     ) -> Result<(), Error> {
         if !self.kept.is_empty() {
@@ -137,7 +140,7 @@ impl Film {
     fn begin(
         &mut self,
         first: (State, u64),
-        (pictures, folder): (&Pictures, &Folder),
+        (pictures, folder): (&Pictures, &Arc<Folder>),
         room: bool,
     ) -> Result<(), Error> {
         let picture = pictures.of(&first.0, pictures.trail.until(first.1))?;
@@ -149,7 +152,7 @@ impl Film {
     async fn draw<B: Backend>(
         &mut self,
         simulation: &mut Simulation<B>,
-        to: (&Pictures, &Folder),
+        to: (&Pictures, &Arc<Folder>),
         trail: Trail,
         step: u64,
         progress: &mut dyn Progress,
@@ -165,7 +168,8 @@ impl Film {
         reel.place(scenery.solids);
         reel.contain(scenery.tanks);
         let image = simulation.shoot(reel).await?;
-        images::save(&image, &file)?;
+        let image = Arc::new(image);
+        images::save_later(&image, file.clone(), to.1, &self.stream)?;
         progress.frame(self.done.len(), step, &file);
         self.done.push(file);
         self.outside = image.outside;
@@ -180,6 +184,7 @@ impl Film {
         if self.done.is_empty() {
             return Ok(());
         }
+        self.stream.drain()?;
         images::join(&folder.file(&self.file())?, &self.done, self.rate)
     }
     /// So many frames, which are there.

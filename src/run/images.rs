@@ -1,8 +1,11 @@
 //! Pictures, films and plots as files. A build without the feature `images` writes none, and refuses a run that asks for pictures.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
+use super::stream::Stream;
 use crate::error::Error;
+use crate::formats::Folder;
 use crate::measure::Measure;
 use crate::render::Image;
 use crate::scene::Output;
@@ -28,6 +31,16 @@ pub fn save(image: &Image, path: &Path) -> Result<(), Error> {
     return image.save(path);
     #[cfg(not(feature = "images"))]
     Err(unwritten(path, image.rgba.len()))
+}
+
+/// The same behind all that a run writes until now, without waiting for it.
+pub fn save_later(image: &Arc<Image>, path: PathBuf, folder: &Arc<Folder>, stream: &Stream) -> Result<(), Error> {
+    let (image, folder) = (image.clone(), folder.clone());
+    stream.write(&path.clone(), image.rgba.len(), move || {
+        // The folder stays locked until the file is there.
+        let _held = folder;
+        save(&image, &path)
+    })
 }
 
 /// A film of pictures that are files.

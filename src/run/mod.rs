@@ -37,6 +37,7 @@ mod resume;
 mod schedule;
 mod states;
 mod stop;
+mod stream;
 mod table;
 mod writer;
 
@@ -85,6 +86,7 @@ use crate::simulation::{Setup, Simulation};
 use crate::state::State;
 use packed::Packed;
 use schedule::Schedule;
+use stream::Stream;
 
 /// How long one batch of steps should take: a request to stop is heard between two.
 const BATCH: Duration = Duration::from_millis(250);
@@ -147,6 +149,8 @@ pub struct Run {
     count: usize,
     columns: Columns,
     packed: Packed,
+    /// What writes files, beside the run.
+    stream: Stream,
     /// The folder, held until this is dropped.
     folder: Option<Arc<Folder>>,
     /// Where it goes on, until it does.
@@ -176,7 +180,7 @@ pub struct Run {
     /// Springs at the start, and what is left of them, where they may break.
     pub springs: (usize, Option<usize>),
     /// The last state that was read, and so the last that is known to be good.
-    pub last: Option<State>,
+    pub last: Option<Arc<State>>,
 }
 
 /// How a run ended.
@@ -210,7 +214,7 @@ impl Run {
         images::check(&scene.output)?;
         Picture::with(&scene.picture, &setup.state, &[], Trail::new(0), &scenery)?;
         let radius = properties().find_map(|of| of.statistics_radius);
-        let count = setup.state.len();
+        let (count, stream) = (setup.state.len(), Stream::default());
         Ok(Self {
             begun,
             count,
@@ -224,15 +228,17 @@ impl Run {
             flocks: radius.map(|radius| Flocks::new(radius, scene.bounds)),
             counts: Counts::default(),
             book: Book::of(setup)?,
-            pictures: Pictures::new(&scene, count, scenery),
-            film: Film::of(&scene, begun, options.fps),
+            pictures: Pictures::new(&scene, count, scenery, stream.clone()),
+            film: Film::of(&scene, begun, options.fps, &stream),
             looks: Looks::new(scene.steps, scene.adaptive_step.is_some()),
             writers: Vec::new(),
             states: States::new(
                 &scene.output.formats,
                 formats::Options { precision: options.precision, bounds: Some(scene.bounds).filter(has_sides) },
                 scene.steps,
+                stream.clone(),
             ),
+            stream,
             course: None,
             springs: (setup.state.links.springs.len(), None),
             last: None,
@@ -261,6 +267,16 @@ impl Run {
     /// What goes wrong with the simulation, and [`Error::Output`] when a result cannot be written. The last checkpoint stays, if there
     /// is one.
     pub async fn drive<B: Backend>(
+        &mut self,
+        simulation: &mut Simulation<B>,
+        progress: &mut dyn Progress,
+    ) -> Result<End, Error> {
+        let end = self.whole(simulation, progress).await;
+        // Whatever ended it: what was taken until then is written.
+        let written = self.stream.drain();
+        end.and_then(|end| written.map(|()| end))
+    }
+    async fn whole<B: Backend>(
         &mut self,
         simulation: &mut Simulation<B>,
         progress: &mut dyn Progress,
@@ -294,6 +310,7 @@ impl Run {
             film.develop(simulation, (&self.pictures, &folder), progress).await?;
             film.join(&folder)?;
         }
+        self.stream.drain()?;
         for writer in self.all() {
             writer.finish()?;
         }
@@ -309,7 +326,7 @@ impl Run {
         &mut self,
         simulation: &mut Simulation<B>,
         course: &mut Course,
-        folder: &Folder,
+        folder: &Arc<Folder>,
         progress: &mut dyn Progress,
     ) -> Result<Duration, Error> {
         let (steps, every, dt) = (self.scene.steps, self.scene.output.every, self.scene.dt);
@@ -341,6 +358,7 @@ impl Run {
                 self.pictures.trail.push(&positions);
             }
             progress.at(course.done());
+            self.stream.check()?;
             if course.done() == next {
                 self.write(simulation, course, progress).await?;
             } else if let (true, Some(_)) = (self.options.ledger, &self.book) {
@@ -355,7 +373,7 @@ impl Run {
                 if self.looks.is_due(course.done()) {
                     self.looks.take(&row, &first);
                 }
-                self.last = Some(snapshot);
+                self.last = Some(Arc::new(snapshot));
                 (looked, look) = (Instant::now(), start.elapsed());
             }
             self.shoot(simulation, course, folder, progress).await?;
@@ -370,7 +388,7 @@ impl Run {
         &mut self,
         simulation: &mut Simulation<B>,
         course: &Course,
-        folder: &Folder,
+        folder: &Arc<Folder>,
         progress: &mut dyn Progress,
     ) -> Result<(), Error> {
         match &mut self.film {

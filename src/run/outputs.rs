@@ -1,5 +1,7 @@
 //! An output: the present state is measured, and handed to all writers.
 
+use std::sync::Arc;
+
 use super::Run;
 use super::course::Course;
 use super::fluid::Book;
@@ -21,7 +23,7 @@ impl Run {
     ) -> Result<(), Error> {
         let columns = self.scene.output.columns.clone();
         let wanted: Vec<&str> = columns.iter().map(String::as_str).collect();
-        let mut state = simulation.snapshot_of(&wanted).await?;
+        let mut state = Arc::new(simulation.snapshot_of(&wanted).await?);
         let (links, density) = (simulation.torn().await?, self.density(simulation).await?);
         let moment = Moment { state: &state, density: &density, clock: course.clock(), links: links.as_ref() };
         for writer in self.all().into_iter().filter(|writer| writer.measures()) {
@@ -29,14 +31,14 @@ impl Run {
         }
         self.warn(progress);
         for table in self.tables() {
-            table.settle()?;
+            table.settle_later(&self.stream)?;
         }
         if self.energies.rows().len() == 1 {
             self.pictures.trail.push(state.position());
         }
         // The energies are in their table.
         if !wanted.contains(&"potential") {
-            state.remove("potential");
+            Arc::make_mut(&mut state).remove("potential");
         }
         let moment = Moment { state: &state, density: &density, clock: course.clock(), links: links.as_ref() };
         for number in 0..self.all().len() {
@@ -64,7 +66,7 @@ impl Run {
         course: &Course,
         progress: &mut dyn Progress,
     ) -> Result<(), Error> {
-        let (state, density) = (simulation.snapshot().await?, self.density(simulation).await?);
+        let (state, density) = (Arc::new(simulation.snapshot().await?), self.density(simulation).await?);
         if let Some(book) = &mut self.book {
             book.take(&Moment { state: &state, density: &density, clock: course.clock(), links: None })?;
         }

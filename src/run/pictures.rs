@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::images;
+use super::stream::Stream;
 use super::table::Lengths;
 use super::writer::{Moment, Writer};
 use crate::error::Error;
@@ -26,16 +27,17 @@ pub struct Pictures {
     /// Steps from one point of a trail to the next.
     stride: u64,
     folder: Option<Arc<Folder>>,
+    stream: Stream,
     /// Where a few particles have been.
     pub(super) trail: Trail,
     /// What pictures show beside particles.
     pub(super) scenery: Scenery,
-    last: Option<Image>,
+    last: Option<Arc<Image>>,
 }
 
 impl Pictures {
     /// Those that a scene asks for, of so many particles.
-    pub(super) fn new(scene: &Scene, count: usize, scenery: Scenery) -> Self {
+    pub(super) fn new(scene: &Scene, count: usize, scenery: Scenery, stream: Stream) -> Self {
         // A trail is for pictures.
         let drawn = scene.output.pictures || scene.output.frames > 0;
         Self {
@@ -46,6 +48,7 @@ impl Pictures {
             digits: scene.steps.to_string().len(),
             stride: (scene.steps / TRAIL).max(1),
             folder: None,
+            stream,
             trail: Trail::new(if drawn { count } else { 0 }),
             scenery,
             last: None,
@@ -59,7 +62,7 @@ impl Pictures {
     /// The last picture.
     #[must_use]
     pub fn last(&self) -> Option<&Image> {
-        self.last.as_ref()
+        self.last.as_deref()
     }
     /// How many steps there are until the trail gets its next point; none where nothing is kept.
     pub(super) fn until_point(&self, steps: u64) -> Option<u64> {
@@ -102,8 +105,10 @@ impl Writer for Pictures {
         self.wanted.then(|| self.of(moment.state, self.trail.clone())).transpose()
     }
     fn drawn(&mut self, step: u64, image: Image) -> Result<(), Error> {
+        let image = Arc::new(image);
         if let Some(folder) = &self.folder {
-            images::save(&image, &folder.file(&format!("picture_{step:0width$}.png", width = self.digits))?)?;
+            let path = folder.file(&format!("picture_{step:0width$}.png", width = self.digits))?;
+            images::save_later(&image, path, folder, &self.stream)?;
         }
         self.last = Some(image);
         Ok(())

@@ -30,7 +30,7 @@ pub trait Progress {
     fn energy(&mut self, row: &Measure, first: &Measure) {
         let _ = (row, first);
     }
-    /// A picture of the film was taken.
+    /// A picture of the film was taken; a thread writes its file.
     fn frame(&mut self, frame: usize, step: u64, file: &Path) {
         let _ = (frame, step, file);
     }

@@ -136,7 +136,7 @@ impl Run {
         run.fits(&from, &state)?;
         setup.state.go_on_from(&state).map_err(unfit)?;
         run.begun = from.past.begun;
-        run.film = Film::of(&run.scene, run.begun, run.options.fps);
+        run.film = Film::of(&run.scene, run.begun, run.options.fps, &run.stream);
         if let (Some(film), Some(folder)) = (&run.film, &run.folder) {
             film.there(from.past.film.done, folder)?;
         }
@@ -260,6 +260,8 @@ impl Run {
         let Some(folder) = self.folder.clone() else { return Ok(()) };
         let begun = Instant::now();
         let state = simulation.snapshot().await?;
+        // What it counts as results is there, and rows that it quotes are on the disk.
+        self.stream.drain()?;
         let mut lengths = Lengths::new();
         for table in self.tables() {
             table.settle()?;
@@ -281,7 +283,7 @@ impl Run {
         folder.keep_checkpoints(self.scene.checkpoint.keep, state.step)?;
         self.schedule.written(simulation.steps(), course.time(), begun);
         progress.checkpoint(state.step, &file);
-        self.last = Some(state);
+        self.last = Some(Arc::new(state));
         Ok(())
     }
 }

@@ -1,8 +1,9 @@
 //! `snapshot_*`: states in every format that is numbers, and `links_*`: what is left of links that may break.
 
 use std::path::Path;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
+use super::stream::{self, Stream};
 use super::table::Lengths;
 use super::writer::{Moment, Writer};
 use crate::error::Error;
@@ -18,14 +19,16 @@ pub struct States {
     /// Of the numbers of steps.
     digits: usize,
     folder: Option<Arc<Folder>>,
+    stream: Stream,
     /// What ParaView opens instead of all of them, where they are of VTK.
-    listed: Option<Collection>,
+    listed: Arc<Mutex<Option<Collection>>>,
 }
 
 impl States {
     /// In these formats, for a run of so many steps.
-    pub(super) fn new(formats: &[&'static Format], options: Options, steps: u64) -> Self {
-        Self { formats: formats.to_vec(), options, digits: steps.to_string().len(), folder: None, listed: None }
+    pub(super) fn new(formats: &[&'static Format], options: Options, steps: u64, stream: Stream) -> Self {
+        let digits = steps.to_string().len();
+        Self { formats: formats.to_vec(), options, digits, folder: None, stream, listed: Arc::default() }
     }
 }
 
@@ -38,18 +41,28 @@ impl Writer for States {
         let (Some(folder), state, width) = (&self.folder, moment.state, self.digits) else { return Ok(()) };
         for format in &self.formats {
             let path = folder.file(&format!("snapshot_{:0width$}.{}", state.step, format.name))?;
-            written(&path, format, state, &self.options)?;
-            if format.name == "vtp" {
-                let file = folder.file(Collection::NAME)?;
-                let listed = self.listed.get_or_insert_with(|| Collection::before(&file, state.step));
-                listed.add(state, &path);
-                atomically(&file, |out| listed.write(out))?;
-            }
+            let list = (format.name == "vtp").then(|| folder.file(Collection::NAME)).transpose()?;
+            // The folder stays locked until the file is there.
+            let (folder, listed) = (folder.clone(), self.listed.clone());
+            let (file, format, state, options) = (path.clone(), *format, state.clone(), self.options.clone());
+            self.stream.write(&path, stream::size(&state), move || {
+                let _held = folder;
+                written(&file, format, &state, &options)?;
+                let Some(list) = list else { return Ok(()) };
+                let mut listed = listed.lock().unwrap_or_else(PoisonError::into_inner);
+                let listed = listed.get_or_insert_with(|| Collection::before(&list, state.step));
+                listed.add(&state, &file);
+                atomically(&list, |out| listed.write(out))
+            })?;
         }
         if let (Some(links), false) = (moment.links, self.formats.is_empty()) {
             // `[[links]] file` reads it.
             let path = folder.file(&format!("links_{:0width$}.csv", state.step))?;
-            atomically(&path, |out| formats::links::write(out, links))?;
+            let (folder, file, links) = (folder.clone(), path.clone(), links.clone());
+            self.stream.write(&path, stream::tied(&links), move || {
+                let _held = folder;
+                atomically(&file, |out| formats::links::write(out, &links))
+            })?;
         }
         Ok(())
     }

@@ -5,7 +5,9 @@ use std::collections::BTreeMap;
 use std::fs::{self, File, OpenOptions};
 use std::io::{BufWriter, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
+use super::stream::Stream;
 use crate::error::Error;
 use crate::formats::Folder;
 
@@ -17,7 +19,7 @@ pub type Lengths = BTreeMap<String, u64>;
 pub struct Table {
     name: String,
     path: PathBuf,
-    file: BufWriter<File>,
+    file: BufWriter<Arc<File>>,
     length: u64,
 }
 
@@ -42,7 +44,7 @@ impl Table {
                 (file, *length, text)
             }
         };
-        let table = Self { name: name.to_owned(), file: BufWriter::new(file), length, path };
+        let table = Self { name: name.to_owned(), file: BufWriter::new(Arc::new(file)), length, path };
         Ok((table, Rows(text)))
     }
     /// Its name in the folder.
@@ -61,6 +63,11 @@ impl Table {
     /// [`Error::Output`] when the disk fails.
     pub fn settle(&self) -> Result<(), Error> {
         self.file.get_ref().sync_data().map_err(|error| failure(&self.path, &error.to_string()))
+    }
+    /// The same behind all that a run writes until now, without waiting for it.
+    pub(super) fn settle_later(&self, stream: &Stream) -> Result<(), Error> {
+        let (file, path) = (self.file.get_ref().clone(), self.path.clone());
+        stream.write(&self.path, 0, move || file.sync_data().map_err(|error| failure(&path, &error.to_string())))
     }
     /// Adds a row: the step, and what belongs to it.
     ///

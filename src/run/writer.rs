@@ -13,8 +13,8 @@ use crate::state::State;
 /// The state of an output, and what is known beside it.
 #[derive(Debug, Clone, Copy)]
 pub struct Moment<'a> {
-    /// The state.
-    pub state: &'a State,
+    /// The state, which a writer that works on a thread of its own shares.
+    pub state: &'a Arc<State>,
     /// The densities of a fluid, by id; none where nothing flows.
     pub density: &'a [f32],
     /// The clock, where steps are adaptive.

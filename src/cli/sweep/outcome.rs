@@ -1,6 +1,7 @@
 //! What came of a run, and how far its end is from that of another.
 
 use std::path::Path;
+use std::sync::Arc;
 use std::time::Duration;
 
 use motes::run::{End, Run};
@@ -54,7 +55,7 @@ impl Outcome {
         let result = made.and_then(|(run, end)| {
             let ends = [run.energies.first(), run.energies.rows().last().copied().unwrap_or_default()];
             let (bounds, change) = (run.scene().bounds, run.looks.change);
-            let state = run.last.filter(|_| !end.stopped).ok_or(Failure::Stopped)?;
+            let state = Arc::unwrap_or_clone(run.last.filter(|_| !end.stopped).ok_or(Failure::Stopped)?);
             Ok(Left { ends, change, state, bounds })
         });
         Self { result, steps, took }

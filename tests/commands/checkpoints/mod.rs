@@ -5,6 +5,7 @@ mod killed;
 mod library;
 mod refused;
 mod resumed;
+mod stream;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
