@@ -213,7 +213,7 @@ mod tests {
     #[test]
     fn files_are_written_in_order_by_another_thread() {
         for (stream, other) in [(Stream::default(), true), (here(), false)] {
-            let (tell, told) = channel();
+            let (tell, heard) = channel();
             for number in 0..1000 {
                 let tell = tell.clone();
                 let write = move || {
@@ -223,7 +223,7 @@ mod tests {
                 stream.write(Path::new("a"), 1 << 20, write).expect("taken");
             }
             stream.drain().expect("well");
-            let all: Vec<_> = told.try_iter().collect();
+            let all: Vec<_> = heard.try_iter().collect();
             assert!(all.iter().map(|(number, _)| *number).eq(0..1000));
             assert!(all.iter().all(|(_, thread)| (*thread != std::thread::current().id()) == other));
         }
@@ -235,7 +235,7 @@ mod tests {
         for (bytes, most) in [(BYTES / 4, 4), (BYTES * 2, 1), (1, FILES + 1)] {
             let stream = Stream::default();
             let (go, wait) = channel::<()>();
-            let (tell, told) = channel();
+            let (tell, heard) = channel();
             let wait = Arc::new(Mutex::new(wait));
             let pushing = std::thread::spawn({
                 let stream = stream.clone();
@@ -253,12 +253,12 @@ mod tests {
             });
             let minute = Duration::from_mins(1);
             for number in 0..most {
-                assert_eq!(told.recv_timeout(minute), Ok(number), "{bytes} bytes");
+                assert_eq!(heard.recv_timeout(minute), Ok(number), "{bytes} bytes");
             }
-            assert!(told.recv_timeout(Duration::from_millis(100)).is_err(), "the next one waits: {stream:?}");
+            assert!(heard.recv_timeout(Duration::from_millis(100)).is_err(), "the next one waits: {stream:?}");
             go.send(()).expect("heard");
-            assert_eq!(told.recv_timeout(minute), Ok(most), "one is written, so one is taken");
-            assert!(told.recv_timeout(Duration::from_millis(100)).is_err(), "and the next one waits: {stream:?}");
+            assert_eq!(heard.recv_timeout(minute), Ok(most), "one is written, so one is taken");
+            assert!(heard.recv_timeout(Duration::from_millis(100)).is_err(), "and the next one waits: {stream:?}");
             (0..most + 2).for_each(|_| go.send(()).expect("heard"));
             pushing.join().expect("all are taken");
             stream.drain().expect("well");
@@ -266,9 +266,9 @@ mod tests {
     }
 
     #[test]
-    fn the_first_fault_is_told_with_its_file_and_nothing_is_written_behind_it() {
+    fn the_first_fault_is_reported_with_its_file_and_nothing_is_written_behind_it() {
         for stream in [Stream::default(), here()] {
-            let (tell, told) = channel();
+            let (tell, heard) = channel();
             let mut taken = Vec::new();
             for number in 0..100 {
                 let tell = tell.clone();
@@ -284,7 +284,7 @@ mod tests {
                 "{taken:?}"
             );
             assert_eq!([words(stream.drain()), words(stream.check()), words(stream.drain())], [&*fault; 3]);
-            assert_eq!(told.try_iter().collect::<Vec<_>>(), [0, 1, 2, 3]);
+            assert_eq!(heard.try_iter().collect::<Vec<_>>(), [0, 1, 2, 3]);
         }
     }
 
@@ -310,7 +310,7 @@ mod tests {
 
     #[test]
     fn what_is_taken_is_written_when_the_run_is_dropped() {
-        let (tell, told) = channel();
+        let (tell, heard) = channel();
         let stream = Stream::default();
         for number in 0..20 {
             let tell = tell.clone();
@@ -322,6 +322,6 @@ mod tests {
             stream.write(Path::new("a"), 1, write).expect("taken");
         }
         drop(stream);
-        assert!(told.try_iter().eq(0..20));
+        assert!(heard.try_iter().eq(0..20));
     }
 }
