@@ -80,14 +80,16 @@ fn damped(links: &Links) -> bool {
 }
 
 /// What is tied and does not pull: no law visits it. Triangles are there for pictures too.
-fn idle(links: &Links, laws: &[Law]) -> Vec<String> {
+fn idle(links: &Links, laws: &[Law]) -> Vec<Remark> {
     let ties = [
         (links.springs.len(), Over::Links, "springs", "spring"),
         (links.joints.len(), Over::Joints, "joints", "joint"),
     ];
     let idle = ties.into_iter().filter(|(n, over, ..)| *n > 0 && laws.iter().all(|law| law.over != *over));
     idle.map(|(n, _, what, force)| {
-        format!("nothing comes of the {what} (of which there are {n}): add a [[force]] of kind = \"{force}\"")
+        Remark::note("idle-links", format!("nothing comes of the {what} (of which there are {n})"))
+            .with("links", n as f64)
+            .advice(format!("add a [[force]] of kind = \"{force}\""))
     })
     .collect()
 }
@@ -147,15 +149,17 @@ pub fn conserved(setup: &Setup) -> Result<Conserved, Error> {
 const MACHINE: Machine = Machine::HOST;
 
 /// Particles that begin inside of a solid, or nearer to it than its thickness, are put out of it in the first step.
-fn inside(setup: &Setup) -> Result<Option<String>, Error> {
+fn inside(setup: &Setup) -> Result<Option<Remark>, Error> {
     let moved = setup.put_out()?;
     let Some((first, depth)) = moved.first() else { return Ok(None) };
     let deepest = moved.iter().map(|(_, depth)| *depth).fold(0.0, f64::max);
-    Ok(Some(format!(
+    let text = format!(
         "{} particles begin inside of a solid, or nearer to it than its thickness, particle {first} first of them, by {depth:.3e}, and \
          by {deepest:.3e} at most: the first step puts them out, wherever others are",
         moved.len()
-    )))
+    );
+    let remark = Remark::note("inside-solid", text).with("particles", moved.len() as f64);
+    Ok(Some(remark.with("particle", *first as f64).with("largest_depth", deepest)))
 }
 
 /// How forces, obstacles, motions and the integrator of a setup go together, in a run that ends at a time, if it does.
@@ -163,7 +167,7 @@ fn inside(setup: &Setup) -> Result<Option<String>, Error> {
 /// # Errors
 /// [`Error::Scene`] when a force leads out of the plane of a flat box, or the setup makes no sense.
 pub fn advice(setup: &Setup, end: Option<f64>) -> Result<Vec<Remark>, Error> {
-    let mut remarks: Vec<String> = Vec::new();
+    let mut remarks = Vec::new();
     remarks.extend(inside(setup)?);
     remarks.extend(end.into_iter().flat_map(|end| births::early(setup, end)));
     let end = end.unwrap_or(f64::INFINITY);
@@ -179,12 +183,14 @@ pub fn advice(setup: &Setup, end: Option<f64>) -> Result<Vec<Remark>, Error> {
     let (order, reduced) = (setup.integrator.order(), setup.integrator.order_with_velocity());
     let loses = reduced < order || implicit && order > 1;
     let depends = |name: &str| {
-        format!(
-            "`{name}` depends on velocity: {} is of order {order} for other forces, and of order {} with it; \
-             midpoint, heun and rk4 keep their order",
-            setup.integrator.name(),
-            if implicit { 1 } else { reduced },
-        )
+        let with_it = if implicit { 1 } else { reduced };
+        let text = format!(
+            "`{name}` depends on velocity: {} is of order {order} for other forces, and of order {with_it} with it",
+            setup.integrator.name()
+        );
+        Remark::note("reduced-order", text)
+            .with("order", f64::from(with_it))
+            .advice("midpoint, heun and rk4 keep their order")
     };
     for force in setup.forces.iter().filter(|force| force.properties().makes_fluid) {
         let rates = force.resolved(&problem)?.rates.unwrap_or_default();
@@ -205,34 +211,37 @@ pub fn advice(setup: &Setup, end: Option<f64>) -> Result<Vec<Remark>, Error> {
             remarks.push(depends(&name));
         }
         if over == Over::Pairs && setup.bounds.has(Side::Periodic) && !all_images {
-            remarks.push(format!(
-                "`{name}` in a periodic box comes from nearest images alone: all other images are left \
-                 out, there is no Ewald sum{}",
-                if name == "gravity" {
-                    "; images = \"ewald\" has it, in a cube that is periodic on all sides"
-                } else {
-                    ""
-                }
-            ));
+            let text = format!(
+                "`{name}` in a periodic box comes from nearest images alone: all other images are left out, there is no Ewald sum"
+            );
+            let remark = Remark::note("nearest-images", text);
+            remarks.push(if name == "gravity" {
+                remark.advice("images = \"ewald\" has it, in a cube that is periodic on all sides")
+            } else {
+                remark
+            });
         }
         if let Over::Near { of: Some(kind), .. } = over
             && !setup.state.species().contains(&kind)
         {
-            remarks.push(format!("`{name}` acts on species {kind}, and no particle is of that species"));
+            let text = format!("`{name}` acts on species {kind}, and no particle is of that species");
+            remarks.push(Remark::note("absent-species", text).with("species", f64::from(kind)));
         }
         if without_reference {
-            remarks.push(format!("`{name}` has no f64 reference: nothing checks it, and it needs a device"));
+            let text = format!("`{name}` has no f64 reference: nothing checks it, and it needs a device");
+            remarks.push(Remark::note("no-reference", text));
         }
     }
     let name = setup.integrator.name();
     for (force, properties) in setup.forces.iter().map(|force| (force, force.properties())) {
         if let Some(length) = properties.largest_move {
-            let caution = properties.caution.map_or_else(String::new, |text| format!("; {text}"));
-            remarks.push(format!(
-                "the fluid's dt = {} is for speeds up to {:.3}: in a step no particle should go farther than {length:.3e}{caution}",
-                setup.dt,
-                length / setup.dt
-            ));
+            let speed = length / setup.dt;
+            let text = format!(
+                "the fluid's dt = {} is for speeds up to {speed:.3}: in a step no particle should go farther than {length:.3e}",
+                setup.dt
+            );
+            let remark = Remark::note("largest-speed", text).with("dt", setup.dt).with("largest_speed", speed);
+            remarks.push(Remark { advice: properties.caution.map(str::to_owned), ..remark });
         }
         let its = properties.integrators;
         if its.is_empty() {
@@ -240,30 +249,34 @@ pub fn advice(setup: &Setup, end: Option<f64>) -> Result<Vec<Remark>, Error> {
         }
         if properties.evaluated_last {
             if !its.contains(&name) {
-                remarks.push(format!(
+                let text = format!(
                     "the fluid solves for the pressure of a whole step, evaluated where it begins: it wants {}, not {name}",
                     its.join(" or ")
-                ));
+                );
+                remarks.push(Remark::note("other-integrator", text));
             }
             continue;
         }
         if !its.contains(&name) {
             let law = force.laws().first().map(|law| law.name.clone()).unwrap_or_default();
-            remarks.push(format!("`{law}` is a rule for whole steps: it wants {}, not {name}", its.join(" or ")));
+            let text = format!("`{law}` is a rule for whole steps: it wants {}, not {name}", its.join(" or "));
+            remarks.push(Remark::note("other-integrator", text));
         }
         if setup.forces.iter().filter(|force| !force.laws().is_empty()).count() > 1 {
-            remarks.push(format!(
+            let text = format!(
                 "{} sets velocities by itself: beside other forces it is no more than a pull towards them",
                 force.laws().first().map_or_else(String::new, |law| format!("`{}`", law.name))
-            ));
+            );
+            remarks.push(Remark::note("velocities-set", text));
         }
     }
     if !setup.state.links.rods.is_empty() && order > 2 {
-        remarks.push(format!("with rods {name} is of order 2, as leapfrog is, which costs less"));
+        let text = format!("with rods {name} is of order 2, as leapfrog is, which costs less");
+        remarks.push(Remark::note("reduced-order", text).with("order", 2.0));
     }
     if name == "forward_euler" && setup.forces.iter().all(|force| !force.properties().integrators.contains(&name)) {
-        remarks
-            .push("forward_euler gains energy in every step, whatever the step: it is here to show why not".to_owned());
+        let text = "forward_euler gains energy in every step, whatever the step: it is here to show why not";
+        remarks.push(Remark::note("gains-energy", text));
     }
-    Ok(remarks.into_iter().map(Remark::note).collect())
+    Ok(remarks)
 }

@@ -1,5 +1,6 @@
 //! What emitters are going to do.
 
+use super::Remark;
 use crate::life::schedule;
 use crate::simulation::Setup;
 
@@ -23,7 +24,7 @@ pub fn forecast(setup: &Setup, end: f64) -> Vec<String> {
 }
 
 /// Emitters that are empty before the run is over.
-pub fn early(setup: &Setup, end: f64) -> Vec<String> {
+pub fn early(setup: &Setup, end: f64) -> Vec<Remark> {
     let births = &setup.state.births;
     let line = |(number, (count, first, last)): (usize, &(u64, f64, f64))| {
         let mut times: Vec<f64> = births.iter().filter(|b| b.emitter as usize == number).map(|b| b.time).collect();
@@ -32,11 +33,15 @@ pub fn early(setup: &Setup, end: f64) -> Vec<String> {
         // Rows follow each other evenly.
         let interval = (last - first) / (times.len().max(2) - 1) as f64;
         (last + interval < end - ROUNDING * interval && *count > 0).then(|| {
-            format!(
-                "emitter {} has {count} particles, and is empty at {last:.4}, before the run ends at {end:.4}: for more give it a \
-                 larger `count`, or a later `stop`",
+            let text = format!(
+                "emitter {} has {count} particles, and is empty at {last:.4}, before the run ends at {end:.4}",
                 number + 1
-            )
+            );
+            Remark::note("empty-emitter", text)
+                .with("emitter", (number + 1) as f64)
+                .with("particles", *count as f64)
+                .with("time", *last)
+                .advice("for more give it a larger `count`, or a later `stop`")
         })
     };
     schedule(births).iter().enumerate().filter_map(line).collect()

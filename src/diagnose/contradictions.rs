@@ -6,6 +6,7 @@ use crate::simulation::Setup;
 use crate::sph::{Medium, Start};
 use glam::DVec3;
 
+use super::Remark;
 use super::fluid::Weight;
 
 /// Parts that differ by less are the same.
@@ -15,7 +16,7 @@ const ALIKE: f64 = 0.01;
 const ROUNDING: f64 = 1e-9;
 
 /// All of them, with the acceleration of the whole fluid.
-pub fn all(setup: &Setup, start: &Start, weight: Weight) -> Result<Vec<String>, Error> {
+pub fn all(setup: &Setup, start: &Start, weight: Weight) -> Result<Vec<Remark>, Error> {
     let mut notes = Vec::new();
     notes.extend(births(setup, &start.medium));
     notes.extend(mouths(setup, &start.medium));
@@ -25,20 +26,26 @@ pub fn all(setup: &Setup, start: &Start, weight: Weight) -> Result<Vec<String>, 
 }
 
 /// Emitters whose particles are not those of the fluid.
-fn births(setup: &Setup, medium: &Medium) -> Option<String> {
+fn births(setup: &Setup, medium: &Medium) -> Option<Remark> {
     let birth = setup.state.births.iter().find(|birth| (birth.mass / medium.mass() - 1.0).abs() > ALIKE)?;
-    Some(format!(
-        "particles of emitter {} weigh {:.4e}, and density × spacing^{} of the force is {:.4e}: leave out its `spacing` and \
-         `density`, and it has those of the force",
+    let text = format!(
+        "particles of emitter {} weigh {:.4e}, and density × spacing^{} of the force is {:.4e}",
         birth.emitter + 1,
         birth.mass,
         medium.dimensions,
         medium.mass()
-    ))
+    );
+    Some(
+        Remark::note("emitter-mass", text)
+            .with("emitter", f64::from(birth.emitter + 1))
+            .with("mass", birth.mass)
+            .with("fluid_mass", medium.mass())
+            .advice("leave out its `spacing` and `density`, and it has those of the force"),
+    )
 }
 
 /// Emitters that spawn particles where others are.
-fn mouths(setup: &Setup, medium: &Medium) -> Option<String> {
+fn mouths(setup: &Setup, medium: &Medium) -> Option<Remark> {
     let particles = &setup.state;
     let mut sites: Vec<(u32, usize)> =
         particles.births.iter().map(|birth| (birth.emitter, birth.id as usize)).collect();
@@ -60,17 +67,24 @@ fn mouths(setup: &Setup, medium: &Medium) -> Option<String> {
         way(**a).total_cmp(&way(**b))
     };
     let other = others.iter().min_by(nearest)?;
-    Some(format!(
-        "emitter {} lets particles out where others are: particle {other} is {:.3e} from a place of its mouth, and the spacing is {}; \
-         move one of them",
+    let distance = setup.bounds.shortest(place(*other) - place(*site)).length();
+    let text = format!(
+        "emitter {} lets particles out where others are: particle {other} is {distance:.3e} from a place of its mouth, and the spacing \
+         is {}",
         emitter + 1,
-        setup.bounds.shortest(place(*other) - place(*site)).length(),
         medium.spacing
-    ))
+    );
+    Some(
+        Remark::note("blocked-emitter", text)
+            .with("emitter", f64::from(emitter + 1))
+            .with("particle", *other as f64)
+            .with("distance", distance)
+            .advice("move one of them"),
+    )
 }
 
 /// A weight that the fluid's keys give, and another that forces give.
-fn weighed(setup: &Setup, Weight { pull: weight, largest }: Weight) -> Result<Option<String>, Error> {
+fn weighed(setup: &Setup, Weight { pull: weight, largest }: Weight) -> Result<Option<Remark>, Error> {
     let problem = setup.problem(Machine::HOST)?;
     let fluid = setup
         .forces
@@ -81,16 +95,16 @@ fn weighed(setup: &Setup, Weight { pull: weight, largest }: Weight) -> Result<Op
     let off = (given - weight).length();
     let alike = off <= ALIKE * given.length().max(weight.length()) || off <= ROUNDING * largest.max(given.length());
     Ok((!alike).then(|| {
-        format!(
-            "the fluid has weight = [{}, {}, {}], and forces accelerate all particles by [{}, {}, {}]: a fluid at rest would not stay so; give \
-             both the same",
+        let text = format!(
+            "the fluid has weight = [{}, {}, {}], and forces accelerate all particles by [{}, {}, {}]: a fluid at rest would not stay so",
             given.x, given.y, given.z, weight.x, weight.y, weight.z
-        )
+        );
+        Remark::note("fluid-weight", text).with("difference", off).advice("give both the same")
     }))
 }
 
 /// Particles that begin out of a box that is open.
-fn outside(setup: &Setup) -> Option<String> {
+fn outside(setup: &Setup) -> Option<Remark> {
     let (particles, bounds) = (&setup.state, &setup.bounds);
     let extent: Vec<usize> = (0..3).filter(|axis| bounds.high[*axis] > bounds.low[*axis]).collect();
     let held: std::collections::BTreeSet<usize> = particles.held.iter().map(|one| one.id as usize).collect();
@@ -101,9 +115,10 @@ fn outside(setup: &Setup) -> Option<String> {
     };
     let mut all = (0..particles.len()).filter(out);
     let first = all.next()?;
-    Some(format!(
-        "{} particles of the fluid begin out of the box, particle {first} at {} first of them: open sides keep no particle in",
-        1 + all.count(),
+    let count = 1 + all.count();
+    let text = format!(
+        "{count} particles of the fluid begin out of the box, particle {first} at {} first of them: open sides keep no particle in",
         particles.position()[first]
-    ))
+    );
+    Some(Remark::note("fluid-outside", text).with("particles", count as f64).with("particle", first as f64))
 }

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::Remark;
 use crate::error::Error;
 use crate::forces::{Law, Over};
 use crate::kernel::Machine;
@@ -12,32 +13,38 @@ use crate::visit;
 const FAR: f64 = 3e4;
 
 /// What the laws of `over = "auto"` choose on a machine: all pairs, or a tree.
-pub fn remarks(setup: &Setup, machine: Machine) -> Result<Vec<String>, Error> {
+pub fn remarks(setup: &Setup, machine: Machine) -> Result<Vec<Remark>, Error> {
     let problem = setup.problem(machine)?;
     let from = visit::crossing(&machine);
     let remark = |law: Law| match (law.over, law.chosen(&problem)) {
-        (Over::Tree { auto: true, .. }, Over::Pairs) => Some(if problem.capacity < from {
-            format!(
-                "`{}` is summed directly over all pairs: a tree is faster from about {from} particles on here",
-                law.name
-            )
-        } else {
-            format!("`{}` is summed directly over all pairs: a tree cannot group nearest images", law.name)
+        (Over::Tree { auto: true, .. }, Over::Pairs) => Some({
+            let why = if problem.capacity < from {
+                format!("a tree is faster from about {from} particles on here")
+            } else {
+                "a tree cannot group nearest images".to_owned()
+            };
+            let text = format!("`{}` is summed directly over all pairs: {why}", law.name);
+            Remark::note("direct-summation", text).with("crossing", f64::from(from))
         }),
-        (Over::Tree { auto, opening, .. }, _) => Some(format!(
-            "`{}` takes far groups as one, through a tree ({opening}{}): `motes compare` says how exact that is",
-            law.name,
-            if auto { format!("; faster from about {from} particles on here") } else { String::new() }
-        )),
+        (Over::Tree { auto, opening, .. }, _) => Some({
+            let since = if auto { format!("; faster from about {from} particles on here") } else { String::new() };
+            let text = format!(
+                "`{}` takes far groups as one, through a tree ({opening}{since}): `motes compare` says how exact that is",
+                law.name
+            );
+            Remark::note("tree", text).with("crossing", f64::from(from))
+        }),
         _ => None,
     };
     let mut all: Vec<_> = setup.forces.iter().flat_map(|force| force.laws()).filter_map(remark).collect();
     let walks = setup.forces.iter().flat_map(|force| force.laws()).any(|law| law.tree(&problem).is_some());
     if let Some(ratio) = Some(spread(setup.state.position())).filter(|ratio| walks && *ratio > FAR) {
-        all.push(format!(
+        let text = format!(
             "a particle is {ratio:.0e} times as far out as 98 of 100 are wide: the tree cannot resolve the others, and takes as long \
-             as direct summation; remove stray particles, or say over = \"pairs\""
-        ));
+             as direct summation"
+        );
+        let stray = Remark::note("stray-particle", text).with("ratio", ratio);
+        all.push(stray.advice("remove stray particles, or say over = \"pairs\""));
     }
     Ok(all)
 }

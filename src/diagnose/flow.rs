@@ -55,7 +55,7 @@ pub fn warning(flow: &Flow, setup: &Setup) -> Result<Option<Remark>, Error> {
                  there is; 0.5 is much",
                 flow.excess
             );
-            return said(flow, &text);
+            return said(flow, Remark::warning("strong-xsph", text).with("excess", flow.excess));
         }
     };
     let way = if flow.safe > 0.0 {
@@ -63,14 +63,16 @@ pub fn warning(flow: &Flow, setup: &Setup) -> Result<Option<Remark>, Error> {
     } else {
         "no dt is safe: choose leapfrog".to_owned()
     };
-    said(flow, &format!("dt = {dt} is too long for {name} and {culprit}; {way}"))
+    let text = format!("dt = {dt} is too long for {name} and {culprit}");
+    let remark = Remark::warning("long-step", text).with("dt", dt).with("excess", flow.excess);
+    said(flow, remark.with("largest_dt", flow.safe).advice(way))
 }
 
-fn said(flow: &Flow, text: &str) -> Result<Option<Remark>, Error> {
+fn said(flow: &Flow, remark: Remark) -> Result<Option<Remark>, Error> {
     if flow.is_lost() {
-        return Err(Error::Scene(format!("this run would explode: {text}")));
+        return Err(Error::Scene(format!("this run would explode: {remark}")));
     }
-    Ok(Some(Remark::warning(format!("this run may explode: {text}"))))
+    Ok(Some(Remark { text: format!("this run may explode: {}", remark.text), ..remark }))
 }
 
 /// What the largest acceleration of a start says: whether a step is too long for it, and sound too slow to carry it.

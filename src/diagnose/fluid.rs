@@ -9,7 +9,7 @@ use crate::sph::{COURANT, Start};
 use glam::DVec3;
 
 use super::advice::acceleration_at;
-use super::contradictions;
+use super::{Remark, contradictions};
 
 /// The Mach number of the fastest flow, where the density varies by 1 % (Monaghan 1994).
 const MACH: f64 = 0.1;
@@ -17,7 +17,7 @@ const MACH: f64 = 0.1;
 const VARIES: f64 = 0.02;
 
 /// The lines about a start, and the remarks on it.
-pub fn remarks(setup: &Setup, start: &Start) -> Result<(Vec<String>, Vec<String>), Error> {
+pub fn remarks(setup: &Setup, start: &Start) -> Result<(Vec<String>, Vec<Remark>), Error> {
     let (medium, mut notes) = (&start.medium, Vec::new());
     let size = if medium.dimensions == 2 { "square" } else { "cubic" };
     let mut lines = vec![
@@ -51,34 +51,48 @@ pub fn remarks(setup: &Setup, start: &Start) -> Result<(Vec<String>, Vec<String>
             "  solved       for pressure; the fastest flow expected {fastest:.4}, and dt is for {bears:.4}: {how}"
         ));
         if fastest > bears {
-            notes.push(format!(
-                "the fastest flow expected is {fastest:.4} ({how}), and dt = {} is for speeds up to {bears:.4}: choose {:.3e}",
-                setup.dt,
-                COURANT * medium.spacing / fastest
-            ));
+            let text = format!(
+                "the fastest flow expected is {fastest:.4} ({how}), and dt = {} is for speeds up to {bears:.4}",
+                setup.dt
+            );
+            let largest = COURANT * medium.spacing / fastest;
+            notes.push(
+                Remark::note("fast-flow", text)
+                    .with("speed", fastest)
+                    .with("largest_speed", bears)
+                    .with("largest_dt", largest)
+                    .advice(format!("choose {largest:.3e}")),
+            );
         }
     } else if fastest > 0.0 {
         let ratio = medium.sound / fastest;
         lines.push(format!("  sound        {}, {ratio:.1} times the fastest flow expected: {how}", medium.sound));
         if ratio * ratio * VARIES < 1.0 {
-            notes.push(format!(
-                "the speed of sound is {ratio:.1} times the fastest flow expected ({how}): the density will vary by {:.0} %; \
-                 sound_speed = {:.4} makes that 1 %",
-                100.0 / (ratio * ratio),
-                fastest / MACH
-            ));
+            let text = format!(
+                "the speed of sound is {ratio:.1} times the fastest flow expected ({how}): the density will vary by {:.0} %",
+                100.0 / (ratio * ratio)
+            );
+            notes.push(
+                Remark::note("slow-sound", text)
+                    .with("sound_speed", medium.sound)
+                    .with("speed", fastest)
+                    .with("better_sound_speed", fastest / MACH)
+                    .advice(format!("sound_speed = {:.4} makes that 1 %", fastest / MACH)),
+            );
         }
     } else {
         lines.push(format!("  sound        {}; nothing says how fast it will flow", medium.sound));
     }
     let (light, heavy) = start.mass;
     if light < 0.99 * medium.mass() || heavy > 1.01 * medium.mass() {
-        notes.push(format!(
+        let text = format!(
             "particles of the fluid weigh {light:.4e} to {heavy:.4e}, and density × spacing^{} of the force is {:.4e}: is their spacing \
              another, or their density?",
             medium.dimensions,
             medium.mass()
-        ));
+        );
+        let masses = Remark::note("fluid-mass", text).with("least_mass", light).with("largest_mass", heavy);
+        notes.push(masses.with("fluid_mass", medium.mass()));
     }
     if !start.summed {
         lines.push(format!(
@@ -102,18 +116,24 @@ pub fn remarks(setup: &Setup, start: &Start) -> Result<(Vec<String>, Vec<String>
     lines.push(format!("               the thinnest at {thinnest:.4} of rest (particle {thin})"));
     let burst = start.burst();
     if !solved && burst > MACH * medium.sound {
-        notes.push(format!(
+        let text = format!(
             "the densest of the fluid, particle {dense}, is at {densest:.3} times the density at rest: that bursts at {burst:.3e}, which is \
              more than the fastest flow that the speed of sound is made for"
-        ));
+        );
+        let start = Remark::note("dense-start", text).with("particle", dense as f64);
+        notes.push(start.with("relative_density", densest).with("speed", burst));
     }
     if densest < 0.97 {
-        notes.push(format!(
+        let text = format!(
             "the densest of the fluid, particle {dense}, is at {densest:.3} times the density at rest: under weight it will sink together \
-             by as much; are masses density × spacing^{} = {:.4e}?",
+             by as much"
+        );
+        let start = Remark::note("thin-start", text).with("particle", dense as f64).with("relative_density", densest);
+        notes.push(start.advice(format!(
+            "are masses density × spacing^{} = {:.4e}?",
             medium.dimensions,
             medium.mass()
-        ));
+        )));
     }
     Ok((lines, notes))
 }

@@ -1,5 +1,6 @@
 //! Motions whose velocity jumps, and the rods that must follow at once.
 
+use super::Remark;
 use crate::motion::{Hold, Motion};
 use crate::simulation::Setup;
 
@@ -8,7 +9,7 @@ use crate::simulation::Setup;
 const BEARS: f64 = 0.05;
 
 /// A remark for each motion that asks too much of rods, in a run that ends at `end`.
-pub fn remarks(setup: &Setup, end: f64) -> Vec<String> {
+pub fn remarks(setup: &Setup, end: f64) -> Vec<Remark> {
     let particles = &setup.state;
     let Some(shortest) = particles.links.rods.iter().map(|rod| rod.length).reduce(f64::min) else { return Vec::new() };
     let tied: std::collections::BTreeSet<u32> = particles.links.rods.iter().flat_map(|rod| rod.ends).collect();
@@ -22,12 +23,17 @@ pub fn remarks(setup: &Setup, end: f64) -> Vec<String> {
         let (time, jump) = largest_jump(motion, arm, end)?;
         let part = jump * setup.dt / shortest;
         (part > BEARS).then(|| {
-            format!(
+            let text = format!(
                 "the motion \"{}\" jumps in velocity by {jump:.3e} at {time:.4}, and rods must follow at once: in a step that is {part:.2} of \
-                 the shortest rod ({shortest:.3e}), and above {BEARS} they may be lost; say smooth = true, or choose dt below {:.2e}",
-                motion.name,
-                BEARS * shortest / jump
-            )
+                 the shortest rod ({shortest:.3e}), and above {BEARS} they may be lost",
+                motion.name
+            );
+            let largest = BEARS * shortest / jump;
+            Remark::note("jumping-motion", text)
+                .with("jump", jump)
+                .with("time", time)
+                .with("largest_dt", largest)
+                .advice(format!("say smooth = true, or choose dt below {largest:.2e}"))
         })
     };
     particles.motions.iter().enumerate().filter_map(remark).collect()

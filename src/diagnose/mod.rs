@@ -39,27 +39,46 @@ pub enum Severity {
     Warning,
 }
 
-/// What is to be said of a setup: the subject, the number, the consequence and the way out.
-#[derive(Debug, Clone, PartialEq, Eq)]
+/// What is to be said of a setup. As text it is `text; advice`.
+#[derive(Debug, Clone, PartialEq)]
 pub struct Remark {
+    /// What it is about, in words with hyphens: `rounded-motion`, `long-step`. It stays when words change.
+    pub id: &'static str,
     /// How much it weighs.
     pub severity: Severity,
-    /// In words.
+    /// The subject, the number and the consequence.
     pub text: String,
+    /// Its numbers by name, in units of the setup: `particle` (an id), `particles` (how many), `dt`, `largest_dt`, ….
+    pub numbers: Vec<(&'static str, f64)>,
+    /// The way out, where there is one to be named.
+    pub advice: Option<String>,
 }
 
 impl Remark {
-    fn note(text: String) -> Self {
-        Self { severity: Severity::Note, text }
+    fn note(id: &'static str, text: impl Into<String>) -> Self {
+        Self { id, severity: Severity::Note, text: text.into(), numbers: Vec::new(), advice: None }
     }
-    fn warning(text: String) -> Self {
-        Self { severity: Severity::Warning, text }
+    fn warning(id: &'static str, text: impl Into<String>) -> Self {
+        Self { severity: Severity::Warning, ..Self::note(id, text) }
+    }
+    fn with(mut self, name: &'static str, number: f64) -> Self {
+        self.numbers.push((name, number));
+        self
+    }
+    fn advice(self, way: impl Into<String>) -> Self {
+        Self { advice: Some(way.into()), ..self }
+    }
+    /// One of its numbers.
+    #[must_use]
+    pub fn number(&self, name: &str) -> Option<f64> {
+        self.numbers.iter().find(|(is, _)| *is == name).map(|(_, number)| *number)
     }
 }
 
 impl fmt::Display for Remark {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.text)
+        f.write_str(&self.text)?;
+        self.advice.as_ref().map_or(Ok(()), |way| write!(f, "; {way}"))
     }
 }
 
@@ -102,7 +121,7 @@ impl Judged {
         if let Some(start) = &start {
             let (said, notes) = fluid::remarks(setup, start)?;
             lines = said;
-            remarks.extend(notes.into_iter().map(Remark::note));
+            remarks.extend(notes);
         }
         if let Some(flow) = Flow::of(setup, &build).await? {
             lines.extend(flow::line(&flow, setup.dt));
@@ -119,5 +138,5 @@ impl Judged {
 /// When the setup makes no sense.
 pub fn of_machine(setup: &Setup, machine: Machine, single: bool) -> Result<Vec<Remark>, Error> {
     let rounded = if single { rounding::remarks(setup) } else { Vec::new() };
-    Ok(far::remarks(setup, machine)?.into_iter().chain(rounded).map(Remark::note).collect())
+    Ok(far::remarks(setup, machine)?.into_iter().chain(rounded).collect())
 }

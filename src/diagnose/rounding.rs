@@ -1,5 +1,6 @@
 //! What single precision does to a scene: motions and softenings that its last place swallows.
 
+use super::Remark;
 use crate::kernel::Scalar;
 use crate::simulation::Setup;
 
@@ -16,12 +17,12 @@ fn last_place(x: f64) -> f64 {
 }
 
 /// What is to be said of a setup on a device that computes in single precision.
-pub fn remarks(setup: &Setup) -> Vec<String> {
+pub fn remarks(setup: &Setup) -> Vec<Remark> {
     motions(setup).into_iter().chain(softenings(setup)).collect()
 }
 
 /// Particles that move by less than the last place of their coordinates in a step.
-fn motions(setup: &Setup) -> Option<String> {
+fn motions(setup: &Setup) -> Option<Remark> {
     let particles = &setup.state;
     let mut moves = vec![true; particles.len()];
     for held in &particles.held {
@@ -44,19 +45,27 @@ fn motions(setup: &Setup) -> Option<String> {
     let others = all.count();
     let (x, v) = (particles.position()[first], speed(first));
     let place = last_place(x.abs().max_element());
-    Some(format!(
+    let text = format!(
         "{} of {count} moving particles go less far in a step than the last place of single precision, particle {first} first of them: \
-         |v| dt = {:.1e}, and numbers at {:.4e} are {place:.1e} apart: such motion is rounded or lost; move the origin closer, choose \
-         a larger dt (above {:.1e}), or take --backend cpu",
+         |v| dt = {:.1e}, and numbers at {:.4e} are {place:.1e} apart: such motion is rounded or lost",
         1 + others,
         v * setup.dt,
         x.abs().max_element(),
-        10.0 * place / v
-    ))
+    );
+    let better = 10.0 * place / v;
+    Some(
+        Remark::note("rounded-motion", text)
+            .with("particles", (1 + others) as f64)
+            .with("particle", first as f64)
+            .with("moved", v * setup.dt)
+            .with("last_place", place)
+            .with("better_dt", better)
+            .advice(format!("move the origin closer, choose a larger dt (above {better:.1e}), or take --backend cpu")),
+    )
 }
 
 /// Softenings that coordinates do not resolve.
-fn softenings(setup: &Setup) -> Vec<String> {
+fn softenings(setup: &Setup) -> Vec<Remark> {
     let far = setup.state.position().iter().map(|x| x.abs().max_element()).fold(0.0, f64::max);
     let place = last_place(far);
     let remark = |law: crate::forces::Law| {
@@ -65,20 +74,25 @@ fn softenings(setup: &Setup) -> Vec<String> {
             _ => None,
         })?;
         (place > COARSE * softening).then(|| {
-            format!(
+            let text = format!(
                 "the softening {softening} of `{}` is {:.1} times the last place of single precision at the largest coordinate, {far:.4e}: \
-                 forces of close pairs are off by up to {:.0} %; move the origin closer, or take --backend cpu",
+                 forces of close pairs are off by up to {:.0} %",
                 law.name,
                 softening / place,
                 100.0 * (place / softening).min(1.0)
-            )
+            );
+            Remark::note("rounded-softening", text)
+                .with("softening", softening)
+                .with("last_place", place)
+                .with("coordinate", far)
+                .advice("move the origin closer, or take --backend cpu")
         })
     };
     setup.forces.iter().flat_map(|force| force.laws()).filter_map(remark).collect()
 }
 
 /// Particles that cross a periodic box more than once in a step: their places say nothing.
-pub fn crossings(setup: &Setup) -> Option<String> {
+pub fn crossings(setup: &Setup) -> Option<Remark> {
     let period = setup.bounds.period();
     let crossed = |id: usize| {
         let way = (setup.state.velocity()[id] * setup.dt).abs();
@@ -86,9 +100,16 @@ pub fn crossings(setup: &Setup) -> Option<String> {
     };
     let all = || (0..setup.state.len()).map(|id| (id, crossed(id))).filter(|(_, times)| *times > 1.0);
     let (first, times) = all().next()?;
-    Some(format!(
-        "{} particles cross the periodic box in a step, particle {first} first of them, {times:.1} times: what is on their way is \
-         not met, and beyond some 10^7 times their places are rounding alone; choose a smaller dt",
-        all().count()
-    ))
+    let count = all().count();
+    let text = format!(
+        "{count} particles cross the periodic box in a step, particle {first} first of them, {times:.1} times: what is on their way is \
+         not met, and beyond some 10^7 times their places are rounding alone"
+    );
+    Some(
+        Remark::note("crossed-box", text)
+            .with("particles", count as f64)
+            .with("particle", first as f64)
+            .with("times", times)
+            .advice("choose a smaller dt"),
+    )
 }

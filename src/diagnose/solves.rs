@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::advice::acceleration_at;
-use super::flow;
+use super::{Remark, flow};
 use crate::error::Error;
 use crate::forces::{Law, Over};
 use crate::integrators::implicit;
@@ -11,7 +11,7 @@ use crate::kernel::Machine;
 use crate::simulation::Setup;
 
 /// Which laws an implicit integrator solves for, and which it takes as they are where the solve begins.
-pub fn remark(setup: &Setup) -> Result<String, Error> {
+pub fn remark(setup: &Setup) -> Result<Remark, Error> {
     let integrator = setup.integrator.name();
     let (mut solved, mut limiting, mut constant) = (Vec::new(), Vec::new(), Vec::new());
     for (force, is_solved) in setup.forces.iter().zip(implicit(&setup.forces)) {
@@ -28,7 +28,9 @@ pub fn remark(setup: &Setup) -> Result<String, Error> {
     let listed = |names: Vec<String>| if names.is_empty() { "none".to_owned() } else { names.join(", ") };
     let free = if constant.is_empty() { String::new() } else { format!("; constant: {}", constant.join(", ")) };
     let (solved, limiting) = (listed(solved), listed(limiting));
-    Ok(format!("{integrator} solves for {solved}; explicit in the same step, with a limit on dt: {limiting}{free}"))
+    let text =
+        format!("{integrator} solves for {solved}; explicit in the same step, with a limit on dt: {limiting}{free}");
+    Ok(Remark::note("solved-laws", text))
 }
 
 /// Whether a law is the same everywhere, at any velocity: no step is too long for it.

@@ -51,12 +51,19 @@ pub fn digits(x: f64) -> String {
 #[must_use]
 pub fn unsafe_steps(verdict: &Verdict, setup: &Setup) -> Option<Remark> {
     let sure = if setup.dt > verdict.lost { "will explode" } else { "may explode" };
-    Some(Remark::warning(format!("this run {sure}: {}", way_out(verdict, setup)?)))
+    let (trouble, way) = trouble(verdict, setup)?;
+    let remark = Remark::warning("long-step", format!("this run {sure}: {trouble}"));
+    Some(remark.with("dt", setup.dt).with("largest_dt", verdict.safe).advice(way))
 }
 
 /// Why steps are too long for springs, and what to do; nothing where they are safe.
 #[must_use]
 pub fn way_out(verdict: &Verdict, setup: &Setup) -> Option<String> {
+    trouble(verdict, setup).map(|(trouble, way)| format!("{trouble}; {way}"))
+}
+
+/// Why steps are too long, and the way out.
+fn trouble(verdict: &Verdict, setup: &Setup) -> Option<(String, String)> {
     let (dt, name) = (setup.dt, setup.integrator.name());
     let way = match verdict.substeps(dt) {
         Some(1) => return None,
@@ -67,7 +74,7 @@ pub fn way_out(verdict: &Verdict, setup: &Setup) -> Option<String> {
         None => "no dt is safe: choose another integrator".to_owned(),
     };
     let spring = culprit(verdict, setup);
-    Some(format!("dt = {dt} is too long for {name} and {spring}; {way}{}", others(setup, verdict)))
+    Some((format!("dt = {dt} is too long for {name} and {spring}"), format!("{way}{}", others(setup, verdict))))
 }
 
 /// Integrators that bear any step, after a comma.

@@ -47,8 +47,8 @@ fn springs_depend_on_velocity_where_they_are_damped() {
 #[test]
 fn what_is_tied_and_does_nothing_is_remarked_on() {
     let folder = tempfile::tempdir().expect("a folder");
-    let springs = "nothing comes of the springs (of which there are 3): add a [[force]] of kind = \"spring\"";
-    let joints = "nothing comes of the joints (of which there are 2): add a [[force]] of kind = \"joint\"";
+    let springs = "nothing comes of the springs (of which there are 3); add a [[force]] of kind = \"spring\"";
+    let joints = "nothing comes of the joints (of which there are 2); add a [[force]] of kind = \"joint\"";
     let bent = CHAIN.to_owned() + "\nbending = 0.3";
     let joint = "[[force]]\nkind = \"joint\"\n";
     let sheet = "shape = \"cloth\"\ncolumns = 3\nrows = 3\nstretch = 0\nshear = 0\nbend = 0";

@@ -48,6 +48,13 @@ fn steps_overlaps_and_precision_are_remarked_on() {
         has(&remarks, Severity::Note, &["1 particles begin inside of a solid", "particle 0", "3.000e-1"]),
         "{remarks:?}"
     );
+    let long = remarks.iter().find(|remark| remark.id == "long-step").expect("it is too long");
+    let bears = long.number("largest_dt").expect("the way out");
+    assert!(long.number("dt") == Some(0.01) && long.to_string().ends_with(long.advice.as_ref().expect("a way out")));
+    for (dt, safe) in [(0.99 * bears, true), (1.02 * bears, false)] {
+        let remarks = said(&Setup { dt, ..setup.clone() }).expect("it can run");
+        assert_eq!(remarks.iter().all(|remark| remark.id != "long-step"), safe, "{dt}: {remarks:?}");
+    }
     let calm = said(&Setup { dt: 1e-5, ..setup.clone() }).expect("it can run");
     assert!(calm.iter().all(|remark| remark.severity == Severity::Note), "{calm:?}");
     // Without a spring force nothing comes of springs.
@@ -57,6 +64,8 @@ fn steps_overlaps_and_precision_are_remarked_on() {
     far.push(DVec3::X * 1e6, DVec3::X * 1e-3, 1.0, 0.0);
     let rounded = of_machine(&Setup::new(far, Vec::new(), 1e-3), Machine::HOST, true).expect("sense");
     assert!(has(&rounded, Severity::Note, &["last place of single precision", "particle 0"]), "{rounded:?}");
+    // Numbers at 10⁶ are 2⁻⁴ apart.
+    assert_eq!((rounded[0].id, rounded[0].number("last_place")), ("rounded-motion", Some(0.0625)));
 }
 
 #[test]
