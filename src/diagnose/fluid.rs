@@ -120,7 +120,7 @@ pub fn remarks(setup: &Setup, start: &Start) -> Result<(Vec<String>, Vec<Remark>
             "the densest of the fluid, particle {dense}, is at {densest:.3} times the density at rest: that bursts at {burst:.3e}, which is \
              more than the fastest flow that the speed of sound is made for"
         );
-        let start = Remark::note("dense-start", text).with("particle", dense as f64);
+        let start = Remark::note("dense-start", text).with("particle", f64::from(dense));
         notes.push(start.with("relative_density", densest).with("speed", burst));
     }
     if densest < 0.97 {
@@ -128,7 +128,8 @@ pub fn remarks(setup: &Setup, start: &Start) -> Result<(Vec<String>, Vec<Remark>
             "the densest of the fluid, particle {dense}, is at {densest:.3} times the density at rest: under weight it will sink together \
              by as much"
         );
-        let start = Remark::note("thin-start", text).with("particle", dense as f64).with("relative_density", densest);
+        let start =
+            Remark::note("thin-start", text).with("particle", f64::from(dense)).with("relative_density", densest);
         notes.push(start.advice(format!(
             "are masses density × spacing^{} = {:.4e}?",
             medium.dimensions,
