@@ -1,6 +1,7 @@
 //! The backend that runs the references: f64 on the host, over all cores, with no driver at all.
 
-use std::sync::OnceLock;
+use std::collections::BTreeMap;
+use std::sync::{Arc, OnceLock};
 use std::task::Waker;
 
 use crate::error::Error;
@@ -28,6 +29,14 @@ pub fn threads() -> Result<usize, Error> {
 pub struct Cpu {
     host: Host,
     count: usize,
+    saved: Saved,
+}
+
+/// Copies of arrays and of the clock, from which steps are repeated.
+#[derive(Default)]
+struct Saved {
+    arrays: BTreeMap<String, Arc<Array>>,
+    world: World,
 }
 
 impl Cpu {
@@ -45,7 +54,7 @@ impl Cpu {
         for always in [POSITION.name, VELOCITY.name] {
             host.insert(always, Array::Vec4(Vec::new()).zeros(count as usize));
         }
-        Ok(Self { host, count: count as usize })
+        Ok(Self { host, count: count as usize, saved: Saved::default() })
     }
     /// The arrays, as the references see them.
     #[must_use]
@@ -116,6 +125,23 @@ impl Backend for Cpu {
     }
     fn set_rows(&mut self, count: u32, free: u32) -> Result<(), Error> {
         self.host.set_world(World { count, free, ..self.host.world() });
+        Ok(())
+    }
+    fn save(&mut self, fields: &[String]) -> Result<(), Error> {
+        let all = self.host.arrays()?;
+        let missing = |name: &String| Error::Device(format!("there is no field `{name}` on the host"));
+        let copy = |name: &String| {
+            let array = all.get(name.as_str()).ok_or_else(|| missing(name))?;
+            Ok((name.clone(), Arc::clone(array)))
+        };
+        self.saved = Saved { arrays: fields.iter().map(copy).collect::<Result<_, Error>>()?, world: self.host.world() };
+        Ok(())
+    }
+    fn restore(&mut self) -> Result<(), Error> {
+        for (name, array) in &self.saved.arrays {
+            self.host.replace(name, Array::clone(array))?;
+        }
+        self.host.set_world(self.saved.world);
         Ok(())
     }
     fn write_at(&mut self, name: &str, first: usize, array: &Array) -> Result<(), Error> {

@@ -108,10 +108,11 @@ pub enum Error {
         /// The law and its file.
         law: String,
     },
-    /// A list of neighbours has no room for those of a particle. Mended by a smaller skin, or by a search that keeps no list.
+    /// A list of neighbours has no room for those of a particle, and cannot get more: the device binds no more, or steps were encoded by
+    /// a caller and cannot be repeated. Mended by a smaller skin, or by a search that keeps no list.
     #[error(
-        "particle {particle} has more neighbours within range + skin = {reach:.6} than its list holds: there is room for {capacity}, and \
-         the most that any particle had is {longest}; choose a smaller skin, or over = \"near\", which has no limit, or look for what \
+        "particle {particle} has more neighbours within range + skin = {reach:.6} than its list holds: there is room for {capacity}, \
+         the most that any particle had is {longest}, and the list cannot grow here; choose a smaller skin, or over = \"near\", which has no limit, or look for what \
          drives particles to one place"
     )]
     ListFull {

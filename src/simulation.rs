@@ -86,6 +86,7 @@ pub struct Simulation<B: Backend> {
     adaptive_step: Option<AdaptiveStep>,
     /// The list of neighbours that laws share, if any.
     list: Option<ListShape>,
+    repeat: lists::Repeat,
     steps: u64,
     /// What a step leaves for the next one beside columns, and a number that tells this step from others.
     carried: Vec<Carried>,
@@ -127,6 +128,7 @@ impl<B: Backend> Simulation<B> {
         let reports =
             [SOLVE_REPORT, DFSPH_REPORT].map(|name| plans.step.kernels.iter().any(|kernel| kernel.names(name)));
         let (list, fields) = (plans.list, Fields::of(&plans, count));
+        let repeat = lists::Repeat::of(&plans, list);
         let start = backend.compile(&plans.start)?;
         let step = backend.compile(&plans.step)?;
         let measure = (backend.compile(&plans.measure.0)?, backend.compile(&plans.measure.1)?);
@@ -164,6 +166,7 @@ impl<B: Backend> Simulation<B> {
             dt,
             adaptive_step,
             list,
+            repeat,
             steps,
             carried,
             print,
@@ -182,10 +185,16 @@ impl<B: Backend> Simulation<B> {
     }
     /// Advances. May return before the device is done; reading waits.
     ///
+    /// Where laws share a list of neighbours that turns out too short, [`Simulation::check`] and all that reads makes room for more and
+    /// repeats the steps since the last look, with the bits of a run that had the room from the start. The more steps lie between two
+    /// looks, the more are repeated; steps behind which a caller has written fields or encoded are not, and end in
+    /// [`Error::ListFull`].
+    ///
     /// # Errors
     /// When the device is lost, out of memory, or does not answer in time.
     pub fn step(&mut self, steps: u32) -> Result<(), Error> {
         self.room(steps)?;
+        self.repeatable(Some(steps))?;
         self.begin()?;
         self.backend.run(&self.step, steps)?;
         self.steps += u64::from(steps);
@@ -216,6 +225,7 @@ impl<B: Backend> Simulation<B> {
     pub async fn read<T: Element>(&mut self, field: Field<T>) -> Result<Vec<T>, Error> {
         let like = T::array(Vec::new());
         let len = self.len_of(field, &like)?;
+        self.settle().await?;
         let array = self.backend.read(field.name, &like, len).await?;
         Ok(T::view(&array).map_or_else(Vec::new, |values| values.iter().map(|v| T::narrow(*v)).collect()))
     }
@@ -251,6 +261,7 @@ impl<B: Backend> Simulation<B> {
     pub fn write_at<T: Element>(&mut self, field: Field<T>, first: usize, values: &[T]) -> Result<(), Error> {
         let array = T::array(values.iter().map(|v| v.widen()).collect());
         self.fields.hold(field.name, &array, first)?;
+        self.unrepeatable();
         self.begun &= field.name != POSITION.name && field.name != VELOCITY.name;
         self.backend.write_at(field.name, first, &array)
     }
@@ -272,18 +283,24 @@ impl<B: Backend> Simulation<B> {
     /// # Errors
     /// [`Error::Scene`] when there is no such column, or nothing computes it; and those of [`Simulation::snapshot`].
     pub async fn snapshot_of(&mut self, columns: &[&str]) -> Result<State, Error> {
-        let alarm = self.alarm().await?;
-        self.sound(&alarm)?;
-        // What a fluid's walls weigh, and its density at rest, are said there.
-        if self.begins {
-            self.begin()?;
-        }
-        self.backend.run(&self.measure.0, 1)?;
-        let state = self.gathered(&[columns, &["potential"]].concat()).await;
-        // Laws were asked once more.
-        let alarm = self.alarm().await?;
-        self.backend.run(&self.measure.1, 1)?;
-        self.check_list().await?;
+        self.settle().await?;
+        let (state, alarm) = loop {
+            let alarm = self.alarm().await?;
+            self.sound(&alarm)?;
+            self.repeatable(None)?;
+            // What a fluid's walls weigh, and its density at rest, are said there.
+            if self.begins {
+                self.begin()?;
+            }
+            self.backend.run(&self.measure.0, 1)?;
+            let state = self.gathered(&[columns, &["potential"]].concat()).await;
+            // Laws were asked once more.
+            let alarm = self.alarm().await?;
+            self.backend.run(&self.measure.1, 1)?;
+            if !self.settle().await? {
+                break (state, alarm);
+            }
+        };
         self.sound(&alarm)?;
         let mut state = state?;
         self.complete(&mut state).await?;
@@ -294,8 +311,8 @@ impl<B: Backend> Simulation<B> {
     /// Gives to columns all that a state has beside them.
     async fn complete(&mut self, state: &mut State) -> Result<(), Error> {
         self.ties.give(state);
-        let all = std::mem::replace(&mut state.links, self.links().await?);
-        state.time = self.clock().await?.map_or(self.steps as f64 * self.dt, |clock| clock.time);
+        let all = std::mem::replace(&mut state.links, self.links_now().await?);
+        state.time = self.clock_now().await?.map_or(self.steps as f64 * self.dt, |clock| clock.time);
         state.step = self.steps;
         self.keep(state, &all).await?;
         self.keep_pairs(state).await
@@ -320,7 +337,7 @@ impl<B: Backend> Simulation<B> {
     pub fn capacity(&self) -> u32 {
         self.rows.capacity()
     }
-    /// How often it has made room for more rows. Buffers of the device are others then.
+    /// How often it has made room for more rows, or for more neighbours of each. Buffers of the device are others then.
     #[must_use]
     pub fn generation(&self) -> u32 {
         self.generation
@@ -331,8 +348,9 @@ impl<B: Backend> Simulation<B> {
     pub fn setup(&self) -> &Setup {
         &self.setup
     }
-    /// The backend.
+    /// The backend. What is run or written there is not repeated where a list of neighbours has to grow.
     pub fn backend(&mut self) -> &mut B {
+        self.unrepeatable();
         &mut self.backend
     }
 }
@@ -358,6 +376,7 @@ impl Simulation<Gpu> {
     /// [`Error::Scene`] when the steps no longer fit the device's count of them.
     pub fn encode(&mut self, steps: u32, encoder: &mut wgpu::CommandEncoder) -> Result<(), Error> {
         self.room(steps)?;
+        self.unrepeatable();
         if !self.begun {
             self.backend.encode(&self.start, 1, encoder);
             self.begun = true;
@@ -367,7 +386,7 @@ impl Simulation<Gpu> {
         Ok(())
     }
     /// A field's buffer, usable as a vertex buffer: draw without a copy. It stays the same until the simulation makes room for
-    /// more rows, which [`Simulation::generation`] tells.
+    /// more rows or neighbours, which [`Simulation::generation`] tells.
     #[must_use]
     pub fn buffer<T>(&self, field: Field<T>) -> Option<&wgpu::Buffer> {
         self.backend.buffer(field.name)

@@ -20,8 +20,8 @@ use kept::Kept;
 #[cfg(feature = "scene")]
 pub(crate) use kept::NEXT as KEPT_NEXT;
 pub(crate) use kept::{
-    BROKEN as KEPT_BROKEN, EXTENT as KEPT_EXTENT, HOME as KEPT_HOME, KEPT, PAIR_WORDS as KEPT_PAIR_WORDS,
-    PAIRS as KEPT_PAIRS, ROOM as KEPT_ROOM, ROWS as KEPT_ROWS, STEP as KEPT_STEP,
+    BROKEN as KEPT_BROKEN, EXTENT as KEPT_EXTENT, HOME as KEPT_HOME, KEPT, NEIGHBORS as KEPT_NEIGHBORS,
+    PAIR_WORDS as KEPT_PAIR_WORDS, PAIRS as KEPT_PAIRS, ROOM as KEPT_ROOM, ROWS as KEPT_ROWS, STEP as KEPT_STEP,
 };
 pub(crate) use room::{NONE, parked};
 

@@ -25,6 +25,8 @@ pub fn over(settings: &Settings, of: Option<u32>) -> Over {
     match settings.text("over") {
         "within" => Over::Within { range },
         "list" => Over::List { range, skin, slots: 0 },
+        // A cell list of one species is shorter than a list of all, and no list is of one.
+        "auto" if of.is_none() => Over::Auto { range, skin },
         _ => Over::Near { range, of },
     }
 }
@@ -32,9 +34,9 @@ pub fn over(settings: &Settings, of: Option<u32>) -> Over {
 /// Which neighbours.
 pub const SEE_NEAR: Key = Key::new(
     "over",
-    Kind::Choice(&["near", "list", "within"]),
+    Kind::Choice(&["near", "list", "auto", "within"]),
     Value::Text(Cow::Borrowed("near")),
-    "which neighbours: all in range, by a cell list, by a list that is kept over steps, or by brute force",
+    "which neighbours: all in range, by a cell list, by a list that is kept over steps, by the faster of both, or by brute force",
 );
 
 /// How far a list reaches beyond the range.
@@ -42,7 +44,7 @@ pub const SKIN: Key = Key::new(
     "skin",
     Kind::NotNegative,
     Value::Number(0.0),
-    "over = \"list\": how much farther than the range the list reaches; 0: a fifth of the range [length]",
+    "over = \"list\" or \"auto\": how much farther than the range the list reaches; 0: a fifth of the range [length]",
 );
 
 /// The seed of random numbers.

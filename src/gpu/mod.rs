@@ -12,6 +12,7 @@ mod pipeline;
 mod program;
 mod read;
 mod repeat;
+mod saved;
 mod submit;
 mod timing;
 
@@ -27,6 +28,7 @@ use pipeline::Pipelines;
 #[doc(hidden)]
 pub use program::Program;
 use read::Incoming;
+use saved::Saved;
 use submit::Queue;
 
 use crate::error::Error;
@@ -42,6 +44,7 @@ pub struct Gpu {
     count: u32,
     packed: Packed,
     world: World,
+    saved: Saved,
 }
 
 impl Gpu {
@@ -67,6 +70,7 @@ impl Gpu {
             count,
             packed,
             world: World::default(),
+            saved: Saved::default(),
         })
     }
     /// Pretends to be another machine, so that a test can run the variants that this one would not choose.
@@ -233,6 +237,13 @@ impl Backend for Gpu {
             self.write_bytes("world", offset, &value.to_le_bytes())?;
         }
         Ok(())
+    }
+    fn save(&mut self, fields: &[String]) -> Result<(), Error> {
+        let all: Vec<String> = fields.iter().cloned().chain(["world".to_owned()]).collect();
+        self.saved.save(&self.device, &mut self.queue, &self.buffers, &all)
+    }
+    fn restore(&mut self) -> Result<(), Error> {
+        self.saved.restore(&self.device, &mut self.queue, &self.buffers)
     }
     fn write_at(&mut self, name: &str, first: usize, array: &Array) -> Result<(), Error> {
         let each = array.zeros(1).to_bytes().len() as u64;

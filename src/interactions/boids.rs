@@ -22,7 +22,7 @@ pub const KEYS: &[Key] = &[
     Key::new("min_speed", Kind::NotNegative, Value::Number(0.0), "the minimum speed; a bird at rest sets off along x [length / time]"),
     Key::new("max_force", Kind::Positive, Value::Number(1.5), "the maximum acceleration of each rule, and of all together [length / time²]"),
     SPECIES,
-    Key::new("over", Kind::Choice(&["near", "list", "within", "nearest"]), Value::Text(Cow::Borrowed("near")), "which neighbours: all in range, by a cell list, by a list that is kept over steps, or by brute force; or the nearest, of all species, however far (Ballerini et al. 2008)"),
+    Key::new("over", Kind::Choice(&["near", "list", "auto", "within", "nearest"]), Value::Text(Cow::Borrowed("near")), "which neighbours: all in range, by a cell list, by a list that is kept over steps, by the faster of both, or by brute force; or the nearest, of all species, however far (Ballerini et al. 2008)"),
     SKIN,
     Key::new("neighbors", Kind::Count, Value::Number(7.0), "how many are nearest"),
 ];

@@ -89,6 +89,16 @@ pub trait Backend {
     /// # Errors
     /// When the device is lost.
     fn set_rows(&mut self, count: u32, free: u32) -> Result<(), Error>;
+    /// Copies these fields and the clock as they are behind all that was run, in place of the copies that there are.
+    ///
+    /// # Errors
+    /// When there is no such field, or the device is lost or out of memory.
+    fn save(&mut self, fields: &[String]) -> Result<(), Error>;
+    /// Puts the copies back, behind all that was run.
+    ///
+    /// # Errors
+    /// When the device is lost.
+    fn restore(&mut self) -> Result<(), Error>;
     /// Fills a field from one of its elements on.
     ///
     /// # Errors

@@ -45,7 +45,7 @@ pub use packing::insert;
 pub use pair::{Pair, Way};
 pub use pass::{Indirect, Pass, Threads};
 pub use plan::{Kernel, Name, Plan, Reference, Table, short};
-pub use problem::{Problem, extent};
+pub use problem::{Neighbors, Problem, extent};
 pub use reflect::{Access, Binding, Reflection};
 pub use shader::{Shader, Source};
 pub use solver::{LEAST_TOLERANCE, MOST_ITERATIONS, MOST_SOLVES, Solver};

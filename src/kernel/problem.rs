@@ -55,6 +55,17 @@ pub struct Problem {
     pub columns: Arc<Columns>,
     /// The list of neighbours that laws share, if any is over one.
     pub list: Option<ListShape>,
+    /// How many neighbours particles have at the start within ranges for which a law asks that.
+    pub neighbors: Vec<Neighbors>,
+}
+
+/// How many neighbours particles have.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Neighbors {
+    /// Within this range \[length\].
+    pub range: f64,
+    /// So many, on average.
+    pub mean: f64,
 }
 
 /// The lowest and the highest corner of some places \[length\].
@@ -92,7 +103,13 @@ impl Problem {
             adaptive_step: None,
             columns: Arc::default(),
             list: None,
+            neighbors: Vec::new(),
         }
+    }
+    /// How many neighbours particles have at the start within a range, on average, if that was counted.
+    #[must_use]
+    pub fn neighbors_within(&self, range: f64) -> Option<f64> {
+        self.neighbors.iter().find(|known| known.range.to_bits() == range.to_bits()).map(|known| known.mean)
     }
     /// The same with this list of neighbours.
     #[must_use]

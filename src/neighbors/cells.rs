@@ -7,6 +7,9 @@ use super::Grid;
 use crate::error::Error;
 use crate::kernel::{Bounds, Machine, Problem, Side};
 
+/// Particles that are asked for a mean.
+const SAMPLE: usize = 4096;
+
 /// Particles, sorted by cell.
 pub struct Cells {
     grid: Grid,
@@ -77,6 +80,17 @@ impl Cells {
             number
         };
         (0..self.wrapped_places.len()).into_par_iter().map(number).max().unwrap_or(0)
+    }
+    /// How many others a particle has within the range, on average of some thousands.
+    #[must_use]
+    pub fn mean(&self) -> f64 {
+        let every = self.wrapped_places.len().div_ceil(SAMPLE).max(1);
+        let (mut found, mut asked) = (0_u64, 0_u64);
+        for i in (0..self.wrapped_places.len()).step_by(every) {
+            self.around(i, |_| found += 1);
+            asked += 1;
+        }
+        found as f64 / asked.max(1) as f64
     }
     /// Calls with the ids of all others within the range of a particle.
     pub fn around(&self, i: usize, mut call: impl FnMut(usize)) {

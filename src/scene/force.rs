@@ -85,14 +85,17 @@ fn over(table: &Table<'_>, report: &mut Report) -> Option<Over> {
         return None;
     };
     let word = walk::choice(entry, "over", Over::NAMES, report)?;
+    // Where a range is given, it is the faster of two searches; else a tree, or all pairs.
+    let faster = word == "auto" && table.get("range").is_some() && table.get("theta").is_none();
     let wanted = match word {
         "within" | "near" | "list" => Some("range"),
+        "auto" if faster => Some("range"),
         "nearest" => Some("neighbors"),
         "tree" | "auto" => Some("theta"),
         _ => None,
     };
     for given in ["range", "skin", "slots", "neighbors", "theta"].into_iter().filter_map(|key| table.get(key)) {
-        let kept = word == "list" && ["skin", "slots"].contains(&given.key.as_str());
+        let kept = word == "list" && ["skin", "slots"].contains(&given.key.as_str()) || faster && given.key == "skin";
         if wanted != Some(given.key.as_str()) && !kept {
             let fault = Fault::at(&given.place, format!("a law over \"{word}\" has no use for `{}`", given.key));
             report.push(fault.label("remove it, or change `over`"));
@@ -130,6 +133,10 @@ fn over(table: &Table<'_>, report: &mut Report) -> Option<Over> {
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count fits 32 bits")]
             let slots = optional(table, "slots", Kind::Count, report)?.map_or(0, |slots| slots as u32);
             Some(Over::List { range: number, skin, slots })
+        }
+        "auto" if faster => {
+            let skin = optional(table, "skin", Kind::NotNegative, report)?;
+            Some(Over::Auto { range: number, skin })
         }
         "tree" | "auto" => {
             Some(Over::Tree { opening: Opening::Geometric { theta: number }, core: 0.0, auto: word == "auto" })
@@ -228,6 +235,10 @@ impl Chosen {
                         if slots > 0 {
                             out.line("slots", &slots.to_string());
                         }
+                    }
+                    Over::Auto { range, skin } => {
+                        out.number("range", range);
+                        skin.into_iter().for_each(|skin| out.number("skin", skin));
                     }
                     Over::Tree { opening, .. } => out.number("theta", opening.theta()),
                     Over::Nearest { count } => out.line("neighbors", &count.to_string()),

@@ -78,6 +78,11 @@ impl<B: Backend> Simulation<B> {
     /// # Errors
     /// What reading says.
     pub async fn clock(&mut self) -> Result<Option<Clock>, Error> {
+        self.settle().await?;
+        self.clock_now().await
+    }
+    /// The same, whether the list had room or not.
+    pub(super) async fn clock_now(&mut self) -> Result<Option<Clock>, Error> {
         let Some(words) = self.words().await? else { return Ok(None) };
         let mut clock = Clock::of(&words, self.dt);
         clock.particle = clock.particle.map(|row| self.named(row));
@@ -102,6 +107,7 @@ impl<B: Backend> Simulation<B> {
                 self.dt
             )));
         }
+        self.unrepeatable();
         self.backend.write(STOP.name, &Array::Uint(words.to_vec()))?;
         Ok(time_of(&words, self.dt))
     }

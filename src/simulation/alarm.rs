@@ -34,14 +34,15 @@ impl<B: Backend> Simulation<B> {
     /// [`Error::NotFinite`] with the first particle and step, [`Error::Runaway`] with one that is too fast and the step,
     /// [`Error::TooManyNeighbors`], [`Error::CutShort`], [`Error::Endless`], [`Error::TooShort`], or what reading says.
     pub async fn check(&mut self) -> Result<(), Error> {
-        let alarm = self.alarm().await?;
+        let mut alarm = self.alarm().await?;
+        let [.., cut, endless] = alarm;
+        // Sums that lack neighbours make numbers that are none, and speeds that run away.
+        if cut == u32::MAX && endless == u32::MAX && self.settle().await? {
+            alarm = self.alarm().await?;
+        }
         let [done, .., fast, particle] = [alarm[0], alarm[1], alarm[3], alarm[4]];
         // What runs away is lost in the end: the first cause is reported.
         let [.., cut, endless] = alarm;
-        // Sums that lack neighbours make numbers that are none, and speeds that run away.
-        if cut == u32::MAX && endless == u32::MAX {
-            self.check_list().await?;
-        }
         if fast != u32::MAX && fast <= done && cut == u32::MAX && endless == u32::MAX {
             let particle = self.named(particle);
             return Err(Error::Runaway { particle, step: u64::from(fast.saturating_sub(1)) });

@@ -134,6 +134,11 @@ impl<B: Backend> Simulation<B> {
     /// # Errors
     /// [`Error::Scene`] when there is no such column, or nothing computes it; or what reading says.
     pub async fn read_column(&mut self, name: &str) -> Result<Array, Error> {
+        self.settle().await?;
+        self.column_now(name).await
+    }
+    /// The same, whether the list had room or not.
+    async fn column_now(&mut self, name: &str) -> Result<Array, Error> {
         let column = self.store.named(name)?.clone();
         if !self.store.lies_on_device(&column) {
             return match self.store.idle.get(&column.name) {
@@ -165,6 +170,8 @@ impl<B: Backend> Simulation<B> {
                 values.len()
             )));
         }
+        self.settle().await?;
+        self.unrepeatable();
         if !self.store.lies_on_device(&column) {
             let mut all = values.clone();
             all.resize(column.shape.len(self.capacity() as usize), column.initial.unwrap_or_default());
@@ -213,7 +220,7 @@ impl<B: Backend> Simulation<B> {
             } else if column.role == Role::State {
                 self.store.idle.get(&column.name).map(|values| self.of_rows(column, values))
             } else {
-                Some(self.read_column(&column.name).await?)
+                Some(self.column_now(&column.name).await?)
             };
             // There is no such column where all are active, and none where ids are rows.
             if values.is_some() || column.name != LIFE.name && column.name != ID.name {

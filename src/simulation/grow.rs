@@ -1,25 +1,47 @@
-//! Room for more rows: buffers are made anew, the plan is written for them, and all that a step keeps is carried over row by row.
+//! Room for more rows, or for more neighbours of each: buffers are made anew, the plan is written for them, and all that a step keeps is
+//! carried over row by row.
 
 use super::{Simulation, Start};
 use crate::error::Error;
 use crate::kernel::{Array, Backend, STOP};
-use crate::state::KEPT_ROWS;
+use crate::state::{KEPT_ROOM, KEPT_ROWS};
+
+/// What there shall be room for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Room {
+    /// So many rows in all; ids are a column then.
+    Rows(u32),
+    /// So many neighbours of each particle on the list.
+    Neighbors(u32),
+}
 
 impl<B: Backend> Simulation<B> {
-    /// Makes room for so many rows in all; ids are a column then. The simulation stays as it is until that is done.
+    /// Makes room. The simulation stays as it is until that is done.
     ///
     /// # Errors
     /// [`Error::Limit`] when a device does not hold so many, and what reading and compiling say; nothing has changed then.
-    pub(super) async fn grow(&mut self, rows: u32) -> Result<(), Error> {
+    pub(super) async fn grow(&mut self, room: Room) -> Result<(), Error> {
+        let keep = self.backend.compile(&self.plans.keep)?;
+        self.backend.run(&keep, 1)?;
         let mut state = self.gathered(&[]).await?;
         self.complete(&mut state).await?;
-        state.kept.put(KEPT_ROWS, vec![f64::from(self.first_rows)]);
-        (state.capacity, state.next) = (Some(rows), self.rows.next());
+        let rows = match room {
+            Room::Rows(rows) => Some(rows),
+            Room::Neighbors(_) => Some(self.capacity()).filter(|_| self.rows.are_open()),
+        };
+        if rows.is_some() {
+            state.kept.put(KEPT_ROWS, vec![f64::from(self.first_rows)]);
+            (state.capacity, state.next) = (rows, self.rows.next());
+        }
+        if let Room::Neighbors(neighbors) = room {
+            state.kept.put(KEPT_ROOM, vec![f64::from(neighbors)]);
+        }
         let setup = self.setup.with_state(state);
-        let mut grown = Self::going(self.backend.alike(rows)?, &setup, Start::Grown)?;
+        let mut grown = Self::going(self.backend.alike(rows.unwrap_or(self.capacity()))?, &setup, Start::Grown)?;
         self.carry(&mut grown).await?;
         grown.generation = self.generation.saturating_add(1);
         grown.begun &= self.begun;
+        grown.goes_on = self.goes_on;
         *self = grown;
         Ok(())
     }

@@ -51,6 +51,7 @@ pub(super) fn evaluate_active(forces: &[Box<dyn Component>]) -> Result<(), Error
                 | Over::Near { .. }
                 | Over::Nearest { .. }
                 | Over::List { .. }
+                | Over::Auto { .. }
                 | Over::Links
                 | Over::Joints
                 | Over::Triangles => {}

@@ -1,24 +1,31 @@
-//! The list of neighbours: how much room it has, and whether that is enough.
+//! The list of neighbours: how much room it has, and more of it where that is too little.
+
+use std::collections::BTreeSet;
 
 use glam::DVec3;
 
-use super::{Setup, Simulation, pair_history};
+use super::grow::Room;
+use super::{Plans, Setup, Simulation, pair_history};
 use crate::error::Error;
-use crate::forces::{Law, Problem};
-use crate::kernel::{Array, Backend, Element, ListShape};
-use crate::neighbors::{Cells, LIST_STATE, LIST_STATE_WORDS};
-use crate::state::KEPT_ROOM;
+use crate::forces::{Law, Over, Problem};
+use crate::kernel::{Array, Backend, Element, Kernel, ListShape, Neighbors};
+use crate::neighbors::{Cells, LIST, LIST_STATE, LIST_STATE_WORDS};
+use crate::state::{KEPT_NEIGHBORS, KEPT_ROOM};
 use crate::visit;
 
-/// The same problem with a list that has room for half as many neighbours more than any particle has at the start.
+/// The same problem with the neighbours counted that laws want to know of, and with a list that has room for half as many neighbours more than any particle has at the start.
 ///
 /// # Errors
 /// [`Error::Scene`] when a range or a skin is none.
 pub(super) fn counted(setup: &Setup, problem: Problem) -> Result<Problem, Error> {
     let laws: Vec<Law> = setup.forces.iter().flat_map(|force| force.laws()).collect();
+    let places = || -> Vec<DVec3> {
+        let active = setup.state.position().iter().enumerate().filter(|(id, _)| setup.state.is_active(*id));
+        active.map(|(_, x)| *x).collect()
+    };
+    let problem = Problem { neighbors: neighbors(setup, &laws, &places)?, ..problem };
     let Some(shape) = visit::shared_list(&laws, &problem)? else { return Ok(problem) };
-    let active = setup.state.position().iter().enumerate().filter(|(id, _)| setup.state.is_active(*id));
-    let places: Vec<DVec3> = active.map(|(_, x)| *x).collect();
+    let places = places();
     let most = Cells::new(&places, setup.bounds, shape.reach())?.most();
     // Pending particles are not counted: there is as much room as where nothing is known, at least.
     let most = if problem.has_inactive { most.max(visit::UNCOUNTED) } else { most };
@@ -32,20 +39,177 @@ pub(super) fn counted(setup: &Setup, problem: Problem) -> Result<Problem, Error>
     Ok(problem.listed(Some(ListShape { capacity, ..shape })))
 }
 
+/// How many neighbours particles have within the ranges of laws that choose their search by it. A run that goes on knows what it was at
+/// its start, and keeps its search.
+fn neighbors(setup: &Setup, laws: &[Law], places: &dyn Fn() -> Vec<DVec3>) -> Result<Vec<Neighbors>, Error> {
+    let mut all: Vec<Neighbors> = Vec::new();
+    let kept = setup.state.kept.get(KEPT_NEIGHBORS).unwrap_or_default();
+    let known: Vec<Neighbors> = kept.chunks_exact(2).map(|two| Neighbors { range: two[0], mean: two[1] }).collect();
+    for law in laws {
+        let Over::Auto { range, .. } = law.over else { continue };
+        let same = |one: &&Neighbors| one.range.to_bits() == range.to_bits();
+        if all.iter().find(same).is_some() {
+            continue;
+        }
+        let counted = || Ok(Neighbors { range, mean: Cells::new(&places(), setup.bounds, range)?.mean() });
+        all.push(known.iter().find(same).copied().map_or_else(counted, Ok::<_, Error>)?);
+    }
+    Ok(all)
+}
+
+/// The part of the room for neighbours from which on there is made more, although it suffices yet: steps that cannot be repeated,
+/// because a caller has encoded them, find more room then before they need it.
+const AMPLE: f64 = 0.8;
+/// Words of an element of the list.
+const FOUR: u64 = 4;
+
+/// What steps are repeated from where the list had no room.
+pub(super) struct Repeat {
+    /// The fields that steps write: copies of these are a state.
+    fields: Vec<String>,
+    /// What there is a copy of.
+    from: Option<Origin>,
+    /// Whether the list had room in all that was run.
+    sufficed: bool,
+}
+
+/// A simulation that has been copied.
+struct Origin {
+    steps: u64,
+    begun: bool,
+    /// Steps since, if any were run.
+    since: Option<u64>,
+}
+
+/// What the list says of itself.
+#[derive(Clone, Copy)]
+struct Seen {
+    /// The most neighbours that any particle had.
+    longest: u32,
+    /// The lowest row that had more than there is room for.
+    overflown: Option<u32>,
+}
+
+impl Repeat {
+    /// That of a simulation with these plans, before it has run.
+    pub fn of(plans: &Plans, list: Option<ListShape>) -> Self {
+        let kernels = || plans.all().flat_map(|plan| &plan.kernels);
+        let mut fields: BTreeSet<String> = kernels().flat_map(Kernel::writes).collect();
+        // A backend copies the clock by itself.
+        fields.remove("world");
+        // A list without history is built anew where there is more room.
+        if list.is_none_or(|list| list.words == 0) {
+            fields.remove(LIST);
+        }
+        Self { fields: fields.into_iter().collect(), from: None, sufficed: true }
+    }
+}
+
 impl<B: Backend> Simulation<B> {
-    /// Looks whether the list of neighbours had room for all.
+    /// Says that fields are written, or steps run, that nothing repeats.
+    pub(super) fn unrepeatable(&mut self) {
+        (self.repeat.from, self.repeat.sufficed) = (None, false);
+    }
+    /// Copies what these steps begin with, unless there is a copy of what was before; nothing where no list can be too short.
+    pub(super) fn repeatable(&mut self, steps: Option<u32>) -> Result<(), Error> {
+        if self.list.is_none() {
+            return Ok(());
+        }
+        if self.repeat.from.is_none() {
+            match self.backend.save(&self.repeat.fields) {
+                Ok(()) => self.repeat.from = Some(Origin { steps: self.steps, begun: self.begun, since: None }),
+                // The run goes on without a copy; where the list is too short then, it ends.
+                Err(Error::OutOfMemory(_)) => {}
+                Err(why) => return Err(why),
+            }
+        }
+        if let (Some(from), Some(steps)) = (&mut self.repeat.from, steps) {
+            from.since = Some(from.since.unwrap_or(0) + u64::from(steps));
+        }
+        self.repeat.sufficed = false;
+        Ok(())
+    }
+    /// Looks whether the list had room for all neighbours. If not, it gets more, and the steps since the last look are repeated, so that
+    /// bits are those of a run that had the room from the start. Whether anything has changed.
     ///
     /// # Errors
-    /// [`Error::ListFull`], or what reading says.
-    pub(super) async fn check_list(&mut self) -> Result<(), Error> {
-        let Some(shape) = self.list else { return Ok(()) };
-        let state = self.backend.read(LIST_STATE, &Array::Uint(Vec::new()), LIST_STATE_WORDS).await?;
-        match u32::view(&state).map(Vec::as_slice) {
-            Some([_, _, longest, full]) if *full > 0 => {
-                let (longest, capacity, reach) = (*longest, shape.capacity, shape.reach());
-                Err(Error::ListFull { particle: self.named(!full), longest, capacity, reach })
+    /// [`Error::ListFull`] where the device has no room for more, or the steps cannot be repeated; or what reading and compiling say.
+    pub(super) async fn settle(&mut self) -> Result<bool, Error> {
+        let mut changed = false;
+        while let Some(shape) = self.list.filter(|_| !self.repeat.sufficed) {
+            let seen = self.seen().await?;
+            let more = self.more(shape, seen.longest);
+            let ample = f64::from(seen.longest) <= AMPLE * f64::from(shape.capacity);
+            match (seen.overflown, more) {
+                // It is seldom, and in a box: whatever reads awaits this.
+                (None, Some(more)) if !ample => Box::pin(self.grow(Room::Neighbors(more))).await?,
+                (None, _) => {
+                    (self.repeat.from, self.repeat.sufficed) = (None, true);
+                    return Ok(changed);
+                }
+                (Some(row), Some(more)) => Box::pin(self.again(shape, row, seen.longest, more)).await?,
+                (Some(row), None) => return Err(self.full(shape, row, seen.longest)),
             }
-            _ => Ok(()),
+            changed = true;
         }
+        Ok(changed)
     }
+    /// Goes back to the copy, makes room for so many neighbours, and runs the steps since anew.
+    async fn again(&mut self, shape: ListShape, row: u32, longest: u32, more: u32) -> Result<(), Error> {
+        let full = self.full(shape, row, longest);
+        let Some(from) = self.repeat.from.take() else { return Err(full) };
+        self.backend.restore()?;
+        (self.steps, self.begun) = (from.steps, from.begun);
+        // What was copied may have lacked neighbours itself.
+        let before = self.seen().await?;
+        let grown = if before.overflown.is_some() { Err(full) } else { self.grow(Room::Neighbors(more)).await };
+        if let Err(why) = grown {
+            // Each later look finds it again.
+            self.backend.write(LIST_STATE, &Array::Uint(vec![1, 1, longest, !row]))?;
+            let lacks = matches!(why, Error::Limit(_) | Error::OutOfMemory(_));
+            return Err(if lacks { self.full(shape, row, longest) } else { why });
+        }
+        let mut left = from.since;
+        while let Some(steps) = left {
+            let some = u32::try_from(steps).unwrap_or(u32::MAX);
+            self.step(some)?;
+            left = Some(steps - u64::from(some)).filter(|left| *left > 0);
+        }
+        Ok(())
+    }
+    async fn seen(&mut self) -> Result<Seen, Error> {
+        let state = self.backend.read(LIST_STATE, &Array::Uint(Vec::new()), LIST_STATE_WORDS).await?;
+        let (longest, full) = match u32::view(&state).map(Vec::as_slice) {
+            Some([_, _, longest, full]) => (*longest, *full),
+            _ => (0, 0),
+        };
+        Ok(Seen { longest, overflown: (full > 0).then_some(!full) })
+    }
+    fn full(&self, shape: ListShape, row: u32, longest: u32) -> Error {
+        Error::ListFull { particle: self.named(row), longest, capacity: shape.capacity, reach: shape.reach() }
+    }
+    /// Room for more neighbours than a list has, where a particle had so many: half as many more, but no more than twice as much as
+    /// there was, since steps that lack neighbours drive particles together; nothing where the device holds no more.
+    fn more(&self, shape: ListShape, longest: u32) -> Option<u32> {
+        let rows = self.capacity();
+        let machine = self.backend.machine();
+        let wanted = shape.with_room(longest, rows).capacity.min(shape.capacity.saturating_mul(2));
+        let others = rows.saturating_sub(1).max(1).div_ceil(4).saturating_mul(4);
+        let turns = machine.turns / (2 + shape.words);
+        let layers = machine.workgroups.saturating_mul(4);
+        let most = others.min(turns).min(layers).min(bindable(shape, u64::from(rows), machine.bindable));
+        let more = wanted.max(shape.capacity.saturating_add(4)).min(most / 4 * 4);
+        (more > shape.capacity).then_some(more)
+    }
+}
+
+/// Neighbours of each of so many rows of which a field holds the list, and their history, in so many bytes; 0 bytes are no limit.
+fn bindable(shape: ListShape, rows: u64, bytes: u64) -> u32 {
+    if bytes == 0 {
+        return u32::MAX;
+    }
+    let words = bytes / 4;
+    let listed = (words / rows.max(1)).saturating_sub(FOUR);
+    let remembered = if shape.words == 0 { u64::MAX } else { words / (2 * rows * u64::from(shape.words)).max(1) };
+    u32::try_from(listed.min(remembered)).unwrap_or(u32::MAX)
 }

@@ -12,6 +12,7 @@ impl<B: Backend> Simulation<B> {
     /// [`Error::Scene`] when the picture was made for another number of particles, or what drawing says.
     pub async fn draw(&mut self, picture: &Picture) -> Result<Image, Error> {
         self.fits(picture)?;
+        self.settle().await?;
         render::draw(&mut self.backend, picture).await
     }
     /// Draws the current state as the next picture of a film.
@@ -20,6 +21,7 @@ impl<B: Backend> Simulation<B> {
     /// As for [`Simulation::draw`].
     pub async fn shoot(&mut self, film: &mut Film) -> Result<Image, Error> {
         self.fits(film.picture())?;
+        self.settle().await?;
         render::shoot(&mut self.backend, film).await
     }
     fn fits(&self, picture: &Picture) -> Result<(), Error> {

@@ -34,6 +34,7 @@ impl<B: Backend> Simulation<B> {
         if !self.reports[1] {
             return Ok(None);
         }
+        self.settle().await?;
         let report = self.backend.read(DFSPH_REPORT, &Array::Uint(Vec::new()), DFSPH_WORDS).await?;
         let errors = self.backend.read(DFSPH_ERRORS, &Array::Float(Vec::new()), 2).await?;
         let (Array::Uint(report), Array::Float(errors)) = (report, errors) else { return Ok(None) };

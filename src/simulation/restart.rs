@@ -21,7 +21,8 @@ use crate::links::Links;
 use crate::motion;
 use crate::sph::{DFSPH_ERRORS, DFSPH_REPORT};
 use crate::state::{
-    KEPT, KEPT_BROKEN, KEPT_EXTENT, KEPT_HOME, KEPT_PAIR_WORDS, KEPT_PAIRS, KEPT_ROOM, KEPT_ROWS, KEPT_STEP, State,
+    KEPT, KEPT_BROKEN, KEPT_EXTENT, KEPT_HOME, KEPT_NEIGHBORS, KEPT_PAIR_WORDS, KEPT_PAIRS, KEPT_ROOM, KEPT_ROWS,
+    KEPT_STEP, State,
 };
 
 /// How far time and step may disagree, as a part of a step: 2³² steps of a time in double precision.
@@ -329,6 +330,8 @@ impl<B: Backend> Simulation<B> {
         if self.rows.are_open() {
             state.kept.put(KEPT_ROWS, vec![f64::from(self.first_rows)]);
         }
+        let neighbors = self.problem.neighbors.iter().flat_map(|one| [one.range, one.mean]);
+        state.kept.put(KEPT_NEIGHBORS, neighbors.collect());
         state.kept.put(KEPT_ROOM, self.list.map(|list| f64::from(list.capacity)).into_iter().collect());
         Ok(())
     }

@@ -99,6 +99,7 @@ impl<B: Backend> Simulation<B> {
         if !self.fields.differ(&fields, &tables).is_empty() || tables.contains(LINK) {
             return refuse("changes the size or the contents of buffers that steps write");
         }
+        self.unrepeatable();
         // What has been encoded or submitted keeps the tables that it has.
         tables.iter().for_each(|name| self.backend.forget(name));
         self.start = self.backend.compile(&plans.start)?;

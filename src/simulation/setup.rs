@@ -40,6 +40,8 @@ pub struct Plans {
     pub step: Plan,
     /// Before and after the state is read.
     pub measure: (Plan, Plan),
+    /// Where all is carried over to other buffers: what a step is going to use is kept.
+    pub keep: Plan,
     /// Where a run goes on: what time it is.
     pub time: Plan,
     /// The list of neighbours that they share, if any.
@@ -47,7 +49,7 @@ pub struct Plans {
 }
 
 impl Plans {
-    /// All of them but the time, which binds nothing that these do not.
+    /// All of them but what is kept and the time, which bind nothing that these do not.
     pub fn all(&self) -> impl Iterator<Item = &Plan> + Clone {
         [&self.start, &self.step, &self.measure.0, &self.measure.1].into_iter()
     }
@@ -97,7 +99,8 @@ impl Setup {
         let columns = problem.columns.clone();
         let time = Step::time(problem)?;
         let measure = Step::measurement(&self.forces, problem.clone())?;
-        let plans = Plans { start: start.begun()?, step: step.done()?, measure, time, list };
+        let keep = Step::keeping(&self.forces, problem.clone())?;
+        let plans = Plans { start: start.begun()?, step: step.done()?, measure, keep, time, list };
         claims(&plans.all(), &columns)?;
         pair_history::once(&self.forces, &plans.step)?;
         unwritten::check(&plans, &columns)?;

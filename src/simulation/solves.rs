@@ -44,6 +44,7 @@ impl<B: Backend> Simulation<B> {
         if !self.reports[0] {
             return Ok(None);
         }
+        self.settle().await?;
         let report = self.backend.read(SOLVE_REPORT, &Array::Uint(Vec::new()), SOLVE_REPORT_WORDS).await?;
         let state = self.backend.read(SOLVE_STATE, &Array::Float(Vec::new()), 4).await?;
         let (Array::Uint(report), Array::Float(state)) = (report, state) else { return Ok(None) };

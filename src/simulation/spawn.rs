@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use glam::DVec4;
 
 use super::Simulation;
+use super::grow::Room;
 use crate::boundary;
 use crate::error::Error;
 use crate::kernel::{ACCELERATION, Array, Backend, Column, ID, LIFE, POSITION, Role, Shape, VELOCITY};
@@ -34,6 +35,7 @@ impl<B: Backend> Simulation<B> {
         if count == 0 {
             return Ok(Vec::new());
         }
+        self.settle().await?;
         self.reclaim().await?;
         let short = count.saturating_sub(u32::try_from(self.rows.room()).unwrap_or(u32::MAX));
         if short > 0 || !self.rows.are_open() {
@@ -42,8 +44,9 @@ impl<B: Backend> Simulation<B> {
             let Some(rows) = had.checked_add(more) else {
                 return Err(Error::Limit(format!("{had} rows and {short} more are beyond {}", u32::MAX)));
             };
-            self.grow(rows).await?;
+            self.grow(Room::Rows(rows)).await?;
         }
+        self.unrepeatable();
         let ids: Vec<u32> = (next..end).collect();
         let rows = self.rows.lowest(new.len());
         let before = self.count();
@@ -62,6 +65,7 @@ impl<B: Backend> Simulation<B> {
     /// when a law does not serve removed particles. Nothing has changed then.
     pub async fn remove(&mut self, ids: &[u32]) -> Result<(), Error> {
         let refuse = |text: String| Err(Error::Scene(text));
+        self.settle().await?;
         let mut known = BTreeSet::new();
         let removed = if self.ties.drains().is_empty() { Vec::new() } else { self.life().await? };
         let bound = self.ties.bound();
@@ -86,8 +90,9 @@ impl<B: Backend> Simulation<B> {
             return Ok(());
         }
         if !self.rows.are_open() {
-            self.grow(self.capacity()).await?;
+            self.grow(Room::Rows(self.capacity())).await?;
         }
+        self.unrepeatable();
         let four = |v: DVec4| Array::Vec4(vec![v]);
         for row in &rows {
             let place = *row as usize;

@@ -68,6 +68,11 @@ impl<B: Backend> Simulation<B> {
     /// # Errors
     /// When the device is lost, or does not answer in time.
     pub async fn links(&mut self) -> Result<Links, Error> {
+        self.settle().await?;
+        self.links_now().await
+    }
+    /// The same, whether the list had room or not.
+    pub(super) async fn links_now(&mut self) -> Result<Links, Error> {
         if !self.breaks {
             return Ok(self.ties.links.clone());
         }

@@ -25,6 +25,8 @@ const LASTING: [&str; 5] = [HOME, BROKEN, PAIRS, PAIR_WORDS, "kept_step_clock"];
 
 /// How many rows were in use when the plan was written, by which cells are chosen too.
 pub(crate) const ROWS: &str = "kept_rows";
+/// How many neighbours particles had at the start of the run, by which searches were chosen: ranges and means.
+pub(crate) const NEIGHBORS: &str = "kept_neighbors";
 /// How many neighbours of a particle the list had room for.
 pub(crate) const ROOM: &str = "kept_room";
 

@@ -239,8 +239,8 @@ impl Law {
     /// # Errors
     /// [`Error::Shader`] when the WGSL does not compile, [`Error::Scene`] when a parameter is missing or unknown.
     pub fn kernel(self, problem: &Problem) -> Result<Kernel, Error> {
-        let law = self.clone();
-        let mut kernel = self.visiting(problem)?;
+        let law = self.settled(problem);
+        let mut kernel = law.clone().visiting(problem)?;
         law.bind_tables(&mut kernel, problem)?;
         law.check_columns(&mut kernel, problem)?;
         Ok(kernel)
@@ -251,6 +251,7 @@ impl Law {
             Over::Pairs | Over::Within { .. } => pairs::kernel(self, problem),
             Over::Near { .. } | Over::Nearest { .. } => near::kernel(self, problem),
             Over::List { range, slots, .. } => list::kernel(self, range, slots, problem),
+            Over::Auto { .. } => Err(Error::Scene(format!("`{}` has no visit", self.name))),
             Over::Tree { opening, core, .. } => tree::kernel(self, &Tree::new(opening, core, problem), problem),
             Over::Links | Over::Joints | Over::Triangles => links::kernel(self, problem),
         }
@@ -260,7 +261,7 @@ impl Law {
     /// # Errors
     /// [`Error::Scene`] when its range is none.
     pub fn grid(&self, problem: &Problem) -> Result<Option<(Grid, bool)>, Error> {
-        near::grid(self, problem)
+        near::grid(&self.settled(problem), problem)
     }
     /// Whether it reads velocities, its own or those of others.
     ///
@@ -281,8 +282,12 @@ impl Law {
         match self.over {
             // Half a box away nearest images jump, and no group can be met as one there.
             Over::Tree { auto: true, .. } if problem.bounds.has(Side::Periodic) && !self.distant.images => Over::Pairs,
-            over => over.chosen(problem),
+            over => over.chosen(problem).faster(problem),
         }
+    }
+    /// The same law over the cell list or the kept list, where that is left open.
+    pub(super) fn settled(&self, problem: &Problem) -> Self {
+        Self { over: self.over.faster(problem), ..self.clone() }
     }
     /// The tree that it walks, if it walks one.
     #[must_use]

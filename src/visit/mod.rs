@@ -24,7 +24,7 @@ pub use law::{Distant, Law};
 pub use links::{LINK, LINK_START, bind};
 pub use list::{Memory, UNCOUNTED, build as list_kernel, shared as shared_list};
 pub use near::Candidate;
-pub use over::Over;
+pub use over::{Over, few_neighbors};
 pub use pair_table::{MOST_SPECIES, PAIR_TABLE, PairRow, PairTable};
 pub use particle::{Particle, View};
 pub use reference::{ByTables, Sample};

@@ -87,7 +87,9 @@ fn meeting<S: Default>(
                 gather(me, you, world.bounds.shortest(you.position - me.position), &world, &mut sum);
             };
             // A particle that takes no part is in no cell list; where all pairs are evaluated, it has no mass.
-            let in_grid = matches!(over, Over::Near { .. } | Over::Nearest { .. } | Over::List { .. });
+            let searches =
+                |over| matches!(over, Over::Near { .. } | Over::Nearest { .. } | Over::List { .. } | Over::Auto { .. });
+            let in_grid = searches(over);
             if !me.is_active() && in_grid && !matches!(over, Over::Near { of: Some(_), .. }) {
                 return None;
             }

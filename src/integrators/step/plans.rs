@@ -77,14 +77,24 @@ impl<'a> Step<'a> {
     /// # Errors
     /// The first thing that went wrong while they were written.
     pub fn measurement(forces: &'a [Box<dyn Component>], problem: Problem) -> Result<(Plan, Plan), Error> {
-        let count = problem.capacity;
-        let mut before = Self::new(forces, problem.clone());
-        before.add(keep::keep(count));
-        before.keep_rates(false);
+        let mut before = Self::keeps(forces, problem.clone());
         before.evaluate();
         let mut after = Self::new(forces, problem);
-        after.add(keep::restore(count));
+        after.add(keep::restore(after.problem.capacity));
         after.keep_rates(true);
         Ok((before.finished()?, after.finished()?))
+    }
+    /// The plan that keeps what the next step is going to use, and evaluates nothing.
+    ///
+    /// # Errors
+    /// The first thing that went wrong while it was written.
+    pub fn keeping(forces: &'a [Box<dyn Component>], problem: Problem) -> Result<Plan, Error> {
+        Self::keeps(forces, problem).finished()
+    }
+    fn keeps(forces: &'a [Box<dyn Component>], problem: Problem) -> Self {
+        let mut step = Self::new(forces, problem);
+        step.add(keep::keep(step.problem.capacity));
+        step.keep_rates(false);
+        step
     }
 }

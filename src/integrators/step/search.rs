@@ -13,7 +13,8 @@ impl Step<'_> {
         let places = self.forces.iter().enumerate();
         let laws: Vec<(usize, Law)> =
             places.flat_map(|(place, force)| force.laws().into_iter().map(move |law| (place, law))).collect();
-        let over_list = |(place, law): &(usize, Law)| chosen(*place) && matches!(law.over, Over::List { .. });
+        let over_list =
+            |(place, law): &(usize, Law)| chosen(*place) && matches!(law.chosen(&self.problem), Over::List { .. });
         if !laws.iter().any(over_list) {
             return Ok(());
         }

@@ -7,6 +7,7 @@ use motes::forces::{Component, Law, Over};
 use motes::kernel::{Backend, Machine, Source};
 use motes::{Bounds, Error, Setup, Side, Simulation, State};
 
+use crate::neighbors::growth::{STEPS, collapsed, inward};
 use crate::neighbors::list::{accelerations, agree, builds, evaluation, jet, on, positions, setup};
 use crate::neighbors::variants;
 use crate::support::{self, machines};
@@ -235,6 +236,17 @@ fn goes_on<B: Backend>(whole: &Setup, stops: &[u64], on: impl Fn(&Setup) -> Simu
     let (got, want) = (snapshot(&mut parts), snapshot(&mut never));
     for (column, values) in want.columns() {
         assert!(got.get(&column.name) == Some(values), "{} is other after {stops:?}", column.name);
+    }
+}
+
+/// History of pairs is carried over where the list grows: the force goes by it.
+#[test]
+fn a_list_that_grows_remembers() {
+    let shared = support::device();
+    for (seed, batch) in [(8, 60), (21, STEPS)] {
+        let setup = inward(250, seed, Box::new(Steps { skin: 0.1 }));
+        let [x, v, long_x, long_v] = collapsed(&shared, &setup, batch);
+        assert!(x == long_x && v == long_v, "seed {seed}, {batch} steps at a time: other bits");
     }
 }
 

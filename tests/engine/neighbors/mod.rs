@@ -6,8 +6,10 @@
     reason = "numbers are small, and what a test needs stands in it"
 )]
 
+mod auto;
 mod exact;
 mod far;
+mod growth;
 mod history;
 mod list;
 mod places;

@@ -198,6 +198,8 @@ fn a_law_of_ones_own_is_read_from_its_file() {
         ("nearest", "neighbors = 7", Over::Nearest { count: 7 }),
         ("pairs", "", Over::Pairs),
         ("tree", "theta = 0.25", Over::Tree { opening: Opening::Geometric { theta: 0.25 }, core: 0.0, auto: false }),
+        ("auto", "range = 0.75", Over::Auto { range: 0.75, skin: None }),
+        ("auto", "range = 0.75\nskin = 0.25", Over::Auto { range: 0.75, skin: Some(0.25) }),
         ("auto", "theta = 0.75", Over::Tree { opening: Opening::Geometric { theta: 0.75 }, core: 0.0, auto: true }),
     ] {
         let scene = format!("{SMALL}[[force]]\nwgsl = \"swirl.wgsl\"\nover = \"{over}\"\n{more}\n");
