@@ -44,6 +44,11 @@ fn values(key: &Key) -> Vec<Value> {
     match (key.kind, &key.default) {
         // What wants a box of its own has tests of its own.
         (Kind::Choice(["nearest", "ewald"]), _) => vec![Value::Text("nearest".into())],
+        // The faster one of two searches is one of them, and has tests of its own.
+        (Kind::Choice(words), _) if words.contains(&"list") => {
+            let all = words.iter().filter(|word| **word != "auto");
+            all.map(|word| Value::Text(Cow::Borrowed(*word))).collect()
+        }
         (Kind::Choice(words), _) => words.iter().map(|w| Value::Text(Cow::Borrowed(*w))).collect(),
         (Kind::Flag, _) => vec![Value::Flag(false), Value::Flag(true)],
         // What goes along with a motion has tests of its own.
