@@ -30,6 +30,7 @@ pub(super) const FORMAT: Format = Format {
     contents,
     read: Some(read),
     write: Some(|out, state, options| write_csv(out, state, options.precision)),
+    left_out: None,
 };
 
 /// What else a mass is called.

@@ -21,6 +21,7 @@ pub(super) const FORMAT: Format = Format {
     contents: |path| Ok(sheet(path, &|_| false)?.contents),
     read: Some(read),
     write: None,
+    left_out: None,
 };
 
 const HEADER: usize = 256;

@@ -30,6 +30,7 @@ pub(super) const FORMAT: Format = Format {
     contents: |path| Ok(sheet(path, &|_| false)?.contents),
     read: Some(read),
     write: Some(|out, state, options| write_hdf5(out, state, options)),
+    left_out: None,
 };
 
 /// Types of particles in a file.

@@ -78,6 +78,8 @@ pub struct Format {
     pub read: Option<Reader>,
     /// Writes a state, if states can be written in it without loss.
     pub write: Option<Writer>,
+    /// Columns of a state that its files do not hold, though they say more than their initial values; `None`: they hold all.
+    pub left_out: Option<fn(&State) -> Vec<String>>,
 }
 
 /// Reads a state of these columns from a file.

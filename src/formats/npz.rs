@@ -29,6 +29,7 @@ pub(super) const FORMAT: Format = Format {
     contents,
     read: Some(read),
     write: Some(|out, state, options| write_npz(out, state, options.precision)),
+    left_out: None,
 };
 
 /// Bytes that are written at once.

@@ -27,6 +27,7 @@ pub(super) const FORMAT: Format = Format {
     contents: |path| Ok(sheet(path, &|_| false)?.contents),
     read: Some(read),
     write: Some(|out, state, options| write_ply(out, state, options)),
+    left_out: None,
 };
 
 /// Writes a state: a vertex for each particle in the order of the ids.

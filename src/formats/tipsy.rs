@@ -24,6 +24,7 @@ pub(super) const FORMAT: Format = Format {
     contents: |_| Ok(Contents { headings: HELD.map(|title| Heading { title: title.to_owned(), whole: false }).to_vec(), ..Contents::default() }),
     read: Some(|path, _| read(path)),
     write: Some(|out, state, _| write_tipsy(out, state, 0.0).map(drop)),
+    left_out: Some(left_out),
 };
 
 /// Bytes of the header without its padding, and of the padding.
@@ -160,6 +161,12 @@ fn counted(header: &[u8; HEADER]) -> Result<(Bytes, [u64; 3]), String> {
     Ok((order, counts.map(|count| u64::try_from(count).unwrap_or(0))))
 }
 
+/// The columns that the format cannot hold, and that say more than their initial values.
+fn left_out(state: &State) -> Vec<String> {
+    let titles = super::titles::strips(state).into_iter().map(|strip| strip.text);
+    titles.filter(|title| !HELD.contains(&title.as_str())).collect()
+}
+
 /// Writes the standard form: big-endian, padded header, every particle a dark one in the order of the ids, with the same
 /// `softening` \[length\] and a potential of 0. Numbers are narrowed to f32. The format holds positions, velocities, masses and the
 /// time; the columns that it cannot hold, and that say more than their initial values, are given back by name.
@@ -188,6 +195,5 @@ pub fn write_tipsy(mut out: impl Write, state: &State, softening: f64) -> io::Re
         }
         out.write_all(&record)?;
     }
-    let lost = super::titles::strips(state).into_iter().map(|strip| strip.text);
-    Ok(lost.filter(|title| !HELD.contains(&title.as_str())).collect())
+    Ok(left_out(state))
 }

@@ -26,6 +26,7 @@ pub(super) const FORMAT: Format = Format {
     contents: |path| Ok(sheet(path, &|_| false)?.contents),
     read: Some(read),
     write: Some(|out, state, options| write_vtp(out, state, options)),
+    left_out: None,
 };
 
 /// The names of field data.

@@ -30,6 +30,7 @@ pub(super) const FORMAT: Format = Format {
     contents,
     read: Some(read),
     write: Some(|out, state, options| write_xyz(out, state, options)),
+    left_out: None,
 };
 
 /// Elements by their numbers; a species beyond them has no name here.

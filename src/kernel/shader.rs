@@ -122,6 +122,7 @@ impl Shader {
         joined::once(sources, || Self::joined(sources))
     }
     fn joined(sources: &[Source]) -> Result<Arc<Self>, Error> {
+        own::depth(sources)?;
         let given = sources;
         let sources = &own::hoisted(given);
         let mut joined = Joined::of(sources)?;

@@ -1,6 +1,6 @@
 //! Draws a picture on any backend.
 
-use super::frame::{COLOR, FIELDS, HISTOGRAM, NOT_DRAWN, PIXELS, TRAIL};
+use super::frame::{COLOR, FIELDS, Frame, HISTOGRAM, NOT_DRAWN, PIXELS, TRAIL};
 use super::{Color, Exposure, Picture, plain};
 use crate::error::Error;
 use crate::kernel::{Array, Backend, Element};
@@ -34,6 +34,7 @@ pub(super) async fn exposed<B: Backend>(
     picture: &Picture,
     choose: impl FnOnce(Exposure) -> Exposure,
 ) -> Result<Image, Error> {
+    granted(&picture.frame)?;
     if let Some(host) = backend.host() {
         return plain::draw(host, picture, choose);
     }
@@ -43,6 +44,25 @@ pub(super) async fn exposed<B: Backend>(
         backend.forget(field);
     }
     image
+}
+
+/// What a picture takes of the host's memory: for each of its samples at most, and beside them \[bytes\].
+const SAMPLE: u64 = 160;
+const BESIDE: u64 = 16 << 20;
+
+/// Asks the system for the memory of a picture, once and in one piece: to fail later would end the process.
+fn granted(frame: &Frame) -> Result<(), Error> {
+    let bytes = u64::from(frame.area().max(frame.samples())) * SAMPLE + BESIDE;
+    let size = usize::try_from(bytes).unwrap_or(usize::MAX);
+    Vec::<u8>::new().try_reserve_exact(size).map_err(|_| {
+        Error::Limit(format!(
+            "a picture of {}×{} takes some {} MiB of memory, which the system does not grant: draw smaller ones (`width` and `height` of \
+             [picture]), or none (no \"png\" among `formats`, `frames = 0`)",
+            frame.width,
+            frame.height,
+            bytes >> 20
+        ))
+    })
 }
 
 async fn attempt<B: Backend>(

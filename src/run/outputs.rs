@@ -40,6 +40,9 @@ impl Run {
         if !wanted.contains(&"potential") {
             Arc::make_mut(&mut state).remove("potential");
         }
+        if self.energies.rows().len() == 1 {
+            self.states.left_out(&state).iter().for_each(|text| progress.remark(text));
+        }
         let moment = Moment { state: &state, density: &density, clock: course.clock(), links: links.as_ref() };
         for number in 0..self.all().len() {
             let writer = &mut self.all()[number];

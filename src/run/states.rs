@@ -30,6 +30,18 @@ impl States {
         let digits = steps.to_string().len();
         Self { formats: formats.to_vec(), options, digits, folder: None, stream, listed: Arc::default() }
     }
+    /// What is to be said of columns of a state that files do not hold.
+    pub(super) fn left_out(&self, state: &State) -> Vec<String> {
+        let some = |format: &&'static Format| {
+            let names = format.left_out.map(|left_out| left_out(state)).filter(|names| !names.is_empty())?;
+            Some(format!(
+                "`{}` files do not hold {}: choose another format beside it for these",
+                format.name,
+                names.join(", ")
+            ))
+        };
+        self.formats.iter().filter_map(some).collect()
+    }
 }
 
 impl Writer for States {

@@ -44,7 +44,7 @@ pub(super) fn read(sections: &[(&'static str, Table<'_>)], files: &Files, most: 
         for table in all("particles") {
             particles::amount(table, &said, &column::givable(&known), report);
         }
-        output::read(one("output"), simulation.steps, &known, report);
+        output::read(one("output"), (simulation.steps, simulation.dt), &known, report);
     }
     if let Some(table) = one("picture") {
         table.settings(render::KEYS, &[], report);

@@ -312,7 +312,7 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
         force::adapted(&forces, place, report);
     }
     particles.motions = motions;
-    let output = output::read(one("output"), simulation.steps, &columns, report);
+    let output = output::read(one("output"), (simulation.steps, simulation.dt), &columns, report);
     output.write(&mut out);
     let checkpoint = checkpoint::read(one("checkpoint"), simulation.dt, report);
     checkpoint.write(&mut out);

@@ -6,7 +6,7 @@ use crate::settings::{Key, Kind};
 
 use super::report::{Fault, Report};
 use super::resolved::Writer;
-use super::tree::Data;
+use super::tree::{Data, Entry};
 use super::value;
 use super::walk::{self, Table};
 
@@ -28,6 +28,38 @@ pub struct Output {
     pub columns: Vec<String>,
 }
 
+const FORMS: &str = "a whole number of steps, or time of the scene as in \"0.5 time\"";
+
+/// Steps from one output to the next, of a number of them or of time; the clock on the wall would write other files each time.
+fn interval(entry: &Entry, dt: f64, report: &mut Report) -> Option<u64> {
+    let Data::Text(text) = &entry.node.data else { return walk::whole_from_one(entry, report) };
+    let number = text.trim().split_once(' ').filter(|(_, unit)| unit.trim() == "time");
+    let time = number.and_then(|(number, _)| number.parse().ok()).filter(|time: &f64| time.is_finite() && *time > 0.0);
+    let Some(time) = time else {
+        let hint = "; the time that work takes is for [checkpoint], for it gives other outputs each time";
+        let label = format!("it must be {FORMS}{}", if number.is_none() { hint } else { "" });
+        report.push(Fault::at(&entry.node.place, "`every` is no interval of outputs").label(label));
+        return None;
+    };
+    let (steps, whole) = (time / dt, (time / dt).round());
+    // A quotient of two decimal numbers is some roundings off.
+    if (1.0..=EXACT).contains(&whole) && (steps - whole).abs() <= 1e-12 * whole {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "whole, from one to 2^53")]
+        return Some(whole as u64);
+    }
+    let label = format!("{time:?} is {} steps of dt = {dt:?}: choose a multiple of dt", plain(steps));
+    report.push(Fault::at(&entry.node.place, "`every` is no whole number of steps").label(label));
+    None
+}
+
+/// Whole numbers up to here are exact.
+const EXACT: f64 = 9_007_199_254_740_992.0;
+
+/// A number in a few digits.
+fn plain(x: f64) -> String {
+    format!("{}", format!("{x:.5e}").parse().unwrap_or(x))
+}
+
 /// The scene's word for pictures, which stand among the formats.
 const PICTURES: &str = "png";
 
@@ -43,7 +75,7 @@ fn writable() -> impl Iterator<Item = &'static Format> {
     FORMATS.iter().filter(|format| format.write.is_some())
 }
 
-pub(super) fn read(table: Option<&Table<'_>>, steps: u64, known: &Columns, report: &mut Report) -> Output {
+pub(super) fn read(table: Option<&Table<'_>>, (steps, dt): (u64, f64), known: &Columns, report: &mut Report) -> Output {
     let mut output = Output {
         every: (steps / 10).max(1),
         formats: FORMATS.iter().filter(|format| format.name == "csv").collect(),
@@ -53,7 +85,7 @@ pub(super) fn read(table: Option<&Table<'_>>, steps: u64, known: &Columns, repor
     };
     let Some(table) = table else { return output };
     table.settings(KEYS, OWN, report);
-    if let Some(every) = table.get("every").and_then(|e| walk::whole_from_one(e, report)) {
+    if let Some(every) = table.get("every").and_then(|e| interval(e, dt, report)) {
         output.every = every;
     }
     if let Some(entry) = table.get("formats") {

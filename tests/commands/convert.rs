@@ -118,3 +118,21 @@ fn a_run_lists_its_states_for_paraview() {
     again.write(&mut bytes).expect("memory");
     assert_eq!(String::from_utf8(bytes).expect("text"), listed);
 }
+
+/// What a format has no place for is named when a run begins, once.
+#[test]
+fn a_run_says_what_tipsy_does_not_hold() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let scene = "[simulation]\ndt = 0.01\nsteps = 4\n[[particles]]\nfile = \"stars.csv\"\n[output]\nevery = 1\nformats = [\"tipsy\"]\n";
+    std::fs::write(folder.path().join("a.toml"), scene).expect("written");
+    for (table, words) in [("x,y,z,size\n1,2,3,0.5\n", "size"), ("x,y,z\n1,2,3\n", "")] {
+        std::fs::write(folder.path().join("stars.csv"), table).expect("written");
+        let out = path(&folder, &format!("out{}", words.len()));
+        let (code, said, notes) = motes(&["run", &path(&folder, "a.toml"), "-o", &out, "--backend", "cpu"]);
+        assert_eq!(code, 0, "{said} {notes}");
+        let said = said + &notes;
+        assert_eq!(said.matches("`tipsy` files do not hold").count(), usize::from(!words.is_empty()), "{said}");
+        assert!(said.contains(words), "{said}");
+        assert_eq!(std::fs::metadata(format!("{out}/snapshot_4.tipsy")).expect("written").len(), 32 + 36);
+    }
+}

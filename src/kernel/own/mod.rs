@@ -1,6 +1,7 @@
 //! A user's law before it comes to a driver: it is a stranger's text, and drivers believe what they are given.
 
 mod claims;
+mod depth;
 mod directives;
 mod limits;
 mod loops;
@@ -16,6 +17,7 @@ use super::shader::Source;
 use crate::error::Error;
 
 pub use claims::check as claims;
+pub use depth::check as depth;
 pub use directives::hoisted;
 pub use loops::{has_loops, watched_sources};
 pub use signature::mismatch;

@@ -1,12 +1,13 @@
 //! Real processes are killed at random instants, also while they write a checkpoint, until the run is complete.
 
 use std::process::{Child, Stdio};
+use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::Rng;
 
-use crate::checkpoints::{Place, difference, motes};
+use crate::checkpoints::{Place, difference, motes, said};
 
 /// Ended with the test, however that ends.
 struct Running(Child);
@@ -45,30 +46,71 @@ height = 24
 every = "2 steps"
 "#;
 
-/// How long runs are killed: as many kills as fit.
-const SECONDS: u64 = 60;
+/// How often runs are killed, where `MOTES_KILLS` says nothing else.
+const KILLS: usize = 200;
+/// Runs that are killed beside each other.
+const LANES: u64 = 3;
+/// Of each run: its description names them.
+const CORES: &str = "1";
+
+/// What was done to runs.
+#[derive(Debug, Default)]
+struct Count {
+    kills: usize,
+    runs: usize,
+    /// Kills that left a checkpoint, and kills inside of a write.
+    resumed: usize,
+    written: usize,
+    /// The most kills of one run.
+    longest: usize,
+}
 
 #[test]
 fn no_run_is_lost_however_often_it_is_killed() {
-    let wanted: usize = std::env::var("MOTES_KILLS").ok().and_then(|kills| kills.parse().ok()).unwrap_or(0);
+    let wanted: usize = std::env::var("MOTES_KILLS").ok().and_then(|kills| kills.parse().ok()).unwrap_or(KILLS);
     let place = Place::with(&[("a.toml", SCENE)]);
     let start = Instant::now();
-    let (code, words) = place.run("a.toml", "whole", &["-q"]);
+    let (scene, out) = (place.path("a.toml"), place.path("whole"));
+    let args = ["run", &scene, "-o", &out, "--backend", "cpu", "-q"];
+    let (code, words) = said(motes(&args).env("RAYON_NUM_THREADS", CORES));
     assert_eq!(code, 0, "{words}");
-    let whole = start.elapsed();
-    let (mut random, start) = (Pcg64Mcg::new(0x5eed_0bad_cafe), Instant::now());
-    let (mut kills, mut runs, mut resumed, mut longest, mut written) = (0, 0, 0, 0, 0);
-    while kills < wanted || wanted == 0 && start.elapsed() < Duration::from_secs(SECONDS) {
-        let name = format!("run{runs}");
+    let (whole, start, count) = (start.elapsed(), Instant::now(), Mutex::new(Count::default()));
+    std::thread::scope(|scope| {
+        for lane in 0..LANES {
+            let (place, count) = (&place, &count);
+            scope.spawn(move || kill(place, lane, whole, count, wanted));
+        }
+    });
+    let Count { kills, runs, resumed, written, longest } = count.into_inner().expect("all lanes are well");
+    println!(
+        "{kills} kills of {runs} runs in {:?}, {resumed} with a checkpoint, {written} inside of a write, {longest} of one run; none is lost",
+        start.elapsed()
+    );
+    assert!(
+        resumed > 10 && written > 0 && runs > 0,
+        "{kills} kills, {resumed} with a checkpoint, {written} inside of a write"
+    );
+}
+
+/// Kills runs, one behind another, each until it is complete, and compares what it left.
+fn kill(place: &Place, lane: u64, whole: Duration, count: &Mutex<Count>, wanted: usize) {
+    let mut random = Pcg64Mcg::new(0x5eed_0bad_cafe + u128::from(lane));
+    // A quarter of what a run takes in one go, at first; how fast it is depends on all else that runs.
+    let mut longest = whole.mul_f64(0.25);
+    for run in 0.. {
+        if count.lock().expect("all lanes are well").kills >= wanted {
+            break;
+        }
+        let name = format!("run{lane}_{run}");
         let (scene, out) = (place.path("a.toml"), place.path(&name));
         let mut of_run = 0;
         loop {
             let mut command = motes(&["run", &scene, "-o", &out, "--backend", "cpu", "--resume", "-q"]);
+            command.env("RAYON_NUM_THREADS", CORES);
             let child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().expect("the program starts");
             let mut child = Running(child);
-            // From its start on, for a quarter of what a run takes in one go.
             let part = f64::from(random.next_u32()) / f64::from(u32::MAX);
-            let pause = whole.mul_f64(0.25 * part);
+            let pause = longest.mul_f64(part);
             let begun = Instant::now();
             let ended = loop {
                 match child.0.try_wait().expect("a status") {
@@ -80,30 +122,29 @@ fn no_run_is_lost_however_often_it_is_killed() {
             if let Some(status) = ended {
                 let mut words = String::new();
                 std::io::Read::read_to_string(child.0.stderr.as_mut().expect("a pipe"), &mut words).expect("words");
-                assert!(status.success(), "run {runs} after {of_run} kills: {status} {words}");
+                assert!(status.success(), "run {name} after {of_run} kills: {status} {words}");
+                // Some kills for each run.
+                longest = longest.mul_f64(if of_run < 8 { 0.7 } else { 1.0 });
                 break;
             }
             child.0.kill().expect("killed");
             child.0.wait().expect("it ends");
-            kills += 1;
             of_run += 1;
             let parts = std::fs::read_dir(place.at(&name)).into_iter().flatten().flatten();
-            written += parts.filter(|entry| entry.file_name().to_string_lossy().ends_with(".part")).count().min(1);
-            resumed += usize::from(place.at(&name).is_dir() && !place.checkpoints(&name).is_empty());
+            let is_written = parts.filter(|entry| entry.file_name().to_string_lossy().ends_with(".part")).count() > 0;
+            // A run that comes to no checkpoint would never end.
+            longest = longest.mul_f64(if place.at(&name).is_dir() { 1.02 } else { 1.2 });
+            let mut count = count.lock().expect("all lanes are well");
+            count.kills += 1;
+            count.written += usize::from(is_written);
+            count.resumed += usize::from(place.at(&name).is_dir() && !place.checkpoints(&name).is_empty());
         }
-        longest = longest.max(of_run);
         if let Some(what) = difference(&place.at(&name), &place.at("whole")) {
-            panic!("run {runs}, which was killed {of_run} times: {what}");
+            panic!("run {name}, which was killed {of_run} times: {what}");
         }
-        runs += 1;
         std::fs::remove_dir_all(place.at(&name)).expect("removed");
+        let mut count = count.lock().expect("all lanes are well");
+        count.runs += 1;
+        count.longest = count.longest.max(of_run);
     }
-    println!(
-        "{kills} kills of {runs} runs in {:?}, {resumed} with a checkpoint, {written} inside of a write, {longest} of one run; none is lost",
-        start.elapsed()
-    );
-    assert!(
-        resumed > 10 && written > 0 && runs > 0,
-        "{kills} kills, {resumed} with a checkpoint, {written} inside of a write"
-    );
 }

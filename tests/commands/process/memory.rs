@@ -45,6 +45,25 @@ fn what_does_not_fit_is_refused_with_numbers() {
     assert!(code == 3 && said.contains("16000000 particles need 5.0 GiB"), "{said}");
 }
 
+/// A picture asks for its memory before it is drawn: an allocation that fails would end the process.
+#[test]
+fn a_picture_that_does_not_fit_is_refused() {
+    let place = Place::with(&[(
+        "a.toml",
+        "[simulation]\ndt = 0.01\nsteps = 2\n[[particles]]\nbodies = [{ position = [1, 0, 0] }]\n[picture]\nwidth = 4096\nheight = 2048\n",
+    )]);
+    let script = "ulimit -v 1200000; exec \"$0\" run \"$1\" -o \"$2\" --backend cpu -q";
+    let mut command = Command::new("bash");
+    let out = place.at("out");
+    let (code, stdout, stderr) =
+        output(command.args(["-c", script, env!("CARGO_BIN_EXE_motes"), &place.at("a.toml"), &out]));
+    let said = stdout + &stderr;
+    assert!(
+        code == 5 && said.contains("a picture of 4096×2048 takes some") && said.contains("does not grant"),
+        "{code} {said}"
+    );
+}
+
 /// A fault in another line is reported without the 4 million particles and 18 million springs.
 #[test]
 fn faults_are_reported_before_particles_are_made() {

@@ -158,6 +158,74 @@ fn what_is_too_large_to_compile() {
     runs(Over::Each, &each("var<private> a: array<f32, 64>;", "a[me.index % 64u] = 1.0; return vec4f(a[0]);"), &[], 40);
 }
 
+/// Compilers go down into a text by recursion: these ended the process with exit 134.
+#[test]
+fn what_is_too_deep_to_compile() {
+    let chain = |n: usize| each("", &format!("let x = me.mass{}; return vec4f(x);", " + me.mass".repeat(n)));
+    let swizzles = |n: usize| each("", &format!("return vec4f(me.position{}, 0.0);", ".xyz".repeat(n)));
+    let signs = |n: usize| each("", &format!("let b = {}(me.mass > 1.0); return vec4f(f32(b));", "!".repeat(n)));
+    let elses = |n: usize| {
+        let more = " else if me.mass > 1.0 { x = 2.0; }".repeat(n);
+        each("", &format!("var x = 0.0; if me.mass > 0.0 {{ x = 1.0; }}{more} return vec4f(x);"))
+    };
+    let constants = |n: usize| {
+        let one = |k: usize| format!("const c_{k}_ = c_{}_ + 1.0;\n", k + 1);
+        let all: String = (0..n).map(one).collect();
+        each(&format!("{all}const c_{n}_ = 1.0;"), "return vec4f(c_0_);")
+    };
+    let functions = |n: usize| {
+        let one = |k: usize| format!("fn f_{k}_(x: f32) -> f32 {{ return f_{}_(x) + 1.0; }}\n", k + 1);
+        let all: String = (0..n).map(one).collect();
+        each(&format!("{all}fn f_{n}_(x: f32) -> f32 {{ return x; }}"), "return vec4f(f_0_(me.mass));")
+    };
+    for (text, words) in [
+        (chain(9000), "words and marks deep"),
+        (swizzles(150_000), "words and marks deep"),
+        (signs(100_000), "words and marks deep"),
+        (elses(20_000), "branches `else`"),
+        (constants(20_000), "functions, constants and types"),
+        (functions(10_000), "functions, constants and types"),
+    ] {
+        refused(Over::Each, &text, &[words, "l.wgsl:"]);
+    }
+    // What is let through compiles, also on the small stack of this thread.
+    for text in [chain(220), swizzles(480), signs(480), elses(200), constants(998), functions(300)] {
+        runs(Over::Each, &text, &[], 40);
+    }
+    // Brackets, blocks and types are counted by the front end.
+    let deep = |open: &str, close: &str| format!("{}x{}", open.repeat(50_000), close.repeat(50_000));
+    for inside in [deep("(", ")"), deep("f32(", ")"), deep("{", "}"), deep("a[", "]")] {
+        refused(Over::Each, &each("", &format!("{inside}; return vec4f();")), &[]);
+    }
+}
+
+#[test]
+fn what_no_workgroup_holds() {
+    let shared = support::device();
+    for size in ["1000000", "4097", "2147483647"] {
+        let own = format!("var<workgroup> w: array<f32, {size}>;");
+        let text = each(&own, "w[me.index % 4000u] = 1.0; return vec4f(w[0]);");
+        let error = made(&shared, Over::Each, &text, &[], ("leapfrog", 40)).map(|_| ()).expect_err("too large");
+        let said = error.to_string();
+        assert!(matches!(error, Error::Limit(_) | Error::Shader { .. }), "{error:?}");
+        let counted = said.contains("l.wgsl") && said.contains("workgroup memory");
+        assert!(counted || size.len() == 10 && said.contains("exceeds limit of 2147483647 bytes"), "{said}");
+    }
+    // Code that is written out, and a switch of many cases.
+    let step = |k: u32| format!("x = sin(x + {k}.5 * me.mass);\n");
+    let steps: String = (0..30_000).map(step).collect();
+    let case = |k: u32| format!("case {k}u: {{ x = sin({k}.5 * me.mass); }}\n");
+    let cases: String = (0..20_000).map(case).collect();
+    let switch = format!("switch me.index {{ {cases} default: {{ }} }}");
+    for inside in [steps, switch] {
+        refused(
+            Over::Each,
+            &each("", &format!("var x = 0.0; {inside} return vec4f(x);")),
+            &["operations long", "100000"],
+        );
+    }
+}
+
 #[test]
 fn directives_come_before_all_that_motes_says() {
     let diagnostic = "// about\ndiagnostic(off, derivative_uniformity);\nrequires pointer_composite_access;";

@@ -104,3 +104,32 @@ fn intervals_of_checkpoints() {
 a.toml: 1 error",
     );
 }
+
+#[test]
+fn intervals_of_outputs() {
+    let every = |words: &str, dt: &str| {
+        let scene = format!("[output]\nevery = {words}\n{SMALL}");
+        load(&scene, &[format!("simulation.dt={dt}").as_str()])
+            .map(|scene| scene.output.every)
+            .map_err(|faults| faults.to_string())
+    };
+    assert_eq!(
+        [every("7", "0.01"), every("\"0.5 time\"", "0.01"), every("\"0.3 time\"", "0.1")],
+        [Ok(7), Ok(50), Ok(3)]
+    );
+    assert_eq!([every("\"1e3 time\"", "1e-6"), every("\"1 time\"", "1")], [Ok(1_000_000_000), Ok(1)]);
+    for (words, dt, why) in [
+        ("\"0.5 time\"", "0.2", "0.5 is 2.5 steps of dt = 0.2: choose a multiple of dt"),
+        ("\"0.1 time\"", "0.25", "0.1 is 0.4 steps"),
+        ("\"1e300 time\"", "1e-9", "choose a multiple of dt"),
+        ("\"10 min\"", "0.01", "the time that work takes is for [checkpoint]"),
+        ("\"-1 time\"", "0.01", "a whole number of steps, or time of the scene"),
+        ("\"NaN time\"", "0.01", "a whole number of steps, or time of the scene"),
+        ("\"0 time\"", "0.01", "a whole number of steps, or time of the scene"),
+        ("\"time\"", "0.01", "a whole number of steps, or time of the scene"),
+        ("0", "0.01", "one or above, not 0"),
+    ] {
+        let said = every(words, dt).expect_err(words);
+        assert!(said.contains(why) && said.contains("`every`"), "{words} of {dt}: {said}");
+    }
+}
