@@ -213,9 +213,9 @@ fn what_no_workgroup_holds() {
     }
     // Code that is written out, and a switch of many cases.
     let step = |k: u32| format!("x = sin(x + {k}.5 * me.mass);\n");
-    let steps: String = (0..30_000).map(step).collect();
+    let steps: String = (0..12_000).map(step).collect();
     let case = |k: u32| format!("case {k}u: {{ x = sin({k}.5 * me.mass); }}\n");
-    let cases: String = (0..20_000).map(case).collect();
+    let cases: String = (0..15_000).map(case).collect();
     let switch = format!("switch me.index {{ {cases} default: {{ }} }}");
     for inside in [steps, switch] {
         refused(
