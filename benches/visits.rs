@@ -175,7 +175,7 @@ fn main() {
                 let start = Instant::now();
                 step(&mut simulation, 8);
                 let took = start.elapsed().as_secs_f64() / 8.0;
-                (simulation, ((SPAN / took) as u32).clamp(1, 10_000))
+                (simulation, ((SPAN / took) as u32).clamp(8, 10_000))
             })
             .collect();
         let before: Vec<_> = simulations.iter_mut().map(|(s, _)| (builds(s), s.steps())).collect();

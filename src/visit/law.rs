@@ -282,12 +282,16 @@ impl Law {
         match self.over {
             // Half a box away nearest images jump, and no group can be met as one there.
             Over::Tree { auto: true, .. } if problem.bounds.has(Side::Periodic) && !self.distant.images => Over::Pairs,
-            over => over.chosen(problem).faster(problem),
+            over => over.chosen(problem).faster(self.asks_velocities(), problem),
         }
+    }
+    /// Whether it asks for velocities of neighbours or its own.
+    pub(super) fn asks_velocities(&self) -> bool {
+        self.wgsl.says(&["velocity_of", "("])
     }
     /// The same law over the cell list or the kept list, where that is left open.
     pub(super) fn settled(&self, problem: &Problem) -> Self {
-        Self { over: self.over.faster(problem), ..self.clone() }
+        Self { over: self.over.faster(self.asks_velocities(), problem), ..self.clone() }
     }
     /// The tree that it walks, if it walks one.
     #[must_use]

@@ -26,7 +26,7 @@ pub fn shared(laws: &[Law], problem: &Problem) -> Result<Option<ListShape>, Erro
     let mut shape: Option<ListShape> = None;
     let mut reach = 0.0_f64;
     for law in laws {
-        let Over::List { range, skin, slots } = law.over.faster(problem) else { continue };
+        let Over::List { range, skin, slots } = law.over.faster(law.asks_velocities(), problem) else { continue };
         let own = ListShape { range, skin: skin.unwrap_or(SKIN * range), words: slots, capacity: 4 };
         // What is wrong with it is said of it alone.
         let own = List::new(own, problem)?.shape;

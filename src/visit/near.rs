@@ -17,7 +17,7 @@ pub fn grid(law: &Law, problem: &Problem) -> Result<Option<(Grid, bool)>, Error>
         return Ok(Some((search.grid.clone(), true)));
     }
     match law.over {
-        Over::Near { range, of } => Ok(Some((Grid::new(range, of, problem)?, law.wgsl.says(&["velocity_of", "("])))),
+        Over::Near { range, of } => Ok(Some((Grid::new(range, of, problem)?, law.asks_velocities()))),
         Over::Nearest { count } => {
             if !(1..=MOST_NEAREST).contains(&count) {
                 let text = format!("`{}` is to meet its {count} nearest: it can meet 1 to {MOST_NEAREST}", law.name);

@@ -96,19 +96,21 @@ impl Over {
     }
 }
 
-/// Up to so many neighbours within range, on average at the start, a kept list is faster than the cell list. Measured on lavapipe by
-/// `cargo bench --bench visits`; hardware is not measured, and has the cell list.
+/// Up to so many neighbours within range, on average at the start, a kept list is faster than the cell list, for laws that ask for
+/// velocities, or for others. Measured on lavapipe by `cargo bench --bench visits`: flocks gain by a list, and laws of positions alone
+/// lose. Hardware is not measured, and has the cell list.
 #[must_use]
-pub fn few_neighbors(machine: &Machine) -> f64 {
-    if machine.software { 20.0 } else { 0.0 }
+pub fn few_neighbors(machine: &Machine, moving: bool) -> f64 {
+    if machine.software && moving { 20.0 } else { 0.0 }
 }
 
 impl Over {
     /// The faster one of the cell list and the kept list, where it is left open.
-    pub(super) fn faster(self, problem: &Problem) -> Self {
+    pub(super) fn faster(self, moving: bool, problem: &Problem) -> Self {
         let Self::Auto { range, skin } = self else { return self };
+        let few = few_neighbors(&problem.machine, moving);
         match problem.neighbors_within(range) {
-            Some(mean) if mean <= few_neighbors(&problem.machine) => Self::List { range, skin, slots: 0 },
+            Some(mean) if few > 0.0 && mean <= few => Self::List { range, skin, slots: 0 },
             _ => Self::Near { range, of: None },
         }
     }

@@ -1,7 +1,7 @@
 //! Which search finds neighbours, where that is left open: by how many there are at the start, and for a whole run.
 
-use motes::forces::Over;
-use motes::kernel::{Machine, Plan};
+use motes::forces::{Component, Law, Over};
+use motes::kernel::{Machine, Plan, Source};
 use motes::visit::few_neighbors;
 use motes::{Bounds, Setup};
 
@@ -13,6 +13,19 @@ use crate::support::{self, machines};
 
 fn auto(range: f64) -> Over {
     Over::Auto { range, skin: None }
+}
+
+/// The weak law as one that asks for velocities, and does nothing with them.
+#[derive(Clone)]
+struct Moving(Over);
+
+impl Component for Moving {
+    fn laws(&self) -> Vec<Law> {
+        let mut law = Weak(self.0).laws().remove(0);
+        let wgsl = format!("{}\nfn idle(you: Particle) -> vec3f {{ return velocity_of(you); }}", law.wgsl.text);
+        law.wgsl = Source { text: wgsl.into(), ..law.wgsl };
+        vec![law]
+    }
 }
 
 fn keeps_a_list(plan: &Plan) -> bool {
@@ -36,8 +49,11 @@ fn few_neighbours_are_kept_on_a_list_where_that_is_measured() {
     for software in [false, true] {
         let machine = Machine { software, ..Machine::HOST };
         for range in [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.8, 1.2] {
-            let setup = setup(&state, Bounds::default(), Box::new(Weak(auto(range))), 7e-3);
-            let list = mean(range) <= few_neighbors(&machine);
+            let still = setup(&state, Bounds::default(), Box::new(Weak(auto(range))), 7e-3);
+            assert!(!keeps_a_list(&step(&still, machine)), "{range}: of positions alone");
+            let setup = setup(&state, Bounds::default(), Box::new(Moving(auto(range))), 7e-3);
+            let few = few_neighbors(&machine, true);
+            let list = few > 0.0 && mean(range) <= few;
             let plan = step(&setup, machine);
             assert_eq!(keeps_a_list(&plan), list, "{software}, {range}: {} neighbours, {plan}", mean(range));
             seen[usize::from(list)] += 1;
@@ -51,7 +67,7 @@ fn both_find_what_brute_force_finds() {
     let shared = support::device();
     for (variant, machine) in variants(&shared) {
         for range in [0.2, 0.7] {
-            let setup = setup(&support::cloud(300, 8), Bounds::default(), Box::new(Weak(auto(range))), 2e-3);
+            let setup = setup(&support::cloud(300, 8), Bounds::default(), Box::new(Moving(auto(range))), 2e-3);
             let mut simulation = on(&shared, machine, &setup);
             for _ in 0..4 {
                 simulation.step(5).expect("steps");
@@ -67,7 +83,7 @@ fn both_find_what_brute_force_finds() {
 fn a_run_that_goes_on_keeps_its_search() {
     let shared = support::device();
     let machine = Machine { software: true, ..variants(&shared)[0].1 };
-    let whole = inward(300, 8, Box::new(Weak(auto(0.31))));
+    let whole = inward(300, 8, Box::new(Moving(auto(0.31))));
     let mut gpu = machines::gpu(&shared, 300);
     gpu.pretend(machine);
     let mut simulation = motes::Simulation::on(gpu, &whole).expect("a simulation");
