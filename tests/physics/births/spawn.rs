@@ -307,9 +307,15 @@ fn writing_begins_at_an_offset() {
     written(by_references);
 }
 
-/// Wandering of others goes on as it would have.
+/// Wandering of others goes on as it would have, and where there were no free rows, it is carried over to other buffers.
 fn walks<B: Backend>(make: impl Fn(&Setup) -> Simulation<B>) {
-    let of = || make(&setup(roomy(some(12, 3), 12), vec![force("wander", &[])], Bounds::default()));
+    for state in [roomy(some(12, 3), 12), some(12, 3)] {
+        walk(&make, &state);
+    }
+}
+
+fn walk<B: Backend>(make: impl Fn(&Setup) -> Simulation<B>, start: &State) {
+    let of = || make(&setup(start.clone(), vec![force("wander", &[])], Bounds::default()));
     let (mut all, mut less) = (of(), of());
     all.step(3).expect("steps");
     less.step(3).expect("steps");
