@@ -28,7 +28,7 @@
 //! | know before a run what is wrong with it | [`diagnose`](diagnose::diagnose) |
 //! | open a device yourself | [`gpu::wanted_features`], [`gpu::wanted_limits`] |
 //!
-//! Each of these is a program of some forty lines under `examples/`, which a test runs.
+//! Each of these is a program of some forty lines under `examples/`, which a test runs; [`examples`] shows them.
 //!
 //! [`Simulation`], [`Readback`], [`State`], [`Setup`] and [`Run`](run::Run) are `Send + Sync + 'static` (but in a browser, where devices
 //! stay in their thread): a simulation may be a resource of a game's schedule, and step in whichever thread that runs.
@@ -47,6 +47,8 @@ pub mod cpu;
 pub mod diagnose;
 #[doc(hidden)]
 pub mod error;
+#[cfg(doc)]
+pub mod examples;
 #[doc(hidden)]
 pub mod forces;
 #[cfg(feature = "scene")]

@@ -119,6 +119,7 @@ impl<B: Backend> Simulation<B> {
         let padded = given.padded();
         let setup = padded.as_ref().unwrap_or(given);
         let count = setup.check()?;
+        setup.weighs()?;
         if padded.is_some() {
             backend.resize(count);
         }
@@ -257,10 +258,12 @@ impl<B: Backend> Simulation<B> {
     /// The same from one of its elements on.
     ///
     /// # Errors
-    /// When there is no such field, it ends before, or the device is lost.
+    /// When there is no such field, it ends before, a number for a column of the state is not finite, it is the clock or the life of
+    /// particles, which [`Simulation::spawn`] and [`Simulation::remove`] keep, or the device is lost.
     pub fn write_at<T: Element>(&mut self, field: Field<T>, first: usize, values: &[T]) -> Result<(), Error> {
         let array = T::array(values.iter().map(|v| v.widen()).collect());
         self.fields.hold(field.name, &array, first)?;
+        self.may_write(field.name, &array, first)?;
         self.unrepeatable();
         self.begun &= field.name != POSITION.name && field.name != VELOCITY.name;
         self.backend.write_at(field.name, first, &array)

@@ -141,7 +141,7 @@ fn no_binding_number_is_written_in_rust() {
 }
 
 /// A module may name only what stands before it.
-const ORDER: [&str; 36] = [
+const ORDER: [&str; 37] = [
     "error",
     "settings",
     "links",
@@ -178,6 +178,7 @@ const ORDER: [&str; 36] = [
     "scene",
     "run",
     "cli",
+    "examples",
 ];
 /// The backends know kernels and nothing of physics; only these know them.
 const KNOW_BACKENDS: [&str; 5] = ["simulation", "stability", "lockstep", "selftest", "cli"];

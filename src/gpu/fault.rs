@@ -51,8 +51,18 @@ pub fn scoped<T>(device: &wgpu::Device, call: impl FnOnce() -> T) -> Result<T, E
     match complaints.into_iter().flatten().flatten().next() {
         None => Ok(result),
         Some(wgpu::Error::OutOfMemory { source }) => Err(Error::OutOfMemory(source.to_string())),
+        Some(_) if is_lost(device) => Err(Error::Lost("it was lost or destroyed".to_owned())),
         Some(error) => Err(sort(error.to_string())),
     }
+}
+
+/// A device that is lost, or that its owner has destroyed, makes invalid buffers without a word: their use is refused.
+fn is_lost(device: &wgpu::Device) -> bool {
+    let usage = wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST;
+    let descriptor = wgpu::BufferDescriptor { label: Some("probe"), size: 4, usage, mapped_at_creation: false };
+    let refused = device.push_error_scope(wgpu::ErrorFilter::Validation);
+    device.create_buffer(&descriptor).slice(..).map_async(wgpu::MapMode::Read, |_| ());
+    ready(refused.pop()).flatten().is_some()
 }
 
 /// A lost device says so only in words.

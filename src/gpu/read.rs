@@ -90,7 +90,7 @@ pub fn request(
     };
     // A device that is lost makes invalid buffers, and says nothing: the first complaint is of their use.
     let map = || stage.slice(..).map_async(wgpu::MapMode::Read, answer);
-    fault::scoped(device, map).map_err(|e| Error::Lost(format!("a field cannot be read: {e}")))?;
+    fault::scoped(device, map)?;
     request.stage = Some(stage);
     Ok(request)
 }

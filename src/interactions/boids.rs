@@ -6,7 +6,7 @@ use glam::{DVec3, Vec3};
 
 use super::{Component, Law, Over, Problem, Properties, SKIN, SPECIES, Stage, evaluate, species, speed_limit, params, over, is_nearer};
 use crate::error::Error;
-use crate::kernel::{Plan, Scalar};
+use crate::kernel::{Bounds, Plan, Scalar};
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::visit::Particle;
 
@@ -56,6 +56,14 @@ impl Boids {
 }
 
 impl Component for Boids {
+    fn check(&self, _: &Bounds) -> Result<(), Error> {
+        let (range, least) = (self.0.number("range"), self.0.number("separation_range"));
+        if least <= range {
+            return Ok(());
+        }
+        let why = format!("boids have separation_range = {least} and range = {range}: no neighbour is seen beyond the range; choose a smaller separation_range, or a larger range");
+        Err(Error::Setting { key: "separation_range", why })
+    }
     fn properties(&self) -> Properties {
         let statistics_radius = Some((self.0.number("range"), self.0.species("species")));
         Properties { statistics_radius, constrains: true, ..Properties::default() }

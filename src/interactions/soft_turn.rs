@@ -3,6 +3,8 @@
 use glam::{DVec3, DVec4};
 
 use super::{Component, EACH, Law, SPECIES, params, species};
+use crate::error::Error;
+use crate::kernel::Bounds;
 use crate::settings::{Key, Kind, Settings, Value};
 
 /// What a scene may say.
@@ -29,6 +31,17 @@ impl SoftTurn {
 }
 
 impl Component for SoftTurn {
+    fn check(&self, _: &Bounds) -> Result<(), Error> {
+        let (low, high) = (self.0.vector("low"), self.0.vector("high"));
+        match (0..3).find(|axis| low[*axis] > high[*axis]) {
+            None => Ok(()),
+            Some(axis) => {
+                let (name, least, most) = (["x", "y", "z"][axis], low[axis], high[axis]);
+                let why = format!("soft_turn has high = {most} along {name}, and low = {least}: nothing is between; exchange them");
+                Err(Error::Setting { key: "high", why })
+            }
+        }
+    }
     fn laws(&self) -> Vec<Law> {
         let (low, high) = (self.0.vector("low"), self.0.vector("high"));
         let (margin, acceleration) = (self.0.number("margin"), self.0.number("acceleration"));

@@ -73,23 +73,21 @@ fn given(table: &Table<'_>, keys: &[Key], name: &str) -> Option<Value> {
     value::read(&table.get(name)?.node, key.name, key.kind, &mut Report::default())
 }
 
-/// Reports what is wrong with a force that makes a fluid, at the key that says it, or else at its table. `earlier` says whether there
-/// is one already.
+/// Reports settings of a force that make no sense together, at the key that says it, or else at its table, and a fluid of nothing or
+/// beside another: `earlier` says whether there is one already. Whether it is a fluid that makes sense.
 pub(super) fn check(
     table: &Table<'_>,
     force: &dyn Component,
     (bounds, particles, earlier): (&Bounds, &State, bool),
     report: &mut Report,
 ) -> bool {
-    if !force.properties().makes_fluid {
-        return false;
-    }
     let fault = match force.check(bounds) {
         Err(Error::Setting { key, why }) => {
             let place = table.get(key).map_or(table.place, |entry| &entry.node.place);
             Fault::at(place, why)
         }
         Err(why) => Fault::at(table.place, why.to_string()),
+        Ok(()) if !force.properties().makes_fluid => return false,
         Ok(()) if earlier => {
             Fault::at(table.place, "there are two forces that make a fluid of all particles: leave one of them")
         }

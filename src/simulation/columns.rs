@@ -129,6 +129,32 @@ impl<B: Backend> Simulation<B> {
     pub fn columns(&self) -> &Columns {
         &self.store.columns
     }
+    /// Refuses what cannot be written by hand, and numbers that are none.
+    pub(super) fn may_write(&self, name: &str, values: &Array, first: usize) -> Result<(), Error> {
+        if name == "world" {
+            let text = "the field `world` is the clock and the box of the simulation: a state or a setup of another time goes on there";
+            return Err(Error::Scene(text.to_owned()));
+        }
+        if name == LIFE.name {
+            let text = "the field `life` says which particles take part: spawn and remove them";
+            return Err(Error::Scene(text.to_owned()));
+        }
+        if self.columns().get(name).is_none() {
+            return Ok(());
+        }
+        let bad = match values {
+            Array::Float(list) => list.iter().position(|x| !x.is_finite()),
+            Array::Vec3(list) => list.iter().position(|v| !v.is_finite()),
+            Array::Vec4(list) => list.iter().position(|v| !v.is_finite()),
+            Array::Uint(_) => None,
+        };
+        bad.map_or(Ok(()), |place| {
+            let element = first + place;
+            Err(Error::Scene(format!(
+                "element {element} for the field `{name}` is NaN or infinite: nothing was written"
+            )))
+        })
+    }
     /// Reads a column by its name. One that is recomputed has the values of the last evaluation.
     ///
     /// # Errors
@@ -178,6 +204,7 @@ impl<B: Backend> Simulation<B> {
             self.store.idle.insert(column.name.clone(), all);
             return Ok(());
         }
+        self.may_write(name, values, 0)?;
         let buffer = column.place.buffer.clone();
         self.begun &= buffer != POSITION.name && buffer != VELOCITY.name;
         let elements = match self.elements(&buffer).await? {

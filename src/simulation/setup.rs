@@ -258,6 +258,20 @@ impl Setup {
         }
         Ok(())
     }
+    /// Refuses particles of a fluid that weigh nothing.
+    pub(super) fn weighs(&self) -> Result<(), Error> {
+        if !self.forces.iter().any(|force| force.properties().makes_fluid) {
+            return Ok(());
+        }
+        let problem = self.problem(Machine::HOST)?;
+        for force in &self.forces {
+            if let Some(fluid) = force.resolved(&problem)?.fluid {
+                let free = (0..self.state.len()).filter(|id| self.state.is_active(*id) && !problem.is_held(*id));
+                fluid.medium.weighs(free.map(|id| (id, self.state.mass()[id])))?;
+            }
+        }
+        Ok(())
+    }
     /// Refuses a state that lacks a column that has no initial value, and numbers that are none.
     fn complete(&self) -> Result<(), Error> {
         let fits = |x: f64| x.abs() <= f64::from(f32::MAX);

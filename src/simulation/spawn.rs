@@ -147,6 +147,9 @@ impl<B: Backend> Simulation<B> {
         }
         let setup = self.setup.with_state(new.clone());
         setup.particles()?;
+        if !new.is_empty() {
+            setup.weighs()?;
+        }
         boundary::holds(&setup.bounds, new.position(), new.velocity())
     }
     /// Frees the rows of particles that drains have removed, where there are not enough.

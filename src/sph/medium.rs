@@ -56,6 +56,20 @@ impl Smoothed {
 }
 
 impl Medium {
+    /// Refuses particles of the fluid without mass.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] with the first of them.
+    pub fn weighs(&self, particles: impl IntoIterator<Item = (usize, f64)>) -> Result<(), Error> {
+        particles.into_iter().find(|(_, mass)| *mass <= 0.0).map_or(Ok(()), |(id, _)| {
+            Err(Error::Scene(format!(
+                "particle {id} is of the fluid and weighs nothing: it has no density, and pressure cannot move it; give it the mass \
+                 {}, which is density × spacing^{}, as the shapes block and drop do",
+                self.mass(),
+                self.dimensions
+            )))
+        })
+    }
     /// How far the kernel reaches \[length\].
     #[must_use]
     pub fn range(&self) -> f64 {

@@ -89,14 +89,7 @@ impl Start {
                         [[particles]] of shape = \"block\"";
             return Err(Error::Scene(text.to_owned()));
         }
-        if let Some(id) = ids.iter().find(|id| still.mass[**id] <= 0.0) {
-            return Err(Error::Scene(format!(
-                "particle {id} is of the fluid and weighs nothing: it has no density, and pressure cannot move it; give it the mass \
-                 {}, which is density × spacing^{}, as the shapes block and drop do",
-                medium.mass(),
-                medium.dimensions
-            )));
-        }
+        medium.weighs(ids.iter().map(|id| (*id, still.mass[*id])))?;
         let (nearby, smoothed) = (Nearby::new(still.position, still.bounds, medium.range()), medium.smoothed());
         let mass = masses(fluid, still, &nearby);
         let densities: Vec<(f64, Option<(usize, f64)>)> =

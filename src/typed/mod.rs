@@ -61,7 +61,9 @@ impl Field for u64 {
         settings.whole(key)
     }
     fn value(&self) -> Value {
-        Value::Number(*self as f64)
+        // A number holds whole ones up to 2⁵³. What is above is refused, and must not be rounded to that.
+        let exact = *self <= 1 << 53;
+        Value::Number(if exact { *self as f64 } else { (*self as f64).max(((1_u64 << 53) + 2) as f64) })
     }
 }
 /// A species; none stands for all.

@@ -2,6 +2,7 @@
 
 mod diagnose;
 mod examples;
+mod misuse;
 mod readback;
 mod set;
 mod subgroups;

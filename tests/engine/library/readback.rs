@@ -135,4 +135,7 @@ fn a_lost_device_and_an_unknown_field_are_errors() {
         Err(error) => Err(error),
     };
     assert!(matches!(later, Err(Error::Lost(_))), "{later:?}");
+    assert!(!later.expect_err("it is lost").to_string().contains("bug"), "no fault of the library's");
+    let anew = Simulation::new(&shared.found.device, &shared.found.queue, &setup);
+    assert!(matches!(anew, Err(Error::Lost(_))), "{:?}", anew.err());
 }

@@ -1,10 +1,10 @@
 //! What cannot be searched is said, with the particle or the number, and spoils nothing else.
 
-use glam::{DVec3, Vec4};
+use glam::{DVec3, DVec4, Vec4};
 use motes::forces::{Component, Law, Over, Problem};
 use motes::integrators::Step;
 use motes::kernel::{ALARM, Backend, Machine, Plan, Source};
-use motes::{ACCELERATION, Bounds, Error, POSITION, Side, VELOCITY};
+use motes::{ACCELERATION, Array, Bounds, Error, POSITION, Side, VELOCITY};
 
 use crate::neighbors::exact::{Whole, by_force, by_sort, found, same, simulation};
 use crate::neighbors::variants;
@@ -120,7 +120,8 @@ fn a_velocity_that_is_none_is_named() {
     let positions = cloud(100);
     let mut simulation =
         simulation(machines::gpu(&shared, 100), &positions, Bounds::default(), Over::Near { range: 0.5, of: None });
-    simulation.write(VELOCITY, &[Vec4::ZERO, Vec4::new(0.0, f32::NAN, 0.0, 0.0)]).expect("velocities");
+    let none = Array::Vec4(vec![DVec4::ZERO, DVec4::new(0.0, f64::NAN, 0.0, 0.0)]);
+    simulation.backend().write(VELOCITY.name, &none).expect("velocities");
     simulation.step(0).expect("a start");
     let error = pollster::block_on(simulation.check()).expect_err("an alarm");
     assert!(matches!(error, Error::NotFinite { particle: 1, step: 0 }), "{error}");
