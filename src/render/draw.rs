@@ -34,7 +34,7 @@ pub(super) async fn exposed<B: Backend>(
     picture: &Picture,
     choose: impl FnOnce(Exposure) -> Exposure,
 ) -> Result<Image, Error> {
-    granted(&picture.frame)?;
+    granted(&picture.frame, backend.host().is_some())?;
     if let Some(host) = backend.host() {
         return plain::draw(host, picture, choose);
     }
@@ -46,13 +46,17 @@ pub(super) async fn exposed<B: Backend>(
     image
 }
 
-/// What a picture takes of the host's memory: for each of its samples at most, and beside them \[bytes\].
-const SAMPLE: u64 = 160;
+/// What a picture takes of the host's memory \[bytes\]: for each pixel, where it is drawn by a device and by the references; for each sample
+/// of these; and beside them.
+const READ: u64 = 16;
+const PIXEL: u64 = 160;
+const SAMPLE: u64 = 16;
 const BESIDE: u64 = 16 << 20;
 
 /// Asks the system for the memory of a picture, once and in one piece: to fail later would end the process.
-fn granted(frame: &Frame) -> Result<(), Error> {
-    let bytes = u64::from(frame.area().max(frame.samples())) * SAMPLE + BESIDE;
+fn granted(frame: &Frame, by_references: bool) -> Result<(), Error> {
+    let [pixels, samples] = [frame.area(), frame.samples()].map(u64::from);
+    let bytes = BESIDE + if by_references { pixels * PIXEL + samples * SAMPLE } else { pixels * READ };
     let size = usize::try_from(bytes).unwrap_or(usize::MAX);
     Vec::<u8>::new().try_reserve_exact(size).map_err(|_| {
         Error::Limit(format!(
