@@ -184,7 +184,8 @@ impl<B: Backend> Simulation<B> {
         made.resume(setup, whole)?;
         Ok(made)
     }
-    /// Advances. May return before the device is done; reading waits.
+    /// Advances. May return before the device is done; reading waits. Two submissions of about 80 ms are under way at most: more steps
+    /// than these hold wait for the device. A program that must not wait takes few at a time, or [`Simulation::encode`].
     ///
     /// Where laws share a list of neighbours that turns out too short, [`Simulation::check`] and all that reads makes room for more and
     /// repeats the steps since the last look, with the bits of a run that had the room from the start. The more steps lie between two

@@ -24,6 +24,10 @@ impl<B: Backend> Simulation<B> {
     /// Where it changes accelerations at the present state, the next step begins with these. Steps that a caller has encoded before
     /// keep what they were encoded with.
     ///
+    /// Some settings are compiled into kernels, or decide the size of buffers, and are refused: the medium of a fluid (`density`,
+    /// `spacing`, `support`, `gamma`, `sound_speed`), the `range` of a search, `theta` of a tree, the `strain` of a strain limit, and
+    /// those that add a term where they were 0, such as a fluid's `viscosity`.
+    ///
     /// # Errors
     /// [`Error::Setting`] and [`Error::Scene`] when there is no such force or setting, with the nearest name; when the value is of
     /// another kind or out of its range, with the number; when the setting changes what kernels do, and not only their numbers. Nothing
