@@ -3,6 +3,7 @@
 //!
 //! `Properties` names what a line holds: `species` (an element: its number in the periodic table is the species, `X` is species 0),
 //! `pos`, `velo`, `masses`, `radius` (the size), `id`, and any other column by its own name. `Time` and `Step` are those of the state.
+//! Where a file has ASE's `momenta`, velocities are these divided by `masses`.
 //! `Lattice`, `Origin` and `pbc` are the box, where it is closed along every axis. Format: the specification of libAtoms (extxyz).
 
 use std::fmt::Write as _;
@@ -41,12 +42,15 @@ const ELEMENTS: &str = "X H He Li Be B C N O F Ne Na Mg Al Si P S Cl Ar K Ca Sc 
 /// What a plain XYZ file holds, which says nothing of it.
 const PLAIN: &str = "species:S:1:pos:R:3";
 
+/// What ASE writes in the place of velocities: these times the mass.
+const MOMENTA: &str = "momenta";
+
 /// The column of a property: that of its name, or what other programs call it so.
 fn column_of<'a>(property: &'a str, columns: &Columns) -> &'a str {
     match property {
         name if columns.get(name).is_some() => name,
         "pos" | "positions" => "position",
-        "velo" | "vel" | "velocities" => "velocity",
+        "velo" | "vel" | "velocities" | MOMENTA => "velocity",
         "masses" => "mass",
         "radius" => "size",
         name => name,
@@ -191,6 +195,10 @@ pub fn read(path: &Path, columns: &Columns) -> Result<State, Error> {
     if !known.iter().zip(&given).any(|(title, list)| title.column.name == "position" && list.is_some()) {
         problems.note(|| "line 2: Properties has no `pos:R:3`: positions are missing".to_owned());
     }
+    let momenta = columns.get(MOMENTA).is_none() && properties.iter().any(|property| property.name == MOMENTA);
+    if momenta && !properties.iter().any(|property| column_of(&property.name, columns) == "mass") {
+        problems.note(|| "line 2: `momenta` are velocities times `masses`, and there are none: give `masses:R:1` too".to_owned());
+    }
     problems.stop(path)?;
     let width: usize = properties.iter().map(|property| property.width).sum();
     let mut ids = Vec::new();
@@ -229,6 +237,9 @@ pub fn read(path: &Path, columns: &Columns) -> Result<State, Error> {
             }
         }
     }
+    if momenta && problems.none() {
+        divide(&mut given, &known, &mut problems);
+    }
     let mut after = lines.next().map_err(failed)?;
     while after.as_ref().is_some_and(|text| text.trim().is_empty()) {
         after = lines.next().map_err(failed)?;
@@ -245,6 +256,20 @@ pub fn read(path: &Path, columns: &Columns) -> Result<State, Error> {
     state.time = said("Time").and_then(|text| text.parse().ok()).filter(|time: &f64| time.is_finite()).unwrap_or(0.0);
     state.step = said("Step").and_then(|text| text.parse().ok()).unwrap_or(0);
     Ok(state)
+}
+
+/// Makes velocities of momenta.
+fn divide(given: &mut [Option<Vec<f64>>], known: &[titles::Title<'_>], problems: &mut Problems) {
+    let of = |column: &str| known.iter().position(|title| title.column.name == column);
+    let (Some(velocity), Some(mass)) = (of("velocity"), of("mass").and_then(|place| given[place].clone())) else { return };
+    for list in given[velocity..velocity + 3].iter_mut().flatten() {
+        for (row, (number, mass)) in list.iter_mut().zip(&mass).enumerate() {
+            if *mass == 0.0 && *number != 0.0 {
+                problems.note(|| format!("line {}, momenta: {number} of a particle without mass: no velocity has that", row + 3));
+            }
+            *number = if *mass == 0.0 { 0.0 } else { *number / mass };
+        }
+    }
 }
 
 /// The lines of a file. One that is no UTF-8 is read with signs in the place of what is none.

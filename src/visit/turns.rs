@@ -7,6 +7,8 @@ use crate::kernel::{ALARM, ALARM_WORDS, LAW, Machine, Name, Source};
 const TURNS: u32 = 60_000;
 /// Turns of a law's loops for one pair that are allowed for: more are found out as the law runs.
 const EXPECTED: u32 = 100;
+/// Targets that an invocation of a walk has, where it has no subgroups.
+const TARGETS: u32 = 4;
 
 impl Law {
     /// Whether it is a user's, and has loops.
@@ -33,10 +35,10 @@ impl Law {
         if self.has_loops() { vec![(ALARM.name.into(), ALARM_WORDS as u64)] } else { Vec::new() }
     }
     /// The machine as its visit sees it where a walk may stop and go on: a loop in it leaves a walk fewer turns, and one particle
-    /// is met at a time.
+    /// is met at a time, by [`TARGETS`].
     pub(super) fn leaves(&self, machine: &Machine) -> Machine {
         if self.has_loops() && machine.software {
-            Machine { subgroup: 0, turns: machine.turns / EXPECTED, ..*machine }
+            Machine { subgroup: 0, turns: machine.turns / (TARGETS * EXPECTED), ..*machine }
         } else {
             *machine
         }

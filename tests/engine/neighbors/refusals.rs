@@ -83,16 +83,17 @@ fn particles_at_nan_are_named_and_meet_none() {
     let shared = support::device();
     let positions = cloud(200);
     let boxed = Bounds::new(DVec3::splat(-1.0), DVec3::splat(1.0), Side::Periodic);
-    for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+    for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         for bounds in [Bounds::default(), boxed] {
             for over in [Over::Near { range: 0.5, of: None }, Over::Nearest { count: 7 }] {
                 for (name, machine) in variants(&shared) {
                     let mut gpu = machines::gpu(&shared, positions.len());
                     gpu.pretend(machine);
                     let mut simulation = simulation(gpu, &positions, bounds, over);
-                    let mut places: Vec<Vec4> = positions.iter().map(|x| x.extend(1.0).as_vec4()).collect();
-                    (places[60].y, places[131]) = (bad, Vec4::splat(bad));
-                    simulation.write(POSITION, &places).expect("places");
+                    let mut places: Vec<DVec4> = positions.iter().map(|x| x.extend(1.0)).collect();
+                    (places[60].y, places[131]) = (bad, DVec4::splat(bad));
+                    // `Simulation::write` would refuse them.
+                    simulation.backend().write(POSITION.name, &Array::Vec4(places)).expect("places");
                     simulation.step(0).expect("a start");
                     let error = pollster::block_on(simulation.check()).expect_err("an alarm");
                     assert!(matches!(error, Error::NotFinite { particle: 60, step: 0 }), "{name}: {error}");

@@ -27,6 +27,22 @@ fn files_of_other_programs_are_read() {
 }
 
 #[test]
+fn momenta_are_velocities_times_masses() {
+    let folder = folder();
+    let file = |body: &str| put(&folder, "a.xyz", format!("2\nProperties=species:S:1:pos:R:3:{body}"));
+    let state = read(&file("momenta:R:3:masses:R:1\nO 0 0 0 8 -4 2 16\nH 1 0 0 0 3 0 1.5\n")).expect("momenta");
+    assert_eq!(state.velocity(), [DVec3::new(0.5, -0.25, 0.125), DVec3::new(0.0, 2.0, 0.0)]);
+    for (body, words) in [
+        ("momenta:R:3\nO 0 0 0 8 -4 2\nH 1 0 0 0 3 0\n", "`masses:R:1`"),
+        ("momenta:R:3:masses:R:1\nO 0 0 0 8 -4 2 16\nH 1 0 0 0 3 0 0\n", "line 4, momenta: 3"),
+        ("momenta:R:3:velo:R:3:masses:R:1\nO 0 0 0 8 -4 2 1 1 1 16\nH 1 0 0 0 3 0 1 1 1 1\n", "there twice"),
+    ] {
+        let why = read(&file(body)).expect_err(words).to_string();
+        assert!(why.contains(words), "{why}");
+    }
+}
+
+#[test]
 fn columns_go_there_and_back() {
     let columns = Columns::with(vec![
         Column::new("charge", Kind::Scalar, "", "a charge"),
