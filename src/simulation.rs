@@ -187,7 +187,7 @@ impl<B: Backend> Simulation<B> {
     /// Advances. May return before the device is done; reading waits. Two submissions of about 80 ms are under way at most: more steps
     /// than these hold wait for the device. A program that must not wait takes few at a time, or [`Simulation::encode`].
     ///
-    /// Where laws share a list of neighbours that turns out too short, [`Simulation::check`] and all that reads makes room for more and
+    /// Where laws share a list of neighbours that turns out too short, [`Simulation::check`] and all that waits for a read makes room for more and
     /// repeats the steps since the last look, with the bits of a run that had the room from the start. The more steps lie between two
     /// looks, the more are repeated; steps behind which a caller has written fields or encoded are not, and end in
     /// [`Error::ListFull`].
@@ -242,6 +242,8 @@ impl<B: Backend> Simulation<B> {
     ///
     /// # Errors
     /// When there is no such field, or the device is lost.
+    ///
+    /// It looks at no list of neighbours: see [`Simulation::step`], and call [`Simulation::check`] now and then.
     pub fn request<T: Element>(&mut self, field: Field<T>) -> Result<Readback<T>, Error> {
         let like = T::array(Vec::new());
         let len = self.len_of(field, &like)?;
@@ -374,7 +376,7 @@ impl Simulation<Gpu> {
     /// Encodes steps into the caller's encoder and submits nothing. The clock is on the device, so every call goes on
     /// where the one before it ended, if the caller submits them in that order. How long a submission becomes is in the
     /// caller's hand: a system ends one of some seconds. An encoder that is dropped takes its steps with it, and the
-    /// simulation no longer knows its own time: make a new one then.
+    /// simulation no longer knows its own time: make a new one then. Submit before anything is read: a read may make buffers anew.
     ///
     /// # Errors
     /// [`Error::Scene`] when the steps no longer fit the device's count of them.

@@ -1,5 +1,22 @@
 // Four targets of a lane meet the eight particles, or the eight far groups, that the lanes of its subgroup hold: they are
 // passed round by broadcast. The lane of a broadcast must be a constant.
+// A body of a place along the curve, if it is there, and four targets from `mine` on, of which one may be that body: none
+// meets itself. Both ways are computed and one is kept.
+fn meet_other(slot: u32, mine: u32, me: Particle, you: Particle, sum: ptr<function, Sum>) {
+    var met = *sum;
+    gather(me, you, shortest(you.position - me.position), &met);
+    if slot != mine && slot < world.count { *sum = met; }
+}
+
+fn meet_others(slot: u32, mine: u32, a: Particle, b: Particle, c: Particle, d: Particle,
+               sum_a: ptr<function, Sum>, sum_b: ptr<function, Sum>, sum_c: ptr<function, Sum>, sum_d: ptr<function, Sum>) {
+    let you = target_of(min(slot, world.count - 1u));
+    meet_other(slot, mine, a, you, sum_a);
+    meet_other(slot, mine + LANES, b, you, sum_b);
+    meet_other(slot, mine + 2u * LANES, c, you, sum_c);
+    meet_other(slot, mine + 3u * LANES, d, you, sum_d);
+}
+
 fn meet(index: u32, you: vec4f, a: Particle, b: Particle, c: Particle, d: Particle,
         sum_a: ptr<function, Sum>, sum_b: ptr<function, Sum>, sum_c: ptr<function, Sum>, sum_d: ptr<function, Sum>) {
     let p = Particle(index, you.xyz, you.w);

@@ -1,22 +1,5 @@
-// Four targets of a lane, eight places apart along the curve, meet a body or a far group.
+// Four targets of a lane, eight places apart along the curve, meet a far group.
 const LANES: u32 = 8u;
-
-// A body of a place along the curve, if it is there, and four targets from `mine` on, of which one may be that body: none
-// meets itself. Both ways are computed and one is kept.
-fn meet_other(slot: u32, mine: u32, me: Particle, you: Particle, sum: ptr<function, Sum>) {
-    var met = *sum;
-    gather(me, you, shortest(you.position - me.position), &met);
-    if slot != mine && slot < world.count { *sum = met; }
-}
-
-fn meet_others(slot: u32, mine: u32, a: Particle, b: Particle, c: Particle, d: Particle,
-               sum_a: ptr<function, Sum>, sum_b: ptr<function, Sum>, sum_c: ptr<function, Sum>, sum_d: ptr<function, Sum>) {
-    let you = target_of(min(slot, world.count - 1u));
-    meet_other(slot, mine, a, you, sum_a);
-    meet_other(slot, mine + LANES, b, you, sum_b);
-    meet_other(slot, mine + 2u * LANES, c, you, sum_c);
-    meet_other(slot, mine + 3u * LANES, d, you, sum_d);
-}
 
 fn meet_group(x: vec3f, g: Group, a: Particle, b: Particle, c: Particle, d: Particle,
               sum_a: ptr<function, Sum>, sum_b: ptr<function, Sum>, sum_c: ptr<function, Sum>, sum_d: ptr<function, Sum>) {

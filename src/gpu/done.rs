@@ -42,15 +42,25 @@ impl Done {
         // A device that is lost takes submissions without a word, says that they are done, and does not know them afterwards. One that is
         // done is not waited for.
         let known = wgpu::PollType::Wait { submission_index: Some(self.index.clone()), timeout: Some(Duration::ZERO) };
-        match device.poll(known) {
-            Ok(_) => Ok(true),
-            Err(why) => Err(Error::Lost(why.to_string())),
-        }
+        polled(device, known).map(|()| true)
     }
     /// Wakes the task that asks when it is set. Only a browser does so by itself.
     #[cfg(target_arch = "wasm32")]
     pub async fn awaited(&self) {
         self.event.wait().await;
+    }
+}
+
+/// Polls a device. wgpu ends in a panic where a driver says that its device is lost: here that is an error.
+///
+/// # Errors
+/// [`Error::Lost`] when the device is.
+pub fn polled(device: &wgpu::Device, how: wgpu::PollType) -> Result<(), Error> {
+    let poll = std::panic::AssertUnwindSafe(|| device.poll(how));
+    match std::panic::catch_unwind(poll) {
+        Ok(Ok(_)) => Ok(()),
+        Ok(Err(why)) => Err(Error::Lost(why.to_string())),
+        Err(_) => Err(Error::Lost("its driver lost it".to_owned())),
     }
 }
 
@@ -62,7 +72,7 @@ impl Done {
 pub fn wait_until(device: &wgpu::Device, time: Duration, mut so: impl FnMut() -> bool) -> Result<bool, Error> {
     let start = Instant::now();
     loop {
-        device.poll(wgpu::PollType::Poll).map_err(|why| Error::Lost(why.to_string()))?;
+        polled(device, wgpu::PollType::Poll)?;
         if so() {
             return Ok(true);
         }

@@ -26,7 +26,10 @@ pub fn made(device: &wgpu::Device, queue: &wgpu::Queue, pass: &Pass, patience: D
     };
     let thread = std::thread::Builder::new().name("compile".to_owned()).spawn(work);
     thread.map_err(|error| Error::Device(format!("no thread can be made to compile in: {error}")))?;
-    awaited.recv_timeout(patience).unwrap_or_else(|_| {
+    awaited.recv_timeout(patience).unwrap_or_else(|why| {
+        if why == std::sync::mpsc::RecvTimeoutError::Disconnected {
+            return Err(Error::Lost("its driver ended the compilation of a law".to_owned()));
+        }
         let file = pass.shader.sources().iter().find(|source| source.law).map_or("a law", |source| &source.file);
         let what = format!(
             "the driver compiles {file}; smaller arrays that are indexed by what is computed, fewer calls, or shorter functions are \

@@ -10,6 +10,8 @@ use std::time::Duration;
 use futures_intrusive::channel::shared::{OneshotSender, oneshot_channel};
 use web_time::Instant;
 
+#[cfg(not(target_arch = "wasm32"))]
+use super::done::polled;
 use super::done::wait_until;
 use super::fault;
 use super::submit::Queue;
@@ -137,24 +139,25 @@ impl Request {
             return waker.wake_by_ref();
         }
         if !self.watched {
-            self.watched = true;
-            self.watch(waker);
+            self.watched = self.watch(waker);
         }
     }
     /// A browser wakes by itself.
     #[cfg(target_arch = "wasm32")]
-    fn watch(&self, _: &Waker) {}
-    /// Looks at the device from a thread, until there is an answer, the time is over, or the request is dropped.
+    fn watch(&self, _: &Waker) -> bool {
+        true
+    }
+    /// Looks at the device from a thread, if there can be one, until there is an answer, the time is over, or the request is dropped.
     #[cfg(not(target_arch = "wasm32"))]
-    fn watch(&self, waker: &Waker) {
+    fn watch(&self, waker: &Waker) -> bool {
         let (device, sender) = (self.device.clone(), Arc::downgrade(&self.sender));
         let (deadline, patience) = (self.deadline, self.patience);
         let work = move || {
             // The device lets go of its own when it has answered.
             while let Some(sender) = sender.upgrade().filter(|sender| Arc::strong_count(sender) > ALONE) {
-                let over = match device.poll(wgpu::PollType::Poll) {
-                    Err(why) => Some(Error::Lost(why.to_string())),
-                    Ok(_) => (Instant::now() > deadline).then(|| late(patience)),
+                let over = match polled(&device, wgpu::PollType::Poll) {
+                    Err(why) => Some(why),
+                    Ok(()) => (Instant::now() > deadline).then(|| late(patience)),
                 };
                 if let Some(why) = over {
                     let _ = sender.send(Err(why));
@@ -165,9 +168,11 @@ impl Request {
             }
         };
         // Without a thread the executor asks again and again.
-        if std::thread::Builder::new().name("read".to_owned()).spawn(work).is_err() {
+        let watched = std::thread::Builder::new().name("read".to_owned()).spawn(work).is_ok();
+        if !watched {
             waker.wake_by_ref();
         }
+        watched
     }
 }
 

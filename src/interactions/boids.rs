@@ -58,7 +58,8 @@ impl Boids {
 impl Component for Boids {
     fn check(&self, _: &Bounds) -> Result<(), Error> {
         let (range, least) = (self.0.number("range"), self.0.number("separation_range"));
-        if least <= range {
+        // The nearest neighbours are seen however far they are.
+        if least <= range || self.0.text("over") == "nearest" {
             return Ok(());
         }
         let why = format!("boids have separation_range = {least} and range = {range}: no neighbour is seen beyond the range; choose a smaller separation_range, or a larger range");

@@ -139,19 +139,24 @@ impl<B: Backend> Simulation<B> {
             let text = "the field `life` says which particles take part: spawn and remove them";
             return Err(Error::Scene(text.to_owned()));
         }
+        if name == ID.name {
+            let text = "the field `id` has the ids that the simulation gave, and nothing else may";
+            return Err(Error::Scene(text.to_owned()));
+        }
         if self.columns().get(name).is_none() {
             return Ok(());
         }
+        let fits = |x: &f64| x.abs() <= f64::from(f32::MAX);
         let bad = match values {
-            Array::Float(list) => list.iter().position(|x| !x.is_finite()),
-            Array::Vec3(list) => list.iter().position(|v| !v.is_finite()),
-            Array::Vec4(list) => list.iter().position(|v| !v.is_finite()),
+            Array::Float(list) => list.iter().position(|x| !fits(x)),
+            Array::Vec3(list) => list.iter().position(|v| !v.to_array().iter().all(fits)),
+            Array::Vec4(list) => list.iter().position(|v| !v.to_array().iter().all(fits)),
             Array::Uint(_) => None,
         };
         bad.map_or(Ok(()), |place| {
             let element = first + place;
             Err(Error::Scene(format!(
-                "element {element} for the field `{name}` is NaN or infinite: nothing was written"
+                "element {element} for the field `{name}` is NaN, infinite or beyond single precision: nothing was written"
             )))
         })
     }
@@ -196,6 +201,7 @@ impl<B: Backend> Simulation<B> {
                 values.len()
             )));
         }
+        self.may_write(name, values, 0)?;
         self.settle().await?;
         self.unrepeatable();
         if !self.store.lies_on_device(&column) {
@@ -204,7 +210,6 @@ impl<B: Backend> Simulation<B> {
             self.store.idle.insert(column.name.clone(), all);
             return Ok(());
         }
-        self.may_write(name, values, 0)?;
         let buffer = column.place.buffer.clone();
         self.begun &= buffer != POSITION.name && buffer != VELOCITY.name;
         let elements = match self.elements(&buffer).await? {

@@ -141,8 +141,19 @@ impl<B: Backend> Simulation<B> {
             let more = self.more(shape, seen.longest);
             let ample = f64::from(seen.longest) <= AMPLE * f64::from(shape.capacity);
             match (seen.overflown, more) {
-                // It is seldom, and in a box: whatever reads awaits this.
-                (None, Some(more)) if !ample => Box::pin(self.grow(Room::Neighbors(more))).await?,
+                // It is seldom, and in a box: whatever reads awaits this. A list that suffices yet ends no run: where the device has no
+                // room for more, or something else is wrong, it stays as it is.
+                (None, Some(more)) if !ample && self.is_quiet().await? => {
+                    self.repeat.from = None;
+                    match Box::pin(self.grow(Room::Neighbors(more))).await {
+                        Ok(()) => {}
+                        Err(Error::Limit(_) | Error::OutOfMemory(_)) => {
+                            self.repeat.sufficed = true;
+                            return Ok(changed);
+                        }
+                        Err(why) => return Err(why),
+                    }
+                }
                 (None, _) => {
                     (self.repeat.from, self.repeat.sufficed) = (None, true);
                     return Ok(changed);
@@ -176,6 +187,11 @@ impl<B: Backend> Simulation<B> {
             left = Some(steps - u64::from(some)).filter(|left| *left > 0);
         }
         Ok(())
+    }
+    /// Whether nothing is wrong that a check would report.
+    async fn is_quiet(&mut self) -> Result<bool, Error> {
+        let alarm = self.alarm().await?;
+        Ok(self.sound(&alarm).is_ok() && alarm[3] == u32::MAX)
     }
     async fn seen(&mut self) -> Result<Seen, Error> {
         let state = self.backend.read(LIST_STATE, &Array::Uint(Vec::new()), LIST_STATE_WORDS).await?;

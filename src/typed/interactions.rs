@@ -113,9 +113,9 @@ typed! {
         max_force: f64,
         /// What it acts on: a species, or "all".
         species: Option<u32>,
-        /// Which neighbours: all in range, by a cell list, by a list that is kept over steps, or by brute force; or the nearest, of all species, however far (Ballerini et al. 2008): near, list, within, nearest.
+        /// Which neighbours: all in range, by a cell list, by a list that is kept over steps, by the faster of both, or by brute force; or the nearest, of all species, however far (Ballerini et al. 2008): near, list, auto, within, nearest.
         over: Cow<'static, str>,
-        /// Over = "list": how much farther than the range the list reaches; 0: a fifth of the range \[length\].
+        /// Over = "list" or "auto": how much farther than the range the list reaches; 0: a fifth of the range \[length\].
         skin: f64,
         /// How many are nearest.
         neighbors: u32,
@@ -153,9 +153,9 @@ typed! {
         species: Option<u32>,
         /// The species that it flees.
         predators: Option<u32>,
-        /// Which neighbours: all in range, by a cell list, by a list that is kept over steps, or by brute force: near, list, within.
+        /// Which neighbours: all in range, by a cell list, by a list that is kept over steps, by the faster of both, or by brute force: near, list, auto, within.
         over: Cow<'static, str>,
-        /// Over = "list": how much farther than the range the list reaches; 0: a fifth of the range \[length\].
+        /// Over = "list" or "auto": how much farther than the range the list reaches; 0: a fifth of the range \[length\].
         skin: f64,
     }
     /// Predators chase prey.
@@ -170,9 +170,9 @@ typed! {
         species: Option<u32>,
         /// The species that is chased.
         prey: Option<u32>,
-        /// Which neighbours: all in range, by a cell list, by a list that is kept over steps, or by brute force: near, list, within.
+        /// Which neighbours: all in range, by a cell list, by a list that is kept over steps, by the faster of both, or by brute force: near, list, auto, within.
         over: Cow<'static, str>,
-        /// Over = "list": how much farther than the range the list reaches; 0: a fifth of the range \[length\].
+        /// Over = "list" or "auto": how much farther than the range the list reaches; 0: a fifth of the range \[length\].
         skin: f64,
     }
     /// A place to steer to and arrive at, or a roost to keep to (Reynolds 1999).
@@ -232,9 +232,9 @@ typed! {
         noise_kind: Cow<'static, str>,
         /// Seed of the random numbers, counted by id and step.
         seed: u64,
-        /// Which neighbours: all in range, by a cell list, by a list that is kept over steps, or by brute force: near, list, within.
+        /// Which neighbours: all in range, by a cell list, by a list that is kept over steps, by the faster of both, or by brute force: near, list, auto, within.
         over: Cow<'static, str>,
-        /// Over = "list": how much farther than the range the list reaches; 0: a fifth of the range \[length\].
+        /// Over = "list" or "auto": how much farther than the range the list reaches; 0: a fifth of the range \[length\].
         skin: f64,
     }
     /// Ions: repulsion and dispersion by pair of species, and damped Coulomb forces of their charges (Born & Mayer 1932).
@@ -247,9 +247,9 @@ typed! {
         coulomb: f64,
         /// α: Coulomb's energy is erfc(α r) / r; 0: it is only shifted \[1 / length\].
         damping: f64,
-        /// Which neighbours: all in range, by a cell list, by a list that is kept over steps, or by brute force: near, list, within.
+        /// Which neighbours: all in range, by a cell list, by a list that is kept over steps, by the faster of both, or by brute force: near, list, auto, within.
         over: Cow<'static, str>,
-        /// Over = "list": how much farther than the range the list reaches; 0: a fifth of the range \[length\].
+        /// Over = "list" or "auto": how much farther than the range the list reaches; 0: a fifth of the range \[length\].
         skin: f64,
     }
     /// Spheres that touch: normal springs and dashpots, friction with history, torques (Cundall & Strack 1979).

@@ -66,7 +66,6 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("tree_alone", "more = node > 1u;", "1u", "2u", "it is odd"),
     same("tree_alone", "if first < last_target()", "<", "<=", BEHIND),
     same("tree_alone", "let last =", "-", "+", BEHIND),
-    same("tree_four", "let you =", "-", "+", "a body that is not there is left out"),
 ];
 
 /// Nine workgroups in a row, nine times, are two more than these many have groups.

@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Vec4};
 use motes::typed::{Boids, Fluid, SoftTurn, Wander, default, fluid};
-use motes::{Error, Field, LIFE, POSITION, Setup, Simulation, State, VELOCITY};
+use motes::{Array, Error, Field, LIFE, POSITION, Setup, Simulation, State, VELOCITY};
 
 use crate::support::{cloud, device};
 
@@ -24,6 +24,12 @@ fn numbers_that_are_none_and_the_clock_are_not_written() {
         assert!(why.contains("element 0") && why.contains("`velocity`"), "{why}");
     }
     assert_eq!(pollster::block_on(simulation.read(POSITION)).expect("positions"), before);
+    // By the names of columns too, whether or not a kernel has them.
+    let mut column = |name, values| said(pollster::block_on(simulation.write_column(name, &values)));
+    assert!(column("life", Array::Uint(vec![2; 20])).contains("spawn and remove"));
+    assert!(column("id", Array::Uint(vec![7; 20])).contains("the ids that the simulation gave"));
+    let why = column("mass", Array::Float([vec![1.0; 19], vec![1e300]].concat()));
+    assert!(why.contains("element 19") && why.contains("`mass`") && why.contains("beyond single precision"), "{why}");
     assert!(said(simulation.write(Field::<u32>::new("world"), &[1_000_000])).contains("`world`"));
     pollster::block_on(simulation.remove(&[8])).expect("one goes");
     assert!(said(simulation.write_at(LIFE, 0, &[7])).contains("spawn and remove"));
@@ -63,6 +69,9 @@ fn settings_that_contradict_each_other_are_refused() {
     };
     let why = said(new(Boids { range: 0.3, separation_range: 0.5, ..default() }.into()));
     assert!(why.contains("separation_range") && why.contains("0.5") && why.contains("0.3"), "{why}");
+    // The nearest are seen however far they are.
+    new(Boids { range: 0.3, separation_range: 0.5, over: "nearest".into(), ..default() }.into())
+        .expect("it makes sense");
     let (low, high) = (DVec3::new(-1.0, 2.0, -1.0), DVec3::ONE);
     let why = said(new(SoftTurn { low, high, ..default() }.into()));
     assert!(why.contains("along y") && why.contains('2'), "{why}");
