@@ -25,7 +25,7 @@
 //! `examples/spawn_and_remove.rs`
 #![doc = concat!("```ignore\n", include_str!("../examples/spawn_and_remove.rs"), "```")]
 //!
-//! # Save, restore, and go on to the bit
+//! # Save, restore, and continue bit for bit
 //!
 //! `examples/save_and_restore.rs`
 #![doc = concat!("```ignore\n", include_str!("../examples/save_and_restore.rs"), "```")]

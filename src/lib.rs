@@ -22,7 +22,7 @@
 //! | change settings, obstacles, motions, a law's parameters and tables between frames | [`Simulation::set`], [`Simulation::set_motion`] |
 //! | read back without a stall | [`Simulation::request`], [`Readback`] |
 //! | add and take away particles | [`Simulation::spawn`], [`Simulation::remove`] |
-//! | save, restore, go on to the bit | [`Simulation::snapshot`], [`Simulation::setup`], [`State`] |
+//! | save, restore, continue bit for bit | [`Simulation::snapshot`], [`Simulation::setup`], [`State`] |
 //! | give settings as fields | [`typed`] |
 //! | write a law of your own | [`Custom`] |
 //! | know before a run what is wrong with it | [`diagnose`](diagnose::diagnose) |

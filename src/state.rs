@@ -25,7 +25,7 @@ pub(crate) use kept::{
 };
 pub(crate) use room::{NONE, parked};
 
-/// Particles and all that a run needs to go on with them. Every array has one element per particle, in the order of ids. Units
+/// Particles and all that a run needs to continue with them. Every array has one element per particle, in the order of ids. Units
 /// are the scene's own.
 ///
 /// Positions, velocities, masses, sizes and species are always there; any other column has values when some are given.
@@ -130,7 +130,7 @@ impl State {
     pub fn vector(&self, name: &str) -> Option<&[glam::DVec3]> {
         if let Some(Array::Vec3(values)) = self.get(name) { Some(values) } else { None }
     }
-    /// The values of a column of whole numbers.
+    /// The values of a column of integers.
     #[must_use]
     pub fn whole(&self, name: &str) -> Option<&[u32]> {
         if let Some(Array::Uint(values)) = self.get(name) { Some(values) } else { None }

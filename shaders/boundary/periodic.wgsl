@@ -5,7 +5,7 @@
 const WORKGROUP: u32 = 64u;
 
 fn wrapped(x: f32, low: f32, high: f32, period: f32, frequency: f32) -> f32 {
-    // A particle inside stays there to the bit.
+    // A particle inside stays there bit for bit.
     if period == 0.0 || (x >= low && x < high) { return x; }
     let inside = x - period * floor((x - low) * frequency);
     if inside >= low && inside < high { return inside; }

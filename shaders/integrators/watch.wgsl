@@ -1,4 +1,4 @@
-// Raises the alarm when a number is no number any more: keeps after how many steps that is first seen, and the lowest id
+// Raises the alarm when a number is not finite: keeps after how many steps that is first seen, and the lowest id
 // there; and when speeds run away: one is more than twice the largest of the 16 steps before, for the eighth time running.
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read> position: array<vec4f>;

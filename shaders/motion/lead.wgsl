@@ -1,4 +1,4 @@
-// Particles that are held go on a straight line to where they shall be:  v = way / time,  as a step begins.
+// particles that are fixed go on a straight line to where they shall be:  v = way / time,  as a step begins.
 struct Way { way: vec3f, time: f32 }
 
 @group(0) @binding(0) var<uniform> world: World;

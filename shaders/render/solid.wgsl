@@ -1,4 +1,4 @@
-// Where rays meet solids: a ball or capsule (a segment along its own z, and all within a radius of it), a box by its slabs
+// Where rays intersect solids: a ball or capsule (a segment along its own z, and all within a radius of it), a box by its slabs
 // (Kay and Kajiya 1986), or a plane across its own z, seen from above. In the picture's axes.
 struct Solid {
     place: vec3f, radius: f32,

@@ -18,7 +18,7 @@ fn bloom_at(place: vec2f) -> vec3f {
     return mix(mix(near(x, y), near(x + 1, y), part.x), mix(near(x, y + 1), near(x + 1, y + 1), part.x), part.y);
 }
 
-// A hash of whole numbers (Wellons 2018), as a number in [0, 1).
+// A hash of integers (Wellons 2018), as a number in [0, 1).
 fn noise(n: u32) -> f32 {
     var h = n;
     h = (h ^ (h >> 16u)) * 0x7feb352du;

@@ -1,4 +1,4 @@
-// A loop goes on: the next of its iterations gets the workgroups of all its dispatches, unless the flag is set. They are its indirect
+// A loop continues: the next of its iterations gets the workgroups of all its dispatches, unless the flag is set. They are its indirect
 // arguments, also for this very kernel: an iteration that is not needed dispatches nothing, and gives nothing to the one behind it.
 @group(0) @binding(0) var<storage, read> flag: array<u32>;
 @group(0) @binding(1) var<storage, read> workgroups: array<u32>;

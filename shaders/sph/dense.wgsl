@@ -1,4 +1,4 @@
-// A particle of a fluid or a wall, out of the grid, before its pressure is known. Its density is looked up here, as a lane's own
+// A particle of a fluid or a wall, from the cell list, before its pressure is known. Its density is looked up here, as a lane's own
 // candidate: looked up where two meet it costs lavapipe four fifths of a step more.
 @group(2) @binding(5) var<storage, read> sorted_id: array<u32>;
 @group(2) @binding(6) var<storage, read> sorted_position: array<vec4f>;

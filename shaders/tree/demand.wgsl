@@ -1,4 +1,4 @@
-// What a group of targets asks for where the opening is relative: G / (α a) with the least last acceleration a of any of them, or
+// What a group of targets asks for where the opening is relative: G / (α a) with the smallest last acceleration a in them, or
 // with a thirty-second of what the sizes of all pulls on the group add up to, where that is more: where pulls cancel, a force
 // has no size that errors could be measured by, and a group would open all there is.
 @group(1) @binding(1) var<storage, read> acceleration: array<vec4f>; // xyz, potential

@@ -1,4 +1,4 @@
-// Each particle meets those that it is linked to, where there are up to four kinds of links: those of one kind follow each
+// Each particle interacts with those that it is linked to, where there are up to four kinds of links: those of one kind follow each
 // other, by the ids of the partners, and a link is no more than its partner. What a law says is as in shaders/visit/links.wgsl.
 struct Link { partner: u32, rest: f32, stiffness: f32, damping: f32 }
 

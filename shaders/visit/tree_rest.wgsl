@@ -1,4 +1,4 @@
-// Whether walks had to stop: then another dispatch of all their groups goes on, and otherwise none does. A walk that has gone
+// Whether walks had to stop: then another dispatch of all their groups continues, and otherwise none does. A walk that has gone
 // on and is still not done in the end is an alarm.
 @group(2) @binding(8) var<storage, read_write> tree_go: array<u32>;
 

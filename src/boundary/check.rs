@@ -17,7 +17,7 @@ fn narrow(x: f64) -> f64 {
 /// Whether there can be such a box.
 ///
 /// # Errors
-/// [`Error::Scene`] when it has not 2 or 3 dimensions, when 2 dimensions are closed along z, when a corner is no number
+/// [`Error::Scene`] when it has not 2 or 3 dimensions, when 2 dimensions are closed along z, when a corner is NaN
 /// or too far out, or when along a closed axis the box does not end above where it begins, in single precision.
 pub fn check(bounds: &Bounds) -> Result<(), Error> {
     if !(2..=3).contains(&bounds.dimensions) {

@@ -10,7 +10,7 @@ pub use periodic::wrapped;
 use crate::error::Error;
 use crate::kernel::{Kernel, Problem, Side};
 
-/// What runs where positions have been advanced; nothing in open space. Mirrors do not reflect held particles.
+/// What runs where positions have been advanced; nothing in open space. Mirrors do not reflect fixed particles.
 ///
 /// # Errors
 /// When a shader does not compile.

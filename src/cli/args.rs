@@ -174,7 +174,7 @@ pub struct ResumeArgs {
 /// What ends a run before its last step.
 #[derive(Debug, Clone, ClapArgs)]
 pub struct StopArgs {
-    /// Stop after so many hours, with a checkpoint from which --resume and `motes resume` go on
+    /// Stop after so many hours, with a checkpoint from which --resume and `motes resume` continue
     #[arg(long, value_name = "H", value_parser = positive)]
     pub max_hours: Option<f64>,
 }

@@ -53,7 +53,7 @@ pub async fn run(args: &RunArgs) -> Result<(), Failure> {
     start(loaded, options, (kept, remarks), &args.scene.device, &args.show).await
 }
 
-/// What is said where a run that left no checkpoint begins anew, and its results are removed: only where the next one may have one.
+/// What is said where a run that left no checkpoint starts over, and its results are removed: only where the next one may have one.
 fn begins_anew(folder: Folder, loaded: &Loaded) -> Result<String, Error> {
     let folder = folder.named(&loaded.scene.name);
     let count = folder.results()?.len();

@@ -31,7 +31,7 @@ pub const KEYS: &[Key] = &[
 
 /// `solid`: a sphere, a box, a plane or a capsule, still or moving, that lets no particle in, or out. After every drift a particle too
 /// near to its surface is put there; normal velocity bounces (Newton 1687), friction takes tangential velocity (Coulomb
-/// 1785), both in the frame of the surface. Held particles are left alone. It accelerates no particle by itself.
+/// 1785), both in the frame of the surface. Fixed particles are left alone. It accelerates no particle by itself.
 #[derive(Clone)]
 pub struct Solid(Settings);
 

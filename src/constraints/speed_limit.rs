@@ -42,10 +42,10 @@ impl Component for SpeedLimit {
     }
 }
 
-/// The kernel that keeps the speeds of a kind between the least and the most.
+/// The kernel that keeps the speeds of a kind between the minimum and the maximum.
 ///
 /// # Errors
-/// [`Error::Scene`] when the least is above the most.
+/// [`Error::Scene`] when the minimum is above the maximum.
 pub fn kernel(problem: &Problem, [least, most]: [f64; 2], species: Only) -> Result<Kernel, Error> {
     if least > most {
         let text = format!("the minimum speed, {least}, is above the maximum, {most}: lower one or raise the other");

@@ -22,7 +22,7 @@ pub const KEYS: &[Key] = &[
 const LIMITED: Field<Vec4> = Field::new("limited");
 
 /// `strain_limit`: after each drift, ends of springs longer than (1 + strain) L are brought nearer (Provot 1995), all at once
-/// and in several sweeps, with the velocity that this takes. The centre of mass and its momentum stay, held particles too;
+/// and in several sweeps, with the velocity that this takes. The centre of mass and its momentum stay, fixed particles too;
 /// energy is taken. What the sweeps do not reach stays longer: the limit is approached, and not promised.
 #[derive(Clone)]
 pub struct StrainLimit {

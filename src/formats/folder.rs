@@ -20,7 +20,7 @@ const NAMES: &[&str] =
     &["scene.toml", "energy.csv", "energy.svg", "flock.csv", "population.csv", "fluid.csv", "snapshots.pvd"];
 /// Files of which it writes many, with the number of a step or a picture between these, beside states.
 const NUMBERED: &[(&str, &str)] = &[("links_", "csv"), ("picture_", "png"), ("frame_", "png"), CHECKPOINT];
-/// What a run goes on from.
+/// What a run continues from.
 const CHECKPOINT: (&str, &str) = ("checkpoint_", "npz");
 /// States, and the last good one, in any format.
 const STATE: &str = "snapshot_";

@@ -183,7 +183,7 @@ impl Strip<'_> {
             Array::Uint(list) => Number::Whole(list[place]),
         }
     }
-    /// Whether they are whole numbers.
+    /// Whether they are integers.
     pub fn is_whole(&self) -> bool {
         matches!(self.values, Array::Uint(_))
     }
@@ -233,7 +233,7 @@ pub(super) struct Field<'a> {
 }
 
 impl Field<'_> {
-    /// Whether they are whole numbers.
+    /// Whether they are integers.
     pub fn is_whole(&self) -> bool {
         self.strips.first().is_some_and(Strip::is_whole)
     }

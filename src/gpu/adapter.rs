@@ -41,7 +41,7 @@ impl Found {
     pub fn substitute(&self) -> Option<String> {
         driver::substitute(&self.adapter.get_info())
     }
-    /// Whether it is a processor that plays a GPU.
+    /// Whether it is a software adapter.
     #[must_use]
     pub fn software(&self) -> bool {
         self.adapter.get_info().device_type == wgpu::DeviceType::Cpu

@@ -39,7 +39,7 @@ impl Done {
         if !wait_until(device, time, || self.event.is_set())? {
             return Ok(false);
         }
-        // A device that is lost takes submissions without a word, says that they are done, and does not know them afterwards. One that is
+        // A device that is lost takes submissions silently, says that they are done, and does not know them afterwards. One that is
         // done is not waited for.
         let known = wgpu::PollType::Wait { submission_index: Some(self.index.clone()), timeout: Some(Duration::ZERO) };
         match device.poll(known) {

@@ -88,7 +88,7 @@ fn scoped(device: &wgpu::Device, pass: &Pass) -> Result<Pipeline, Error> {
     fault::scoped(device, || make(device, pass))
 }
 
-/// The same for a user's law, which may take a driver for ever.
+/// The same for a user's law, which may take a driver forever.
 #[cfg(not(target_arch = "wasm32"))]
 fn patiently(device: &wgpu::Device, queue: &wgpu::Queue, pass: &Pass, patience: Duration) -> Result<Pipeline, Error> {
     super::patience::made(device, queue, pass, patience)

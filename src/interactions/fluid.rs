@@ -44,7 +44,7 @@ const WALL_MASS: &[&str] = &["sampled", "lattice"];
 const DENSITY_BY: &[&str] = &["summation", "continuity"];
 
 /// `fluid`: smoothed particle hydrodynamics with density by summation or continuity and Tait's equation of state (Monaghan 1994; Becker &
-/// Teschner 2007). Particles that are not held are of the fluid; held ones are its boundary particles (Akinci et al. 2012).
+/// Teschner 2007). Particles that are not fixed are of the fluid; fixed ones are its boundary particles (Akinci et al. 2012).
 #[derive(Clone)]
 pub struct Fluid(Settings);
 

@@ -69,7 +69,7 @@ impl Gravity {
         }
         Ok(())
     }
-    /// The law of far groups; none where they are met as one particle.
+    /// The law of far groups; none where they are evaluated as one particle.
     fn distant(&self, law: Source) -> Option<Source> {
         (self.0.text("multipoles") == "quadrupole").then_some(law)
     }

@@ -33,7 +33,7 @@ pub struct Problem {
     pub breaks: bool,
     /// Those that forces do not move, as [`motion::sorted`] has them.
     pub held: Arc<Vec<Held>>,
-    /// One word for each particle, 1 where it is held; empty where none is.
+    /// One word for each particle, 1 where it is fixed; empty where none is.
     pub mask: Arc<Vec<u32>>,
     /// What leads some of them, and solids.
     pub motions: Arc<Vec<Motion>>,
@@ -135,7 +135,7 @@ impl Problem {
         }
         Self { species: counts.into_iter().collect(), ..self }
     }
-    /// The same with these links, between these held ones.
+    /// The same with these links, between these fixed ones.
     #[must_use]
     pub fn tied(self, links: &Links, held: &[Held]) -> Self {
         let mask = if held.is_empty() { Vec::new() } else { motion::mask(self.capacity, held) };
@@ -190,7 +190,7 @@ impl Problem {
         files.push(file);
         table
     }
-    /// Whether a particle is held.
+    /// Whether a particle is fixed.
     #[must_use]
     pub fn is_held(&self, id: usize) -> bool {
         self.mask.get(id).is_some_and(|word| *word > 0)

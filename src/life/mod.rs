@@ -16,7 +16,7 @@ use crate::solids::Solid;
 /// Whether a particle takes part. One that does not is in no cell list, has no acceleration, no mass and no velocity, and is not drawn.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Life {
-    /// It is yet to be born, and stands where that will be.
+    /// It is pending, and stands where that will be.
     Pending,
     /// It takes part.
     #[default]
@@ -65,7 +65,7 @@ pub struct Drain {
     pub position: DVec3,
     /// Whether one dies outside of the shape instead of inside.
     pub outside: bool,
-    /// The species that it removes; all, but held particles, where none is named.
+    /// The species that it removes; all, but fixed particles, where none is named.
     pub species: Option<u32>,
 }
 

@@ -14,7 +14,7 @@ const SLACK: f64 = 1e-5;
 const FINE: f64 = 2e-4;
 
 impl Links {
-    /// Whether the rods make chains, and have their lengths where the particles are. Between held ones only `fixed` ones are
+    /// Whether the rods make chains, and have their lengths where the particles are. Between fixed ones only `fixed` ones are
     /// known to rest at the start; `shortest` gives the way to the nearest image.
     ///
     /// # Errors

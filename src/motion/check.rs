@@ -1,4 +1,4 @@
-//! What motions and held particles must be.
+//! What motions and fixed particles must be.
 
 use std::collections::BTreeSet;
 
@@ -12,7 +12,7 @@ const MOST_STEPS: f64 = 2e9;
 /// By how much the first and the last pose of a motion that repeats may differ: degrees written with some digits.
 const SAME: f64 = 1e-6;
 
-/// Whether motions and held ones make sense, for `count` particles in so many dimensions and steps of `dt`.
+/// Whether motions and fixed ones make sense, for `count` particles in so many dimensions and steps of `dt`.
 ///
 /// # Errors
 /// [`Error::Scene`] that names the first motion or particle at fault.

@@ -89,7 +89,7 @@ pub fn passes(field: &Name, sums: &Name, elements: u32, machine: &Machine) -> Re
     Ok(vec![workgroups(first, tiles), alone(sums, tiles)?, workgroups(last, tiles)])
 }
 
-/// Elements of a chunk of the processor's variant: an invocation's loop stays far below 65 535 turns.
+/// Elements of a chunk of the processor's variant: an invocation's loop stays far below 65 535 iterations.
 fn chunk(elements: u32) -> u32 {
     elements.div_ceil(CHUNKS).max(CHUNK)
 }

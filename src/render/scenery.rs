@@ -29,7 +29,7 @@ pub struct Scenery {
     pub bounded: Option<Solid>,
     /// The radius of the drops of a fluid, by how far apart particles are at the start \[length\]; zero: as they are now.
     pub drop: f64,
-    /// The held particles, by id: in a fluid those are walls.
+    /// The fixed particles, by id: in a fluid those are walls.
     pub held: Arc<Vec<u32>>,
     /// The same in a scene, and the motions that they go along with: see [`Scenery::at`].
     pub standing: (Vec<Standing>, Vec<Motion>),

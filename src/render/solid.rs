@@ -1,4 +1,4 @@
-//! Solids in a picture, and where rays meet them.
+//! Solids in a picture, and where rays intersect them.
 
 use glam::{DMat3, DQuat, DVec3, DVec4};
 

@@ -1,4 +1,4 @@
-//! `--from`: a run that goes on from a state of an earlier one.
+//! `--from`: a run that continues from a state of an earlier one.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! What a run says while it goes on.
+//! What a run says while it continues.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! `[checkpoint]`: how often a run keeps all that it needs to go on.
+//! `[checkpoint]`: how often a run keeps all that it needs to continue.
 
 use crate::settings::{Key, Kind, Settings, Value};
 

@@ -1,4 +1,4 @@
-//! `[[emitter]]`: particles that wait to be born.
+//! `[[emitter]]`: pending particles, spawned by a schedule.
 
 use crate::error::Error;
 use crate::kernel::Columns;
@@ -29,7 +29,7 @@ pub(super) struct Emitted {
 }
 
 /// Reads an entry, and adds its particles to those that are there; or only their births, where the particles of a file wait
-/// already from the id `first` on. A run that has gone on for a time t goes on from a state of it with `start` less t, `first`
+/// already from the id `first` on. A run that has continued for a time t continues from a state of it with `start` less t, `first`
 /// and a `count`: particles that are spawned already are not spawned again.
 pub(super) fn read(
     table: &Table<'_>,

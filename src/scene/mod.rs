@@ -82,7 +82,7 @@ pub struct Scene {
     pub about: String,
     /// The length of a step \[time\]; positive.
     pub dt: f64,
-    /// The step that the scene gives, where `dt` is made smaller so that a whole number of steps ends at `until` \[time\].
+    /// The step that the scene gives, where `dt` is made smaller so that an integer of steps ends at `until` \[time\].
     pub given_dt: Option<f64>,
     /// How many steps; at least one. Where they are adaptive, of the longest: others come in between.
     pub steps: u64,
@@ -107,7 +107,7 @@ pub struct Scene {
     pub forces: Vec<Box<dyn Component>>,
     /// What is written.
     pub output: Output,
-    /// When a run keeps what it needs to go on.
+    /// When a run keeps what it needs to continue.
     pub checkpoint: Checkpoints,
     /// How pictures are made: the values of [`render::KEYS`].
     pub picture: Settings,

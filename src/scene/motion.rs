@@ -1,4 +1,4 @@
-//! `[[motion]]`: what leads held particles and solids, by keyframes.
+//! `[[motion]]`: what leads fixed particles and solids, by keyframes.
 
 use std::fmt::Write as _;
 

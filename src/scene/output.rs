@@ -52,7 +52,7 @@ fn interval(entry: &Entry, dt: f64, report: &mut Report) -> Option<u64> {
     None
 }
 
-/// Whole numbers up to here are exact.
+/// Integers up to here are exact.
 const EXACT: f64 = 9_007_199_254_740_992.0;
 
 /// A number in a few digits.

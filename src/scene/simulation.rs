@@ -47,7 +47,7 @@ pub(super) struct Simulation {
     pub(super) adaptive_step: Option<(AdaptiveStep, Place)>,
     /// When it ends.
     pub(super) until: f64,
-    /// The step that the scene gives, where it is made smaller so that a whole number of them ends at `until`.
+    /// The step that the scene gives, where it is made smaller so that an integer of them ends at `until`.
     pub(super) given_dt: Option<f64>,
     /// What the user may want to know.
     pub(super) remark: Option<String>,

@@ -107,7 +107,7 @@ pub(super) fn shorten_path(path: &Path) -> String {
     path.display().to_string().chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect()
 }
 
-/// A pipe that has a name, and so may wait for ever for a program that fills it. One without, as a shell makes of
+/// A pipe that has a name, and so may wait forever for a program that fills it. One without, as a shell makes of
 /// `<(command)`, leads nowhere in the tree of files.
 #[cfg(unix)]
 fn is_named_pipe(path: &Path) -> bool {

@@ -30,7 +30,7 @@ impl<'a> Table<'a> {
         Self { name, ..self.clone() }
     }
     /// Reads the table: every key is one of `keys`, or one of `own`, which the caller reads. Values that are left out or
-    /// wrong get their defaults, so that the reading goes on; the report knows.
+    /// wrong get their defaults, so that the reading continues; the report knows.
     pub(super) fn settings(&self, keys: &[Key], own: &[&str], report: &mut Report) -> Settings {
         let mut settings = Settings::defaults(keys);
         for entry in self.entries {
@@ -173,7 +173,7 @@ pub(super) fn choice<'a>(entry: &Entry, noun: &str, known: &[&'a str], report: &
     value::choice(&entry.node, &entry.key, noun, known, report)
 }
 
-/// A whole number from one to 2⁵³.
+/// An integer from one to 2⁵³.
 pub(super) fn whole_from_one(entry: &Entry, report: &mut Report) -> Option<u64> {
     let value = value::number(&entry.node, &entry.key, Kind::Whole, "a whole number, one or above", report)?;
     if value < 1.0 {

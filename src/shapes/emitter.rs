@@ -233,7 +233,7 @@ impl Mouth {
     }
 }
 
-/// 0, 1, … below a whole number that fits 32 bits.
+/// 0, 1, … below an integer that fits 32 bits.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked to be at most `room`")]
 fn steps(number: f64) -> impl Iterator<Item = f64> {
     (0..number as u32).map(f64::from)

@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::kernel::{Arrival, Element};
 
 /// The values of a field that [`Simulation::request`](super::Simulation::request) asked for. [`Readback::look`] gives them once they are
-/// there; `.await` waits for them, while the simulation and its device go on. It may go to another thread.
+/// there; `.await` waits for them, while the simulation and its device continue. It may go to another thread.
 #[must_use = "the values are in it"]
 pub struct Readback<T> {
     /// Until it has given its values.

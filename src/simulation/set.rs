@@ -19,7 +19,7 @@ const ANEW: &str = "make another simulation of it: a setup with the state of `sn
 impl<B: Backend> Simulation<B> {
     /// Changes a setting of a force, an obstacle or a solid, a parameter of a user's law, or one of its tables, from the next step on.
     /// `force` is its name as `motes explain` has it: `"gravity"`, and `"solid 2"` for the second of its kind. Settings are checked as
-    /// they are at the start, nothing is compiled, and states that are saved later go on under [`Simulation::setup`] as it is then.
+    /// they are at the start, nothing is compiled, and states that are saved later continue under [`Simulation::setup`] as it is then.
     ///
     /// Where it changes accelerations at the present state, the next step begins with these. Steps that a caller has encoded before
     /// keep what they were encoded with.

@@ -18,7 +18,7 @@ impl<B: Backend> Simulation<B> {
     /// others begin with their initial values. Ids are never given twice, and rows of removed particles are used again.
     ///
     /// Within [`Simulation::capacity`] nothing is compiled. Beyond it the simulation makes room for half as many rows more: its plan is
-    /// compiled anew and buffers of the device are others, which [`Simulation::generation`] tells. The next step begins with the
+    /// recompiled and buffers of the device are others, which [`Simulation::generation`] tells. The next step begins with the
     /// accelerations of all particles that there are then.
     ///
     /// # Errors
@@ -211,7 +211,7 @@ impl<B: Backend> Simulation<B> {
         Ok(())
     }
     /// Says to the list of neighbours that rows have got other particles: no pair of theirs is one that was there before, and the list is
-    /// built anew. Rows from `before` on have never been in it.
+    /// rebuilt. Rows from `before` on have never been in it.
     fn changed_hands(&mut self, rows: &[u32], before: u32) -> Result<(), Error> {
         if self.list.is_none() {
             return Ok(());

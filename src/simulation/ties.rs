@@ -63,7 +63,7 @@ impl<B: Backend> Simulation<B> {
         if self.breaks { self.links().await.map(Some) } else { Ok(None) }
     }
     /// The links as they are now: those of the setup, without the springs that broke. They may go into another setup,
-    /// which goes on from here.
+    /// which continues from here.
     ///
     /// # Errors
     /// When the device is lost, or does not answer in time.

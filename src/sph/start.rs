@@ -15,10 +15,10 @@ use crate::kernel::Bounds;
 /// c = 10 √(2 g H) it leaps four times as high as it is deep.
 const MACH: f64 = 0.2;
 /// Two that are nearer than this \[spacings\] have hardly any pressure between them, whose gradient is none at no distance: they
-/// stay together for ever.
+/// stay together forever.
 const SAME_PLACE: f64 = 0.1;
 
-/// What a force makes of all particles that are not held.
+/// What a force makes of all particles that are not fixed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Continuum {
     /// What flows.

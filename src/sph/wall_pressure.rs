@@ -11,7 +11,7 @@ use crate::error::Error;
 use crate::kernel::{Host, Kernel, Pass, Problem, Scalar, Shader, World};
 use crate::visit::{Law, Outcome, Particle, Search};
 
-/// The pressure that walls find, over ρ₀², in the order of the grid.
+/// The pressure that walls find, over ρ₀², in the order of the cell list.
 const WALL_PRESSURE: &str = "wall_pressure";
 
 /// The kernels that find the pressure of walls (Adami, Hu & Adams 2012, eq. 27), and write it down beside that of the fluid. That

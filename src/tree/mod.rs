@@ -129,6 +129,6 @@ pub(crate) const TREE_SHAPE: &str = "tree_shape";
 pub(crate) const TREE_LOW: &str = "tree_low";
 /// Of each node: the highest corner of its tight box, and 0.
 pub(crate) const TREE_HIGH: &str = "tree_high";
-/// Of each group of targets: G / (α a) with the least last acceleration a of any of them, or a part of the sizes of
+/// Of each group of targets: G / (α a) with the smallest last acceleration a in them, or a part of the sizes of
 /// all pulls where that is more; 0 where one of them has none. Where the opening is relative.
 pub(crate) const TREE_DEMAND: &str = "tree_demand";

@@ -1,6 +1,6 @@
 //! When a node is too near to be taken as one.
 
-/// The opening criteria. `d` is the least distance from the box of a group of targets to a node's centre of mass, and from the
+/// The opening criteria. `d` is the minimum distance from the box of a group of targets to a node's centre of mass, and from the
 /// targets themselves where the box is four times as wide as the node reaches; `l` is the longest side of the node's tight box,
 /// `s` the distance of its centre of mass from the middle of that box.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -16,7 +16,7 @@ pub const KEYS: &[Key] = &[
     Key::new("over", Kind::Choice(&["links"]), Value::Text(Cow::Borrowed("links")), "what breaks: springs and ropes"),
 ];
 
-/// `tear`: at the end of a step, springs and ropes that are longer than (1 + strain) L break, for ever. Their energy is gone.
+/// `tear`: at the end of a step, springs and ropes that are longer than (1 + strain) L break, forever. Their energy is gone.
 #[derive(Clone)]
 pub struct Tear(f64);
 

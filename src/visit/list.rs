@@ -11,7 +11,7 @@ use crate::error::Error;
 use crate::kernel::{Kernel, ListShape, Pass, Problem, Shader, Threads};
 use crate::neighbors::{HISTORY, LIST, List};
 
-/// Rows of one dispatch, at most. It is a whole number of workgroups.
+/// Rows of one dispatch, at most. It is an integer of workgroups.
 const ROWS: u32 = 1 << 20;
 /// The skin where none is given, as a part of the range.
 const SKIN: f64 = 0.2;

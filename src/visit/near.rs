@@ -5,7 +5,7 @@ use crate::error::Error;
 use crate::kernel::{ALARM, ALARM_WORDS, Kernel, Machine, Name, Pass, Problem, Shader, Source, Threads};
 use crate::neighbors::{Grid, SORTED_ID, SORTED_POSITION, SORTED_VELOCITY, STARTS};
 
-/// Targets of one dispatch, at most. It is a whole number of workgroups.
+/// Targets of one dispatch, at most. It is an integer of workgroups.
 const TARGETS: u32 = 1 << 20;
 
 /// Neighbours that one particle can have in a search of the nearest, at most: their list is held in registers.

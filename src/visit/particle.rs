@@ -107,7 +107,7 @@ impl Particle<'_> {
     pub fn all(&self, field: &str) -> &[f64] {
         self.view.slice::<f32>(field)
     }
-    /// Its value of a column of whole numbers.
+    /// Its value of a column of integers.
     #[must_use]
     pub fn whole(&self, column: &str) -> Option<u32> {
         self.view.slice::<u32>(column).get(self.index).copied()

@@ -3,7 +3,7 @@
 use super::Law;
 use crate::kernel::{ALARM, ALARM_WORDS, LAW, Machine, Name, Source};
 
-/// Turns that the loops of a visit and of its law may take in one invocation on a processor that plays a GPU.
+/// Iterations that the loops of a visit and of its law may take in one invocation on a software adapter.
 const TURNS: u32 = 60_000;
 /// Turns of a law's loops for one pair that are allowed for: more are found out as the law runs.
 const EXPECTED: u32 = 100;
@@ -32,7 +32,7 @@ impl Law {
     pub(super) fn alarm(&self) -> Vec<(Name, u64)> {
         if self.has_loops() { vec![(ALARM.name.into(), ALARM_WORDS as u64)] } else { Vec::new() }
     }
-    /// The machine as its visit sees it where a walk may stop and go on: a loop in it leaves a walk fewer turns, and one particle
+    /// The machine as its visit sees it where a walk may stop and continue: a loop in it leaves a walk fewer turns, and one particle
     /// is met at a time.
     pub(super) fn leaves(&self, machine: &Machine) -> Machine {
         if self.has_loops() && machine.software {

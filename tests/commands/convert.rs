@@ -104,7 +104,7 @@ fn a_run_lists_its_states_for_paraview() {
     // A second run into the folder knows the list for a result.
     let (code, _, notes) = motes(&[&args[..], &["--overwrite"]].concat());
     assert_eq!(code, 0, "{notes}");
-    // A run that goes on lists what was before it, and what it writes anew.
+    // A run that continues lists what was before it, and what it writes anew.
     let file = folder.path().join("out/snapshots.pvd");
     let mut again = Collection::before(&file, 2);
     for step in [2, 4] {

@@ -103,7 +103,7 @@ fn a_run_that_fails_stands_beside_those_that_do_not() {
         text.contains("failed: ") && words.contains("2 of 2") && words.contains("note: simulation.dt=50: "),
         "{text}{words}"
     );
-    // Results are not replaced without a word.
+    // Results are not replaced silently.
     let before = std::fs::read(Path::new(&out).join("sweep.csv")).expect("a table");
     let (code, _, words) = args("0.001,0.0005", &[]);
     assert!(code == 8 && words.contains("--overwrite"), "{code}: {words}");

@@ -1,4 +1,4 @@
-//! Errors: in which place they are mended, and with their numbers. Nothing panics, nothing waits for ever.
+//! Errors: in which place they are mended, and with their numbers. Nothing panics, nothing waits forever.
 
 use std::time::{Duration, Instant};
 

@@ -1,4 +1,4 @@
-//! Stages of the grid and of the searches through it: small boxes in which every seam, fold and reach is met.
+//! Stages of the cell list and of the searches through it: small boxes in which every seam, fold and reach is met.
 
 #![allow(clippy::cast_possible_truncation, reason = "numbers are rounded to what f32 holds")]
 

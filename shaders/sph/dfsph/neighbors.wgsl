@@ -9,7 +9,7 @@ override STRIDE: u32 = 1u;
 override ROOM: u32 = 1u;
 
 fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
-    // A whole number below 2²⁴ is exact.
+    // An integer below 2²⁴ is exact.
     (*sum).number += 1u;
     if (*sum).number <= ROOM { pairs[(*sum).number * STRIDE + me.slot].w = f32(you.slot); }
 }

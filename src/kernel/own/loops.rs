@@ -1,4 +1,4 @@
-//! Loops in a user's law. Some drivers end the loops of an invocation after 65 535 turns, and none ends a loop that has no
+//! Loops in a user's law. Some drivers end the loops of an invocation after 65 535 iterations, and none ends a loop that has no
 //! end: a law that has loops is joined with shaders/own/turns.wgsl, which sees the one and ends the other.
 
 use super::tokens::{Token, tokens};
@@ -135,7 +135,7 @@ fn changes(body: &[Token], at: usize) -> bool {
     lent || written
 }
 
-/// A whole number as WGSL writes it.
+/// An integer as WGSL writes it.
 fn number(word: &str) -> Option<u32> {
     word.strip_suffix(['u', 'i']).unwrap_or(word).parse().ok()
 }

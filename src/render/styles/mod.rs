@@ -105,7 +105,7 @@ register! {
     density: Density, "the mass along the line of sight, on a logarithmic scale of colours";
 }
 
-/// Which keys of a picture say nothing in its style, though they have other values than without a word.
+/// Which keys of a picture say nothing in its style, though they have other values than the defaults.
 #[must_use]
 pub fn remark(settings: &Settings) -> Option<String> {
     let entry = of(settings);

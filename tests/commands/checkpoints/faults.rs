@@ -60,7 +60,7 @@ fn a_run_that_is_stopped_goes_on_with_a_code_of_its_own() {
     assert_eq!(code, 0, "{words}");
     assert!(words.contains("resumes from"), "{words}");
     assert_eq!(difference(&place.at("out"), &place.at("whole")), None);
-    // There is nothing to go on with, and that is no failure.
+    // There is nothing to continue with, and that is no failure.
     for (code, words) in [place.resume("out", &[]), place.run("a.toml", "out", &[&["--resume"], &KEEP[..]].concat())] {
         assert!(code == 0 && words.contains("is complete, with step 40"), "{words}");
     }

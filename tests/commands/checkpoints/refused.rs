@@ -7,7 +7,7 @@ use motes::run::Checkpoint;
 use crate::checkpoints::faults::{KEEP, stopped};
 use crate::checkpoints::{Place, SCENE, all, difference, motes, said};
 
-/// A run that cannot have a checkpoint is not begun anew by a word that says that it goes on.
+/// A run that cannot have a checkpoint is not begun anew by a word that says that it continues.
 #[test]
 fn results_without_a_checkpoint_are_removed_only_with_a_word() {
     let scene = SCENE.replace("7 steps", "never");

@@ -1,4 +1,4 @@
-//! A law of whole numbers: its sums are exact in any order, so that searches must agree to the bit.
+//! A law of integers: its sums are exact in any order, so that searches must agree bit for bit.
 
 use glam::{DVec3, DVec4, Vec4};
 use motes::forces::{Component, Law, Over};

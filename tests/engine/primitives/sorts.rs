@@ -120,7 +120,7 @@ fn a_radix_sort_of_many() {
     }
 }
 
-/// More than 2²⁴, the whole numbers of an f32, and as many as the device binds; by the processor's variant, which takes
+/// More than 2²⁴, the integers of an f32, and as many as the device binds; by the processor's variant, which takes
 /// a tenth of the time on lavapipe. `cargo test --test engine -- --ignored most`
 #[test]
 #[ignore = "gigabytes, and minutes"]

@@ -1,4 +1,4 @@
-//! What takes many dispatches: folded over two dimensions, cut into slices and layers, of more than one dispatch can meet.
+//! What takes many dispatches: folded over two dimensions, cut into slices and layers, of more than one dispatch can evaluate.
 
 use motes::gpu::Gpu;
 use motes::kernel::{ACCELERATION, Backend, Machine};
@@ -38,7 +38,7 @@ fn dispatches_fold_over_two_dimensions() {
     }
 }
 
-/// Cut into many dispatches, in one layer or more, all pairs are still evaluated; in one layer even to the bit.
+/// Cut into many dispatches, in one layer or more, all pairs are still evaluated; in one layer even bit for bit.
 #[test]
 fn cuts_change_no_bit() {
     let shared = crate::support::device();

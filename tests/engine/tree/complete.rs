@@ -1,4 +1,4 @@
-//! No particle is left out and none is met twice: a law that adds up the mass it sees, in whole numbers, which f32 holds.
+//! No particle is left out and none is evaluated twice: a law that adds up the mass it sees, in integers, which f32 holds.
 
 use glam::{DVec3, Vec4};
 use motes::forces::{Law, Over, Particle};
@@ -9,7 +9,7 @@ use crate::support::{self, Random, machines::walkers};
 use crate::tree::sets::awkward;
 use crate::tree::walks::{Alone, Walk, over};
 
-/// A law with a sum of its own, and none for far groups: they are met as one particle.
+/// A law with a sum of its own, and none for far groups: they are evaluated as one particle.
 const WGSL: &str = "struct Sum { mass: f32, met: f32 }
     fn merge(total: ptr<function, Sum>, part: Sum) {
         (*total).mass += part.mass;

@@ -1,4 +1,4 @@
-//! Held particles and motions in scenes: what they become, and what is wrong with them, whole as a user reads it.
+//! Fixed particles and motions in scenes: what they become, and what is wrong with them, whole as a user reads it.
 
 use motes::motion::{Held, Hold};
 

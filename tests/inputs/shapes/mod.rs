@@ -1,4 +1,4 @@
-//! The generators: same bits for ever, the totals they promise, and the models' published numbers within sampling error.
+//! The generators: same bits forever, the totals they promise, and the models' published numbers within sampling error.
 
 mod clustered;
 mod disk;

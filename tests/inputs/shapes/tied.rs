@@ -186,7 +186,7 @@ fn the_triangles_of_a_cloth_face_one_way() {
     for particles in [&flat, &rough] {
         let all = particles.links.triangles.iter();
         assert!(all.clone().all(|ids| area(particles, *ids).0.normalize().dot(front.normalize()) > 0.7));
-        // Each side of a triangle is run through once in each way, or is at the rim.
+        // Each side of a triangle is run through once in each way, or is at the edge.
         let sides: Vec<_> = all.flat_map(|[a, b, c]| [[*a, *b], [*b, *c], [*c, *a]]).collect();
         let known: BTreeSet<_> = sides.iter().copied().collect();
         assert_eq!(known.len(), sides.len(), "a side twice in one way");

@@ -70,7 +70,7 @@ fn steps_grow_by_a_fifth_at_most() {
     for _ in 0..30 {
         simulation.step(1).expect("a step");
         let now = clock(&mut simulation);
-        // A fifth of a whole number of ticks, of which there are 260000 or more.
+        // A fifth of an integer of ticks, of which there are 260000 or more.
         assert!(now.dt <= 1.2 * last && (now.dt > 1.2 * last * (1.0 - 1e-5) || now.dt >= DT), "{last} then {}", now.dt);
         grown += u32::from(now.reason == Reason::Growth);
         last = now.dt;

@@ -31,7 +31,7 @@ fn the_dead_stay_dead_and_ids_are_never_reused() {
         let (now, energies) = (&snapshot, snapshot.energies().expect("energies"));
         for (id, energy) in energies.iter().enumerate().take(count) {
             let (then, is) = (last.life()[id], now.life()[id]);
-            // Life goes on, and never back.
+            // Life continues, and never back.
             assert!(then.word() <= is.word(), "{id}: {then:?} and then {is:?}");
             seen[0] += usize::from(then == Life::Pending && is != then);
             seen[1] += usize::from(is == Life::Removed && is != then);
@@ -61,7 +61,7 @@ fn the_dead_stay_dead_and_ids_are_never_reused() {
     assert!(seen[0] > 20 && seen[1] > 10, "births and deaths were seen: {seen:?}");
 }
 
-/// Particles that are not active are in no pair: the others move as if there were no others, to the bit.
+/// Particles that are not active are in no pair: the others move as if there were no others, bit for bit.
 #[test]
 fn inactive_particles_are_in_no_pair() {
     let alone = pool(Vec::new());

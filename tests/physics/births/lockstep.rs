@@ -13,7 +13,7 @@ use crate::births::{fluid_with, pool};
 use crate::support::states::{integrator, word};
 use crate::support::{self, machines};
 
-/// So many steps, and one of the plan, kernel by kernel; the clock goes on. The kernels that change something.
+/// So many steps, and one of the plan, kernel by kernel; the clock continues. The kernels that change something.
 fn agreed(simulation: &mut Simulation<Gpu>, steps: u32, plan: &Plan, name: &str) -> BTreeSet<String> {
     simulation.step(steps).expect("steps");
     let count = simulation.count();

@@ -18,7 +18,7 @@ const SUPPORT: f64 = 2.5;
 const RHO: f64 = 1000.0;
 const SOUND: f64 = 10.0;
 
-/// Drops of so many spacings, one behind the other and out of each other's reach; of lattices without mirror symmetry, or
+/// Drops of so many spacings, one after the other and out of each other's reach; of lattices without mirror symmetry, or
 /// they would keep their corners. And how many are in each.
 fn drops(radii: &[f64]) -> (State, Vec<usize>) {
     let (mut particles, mut counts, mut along) = (State::default(), Vec::new(), 0.0);

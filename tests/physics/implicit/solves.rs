@@ -101,7 +101,7 @@ fn what_does_not_converge_says_so() {
     assert_eq!(pollster::block_on(simulation.solves()).expect("an answer"), None);
 }
 
-/// Newton's method on the cloth: more solves leave less, and held particles do not move by a bit.
+/// Newton's method on the cloth: more solves leave less, and fixed particles do not move by a bit.
 #[test]
 fn newton_converges_on_a_cloth() {
     let shared = support::device();

@@ -1,4 +1,4 @@
-//! Chains: waves to the bit, their dispersion, and how they hang.
+//! Chains: waves bit for bit, their dispersion, and how they hang.
 
 use std::f64::consts::PI;
 

@@ -1,5 +1,5 @@
 //! Limits of stability and growth factors on the device: pairs of particles on springs without rest length, which are
-//! oscillators to the bit, a pair for every y = hω, side by side.
+//! oscillators bit for bit, a pair for every y = hω, side by side.
 
 use glam::{DVec3, DVec4};
 use motes::{POSITION, State, VELOCITY};

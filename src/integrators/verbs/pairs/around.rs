@@ -71,7 +71,7 @@ impl Work for Watch {
     }
 }
 
-/// Raises the alarm when a column of particles is no number any more.
+/// Raises the alarm when a column of particles is not finite.
 pub fn watch(part: &Part, problem: &Problem) -> Result<Option<Kernel>, Error> {
     if matches!(part.shape, Shape::System(_)) {
         return Ok(None);
