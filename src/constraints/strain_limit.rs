@@ -13,8 +13,8 @@ use crate::visit;
 
 /// What a scene may say.
 pub const KEYS: &[Key] = &[
-    Key::new("strain", Kind::Positive, Value::Number(0.1), "how much longer than at rest a spring may get, as a part of that"),
-    Key::new("sweeps", Kind::Count, Value::Number(8.0), "how often all springs are looked at after a drift: more bring long rows nearer to the limit"),
+    Key::new("strain", Kind::Positive, Value::Number(0.1), "the largest strain of a spring: its extension over its rest length"),
+    Key::new("sweeps", Kind::Count, Value::Number(8.0), "iterations over all springs after a drift: more bring long chains closer to the limit"),
     Key::new("over", Kind::Choice(&["links"]), Value::Text(Cow::Borrowed("links")), "what is limited: springs and ropes"),
 ];
 

@@ -26,7 +26,7 @@ impl Integrator for Beeman {
         Some("beeman takes the accelerations of three times that are equally far apart")
     }
     fn columns(&self) -> Vec<Column> {
-        let about = "the acceleration at the start of the step before: Beeman's method goes on with it";
+        let about = "the acceleration at the start of the previous step, which Beeman's method uses";
         let has = "1 where there is such an acceleration, 0 before a particle's first step";
         vec![
             Column::new(EARLIER.name, Kind::Vector, "length / time²", about),

@@ -121,10 +121,10 @@ macro_rules! register {
 }
 
 register! {
-    forward_euler: ForwardEuler, "order 1, gains energy: to show why not";
-    symplectic_euler: SymplecticEuler, "order 1, keeps energy in bounds";
+    forward_euler: ForwardEuler, "order 1, gains energy: for comparison only";
+    symplectic_euler: SymplecticEuler, "order 1, symplectic: the energy error stays bounded";
     leapfrog: Leapfrog, "order 2, symplectic, one evaluation per step: the default";
-    beeman: Beeman, "order 2, the positions of leapfrog with better velocities: molecules (Beeman 1976)";
+    beeman: Beeman, "order 2, the positions of leapfrog with more accurate velocities: molecular dynamics (Beeman 1976)";
     midpoint: Midpoint, "order 2 (Runge-Kutta), for forces that depend on velocity";
     heun: Heun, "order 2 (Runge-Kutta, trapezoid rule), for forces that depend on velocity";
     rk4: RungeKutta4, "order 4 (Runge-Kutta), four evaluations: accurate over short times";
@@ -132,9 +132,9 @@ register! {
     pefrl: Pefrl, "order 4, symplectic, four evaluations: the most accurate over long times";
     linear_backward_euler: LinearBackwardEuler, "order 1, for stiff springs: damped at any step, by one linear solve (Baraff & Witkin 1998)";
     backward_euler: BackwardEuler, "order 1, for stiff springs: damped at any step, its equations solved by Newton's method";
-    linear_trapezoid: LinearTrapezoid, "order 2, for stiff springs: keeps the energy of linear ones, by one linear solve";
-    trapezoid: Trapezoid, "order 2, for stiff springs: keeps the energy of linear ones, by Newton's method";
-    linear_implicit_midpoint: LinearImplicitMidpoint, "order 2, for stiff springs: keeps the energy of linear ones, by one linear solve";
+    linear_trapezoid: LinearTrapezoid, "order 2, for stiff springs: conserves the energy of linear springs, by one linear solve";
+    trapezoid: Trapezoid, "order 2, for stiff springs: conserves the energy of linear springs, by Newton's method";
+    linear_implicit_midpoint: LinearImplicitMidpoint, "order 2, for stiff springs: conserves the energy of linear springs, by one linear solve";
     implicit_midpoint: ImplicitMidpoint, "order 2, symplectic, for stiff springs: its equations solved by Newton's method";
 }
 

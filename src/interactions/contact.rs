@@ -15,11 +15,11 @@ use crate::visit::{Memory, Outcome, Particle};
 pub const KEYS: &[Key] = &[
     Key::required("range", Kind::Positive, "the largest sum of two radii; larger ones are refused [length]"),
     Key::new("stiffness", Kind::Positive, Value::Number(1000.0), "k, the normal force per overlap [mass / time²]"),
-    Key::new("restitution", Kind::Fraction, Value::Number(0.8), "the speed after a head-on impact, as a part of that before"),
-    Key::new("friction", Kind::NotNegative, Value::Number(0.5), "μ: spheres slide where the tangential force would be above μ times the normal one"),
-    Key::new("tangential_stiffness", Kind::NotNegative, Value::Number(2.0 / 7.0), "the stiffness across the contact, as a part of the normal one"),
-    Key::new("tangential_damping", Kind::NotNegative, Value::Number(0.5), "the damping across the contact, as a part of the normal one"),
-    Key::new("skin", Kind::NotNegative, Value::Number(0.0), "how much farther than the range the list of neighbours reaches; 0: a fifth of the range [length]"),
+    Key::new("restitution", Kind::Fraction, Value::Number(0.8), "the coefficient of restitution: the speed after a head-on impact over that before"),
+    Key::new("friction", Kind::NotNegative, Value::Number(0.5), "the friction coefficient μ: spheres slide where the tangential force would exceed μ times the normal force"),
+    Key::new("tangential_stiffness", Kind::NotNegative, Value::Number(2.0 / 7.0), "the tangential stiffness, relative to the normal one"),
+    Key::new("tangential_damping", Kind::NotNegative, Value::Number(0.5), "the tangential damping, relative to the normal one"),
+    Key::new("skin", Kind::NotNegative, Value::Number(0.0), "the skin of the neighbour list beyond the range; 0: a fifth of the range [length]"),
 ];
 
 /// `contact`: a linear spring and dashpot along the line between two spheres that overlap, and across it a spring that sliding

@@ -11,8 +11,8 @@ use crate::settings::{Key, Kind, Settings, Value};
 pub const KEYS: &[Key] = &[
     Key::new("low", Kind::Vector, Value::Vector(DVec3::splat(-1.0)), "the lowest corner of the box [length]"),
     Key::new("high", Kind::Vector, Value::Vector(DVec3::ONE), "the highest corner [length]"),
-    Key::new("margin", Kind::NotNegative, Value::Number(0.25), "how deep the wall is, inside of the box; outside it has no end [length]"),
-    Key::new("acceleration", Kind::NotNegative, Value::Number(2.0), "how strong it is, for every side by itself [length / time²]"),
+    Key::new("margin", Kind::NotNegative, Value::Number(0.25), "the depth of the wall inside of the box; outside it is unlimited [length]"),
+    Key::new("acceleration", Kind::NotNegative, Value::Number(2.0), "the acceleration of each side's wall [length / time²]"),
     SPECIES,
     EACH,
 ];

@@ -10,7 +10,7 @@ use crate::visit::random::{fraction, pcg4d, words};
 
 /// What a scene may say.
 pub const KEYS: &[Key] = &[
-    Key::new("strength", Kind::NotNegative, Value::Number(0.5), "σ: after the time t a velocity has walked σ √t, whatever dt [length / time^(3/2)]"),
+    Key::new("strength", Kind::NotNegative, Value::Number(0.5), "σ: after the time t a velocity has changed by σ √t (rms), for any dt [length / time^(3/2)]"),
     SEED,
     SPECIES,
     EACH,

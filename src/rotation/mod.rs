@@ -30,7 +30,7 @@ use crate::kernel::{Column, Host, Kernel, Kind, Name, Pass, Problem, Reference, 
 #[must_use]
 pub fn columns() -> Vec<Column> {
     vec![
-        Column::new("orientation", Kind::Quaternion, "", "how its principal axes lie in space, a unit quaternion")
+        Column::new("orientation", Kind::Quaternion, "", "its orientation, a unit quaternion from its principal axes to space")
             .turning("angular_velocity", "inertia"),
         Column::new("angular_velocity", Kind::Vector, "1 / time", "how it turns, in space").with_rate("torque"),
         Column::new("torque", Kind::Vector, "mass length² / time²", "what turns it, in space").summed(),

@@ -25,7 +25,7 @@ pub const COLUMN_KEYS: &[Key] = &[
         "role",
         settings::Kind::Choice(&["state", "derived", "sum"]),
         Value::Text(std::borrow::Cow::Borrowed("state")),
-        "state: kept, written and restored; derived: computed by one law in each evaluation; sum: zero at its start, and laws add",
+        "state: saved, written and restored; derived: computed by one law in each evaluation; sum: zeroed at the start of an evaluation, and laws add to it",
     ),
 ];
 

@@ -17,7 +17,7 @@ use super::walk::Table;
 
 pub(super) const OWN: &[&str] = &["color", "species", "first"];
 /// What every emitter may say beside what the library's may.
-const SPECIES: Key = Key::new("species", Kind::Whole, Value::Number(0.0), "of which kind its particles are");
+const SPECIES: Key = Key::new("species", Kind::Whole, Value::Number(0.0), "the species of its particles");
 
 /// What a scene may say of an emitter.
 pub use crate::shapes::emitter::KEYS as EMITTER_KEYS;

@@ -23,7 +23,7 @@ pub const LINKS_KEYS: &[Key] = &[
         "tie",
         Kind::Choice(Tie::NAMES),
         Value::Text(Cow::Borrowed("spring")),
-        "what ties them; a file's own column counts before this, as for the others",
+        "the kind of link; a file's own column takes precedence, as for the other keys",
     ),
     Key::new("rest", Kind::NotNegative, Value::Number(1.0), "the length at rest, as a part of the distance of the two"),
     Key::new("stiffness", Kind::NotNegative, Value::Number(1000.0), "Hooke's constant [mass / time²]"),

@@ -41,7 +41,7 @@ pub(super) fn read(
     let name = if let Some(entry) = table.get("name") {
         value::text(&entry.node, "name", "a name", report).map(|name| (name, &entry.node.place))
     } else {
-        report.push(table.lacks("name", "a text", "what particles and solids call it"));
+        report.push(table.lacks("name", "a text", "the name by which particles and obstacles refer to it"));
         None
     };
     if let Some((name, place)) = name.filter(|(name, _)| earlier.iter().any(|motion| motion.name == *name)) {

@@ -18,7 +18,7 @@ pub(super) const KEYS: &[Key] = &[
         "adaptive",
         Kind::Flag,
         Value::Flag(false),
-        "whether steps are as short as forces ask for; steps and every then count longest ones",
+        "whether the time step adapts to the limits of the forces; `steps` and `every` then count longest steps",
     ),
     Key::new(
         "dt_min",
@@ -30,7 +30,7 @@ pub(super) const KEYS: &[Key] = &[
         "dt_before",
         Kind::NotNegative,
         Value::Number(0.0),
-        "the adaptive step before the first, after which steps grow by a fifth; 0 for none [time]",
+        "the adaptive step before the first one, from which steps grow by a fifth at most; 0: none [time]",
     ),
     Key::new("cfl", Kind::Fraction, Value::Number(0.25), "the Courant number of adaptive steps, a part of every limit"),
 ];

@@ -13,7 +13,7 @@ pub const SOLVER_KEYS: &[Key] = &[
         "tolerance",
         Kind::Positive,
         Value::Number(1e-3),
-        "what may be left of the residual of an implicit step, as a part of the first one",
+        "the tolerance of an implicit step: the residual over the initial one",
     ),
     Key::new("iterations", Kind::Count, Value::Number(100.0), "iterations of one linear solve, at most"),
     Key::new("solves", Kind::Count, Value::Number(8.0), "linear solves of one step by Newton's method, at most"),

@@ -14,7 +14,7 @@ use crate::state::State;
 /// The shape `chain`.
 pub const CHAIN: Shape = Shape {
     name: "chain",
-    about: "particles in a row, tied one to the next by springs, ropes or rods: pendulums, strings, beams",
+    about: "particles in a row, each connected to the next by springs, ropes or rods: pendulums, strings, beams",
     keys: KEYS,
     build,
     amount,
@@ -37,25 +37,25 @@ const KEYS: &[Key] = &[
         "damping",
         Kind::NotNegative,
         Value::Number(0.0),
-        "springs, ropes: the damping of each, along itself [mass / time]",
+        "springs, ropes: the damping of each, along its axis [mass / time]",
     ),
     Key::new(
         "rest",
         Kind::NotNegative,
         Value::Number(1.0),
-        "springs, ropes: the length at rest, as a part of the distance; 0 pulls alike in all directions",
+        "springs, ropes: the rest length, relative to the distance; 0: equally stiff in all directions",
     ),
     Key::new(
         "bending",
         Kind::NotNegative,
         Value::Number(0.0),
-        "what the joints between three resist bending with, EI / ds [mass length² / time²]",
+        "the bending stiffness of joints, EI / ds [mass length² / time²]",
     ),
     Key::new(
         "pins",
         Kind::Choice(&["none", "first", "ends"]),
         Value::Text(Cow::Borrowed("none")),
-        "which of them forces do not move",
+        "which of the particles are fixed",
     ),
     VELOCITY,
     PARTICLE_SIZE,

@@ -57,13 +57,13 @@ const KEYS: &[Key] = &[
         "rest",
         Kind::NotNegative,
         Value::Number(1.0),
-        "lengths at rest, as a part of the distances; 0 pulls alike in all directions",
+        "rest lengths, relative to the distances; 0: equally stiff in all directions",
     ),
     Key::new(
         "pins",
         Kind::Choice(PINS),
         Value::Text(Cow::Borrowed("none")),
-        "which particles forces do not move: of the first row its two corners or all; the first column; all around",
+        "which particles are fixed: two corners of the first row, the first row, the first column, or the whole edge",
     ),
     Key::new(
         "jitter",

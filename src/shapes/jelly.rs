@@ -25,7 +25,7 @@ const KEYS: &[Key] = &[
     Key::new("spacing", Kind::Positive, Value::Number(0.1), "distance between neighbours along an edge [length]"),
     MASS,
     Key::new("stiffness", Kind::Positive, Value::Number(1000.0), "k, of edges and face diagonals alike [mass / time²]"),
-    Key::new("damping", Kind::NotNegative, Value::Number(0.0), "damping of each spring, along itself [mass / time]"),
+    Key::new("damping", Kind::NotNegative, Value::Number(0.0), "damping of each spring, along its axis [mass / time]"),
     CENTER,
     VELOCITY,
     PARTICLE_SIZE,

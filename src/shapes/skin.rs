@@ -13,7 +13,7 @@ use crate::state::State;
 pub(super) const SPACING: Key = Key::required(
     "spacing",
     Kind::Positive,
-    "how far apart particles are, as in the force `fluid`, which says it for its shapes where they do not [length]",
+    "the particle spacing; left out: that of the force `fluid` [length]",
 )
 .of_fluid();
 pub(super) const DENSITY: Key = Key::new(
@@ -27,27 +27,27 @@ pub(super) const SUPPORT: Key = Key::new(
     "support",
     Kind::Positive,
     Value::Number(2.0),
-    "how far the fluid's kernel reaches, as in the force [spacings]",
+    "the support radius of the fluid's kernel, as in the force [spacings]",
 )
 .of_fluid();
 pub(super) const KERNEL: Key = Key::new(
     "kernel",
     Kind::Choice(Smoothing::NAMES),
     Value::Text(Cow::Borrowed("cubic")),
-    "what smooths the fluid, as in the force",
+    "the smoothing kernel of the fluid, as in the force",
 )
 .of_fluid();
 pub(super) const WALL_MASS: Key = Key::new(
     "wall_mass",
     Kind::Choice(&["sampled", "lattice"]),
     Value::Text(Cow::Borrowed("sampled")),
-    "what the force lets walls weigh: sampled ones keep the gap that leaves the fluid at rest, those of a lattice go on with its own",
+    "the mass of wall particles, as in the force: sampled walls stand at the gap that keeps the fluid at rest, lattice walls continue its lattice",
 ).of_fluid();
 pub(super) const LAYERS: Key = Key::new(
     "layers",
     Kind::Whole,
     Value::Number(0.0),
-    "how many particles a wall is thick; 0: one where it is sampled, on a lattice as many as the support has spacings",
+    "the layers of particles in a wall; 0: one where it is sampled, on a lattice as many as the support has spacings",
 );
 /// The same for all walls.
 pub(super) const RADIUS: Key = PARTICLE_SIZE;

@@ -16,7 +16,7 @@ use crate::state::State;
 /// The shape `wall`.
 pub const WALL: Shape = Shape {
     name: "wall",
-    about: "a plane, a box, a sphere or a mesh as a wall of a fluid, held, or led by a motion (Akinci et al. 2012)",
+    about: "a plane, a box, a sphere or a mesh as a wall of a fluid, of fixed particles or with a prescribed motion (Akinci et al. 2012)",
     keys: KEYS,
     build,
     amount: |_| Amount::default(),
@@ -29,7 +29,7 @@ const MOST_TRIES: f64 = 2e8;
 const SURFACES: &[&str] = &["plane", "box", "sphere", "mesh"];
 
 const KEYS: &[Key] = &[
-    Key::new("surface", Kind::Choice(SURFACES), Value::Text(Cow::Borrowed("plane")), "what it is the surface of"),
+    Key::new("surface", Kind::Choice(SURFACES), Value::Text(Cow::Borrowed("plane")), "the shape whose surface it is"),
     Key::new(
         "size",
         Kind::Vector,

@@ -25,7 +25,7 @@ pub fn columns(rest: f64) -> Vec<Column> {
             "density",
             Kind::Scalar,
             "mass / length³",
-            "how dense the fluid is there; of walls it says nothing",
+            "the density of the fluid; undefined for walls",
         )
         .carried("density_rate")
         .starting([rest, 0.0, 0.0, 0.0]),

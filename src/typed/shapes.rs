@@ -102,9 +102,9 @@ typed! {
         bulge_fraction: f64,
         /// The bulge in pictures; left out: as the disk.
         bulge_color: Cow<'static, str>,
-        /// Toomre's Q at every radius: how warm the disk is; below 1 it breaks into clumps, above 2 it hardly makes arms.
+        /// Toomre's Q at every radius: below 1 the disk breaks into clumps, above 2 it forms hardly any arms.
         toomre_q: f64,
-        /// Softening of the force that the galaxy will run with \[length\], so that its centre is balanced too.
+        /// The softening of the force `gravity` \[length\], so that the centre is in equilibrium too.
         softening: f64,
         /// The axis about which it turns, counter-clockwise.
         normal: DVec3,
@@ -169,7 +169,7 @@ typed! {
     Block "block" block(size: DVec3, spacing: f64) {
         /// Its sides; 0 along z for a rectangle \[length\].
         size: DVec3,
-        /// How far apart particles are, as in the force `fluid`, which says it for its shapes where they do not \[length\].
+        /// The particle spacing; left out: that of the force `fluid` \[length\].
         spacing: f64,
         /// The density at rest of the fluid, as in the force \[mass / length³, or mass / length²\].
         density: f64,
@@ -188,11 +188,11 @@ typed! {
         /// How large each particle is drawn \[length\]; 0 lets the picture choose.
         particle_size: f64,
     }
-    /// A drop of fluid: a ball, an ellipsoid or a disk out of a cubic lattice.
+    /// A drop of fluid: a ball, an ellipsoid or a disk cut from a cubic lattice.
     Drop "drop" drop(size: DVec3, spacing: f64) {
         /// Its diameters along x, y and z; 0 along z for a disk \[length\].
         size: DVec3,
-        /// How far apart particles are, as in the force `fluid`, which says it for its shapes where they do not \[length\].
+        /// The particle spacing; left out: that of the force `fluid` \[length\].
         spacing: f64,
         /// The density at rest of the fluid, as in the force \[mass / length³, or mass / length²\].
         density: f64,
@@ -203,21 +203,21 @@ typed! {
         /// How large each particle is drawn \[length\]; 0 lets the picture choose.
         particle_size: f64,
     }
-    /// A box, or a rectangle, of walls around a fluid, held; where they meet they do so without a gap (Akinci et al. 2012).
+    /// A box, or a rectangle, of walls around a fluid, as fixed particles, without gaps at the edges (Akinci et al. 2012).
     Tank "tank" tank(size: DVec3, spacing: f64) {
-        /// The sides of the room within; 0 along z for a rectangle \[length\].
+        /// The sides of the space inside; 0 along z for a rectangle \[length\].
         size: DVec3,
-        /// How far apart particles are, as in the force `fluid`, which says it for its shapes where they do not \[length\].
+        /// The particle spacing; left out: that of the force `fluid` \[length\].
         spacing: f64,
         /// Which sides are left out, such as "+z" or "-x +x"; none: it is closed.
         open: Cow<'static, str>,
-        /// How far the fluid's kernel reaches, as in the force \[spacings\].
+        /// The support radius of the fluid's kernel, as in the force \[spacings\].
         support: f64,
-        /// What smooths the fluid, as in the force: cubic, wendland.
+        /// The smoothing kernel of the fluid, as in the force: cubic, wendland.
         kernel: Cow<'static, str>,
-        /// What the force lets walls weigh: sampled ones keep the gap that leaves the fluid at rest, those of a lattice go on with its own: sampled, lattice.
+        /// The mass of wall particles, as in the force: sampled walls stand at the gap that keeps the fluid at rest, lattice walls continue its lattice: sampled, lattice.
         wall_mass: Cow<'static, str>,
-        /// How many particles a wall is thick; 0: one where it is sampled, on a lattice as many as the support has spacings.
+        /// The layers of particles in a wall; 0: one where it is sampled, on a lattice as many as the support has spacings.
         layers: u64,
         /// The density at rest of the fluid, as in the force \[mass / length³, or mass / length²\].
         density: f64,
@@ -226,9 +226,9 @@ typed! {
         /// How large each particle is drawn \[length\]; 0 lets the picture choose.
         particle_size: f64,
     }
-    /// A plane, a box, a sphere or a mesh as a wall of a fluid, held, or led by a motion (Akinci et al. 2012).
+    /// A plane, a box, a sphere or a mesh as a wall of a fluid, of fixed particles or with a prescribed motion (Akinci et al. 2012).
     Wall "wall" wall(spacing: f64) {
-        /// What it is the surface of: plane, box, sphere, mesh.
+        /// The shape whose surface it is: plane, box, sphere, mesh.
         surface: Cow<'static, str>,
         /// Box and sphere: the sides, or three times the diameter, 0 along z for a rectangle or a circle; plane: along the level and up, where 0 up is a line \[length\].
         size: DVec3,
@@ -240,15 +240,15 @@ typed! {
         scale: f64,
         /// Box, sphere and mesh: whether the fluid is within.
         inside: bool,
-        /// How far apart particles are, as in the force `fluid`, which says it for its shapes where they do not \[length\].
+        /// The particle spacing; left out: that of the force `fluid` \[length\].
         spacing: f64,
-        /// How far the fluid's kernel reaches, as in the force \[spacings\].
+        /// The support radius of the fluid's kernel, as in the force \[spacings\].
         support: f64,
-        /// What smooths the fluid, as in the force: cubic, wendland.
+        /// The smoothing kernel of the fluid, as in the force: cubic, wendland.
         kernel: Cow<'static, str>,
-        /// What the force lets walls weigh: sampled ones keep the gap that leaves the fluid at rest, those of a lattice go on with its own: sampled, lattice.
+        /// The mass of wall particles, as in the force: sampled walls stand at the gap that keeps the fluid at rest, lattice walls continue its lattice: sampled, lattice.
         wall_mass: Cow<'static, str>,
-        /// How many particles a wall is thick; 0: one where it is sampled, on a lattice as many as the support has spacings.
+        /// The layers of particles in a wall; 0: one where it is sampled, on a lattice as many as the support has spacings.
         layers: u64,
         /// The density at rest of the fluid, as in the force \[mass / length³, or mass / length²\].
         density: f64,
@@ -276,7 +276,7 @@ typed! {
         /// How large each particle is drawn \[length\]; 0 lets the picture choose.
         particle_size: f64,
     }
-    /// Thrown from a nozzle into a cone: sparks, drops, a fountain.
+    /// Particles thrown from a nozzle into a cone: sparks, drops, a fountain.
     Spray "spray" spray(count: u32) {
         /// Number of particles.
         count: u32,
@@ -301,7 +301,7 @@ typed! {
         /// How large each particle is drawn \[length\]; 0 lets the picture choose.
         particle_size: f64,
     }
-    /// Particles in a row, tied one to the next by springs, ropes or rods: pendulums, strings, beams.
+    /// Particles in a row, each connected to the next by springs, ropes or rods: pendulums, strings, beams.
     Chain "chain" chain(count: u32) {
         /// Number of particles, 2 or above.
         count: u32,
@@ -315,13 +315,13 @@ typed! {
         tie: Cow<'static, str>,
         /// Springs, ropes: Hooke's constant of each \[mass / time²\].
         stiffness: f64,
-        /// Springs, ropes: the damping of each, along itself \[mass / time\].
+        /// Springs, ropes: the damping of each, along its axis \[mass / time\].
         damping: f64,
-        /// Springs, ropes: the length at rest, as a part of the distance; 0 pulls alike in all directions.
+        /// Springs, ropes: the rest length, relative to the distance; 0: equally stiff in all directions.
         rest: f64,
-        /// What the joints between three resist bending with, EI / ds \[mass length² / time²\].
+        /// The bending stiffness of joints, EI / ds \[mass length² / time²\].
         bending: f64,
-        /// Which of them forces do not move: none, first, ends.
+        /// Which of the particles are fixed: none, first, ends.
         pins: Cow<'static, str>,
         /// How it moves as a whole \[length / time\].
         velocity: DVec3,
@@ -350,9 +350,9 @@ typed! {
         bend: f64,
         /// Damping of the springs along the threads, of others by their stiffness \[mass / time\].
         damping: f64,
-        /// Lengths at rest, as a part of the distances; 0 pulls alike in all directions.
+        /// Rest lengths, relative to the distances; 0: equally stiff in all directions.
         rest: f64,
-        /// Which particles forces do not move: of the first row its two corners or all; the first column; all around: none, corners, row, column, rim.
+        /// Which particles are fixed: two corners of the first row, the first row, the first column, or the whole edge: none, corners, row, column, rim.
         pins: Cow<'static, str>,
         /// Largest displacement of a particle across the sheet, in spacings: what is quite flat does not fold.
         jitter: f64,
@@ -375,7 +375,7 @@ typed! {
         mass: f64,
         /// K, of edges and face diagonals alike \[mass / time²\].
         stiffness: f64,
-        /// Damping of each spring, along itself \[mass / time\].
+        /// Damping of each spring, along its axis \[mass / time\].
         damping: f64,
         /// Where the centre is put \[length\].
         center: DVec3,
@@ -392,7 +392,7 @@ typed! {
         points: u32,
         /// The length of a strand \[length\].
         length: f64,
-        /// How much lengths differ, as a part of the length; below 1.
+        /// The variation of lengths, relative to the length; below 1.
         spread: f64,
         /// The radius of the head \[length\].
         head: f64,

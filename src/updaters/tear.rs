@@ -12,7 +12,7 @@ use crate::visit::{self, LINK, LINK_START};
 
 /// What a scene may say.
 pub const KEYS: &[Key] = &[
-    Key::new("strain", Kind::Positive, Value::Number(0.5), "how much longer than at rest it gets before it breaks, as a part of that"),
+    Key::new("strain", Kind::Positive, Value::Number(0.5), "the strain at which a spring breaks: its extension over its rest length"),
     Key::new("over", Kind::Choice(&["links"]), Value::Text(Cow::Borrowed("links")), "what breaks: springs and ropes"),
 ];
 

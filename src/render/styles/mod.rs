@@ -98,7 +98,7 @@ macro_rules! register {
 }
 
 register! {
-    auto: Auto, "balls where they are few or large, else lights";
+    auto: Auto, "balls where they are few or large, otherwise points of light";
     glow: Glow, "lights that add up";
     balls: Balls, "shaded balls";
     fluid: Fluid, "the surface of a fluid";
