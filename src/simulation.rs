@@ -214,7 +214,7 @@ impl<B: Backend> Simulation<B> {
     fn room(&self, steps: u32) -> Result<(), Error> {
         if self.steps + u64::from(steps) > u64::from(u32::MAX) {
             let text =
-                format!("{} steps are done, and {} are the most: begin anew from a snapshot", self.steps, u32::MAX);
+                format!("{} steps are done, the maximum is {}: start a new run from a snapshot", self.steps, u32::MAX);
             return Err(Error::Scene(text));
         }
         Ok(())

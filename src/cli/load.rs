@@ -34,14 +34,14 @@ pub async fn load(args: &SceneArgs, more: &[String]) -> Result<Loaded, Failure> 
         return Ok(loaded);
     }
     let text = match (loaded.verdict, parts) {
-        (None, _) => "--auto-substeps goes by springs, and there are none: steps stay as they are".to_owned(),
+        (None, _) => "--auto-substeps depends on springs, and there are none: dt is unchanged".to_owned(),
         (Some(verdict), Some(1)) => {
             format!("--auto-substeps: dt = {dt} is safe by {}{}", loaded.scene.integrator.name, limit(&verdict))
         }
         (Some(verdict), None) => {
             let name = loaded.scene.integrator.name;
             return Err(Error::Scene(format!(
-                "no dt makes {name} safe for {}: choose another integrator{}",
+                "{name} is unstable for {} at any dt: choose another integrator{}",
                 culprit(&verdict, &loaded.setup),
                 others(&loaded.setup, &verdict)
             ))

@@ -75,5 +75,5 @@ pub fn population(of: Population) -> String {
 
 /// How many springs broke.
 pub fn broken(whole: usize, left: usize) -> String {
-    format!("{} of {whole} springs are torn; those that are left are in the files of links", whole.saturating_sub(left))
+    format!("{} of {whole} springs are broken; the remaining ones are in the files of links", whole.saturating_sub(left))
 }

@@ -44,7 +44,7 @@ impl Rod {
 
 impl Component for Rod {
     fn properties(&self) -> Properties {
-        let why = "rods are kept by velocities that were made for the step before";
+        let why = "rods are constrained with velocities of the previous step, which must have the same length";
         Properties { fixed_step: Some(why), keeps_rods: true, constrains: true, ..Properties::default() }
     }
     fn stage(&self, stage: Stage, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {

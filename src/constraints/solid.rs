@@ -81,13 +81,13 @@ impl Solid {
             ));
         }
         if number("restitution") > 1.0 {
-            return refuse(format!("bounces with restitution {}: 1 is the most", number("restitution")));
+            return refuse(format!("has restitution {}: the maximum is 1", number("restitution")));
         }
         let name = self.0.text("motion");
         let known = problem.motions.iter().zip(0..).find(|(motion, _)| motion.name == name);
         let motion = match known {
             Some((motion, number)) if !name.is_empty() => Some((number, motion.clone())),
-            None if !name.is_empty() => return refuse(format!("goes along with \"{name}\", and no motion is called so")),
+            None if !name.is_empty() => return refuse(format!("has the motion \"{name}\", and there is no motion of this name")),
             _ => None,
         };
         let contained = inside && !matches!(shape, Shape::Plane(_));

@@ -94,7 +94,7 @@ fn apply(problem: &Problem, factor: f64) -> Result<Kernel, Error> {
 
 impl Component for StrainLimit {
     fn properties(&self) -> Properties {
-        let why = "strain_limit corrects velocities by what a step of a known length makes of them";
+        let why = "strain_limit corrects velocities for a fixed time step";
         Properties { fixed_step: Some(why), constrains: true, ..Properties::default() }
     }
     fn stage(&self, stage: Stage, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {

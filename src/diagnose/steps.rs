@@ -29,9 +29,9 @@ pub fn culprit(verdict: &Verdict, setup: &Setup) -> String {
 #[must_use]
 pub fn limit(verdict: &Verdict) -> String {
     if verdict.safe.is_infinite() {
-        ", which bears any".to_owned()
+        ", which is stable at any".to_owned()
     } else {
-        format!(", which bears up to dt = {}", digits(verdict.safe))
+        format!(", which is stable up to dt = {}", digits(verdict.safe))
     }
 }
 
@@ -86,5 +86,5 @@ pub fn others(setup: &Setup, verdict: &Verdict) -> String {
     }
     let bears = |entry: &&Entry| entry.by_default().damps_at_any_step() && entry.name != setup.integrator.name();
     let names: Vec<_> = INTEGRATORS.iter().filter(bears).map(|entry| entry.name).collect();
-    if names.is_empty() { String::new() } else { format!(", or take {}, which bears any dt", names.join(" or ")) }
+    if names.is_empty() { String::new() } else { format!(", or take {}, which is stable at any dt", names.join(" or ")) }
 }

@@ -38,7 +38,7 @@ pub struct Heading {
 pub fn contents(path: &Path) -> Result<Contents, Error> {
     match of(path)? {
         Some(format) => (format.contents)(path),
-        None => Err(input(path, "is of no format that is known")),
+        None => Err(input(path, "is not of a known format")),
     }
 }
 

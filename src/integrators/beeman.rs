@@ -23,7 +23,7 @@ impl Integrator for Beeman {
         2
     }
     fn fixed_step(&self) -> Option<&'static str> {
-        Some("beeman takes the accelerations of three times that are equally far apart")
+        Some("beeman requires accelerations at three equally spaced times")
     }
     fn columns(&self) -> Vec<Column> {
         let about = "the acceleration at the start of the previous step, which Beeman's method uses";

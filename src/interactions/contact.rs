@@ -73,7 +73,7 @@ impl Component for Contact {
     }
     fn properties(&self) -> Properties {
         Properties {
-            fixed_step: Some("contact adds up how far spheres slide by steps of one length"),
+            fixed_step: Some("contact integrates the sliding distance with a fixed time step"),
             dissipates: vec!["contacts"],
             turns: true,
             largest: vec![Largest { column: "radius", value: 0.5 * self.0.number("range"), why: "its range is the largest sum of two radii" }],

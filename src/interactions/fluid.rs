@@ -163,7 +163,7 @@ impl Component for Fluid {
             (on("diffusion"), "diffusion"),
             (solves, "pressure that is solved for"),
         ];
-        let caution = "alpha goes with the speed of sound, which is none where pressure is solved for: give viscosity instead";
+        let caution = "alpha is proportional to the speed of sound, which a pressure solve does not have: give viscosity instead";
         Properties {
             evaluated_last: solves,
             dissipates: all.into_iter().filter(|(is, _)| *is).map(|(_, what)| what).collect(),

@@ -37,7 +37,7 @@ impl Component for SoftTurn {
             None => Ok(()),
             Some(axis) => {
                 let (name, least, most) = (["x", "y", "z"][axis], low[axis], high[axis]);
-                let why = format!("soft_turn has high = {most} along {name}, and low = {least}: nothing is between; exchange them");
+                let why = format!("soft_turn has high = {most} along {name}, below low = {least}: exchange them");
                 Err(Error::Setting { key: "high", why })
             }
         }

@@ -31,7 +31,7 @@ impl Wander {
 
 impl Component for Wander {
     fn properties(&self) -> Properties {
-        Properties { fixed_step: Some("a random walk has as many kicks as steps, of a strength that goes with their length"), ..Properties::default() }
+        Properties { fixed_step: Some("a random walk has one kick per step, scaled by the time step"), ..Properties::default() }
     }
     fn laws(&self) -> Vec<Law> {
         let strength = self.0.number("strength");

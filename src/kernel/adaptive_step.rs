@@ -108,7 +108,7 @@ impl AdaptiveStep {
         let Self { least, courant, before } = *self;
         if !(LEAST_PART * dt..=dt).contains(&least) {
             return Err(Error::Scene(format!(
-                "the shortest step is {least:e}, and the longest {dt:e}: choose one between {:e} and that",
+                "the shortest step is {least:e} and the longest {dt:e}: choose a shortest step between {:e} and the longest",
                 LEAST_PART * dt
             )));
         }
@@ -119,7 +119,7 @@ impl AdaptiveStep {
         }
         if let Some(before) = before.filter(|before| !(least..=dt).contains(before)) {
             return Err(Error::Scene(format!(
-                "the step before the first is {before:e}: it must be one between the shortest, {least:e}, and the longest, {dt:e}"
+                "the step before the first is {before:e}: it must be between the shortest, {least:e}, and the longest, {dt:e}"
             )));
         }
         Ok(())

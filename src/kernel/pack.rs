@@ -64,7 +64,7 @@ impl Packed {
         }
         for member in &self.members {
             let Some((_, value)) = values.iter().find(|(name, _)| *name == member.name) else {
-                return Err(Error::Scene(format!("{owner} wants a value for its parameter `{}`", member.name)));
+                return Err(Error::Scene(format!("{owner} requires a value for its parameter `{}`", member.name)));
             };
             let words: Vec<[u8; 4]> = match (*value, member.float, member.components) {
                 (Scalar::Float(x), true, 1) => vec![bytes(x)],

@@ -35,7 +35,7 @@ impl Chains {
         let mut ends: Vec<(u32, usize)> = rods.iter().enumerate().flat_map(both).collect();
         ends.sort_unstable();
         if let Some(n) = rods.iter().position(|rod| rod.ends.iter().all(|id| held(*id))) {
-            return Err(Error::Scene(format!("rod {n} ties two particles that are held, and does nothing: remove it")));
+            return Err(Error::Scene(format!("rod {n} connects two fixed particles, and has no effect: remove it")));
         }
         let of = |id: u32| {
             let from = ends.partition_point(|(other, _)| *other < id);

@@ -152,7 +152,7 @@ impl Run {
         };
         if (state.step, state.time.to_bits()) != (step, time.to_bits()) {
             return refuse(format!(
-                "it says step {step} and time {time}, and its state {} and {}",
+                "it has step {step} and time {time}, and its state {} and {}",
                 state.step, state.time
             ));
         }

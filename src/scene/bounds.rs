@@ -87,7 +87,7 @@ fn sizes(table: &Table<'_>, size: DVec3, sides: [Side; 3], report: &mut Report) 
             Fault::at(place(axis), format!("the box is {length} long along {name}, where it is {}", side.name()));
         report.push(match side {
             Side::Open => fault.label("a length is zero or above"),
-            _ => fault.label(format!("a length above zero; or say {name} = \"open\"")),
+            _ => fault.label(format!("a length above zero; or set {name} = \"open\"")),
         });
     }
 }

@@ -83,7 +83,7 @@ pub(super) fn read(table: Option<&Table<'_>>, dt: f64, report: &mut Report) -> C
             Some(given) => every = given,
             None => {
                 report
-                    .push(Fault::at(&entry.node.place, "`every` is no interval").label(format!("it must be {FORMS}")));
+                    .push(Fault::at(&entry.node.place, "`every` is not a valid interval").label(format!("it must be {FORMS}")));
             }
         }
     }

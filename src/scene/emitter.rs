@@ -87,14 +87,14 @@ pub(super) fn read(
     let keys = columns.iter().filter(|column| EMITTER_KEYS.iter().all(|key| key.name != column.name));
     for given in keys.filter_map(|column| table.get(&column.name)) {
         let fault =
-            Fault::at(&given.place, format!("`{}` is that of the file where an emitter has `first`", given.key));
+            Fault::at(&given.place, format!("`{}` comes from the file where an emitter has `first`", given.key));
         report.push(fault.label("remove it"));
     }
     let have = particles.len() as u64;
     if first + u64::from(count) > have {
         let fault =
-            Fault::at(&entry.node.place, format!("{count} births from particle {first} on need more than there are"));
-        report.push(fault.label(format!("there are {have}: those of the file's own emitters are to be in it")));
+            Fault::at(&entry.node.place, format!("{count} particles to spawn from id {first} on are more than there are"));
+        report.push(fault.label(format!("there are {have}; the file must hold the pending particles of its emitters")));
         return None;
     }
     let mut births = State::default();

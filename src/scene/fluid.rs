@@ -57,7 +57,7 @@ pub(super) fn contradictions<'a>(sections: &'a [(&'static str, Table<'a>)]) -> V
             let theirs = theirs.or_else(|| keys.iter().find(|key| key.name == name)?.default.clone());
             let Some(theirs) = theirs.filter(|theirs| *theirs != mine) else { continue };
             remarks.push(format!(
-                "{} has {name} = {}, and its fluid {name} = {}: leave it out, and it is that of the force",
+                "{} has {name} = {}, and its fluid has {name} = {}: leave it out to take the value of the force",
                 table.name,
                 super::resolved::value(&mine),
                 super::resolved::value(&theirs)
@@ -89,7 +89,7 @@ pub(super) fn check(
         Err(why) => Fault::at(table.place, why.to_string()),
         Ok(()) if !force.properties().makes_fluid => return false,
         Ok(()) if earlier => {
-            Fault::at(table.place, "there are two forces that make a fluid of all particles: leave one of them")
+            Fault::at(table.place, "there are two fluids of all particles: remove one of them")
         }
         Ok(()) if !particles.is_empty() && particles.held.len() == particles.len() => Fault::at(
             table.place,

@@ -79,7 +79,7 @@ fn from_file(
             Ok(links) => Ok((links, name.clone())),
             Err(why) => Err(Fault::at(place, why.to_string()).in_input()),
         },
-        Located::Embedded { name, .. } => Err(Fault::at(place, format!("{name} holds no links"))),
+        Located::Embedded { name, .. } => Err(Fault::at(place, format!("{name} has no links"))),
     });
     match read {
         Ok((links, path)) => {

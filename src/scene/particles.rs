@@ -140,7 +140,7 @@ fn from_file(
             Ok(particles) => Ok((particles, name.clone())),
             Err(why) => Err(Fault::at(place, why.to_string()).in_input()),
         },
-        Located::Embedded { name, .. } => Err(Fault::at(place, format!("{name} holds no particles"))),
+        Located::Embedded { name, .. } => Err(Fault::at(place, format!("{name} has no particles"))),
     });
     match located {
         Ok((particles, path)) => {

@@ -111,7 +111,7 @@ pub(super) fn read(table: Option<&Table<'_>>, report: &mut Report) -> Simulation
                         }
                     }
                 }
-                None => report.push(Fault::at(&entry.node.place, "`until` is too far").label(format!(
+                None => report.push(Fault::at(&entry.node.place, "`until` is too large").label(format!(
                     "{:.3e} steps of dt = {:?}, at most {MOST_STEPS}",
                     until / simulation.dt,
                     simulation.dt
@@ -143,8 +143,8 @@ fn adaptive_step(
     let Some(entry) = entry else {
         for entry in ADAPTIVE.iter().filter_map(|key| table.get(key)) {
             let fault =
-                Fault::at(&entry.place, format!("`{}` is for adaptive steps, and these are all alike", entry.key));
-            report.push(fault.label("remove it, or say adaptive = true"));
+                Fault::at(&entry.place, format!("`{}` is for adaptive steps, and dt is fixed", entry.key));
+            report.push(fault.label("remove it, or set adaptive = true"));
         }
         return None;
     };
@@ -155,7 +155,7 @@ fn adaptive_step(
         before: some("dt_before"),
     };
     if let Err(error) = adaptive_step.check(of.dt) {
-        report.push(Fault::at(&entry.place, "steps cannot be adaptive like that").label(error.to_string()));
+        report.push(Fault::at(&entry.place, "steps cannot be adaptive with this integrator").label(error.to_string()));
     }
     if let Some(why) = of.made().fixed_step() {
         let fault = format!("steps cannot be adaptive: {why}");

@@ -31,14 +31,14 @@ pub(super) fn read(table: Option<&Table<'_>>, out: &mut Writer, report: &mut Rep
     if let Some(table) = table {
         let range = |good: bool, key: &str, label: String, report: &mut Report| {
             if let Some(entry) = table.get(key).filter(|_| !good) {
-                report.push(Fault::at(&entry.node.place, format!("`{key}` is out of reach")).label(label));
+                report.push(Fault::at(&entry.node.place, format!("`{key}` is out of range")).label(label));
             }
         };
         let tolerance = (LEAST_TOLERANCE..1.0).contains(&solver.tolerance);
         range(
             tolerance,
             "tolerance",
-            format!("from {LEAST_TOLERANCE:e}, which single precision reaches, to below 1"),
+            format!("it must be at least {LEAST_TOLERANCE:e}, the limit of single precision, and below 1"),
             report,
         );
         range(solver.iterations <= MOST_ITERATIONS, "iterations", format!("at most {MOST_ITERATIONS}"), report);

@@ -117,14 +117,14 @@ pub(super) fn sections<'a>(root: &'a [Entry], report: &mut Report) -> Vec<(&'sta
             (Data::Table(_), true) => report.push(
                 Fault::at(
                     &entry.node.place,
-                    format!("there can be several [[{0}]], so it stands in double brackets", section.name),
+                    format!("there can be several [[{0}]], so it is written in double brackets", section.name),
                 )
                 .label(format!("write {}", section.header())),
             ),
             (Data::List(_), false) => report.push(
                 Fault::at(
                     &entry.node.place,
-                    format!("there is only one [{}], so it stands in single brackets", section.name),
+                    format!("there is only one [{}], so it is written in single brackets", section.name),
                 )
                 .label(format!("write {}", section.header())),
             ),
@@ -149,7 +149,7 @@ fn unknown_section(entry: &Entry) -> Fault {
     };
     let headers: Vec<_> = SECTIONS.iter().map(super::sections::Section::header).collect();
     if !is_section {
-        let fault = Fault::at(&entry.place, format!("the key `{name}` stands outside of every section"));
+        let fault = Fault::at(&entry.place, format!("the key `{name}` is outside of every section"));
         let home = SECTIONS.iter().find(|s| s.knows(&entry.key));
         return match home {
             Some(home) => fault.label(format!("it belongs below {}", home.header())),

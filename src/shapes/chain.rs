@@ -86,7 +86,7 @@ fn build(settings: &Settings) -> Result<State, Error> {
     let last = u32::try_from(count - 1).unwrap_or(u32::MAX);
     let distance = from.distance(to) / f64::from(last);
     if distance == 0.0 {
-        return Err(reader.error("from and to are one place"));
+        return Err(reader.error("from and to are the same position: give two different ones"));
     }
     for i in 0..=last {
         particles.push(from.lerp(to, f64::from(i) / f64::from(last)), velocity, mass, radius);

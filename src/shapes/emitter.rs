@@ -72,7 +72,7 @@ pub const KEYS: &[Key] = &[
     ),
     Key::new("start", Kind::Number, Value::Number(0.0), "when the first ones leave [time]"),
     Key::new("stop", Kind::Number, Value::Number(FOREVER), "when it ends [time]; left out: at the end of the run"),
-    Key::new("count", Kind::Whole, Value::Number(0.0), "how many it has, at most; 0: as many as leave until it stops"),
+    Key::new("count", Kind::Whole, Value::Number(0.0), "the maximum number of its particles; 0: no limit"),
     Key::new(
         "spread",
         Kind::NotNegative,
@@ -98,11 +98,11 @@ pub fn build(settings: &Settings, dimensions: u32, end: f64, room: u32) -> Resul
     let refuse = |text: String| Err(Error::Scene(format!("an emitter {text}")));
     let (spacing, rate) = (reader.not_negative("spacing")?, reader.not_negative("rate")?);
     if (spacing > 0.0) == (rate > 0.0) {
-        return refuse("wants either a `spacing`, for a fluid, or a `rate`, for a spray".to_owned());
+        return refuse("requires either a `spacing`, for a fluid, or a `rate`, for a spray".to_owned());
     }
     let direction = reader.direction("direction")?;
     if dimensions == 2 && direction.z != 0.0 {
-        return refuse(format!("emits along {direction}, out of the plane: in 2 dimensions give it no z"));
+        return refuse(format!("emits along {direction}, out of the plane: in 2 dimensions the z component must be 0"));
     }
     let speed = reader.positive("speed")?;
     let spread = reader.number("spread", "between 0 and 90", |x| (0.0..=90.0).contains(&x))?;
@@ -117,7 +117,7 @@ pub fn build(settings: &Settings, dimensions: u32, end: f64, room: u32) -> Resul
     let most = if wanted > 0 { wanted as f64 } else { f64::INFINITY };
     let number = (rows * sites.len() as f64).min(most);
     if number < 1.0 {
-        return refuse(format!("starts at {start}, and ends at {last}: no particle would leave it"));
+        return refuse(format!("starts at {start} and ends at {last}: no particle would be spawned"));
     }
     if number > f64::from(room) {
         return Err(Error::Limit(format!(
@@ -167,7 +167,7 @@ impl Mouth {
             None if across == DVec3::ZERO => direction.any_orthonormal_vector(),
             None => {
                 return Err(Error::Scene(format!(
-                    "an emitter has `across` along its direction, {direction}: turn one"
+                    "`across` of an emitter is parallel to its direction, {direction}: change one of them"
                 )));
             }
         };
@@ -176,7 +176,7 @@ impl Mouth {
             "rectangle" => {
                 let size = reader.vector("size")?;
                 if size.x <= 0.0 || size.y <= 0.0 {
-                    let text = format!("an emitter has a mouth of {} by {}: its sides must be above 0", size.x, size.y);
+                    let text = format!("the nozzle of an emitter has the sides {} by {}: both must be above 0", size.x, size.y);
                     return Err(Error::Scene(text));
                 }
                 [0.5 * size.x, 0.5 * size.y]

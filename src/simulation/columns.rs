@@ -136,7 +136,7 @@ impl<B: Backend> Simulation<B> {
             return Err(Error::Scene(text.to_owned()));
         }
         if name == LIFE.name {
-            let text = "the field `life` says which particles take part: spawn and remove them";
+            let text = "the field `life` cannot be written: use spawn and remove";
             return Err(Error::Scene(text.to_owned()));
         }
         if self.columns().get(name).is_none() {

@@ -53,7 +53,7 @@ impl Fields {
         if !known.kinds.iter().any(|kind| discriminant(kind) == discriminant(like)) {
             let has = known.kinds.first().map_or("no elements", element);
             return Err(Error::Scene(format!(
-                "the field `{name}` has elements of {has}, and {} is asked of it: take a Field of the other type",
+                "the field `{name}` has elements of {has}, and {} is requested: use a Field of the other type",
                 element(like)
             )));
         }

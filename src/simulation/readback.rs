@@ -29,7 +29,7 @@ impl<T: Element> Readback<T> {
     pub fn look(&mut self) -> Option<Result<Vec<T>, Error>> {
         let Some(arrival) = &mut self.arrival else {
             return Some(Err(Error::Scene(
-                "these values were given already: request the field again for those of now".to_owned(),
+                "these values were returned already: request the field again".to_owned(),
             )));
         };
         let answer = arrival.look()?;

@@ -271,6 +271,6 @@ fn cause(fluid: &Continuum, still: &Still<'_>, nearby: &Nearby<'_>, mass: &[f64]
              of {} spacings): move it away, or let the shapes tank and wall place it",
             medium.support
         ),
-        _ => format!("{:.0} % of that are walls, the rest is fluid around it: give it more room", 100.0 * walls),
+        _ => format!("{:.0} % of that is from walls, the rest from fluid around it: increase the distance", 100.0 * walls),
     }
 }

@@ -234,7 +234,7 @@ typed! {
         size: DVec3,
         /// Plane: the direction to the fluid.
         normal: DVec3,
-        /// Mesh: a file in Wavefront's OBJ; its faces look to the fluid.
+        /// Mesh: a file in Wavefront's OBJ; its faces point towards the fluid.
         mesh: Cow<'static, str>,
         /// Mesh: by how much it is made larger.
         scale: f64,

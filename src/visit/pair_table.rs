@@ -85,7 +85,7 @@ impl PairTable {
             let packed = binding.packed.pack(&format!("the pair of species {a} and {b} of `{law}`"), &values)?;
             let place = (a * side + b) as usize;
             if given[place] {
-                return Err(Error::Scene(format!("`{law}` is given the pair of species {a} and {b} twice: leave one")));
+                return Err(Error::Scene(format!("`{law}` has the pair of species {a} and {b} twice: remove one")));
             }
             for place in [a * side + b, b * side + a].map(|place| place as usize) {
                 given[place] = true;

@@ -59,7 +59,7 @@ fn binding(variable: &GlobalVariable) -> Result<(), String> {
             "`{name}` is a uniform block: a law has one, `params`, which its scene fills; bind a storage buffer"
         )),
         AddressSpace::Storage { access } if access.contains(StorageAccess::STORE) && FIELDS.contains(&name) => {
-            Err(format!("`{name}` belongs to motes, which alone writes it: give what the law writes another name"))
+            Err(format!("`{name}` is a buffer that only motes writes: choose another name for what the law writes"))
         }
         AddressSpace::Uniform | AddressSpace::Storage { .. } => Ok(()),
         _ => Err(format!("`{name}` is neither a storage buffer nor `params`: a law binds nothing else")),

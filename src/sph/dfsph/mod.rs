@@ -243,12 +243,12 @@ impl Asked {
         let finest = self.density.min(self.divergence);
         if finest < FINEST {
             return Err(Error::Scene(format!(
-                "a fluid is to keep its density to a part of {finest:e}: single precision tells {FINEST:e}, and 1e-4 is usual"
+                "the density tolerance of a fluid is {finest:e}: single precision resolves {FINEST:e}, and 1e-4 is usual"
             )));
         }
         if self.most < self.least || self.most > 1000 {
             return Err(Error::Scene(format!(
-                "a fluid's pressure is to take {} to {} iterations: give at least as many as the fewest, and 1000 at most",
+                "a fluid's pressure solve has {} to {} iterations: max_iterations must be at least min_iterations, and 1000 at most",
                 self.least, self.most
             )));
         }

@@ -171,7 +171,7 @@ fn torn_checkpoints_are_passed_over() {
     std::fs::write(&newer, &good[..good.len() - 1]).expect("written");
     let (code, words) = place.resume("out", &[]);
     assert_eq!(code, 0, "{words}");
-    assert!(words.contains("is not whole, and an older one is taken") && words.contains("0000000033"), "{words}");
+    assert!(words.contains("is damaged, and an older one is used") && words.contains("0000000033"), "{words}");
     assert_eq!(difference(&place.at("out"), &place.at("whole")), None);
     // Where none is whole, it is said, and nothing is lost.
     stopped(&place, "none");

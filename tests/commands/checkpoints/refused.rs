@@ -76,7 +76,7 @@ fn a_checkpoint_that_was_passed_over_stays() {
     std::fs::write(&newer, "torn").expect("written");
     for _ in 0..2 {
         let (code, words) = place.resume("out", &["--max-hours", "1e-9"]);
-        assert!(code == 75 && words.contains("is not whole"), "{code} {words}");
+        assert!(code == 75 && words.contains("is damaged"), "{code} {words}");
         assert!(newer.exists() && place.checkpoints("out").len() == 2);
     }
     assert_eq!(place.resume("out", &[]).0, 0);

@@ -36,7 +36,7 @@ fn ranges_that_are_none_are_refused() {
     }
     for count in [0, 17, u32::MAX] {
         let text = refusal(Over::Nearest { count });
-        assert!(text.contains(&format!("`whole` is to meet its {count} nearest: it can meet 1 to 16")), "{text}");
+        assert!(text.contains(&format!("`whole` searches {count} nearest neighbours: 1 to 16 are possible")), "{text}");
     }
 }
 

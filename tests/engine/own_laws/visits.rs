@@ -115,7 +115,7 @@ fn a_force_across_the_plane_is_refused_in_two_dimensions() {
     };
     for force in ["kind = \"goal\"\nposition = [0, 0, 3]", "kind = \"uniform\"\nacceleration = [0, 0, -1]"] {
         let (code, said) = check(force);
-        assert!(code == Some(3) && said.contains("pushes across the plane"), "{force}: {code:?} {said}");
+        assert!(code == Some(3) && said.contains("accelerates out of the plane"), "{force}: {code:?} {said}");
     }
     assert_eq!(check("kind = \"goal\"\nposition = [0.3, 0.2, 0]").0, Some(0));
 }

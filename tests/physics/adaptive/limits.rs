@@ -140,7 +140,7 @@ fn what_makes_no_sense_is_refused() {
     };
     let free = || -> Vec<Box<dyn motes::forces::Component>> { vec![Box::new(Free)] };
     let no_limit = refused(vec![force("gravity", &[])], "leapfrog", ADAPTIVE);
-    assert!(no_limit.contains("no force says how long"), "{no_limit}");
+    assert!(no_limit.contains("no force limits the time step"), "{no_limit}");
     let two = refused(vec![Box::new(Free), Box::new(Free)], "leapfrog", ADAPTIVE);
     assert!(two.contains("2 forces say"), "{two}");
     assert!(refused(free(), "backward_euler", ADAPTIVE).contains("implicit"));
