@@ -1,4 +1,4 @@
-// Periodic sides: x ← x − L ⌊(x − low) / L⌋ along each axis with a period L, so that low ≤ x < high.
+// Periodic boundaries: x ← x − L ⌊(x − low) / L⌋ along each axis with a period L, so that low ≤ x < high.
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read_write> position: array<vec4f>; // xyz, mass
 

@@ -1,4 +1,4 @@
-// Reflecting sides: x ← 2 b − x and v ← −v at a side b, as often as it takes until low ≤ x ≤ high.
+// Reflecting boundaries: x ← 2 b − x and v ← −v at a side b, as often as it takes until low ≤ x ≤ high.
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read_write> position: array<vec4f>; // xyz, mass
 @group(1) @binding(1) var<storage, read_write> velocity: array<vec4f>; // xyz, radius

@@ -1,4 +1,4 @@
-// The cell of each particle, and how many are in each. The arrival in a cell is a race, and only a place to be put down for now.
+// The cell of each particle, and how many are in each. The order of arrival in a cell is a race; it is only a temporary slot.
 @group(2) @binding(1) var<storage, read_write> starts: array<atomic<u32>>;
 @group(2) @binding(2) var<storage, read_write> keys: array<u32>;
 @group(2) @binding(3) var<storage, read_write> arrivals: array<u32>;

@@ -1,4 +1,4 @@
-// The finished picture: sky, what stands and flies in front of it, a bloom around what is bright, and noise instead of bands.
+// The finished picture: sky, surfaces and particles in front of it, bloom around bright pixels, and dithering against banding.
 @group(3) @binding(7) var<storage, read_write> pixels: array<u32>; // red, green, blue, 255 from the lowest byte on
 @group(3) @binding(9) var<storage, read> bloom: array<vec4f>;
 @group(3) @binding(15) var<storage, read> scenery: array<u32>; // red, green, blue, and how much of the pixel they cover

@@ -1,4 +1,4 @@
-// The key of each body: the place of its cell along the Hilbert curve. No product is followed by a sum, which a compiler might
+// The key of each body: the position of its cell along the Hilbert curve. No product is followed by a sum, which a compiler might
 // contract, so that every device finds the same cells.
 @group(2) @binding(0) var<storage, read> tree_cube: array<vec4f>;
 @group(2) @binding(1) var<storage, read_write> tree_key: array<u32>;

@@ -1,4 +1,4 @@
-// Four targets of a lane meet the eight particles, or the eight far groups, that the lanes of its subgroup hold: they are
+// Interaction of the four targets of a lane with the eight particles, or far groups, that the lanes of its subgroup hold: they are
 // passed round by broadcast. The lane of a broadcast must be a constant.
 fn meet(index: u32, you: vec4f, a: Particle, b: Particle, c: Particle, d: Particle,
         sum_a: ptr<function, Sum>, sum_b: ptr<function, Sum>, sum_c: ptr<function, Sum>, sum_d: ptr<function, Sum>) {

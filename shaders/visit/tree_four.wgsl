@@ -1,8 +1,8 @@
-// Four targets of a lane, eight places apart along the curve, meet a body or a far group.
+// Interaction of a body or a far group with the four targets of a lane, which are eight slots apart along the curve.
 const LANES: u32 = 8u;
 
 // A body of a place along the curve, if it is there, and four targets from `mine` on, of which one may be that body: none
-// meets itself. Both ways are computed and one is kept.
+// interacts with itself. Both ways are computed and one is kept.
 fn meet_other(slot: u32, mine: u32, me: Particle, you: Particle, sum: ptr<function, Sum>) {
     var met = *sum;
     gather(me, you, shortest(you.position - me.position), &met);

@@ -1,4 +1,4 @@
-// Eight lanes look for what their group evaluates: at the eight nodes three levels below one, and at the six between. Far groups
+// Eight lanes test the nodes that their group may open: the eight nodes three levels below one, and the six between. Far groups
 // go into one list, leaves go into another.
 const WORKGROUP: u32 = 8u;
 // Entries of the lists that are evaluated together, and room for what a look at eight nodes adds. Powers of two: they are rings.

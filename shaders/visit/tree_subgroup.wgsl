@@ -1,5 +1,5 @@
 // Groups of targets walk the tree, for adapters whose subgroups are all of eight lanes (lavapipe with 256-bit vectors): lanes
-// look at nodes side by side and list what is to be evaluated. When a list is long, each lane loads an entry of it and the eight are
+// test nodes side by side and list what is to be evaluated. When a list is long, each lane loads an entry of it and the eight are
 // passed round by broadcast.
 @compute @workgroup_size(WORKGROUP)
 fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(subgroup_invocation_id) place: u32) {

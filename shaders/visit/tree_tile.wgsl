@@ -1,4 +1,4 @@
-// Groups of targets walk the tree, for GPUs: a workgroup for each, a lane for each target. Nodes that wait are a stack in
+// Groups of targets walk the tree, for GPUs: a workgroup for each, a lane for each target. Pending nodes are a stack in
 // workgroup memory; each lane tests one, and far nodes, and leaves, go into lists. When a list is long, its entries
 // pass through workgroup memory and every lane evaluates them. Places in the lists are counted by votes, in the order of lanes.
 const WORKGROUP: u32 = 32u;

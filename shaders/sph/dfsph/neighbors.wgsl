@@ -1,4 +1,4 @@
-// Pairs in range, slot by slot: row 0 says of slot k how many are, and the n-th stands in row n, so that invocations side
+// Pairs in range, slot by slot: row 0 has the number of pairs of slot k, and the n-th is in row n, so that invocations side
 // by side read side by side.
 struct Sum { number: u32 }
 

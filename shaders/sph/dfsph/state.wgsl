@@ -1,4 +1,4 @@
-// Divergence-free smoothed particle hydrodynamics (Bender & Koschier 2015): what is known of particles, in the order of the cell list.
+// Divergence-free smoothed particle hydrodynamics (Bender & Koschier 2015): the state of particles, in the order of the cell list.
 
 // How much denser than at rest, as a part of that; α = 1 / (|Σ V ∇W|² + Σ |V ∇W|²), but for walls; D, the rate at which the density grows, as
 // a part of that at rest; how many are in range.
