@@ -6,7 +6,7 @@ use std::path::PathBuf;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// The scene (or the caller's setup) asks for something that makes no sense. Mended in the scene or by the caller.
+    /// The scene (or the caller's setup) is invalid. Mended in the scene or by the caller.
     #[error("{0}")]
     Scene(String),
     /// The same, and which key of a component says it.
@@ -59,7 +59,7 @@ pub enum Error {
         /// The step, counted from 0, in which that was seen.
         step: u64,
     },
-    /// Forces ask for a step that is shorter than the shortest. Mended by a softer start, or by a shorter one.
+    /// Forces require a step that is shorter than the minimum. Mended by a softer start, or by a shorter one.
     #[error(
         "step {step} would have to be {wanted:.3e} long, shorter than dt_min = {least:.3e}, because of the {reason} of {particle}: look \
          for particles that start too close to each other or to a wall, or set a smaller dt_min"

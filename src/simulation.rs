@@ -88,7 +88,7 @@ pub struct Simulation<B: Backend> {
     list: Option<ListShape>,
     repeat: lists::Repeat,
     steps: u64,
-    /// What a step leaves for the next one beside columns, and a number that tells this step from others.
+    /// Restart data that a step saves for the next one beside columns, and a hash of this step.
     carried: Vec<Carried>,
     print: u64,
     /// Whether it continued from a state that had all of it.
@@ -269,7 +269,7 @@ impl<B: Backend> Simulation<B> {
         self.begun &= field.name != POSITION.name && field.name != VELOCITY.name;
         self.backend.write_at(field.name, first, &array)
     }
-    /// The state at the end of the last step, with the column `potential` and all that ties, moves, spawns and removes particles. It
+    /// The state at the end of the last step, with the column `potential` and all links, motions, births and drains. It
     /// evaluates the forces once more, and leaves no trace of that in the run.
     ///
     /// A setup of it continues from there: at its time and step, with the same bits as if the run had never stopped, under the same
@@ -390,7 +390,7 @@ impl Simulation<Gpu> {
         Ok(())
     }
     /// A field's buffer, usable as a vertex buffer: draw without a copy. It stays the same until the simulation makes room for
-    /// more rows or neighbours, which [`Simulation::generation`] tells.
+    /// more rows or neighbours, as [`Simulation::generation`] shows.
     #[must_use]
     pub fn buffer<T>(&self, field: Field<T>) -> Option<&wgpu::Buffer> {
         self.backend.buffer(field.name)

@@ -1,4 +1,4 @@
-//! The state of a simulation: columns of all particles, and what ties, moves, spawns and removes them. Shapes make it, files
+//! The state of a simulation: columns of all particles, and links, motions, births and drains. Shapes make it, files
 //! hold it, a simulation starts from it and gives it back.
 
 mod append;
@@ -33,7 +33,7 @@ pub(crate) use room::{NONE, parked};
 pub struct State {
     /// The basic columns in the order of [`BASIC`], then the others in the order of their names.
     columns: Vec<Filled>,
-    /// What ties particles together.
+    /// Links between particles.
     pub links: Links,
     /// Those that forces do not move.
     pub held: Vec<Held>,

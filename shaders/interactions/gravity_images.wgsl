@@ -4,7 +4,7 @@
 @group(1) @binding(2) var<storage, read_write> acceleration: array<vec4f>;
 
 override G: f32 = 1.0;
-// 2 P(1): what the faded law lacks where a particle meets itself.
+// 2 P(1): what the faded law lacks for a particle with itself.
 override SELF: f32 = 1.0;
 const WORKGROUP: u32 = 64u;
 

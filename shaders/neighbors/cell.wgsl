@@ -1,5 +1,5 @@
 // A uniform grid over all of space, folded onto a box of cells: cell c of an axis is kept as c modulo the cells of the
-// axis. Along a periodic axis that is the period itself; elsewhere far cells share a place, and what is met there fails
+// axis. Along a periodic axis that is the period itself; elsewhere far cells share a slot, and particles found there fail
 // the test of distance. So there is no edge, and no particle is outside.
 // A range is `fine` cells, more of them along x, where cells are contiguous: so rows are cut closer to the particle.
 struct Grid {

@@ -36,7 +36,7 @@ fn near(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
     var waits = awake;
     var walked = 0u;
     for (var turn = 0u; turn < LANES && subgroupAny(waits); turn += 1u) {
-        // Of the turns that an invocation's loops may take, those before this one had some. Two searches of MOST are all.
+        // Of the iterations that an invocation's loops may take, those before this one had some. Two searches of MOST are all.
         let spent = max(walked, MOST) - MOST;
         var seen = spent;
         // The first that waits, and all that can go along.

@@ -25,7 +25,7 @@ var<workgroup> ids: array<u32, WORKGROUP>;
 
 fn votes_for(what: u32) -> u32 { return countOneBits(atomicLoad(&votes[what])); }
 
-// Where a lane's target meets what is in the tile.
+// The interaction of a lane's target with the tile.
 fn meet_groups(me: Particle, some: u32, sum: ptr<function, Sum>) {
     var part = Sum();
     for (var i = 0u; i < some; i += 1u) { distant(me, tile[i], shortest(places[i].xyz - me.position), &part); }

@@ -1,4 +1,4 @@
-//! Kinds of particles, as forces tell them apart.
+//! Kinds of particles, by which forces distinguish them.
 
 use std::borrow::Cow;
 

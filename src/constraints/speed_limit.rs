@@ -42,7 +42,7 @@ impl Component for SpeedLimit {
     }
 }
 
-/// The kernel that keeps the speeds of a kind between the minimum and the maximum.
+/// The kernel that keeps the speeds of a species between the minimum and the maximum.
 ///
 /// # Errors
 /// [`Error::Scene`] when the minimum is above the maximum.

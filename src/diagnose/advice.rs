@@ -114,7 +114,7 @@ pub fn conserved(setup: &Setup) -> Result<Conserved, Error> {
         // What some do to others, and not others to them, keeps nothing.
         conserved.energy &= law.over == Over::Each || law.reciprocal;
         if matches!(law.over, Over::Links | Over::Joints | Over::Triangles) {
-            // It goes by those that are tied, and by nothing else; what resists takes energy.
+            // It goes by those that are linked, and by nothing else; what resists takes energy.
             conserved.energy &= law.over != Over::Links || !damped(&setup.state.links);
             continue;
         }

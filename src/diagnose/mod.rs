@@ -104,7 +104,7 @@ pub struct Judged {
     pub verdict: Option<Verdict>,
     /// How its fluid starts, if there is one.
     pub start: Option<Start>,
-    /// Lines that tell of it.
+    /// Lines about it.
     pub lines: Vec<String>,
     /// What is to be noted of it.
     pub remarks: Vec<Remark>,

@@ -1,11 +1,11 @@
-//! Steps that springs bear: what is wrong with those that are too long.
+//! The stability limit of springs, and remarks on steps that are too long.
 
 use super::Remark;
 use crate::integrators::{Entry, INTEGRATORS};
 use crate::simulation::Setup;
 use crate::stability::Verdict;
 
-/// The spring that asks for the shortest step.
+/// The spring that limits the step.
 #[must_use]
 pub fn culprit(verdict: &Verdict, setup: &Setup) -> String {
     if !verdict.by_damping && verdict.joints > verdict.bound.stiffness.sum {
@@ -77,7 +77,7 @@ fn trouble(verdict: &Verdict, setup: &Setup) -> Option<(String, String)> {
     Some((format!("dt = {dt} is too long for {name} and {spring}"), format!("{way}{}", others(setup, verdict))))
 }
 
-/// Integrators that bear any step, after a comma.
+/// Integrators that are stable at any step, after a comma.
 #[must_use]
 pub fn others(setup: &Setup, verdict: &Verdict) -> String {
     // Joints stay explicit under all of them.

@@ -16,7 +16,7 @@ pub struct Contents {
     pub rows: usize,
     /// Its lists of numbers, one for each component of a column.
     pub headings: Vec<Heading>,
-    /// The box, if it tells of one.
+    /// The box, if it has one.
     pub bounds: Option<Bounds>,
     /// What readers pass over, in words: `97026 edges`.
     pub left_out: Vec<String>,

@@ -38,7 +38,7 @@ pub struct Folder {
 }
 
 impl Folder {
-    /// What the resolved scene says in the line that tells of the run.
+    /// What the resolved scene says in the line about the run.
     pub const SIGNATURE: &str = "# Run by motes ";
 
     /// Whether a run of the scene `name`, which reads the files `read`, may write into the folder. It may not where its

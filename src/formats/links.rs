@@ -15,7 +15,7 @@ use crate::error::Error;
 use crate::kernel::Bounds;
 use crate::links::{Link, Links, Rod};
 
-/// What ties two particles, as scenes and files call it.
+/// The kind of a link, as scenes and files call it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Tie {
     /// A spring.

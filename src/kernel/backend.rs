@@ -18,7 +18,7 @@ pub struct Machine {
     pub bindable: u64,
     /// Workgroups that it dispatches in one dimension, at most.
     pub workgroups: u32,
-    /// Iterations that the loops of an invocation may take, all together: some drivers of processors end them after 65 535.
+    /// Iterations that the loops of an invocation may take, all together: some software drivers end them after 65 535.
     pub turns: u32,
 }
 

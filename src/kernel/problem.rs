@@ -27,7 +27,7 @@ pub struct Problem {
     pub extent: (DVec3, DVec3),
     /// How many are of each species; nothing where there is but one.
     pub species: Vec<(u32, u32)>,
-    /// What ties them together.
+    /// Links between them.
     pub network: Arc<Network>,
     /// Whether that changes as it goes: springs that break.
     pub breaks: bool,

@@ -38,8 +38,8 @@ impl Life {
     }
 }
 
-/// When and how a particle that waits is born. At the end of the first step that reaches its time it is put where it would be
-/// had it left the place where it waited just then, at this velocity. One that does not wait is not born again.
+/// When and how a pending particle is spawned. At the end of the first step that reaches its time it is put where it would be
+/// had it left the place where it waited just then, at this velocity. One that does not wait is not spawned again.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Birth {
     /// Its id.
@@ -48,7 +48,7 @@ pub struct Birth {
     pub time: f64,
     /// How it moves \[length / time\].
     pub velocity: DVec3,
-    /// How heavy it is \[mass\].
+    /// Mass \[mass\].
     pub mass: f64,
     /// How long it goes straight on, whatever forces say, so that those before it have something behind them \[time\].
     pub guided: f64,

@@ -115,7 +115,7 @@ impl Grid {
         let wish = DVec3::select(periodic.cmpgt(DVec3::ZERO), whole_cells.floor(), whole_cells.ceil()).max(DVec3::ONE);
         let flat = problem.bounds.dimensions == 2;
         let room = (CELLS_PER_PARTICLE * f64::from(problem.count_of(of))).clamp(64.0, MOST / times);
-        // A few of one species are looked at one and all.
+        // A few of one species are looked at all together.
         let few = of.is_some() && problem.count_of(of) <= FEW;
         let wish = if few { DVec3::ONE } else { wish };
         let most = FINEST * parts;

@@ -1,4 +1,4 @@
-//! What stands in a picture beside particles: what ties them together, and solids.
+//! What stands in a picture beside particles: links between them, and solids.
 
 use std::sync::Arc;
 
@@ -19,7 +19,7 @@ use crate::state::State;
 /// What a picture shows beside particles.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Scenery {
-    /// What ties the particles together, by their ids.
+    /// Links between the particles, by their ids.
     pub links: Arc<Links>,
     /// Solids.
     pub solids: Vec<Solid>,
@@ -36,7 +36,7 @@ pub struct Scenery {
 }
 
 impl Scenery {
-    /// What ties particles together, and no solids.
+    /// Links between particles, and no solids.
     #[must_use]
     pub fn of(particles: &State) -> Self {
         let held = particles.held.iter().map(|one| one.id).collect();

@@ -12,7 +12,7 @@ pub struct Builtin {
 }
 
 impl Builtin {
-    /// Its first comment: what one should see.
+    /// Its first comment: what the run shows.
     #[must_use]
     pub fn about(&self) -> String {
         super::source::about(self.text)

@@ -9,7 +9,7 @@ use super::resolved::Writer;
 use super::walk::Table;
 use super::{bounds, column, fluid, force, motion, output, particles, simulation, solver};
 
-/// Above so many particles and ties a scene is looked through first: to make them takes seconds, and more memory than text does.
+/// Above so many particles and links a scene is looked through first: to make them takes seconds, and more memory than text does.
 const LARGE: f64 = 300_000.0;
 
 /// Whether a scene is large. If so, takes in its faults as far as they are found without its particles, and want of memory; more

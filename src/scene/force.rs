@@ -253,7 +253,7 @@ impl Chosen {
     }
 }
 
-/// Refuses adaptive steps that no force limits, or that one does not bear.
+/// Refuses adaptive steps that no force limits, or that a force does not allow.
 pub(super) fn adapted(forces: &[Box<dyn Component>], place: &Place, report: &mut Report) {
     if let Some(why) = forces.iter().find_map(|force| force.properties().fixed_step) {
         report.push(Fault::at(place, "steps cannot be adaptive").label(format!("{why}: leave this out")));

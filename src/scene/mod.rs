@@ -78,7 +78,7 @@ use walk::Table;
 pub struct Scene {
     /// The file's name without its extension, or the name of the built-in scene.
     pub name: String,
-    /// The first comment of the file: what one should see.
+    /// The first comment of the file: what the run shows.
     pub about: String,
     /// The length of a step \[time\]; positive.
     pub dt: f64,

@@ -148,7 +148,7 @@ fn too_long() -> String {
     )
 }
 
-/// The first block of comments: what one should see.
+/// The first block of comments: what the run shows.
 pub(super) fn about(text: &str) -> String {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let lines = text.lines().map(str::trim).skip_while(|l| l.is_empty());

@@ -1,4 +1,4 @@
-//! Emitters: particles that wait in a mouth to be born, row by row or one by one.
+//! Emitters: pending particles at a nozzle, spawned layer by layer or one by one.
 
 use std::borrow::Cow;
 
@@ -89,7 +89,7 @@ const FOREVER: f64 = 3.402_823_466_385_288_6e38;
 const ROUNDING: f64 = 1e-9;
 
 /// The particles of an emitter in so many dimensions, in the order of their births. They stand in its mouth; they have no mass
-/// and no velocity before they are born. Those that would leave after `end` are left out, and there are `room` at most.
+/// and no velocity before they are spawned. Those that would leave after `end` are left out, and there are `room` at most.
 ///
 /// # Errors
 /// [`Error::Scene`] when a setting makes no sense, or no particle would leave; [`Error::Limit`] when there would be more than `room`.

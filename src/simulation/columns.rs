@@ -13,7 +13,7 @@ use crate::kernel::{
 use crate::motion::{Held, Hold};
 use crate::state::State;
 
-/// The columns that fixed particles have: where they are led to.
+/// The columns that fixed particles have: their target positions.
 pub(super) fn of_held(held: &[Held]) -> Vec<Column> {
     let any = |of: fn(&Hold) -> bool| held.iter().any(|one| of(&one.by));
     let mut columns = Vec::new();

@@ -6,7 +6,7 @@ use crate::integrators::Integrator;
 use crate::state::State;
 
 /// Whether forces and an integrator serve inactive particles. Such a particle is in no cell list, has no mass, and is put to rest after
-/// every evaluation: that serves searches of a grid, what acts on each alone, and attraction by mass. It does not serve ties.
+/// every evaluation: that serves searches of a grid, what acts on each alone, and attraction by mass. It does not apply to links.
 ///
 /// # Errors
 /// [`Error::Scene`] that names what does not.

@@ -172,7 +172,7 @@ fn mark(step: u64, state: &State) -> Vec<f64> {
     [print.0 >> 32, print.0 & 0xffff_ffff].map(|word| word as f64).to_vec()
 }
 
-/// A number that tells the columns of a state from others, in whatever order they stand, by the values that a device holds. What
+/// A hash of the columns of a state, in whatever order they stand, by the values that a device holds. What
 /// files leave out counts for nothing: sizes and species that are all 0, and life where all are active.
 fn of_columns(state: &State) -> u64 {
     let counts = |column: &Column| match column.name.as_ref() {
@@ -273,7 +273,7 @@ impl<B: Backend> Simulation<B> {
     pub fn goes_on(&self) -> bool {
         self.goes_on
     }
-    /// Fills what a step keeps for the next one.
+    /// Fills the restart data of a step.
     pub(super) fn resume(&mut self, setup: &Setup, whole: bool) -> Result<(), Error> {
         let state = &setup.state;
         let mut arrays = Vec::new();

@@ -39,7 +39,7 @@ impl<B: Backend> Simulation<B> {
         let setup = Setup { forces, ..self.setup.clone() };
         self.exchange(setup, (*self.problem).clone(), &format!("`{setting}` of `{force}`"))
     }
-    /// Puts a motion in place of the one of its name, from the next step on: what is led by it goes to where it is then. Keys are at
+    /// Puts a motion in place of the one of its name, from the next step on: particles and obstacles with it move to their new poses. Keys are at
     /// times of the run, as at its start.
     ///
     /// # Errors

@@ -18,11 +18,11 @@ impl<B: Backend> Simulation<B> {
     /// others begin with their initial values. Ids are never given twice, and rows of removed particles are used again.
     ///
     /// Within [`Simulation::capacity`] nothing is compiled. Beyond it the simulation makes room for half as many rows more: its plan is
-    /// recompiled and buffers of the device are others, which [`Simulation::generation`] tells. The next step begins with the
+    /// recompiled and buffers of the device are others, as [`Simulation::generation`] shows. The next step begins with the
     /// accelerations of all particles that there are then.
     ///
     /// # Errors
-    /// [`Error::Scene`] when particles are tied, fixed or yet to be spawned, lack a column without an initial value, have one that is
+    /// [`Error::Scene`] when particles are linked, fixed or yet to be spawned, lack a column without an initial value, have one that is
     /// unknown, or a number that is none; when a law does not serve removed particles. [`Error::Limit`] when a device does not hold so
     /// many rows. Nothing has changed then.
     pub async fn spawn(&mut self, new: &State) -> Result<Vec<u32>, Error> {
@@ -61,7 +61,7 @@ impl<B: Backend> Simulation<B> {
     /// Takes particles away, between two steps. Their ids are not given again, and their rows are free.
     ///
     /// # Errors
-    /// [`Error::Scene`] when an id is unknown, named twice, or that of a particle that has been removed or is tied, fixed or kinematic;
+    /// [`Error::Scene`] when an id is unknown, named twice, or that of a particle that has been removed or is linked, fixed or kinematic;
     /// when a law does not serve removed particles. Nothing has changed then.
     pub async fn remove(&mut self, ids: &[u32]) -> Result<(), Error> {
         let refuse = |text: String| Err(Error::Scene(text));

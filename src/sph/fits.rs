@@ -38,7 +38,7 @@ impl Medium {
             None => Ok(()),
         }
     }
-    /// Refuses a periodic box in which one would meet two images of another: the nearest is met alone.
+    /// Refuses a periodic box in which a particle would be within range of two images of another: only the nearest is evaluated.
     ///
     /// # Errors
     /// [`Error::Setting`] with the period.

@@ -36,7 +36,7 @@ pub struct Continuum {
 pub struct Still<'a> {
     /// Where they are.
     pub position: &'a [DVec3],
-    /// How heavy they are; what walls weigh is found here.
+    /// Mass; what walls weigh is found here.
     pub mass: &'a [f64],
     /// Which are of a wall, by id.
     pub walls: &'a [bool],

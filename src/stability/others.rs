@@ -1,4 +1,4 @@
-//! What acts beside springs, and asks for short steps as well: joints, and laws of each particle that offer their Jacobian.
+//! What acts beside springs, and limits the step as well: joints, and laws of each particle that offer their Jacobian.
 
 use glam::DVec3;
 

@@ -1,4 +1,4 @@
-//! What a step leaves for the next one beside columns, so that a run continues from a state with the bits of one that was never
+//! Restart data that a step saves for the next one beside columns, so that a run continues from a state with the bits of one that was never
 //! stopped: accelerations that the next kick uses, an adaptive clock, where kinematic particles began, springs that broke.
 
 use std::borrow::Cow;
@@ -17,7 +17,7 @@ pub(crate) const KEPT: &str = "kept_";
 /// The lowest and the highest corner of where particles were at the start of the run: cells are chosen by it, and so the order of sums.
 pub(crate) const EXTENT: &str = "kept_extent";
 
-/// A number that tells the step which made a state from others, in two words.
+/// A hash of the step that made a state, in two words.
 pub(crate) const STEP: &str = "kept_step";
 
 /// What continues where positions and velocities are changed by a caller: it says nothing of them.
@@ -86,7 +86,7 @@ impl State {
         self.kept.clear();
         self
     }
-    /// Whether it holds what a step keeps for the next one, as states do that simulations give, until they are changed, and as NPZ
+    /// Whether it holds the restart data of a step, as states do that simulations give, until they are changed, and as NPZ
     /// archives hold them; tables do not.
     #[must_use]
     pub fn keeps(&self) -> bool {

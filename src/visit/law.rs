@@ -285,7 +285,7 @@ impl Law {
             over => over.chosen(problem).faster(self.asks_velocities(), problem),
         }
     }
-    /// Whether it asks for velocities of neighbours or its own.
+    /// Whether it reads velocities of neighbours or its own.
     pub(super) fn asks_velocities(&self) -> bool {
         self.wgsl.says(&["velocity_of", "("])
     }

@@ -11,7 +11,7 @@ use crate::settings::Pair;
 /// `var<uniform> pair_table: array<Pair, 64>` of 8 species. The row of species a and b stands at
 /// `a * species + b`, with `species` the number of rows on a side: `pair_index(a, b)` gives it.
 pub const PAIR_TABLE: &str = "pair_table";
-/// Species that a table may tell apart, at most.
+/// Species that a table may distinguish, at most.
 pub const MOST_SPECIES: u32 = 256;
 
 /// Parameters of pairs of species.

@@ -9,7 +9,7 @@ use crate::neighbors::checked;
 
 /// Meetings in one dispatch, at most. At 10 billion a second (a small GPU) that is 0.1 s; a large one needs half a millisecond.
 const MEETINGS: u64 = 1 << 30;
-/// Sources that one invocation evaluates in one dispatch, at most: half of the 65 535 loop trips that lavapipe allows.
+/// Sources that one invocation evaluates in one dispatch, at most: half of the 65 535 loop iterations that lavapipe allows.
 const SOURCES: u32 = 1 << 15;
 /// Layers, at most: more cost more to add than they gain.
 const LAYERS: u32 = 64;

@@ -24,7 +24,7 @@ pub struct Particle<'a> {
     pub position: DVec3,
     /// How it moves \[length / time\]; 0 where the host has no velocities.
     pub velocity: DVec3,
-    /// How heavy it is \[mass\].
+    /// Mass \[mass\].
     pub mass: f64,
     species: u32,
     is_active: bool,

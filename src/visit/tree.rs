@@ -90,14 +90,14 @@ fn variant(machine: &Machine) -> Vec<Source> {
 }
 
 /// How many dispatches continue with a walk where loops may take so many iterations: enough for one that opens every node, searches
-/// targets for a quarter of them, and meets every body.
+/// targets for a quarter of them, and evaluates every body.
 fn rounds(tree: &Tree, machine: &Machine) -> u32 {
     if !machine.software {
         return 0;
     }
     let (leaves, group) = (u64::from(tree.leaves()), u64::from(GROUP));
-    // Turns of all loops, and of those that search among single targets. Eight lanes look at eight nodes at once, of which
-    // each holds eight of the next, and meet two leaves at once; a lane alone looks at a node, or at a body.
+    // Iterations of all loops, and of those that search among single targets. Eight lanes look at eight nodes at once, of which
+    // each holds eight of the next, and evaluate two leaves at once; a lane alone looks at a node, or at a body.
     let (walk, search) = if machine.subgroup == 8 {
         let looks = leaves / 7 + 10;
         (5 * looks + leaves / 2 + 6 * (leaves / 64 + 2) + 2 * group, 2 * group * looks)

@@ -41,7 +41,7 @@ impl Law {
             *machine
         }
     }
-    /// Sources that one invocation of `pairs` meets in one dispatch, at most, each by so many targets.
+    /// Sources that one invocation of `pairs` evaluates in one dispatch, at most, each by so many targets.
     pub(super) fn sources(&self, most: u32, targets: u32, software: bool) -> u32 {
         match (self.has_loops(), software) {
             (false, _) => most,

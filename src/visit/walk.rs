@@ -1,4 +1,4 @@
-//! The reference of the walk of a tree: the same nodes are opened as on the device, and what is met adds up in f64.
+//! The reference of the walk of a tree: the same nodes are opened as on the device, and interactions add up in f64.
 
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ use crate::tree::{GROUP, Nodes, Opening, Tree};
 /// A far group of particles, as a law's reference sees it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Group {
-    /// How heavy it is.
+    /// Mass.
     pub mass: f64,
     /// Its second moments Σ m y yᵀ about its centre of mass \[mass length²\].
     pub moments: DMat3,

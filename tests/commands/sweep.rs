@@ -68,7 +68,7 @@ fn ends_converge_with_the_order_of_the_method() {
     }
 }
 
-/// Positions differ by the way to the nearest image: particles that cross a side stay near themselves.
+/// Positions differ by the displacement to the nearest image: particles that cross a side stay near themselves.
 #[test]
 fn ends_in_a_periodic_box_are_compared_with_the_nearest_image() {
     let (folder, out) = folder();

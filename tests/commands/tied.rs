@@ -1,4 +1,4 @@
-//! The command and what is tied: what is remarked on, what is said to be kept, and which keys are listed.
+//! The command and links: what is remarked on, what is said to be kept, and which keys are listed.
 
 use std::path::Path;
 use std::process::Command;

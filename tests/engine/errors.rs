@@ -66,7 +66,7 @@ fn setups_that_make_no_sense() {
     particles.mass_mut()[4] = -1e-3;
     refused(&shared, &setup(particles, Vec::new(), 0.1), &["particle 4", "mass"]);
     assert!(matches!(Gpu::new(&shared.found.device, &shared.found.queue, 0), Err(Error::Scene(_))));
-    // A test particle is fine where nothing is tied to it.
+    // A test particle is fine where nothing is linked to it.
     let mut particles = good();
     particles.mass_mut()[4] = 0.0;
     refused(&shared, &setup(particles.clone(), Vec::new(), 0.1), &["ties particle 4, which has no mass"]);

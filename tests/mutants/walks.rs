@@ -1,4 +1,4 @@
-//! Stages of what walks a tree: every walk over so many bodies that nodes of all kinds are met.
+//! Stages of what walks a tree: every walk over so many bodies that nodes of all kinds occur.
 
 #![allow(clippy::cast_possible_truncation, reason = "numbers are rounded to what f32 holds")]
 

@@ -92,7 +92,7 @@ fn names(joined: &Joined, function: &Function) -> Result<(), Error> {
     Ok(())
 }
 
-/// Refuses what other invocations must take part in: lanes meet different particles, and some are at work alone.
+/// Refuses what other invocations must take part in: lanes evaluate different particles, and some are at work alone.
 fn waits(joined: &Joined, block: &Block) -> Result<(), Error> {
     for (statement, span) in block.span_iter() {
         let what = match statement {

@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::kernel::{Field, Kernel, Pass, Plan, Source, Threads};
 use crate::primitives::fill;
 
-/// Turns of one invocation's loops in one layer, at most: half of the 65 535 that lavapipe allows.
+/// Iterations of one invocation's loops in one layer, at most: half of the 65 535 that lavapipe allows.
 const TURNS: u32 = 1 << 15;
 
 /// Where facets come from and go to.

@@ -157,7 +157,7 @@ impl<'a> Dfsph<'a> {
         let (grid, files, constants) = (self.grid.clone(), self.files(Vec::new()), self.medium.constants());
         Search { grid, candidate, sorted: sorted.to_vec(), files, constants, fixed: false }
     }
-    /// The kernel of a law that meets all pairs before these are known, with a `gather` of where they are.
+    /// The kernel of a law that evaluates all pairs before these are known, with a `gather` of where they are.
     fn search(&self, law: Law) -> Result<Kernel, Error> {
         let kernel = match self.pairs {
             Some(pairs) => pairs.find(self, &law)?,

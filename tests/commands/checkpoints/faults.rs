@@ -1,4 +1,4 @@
-//! What may go wrong: a disk that is full, a folder that cannot be written, files that are torn, another run, another scene.
+//! What may go wrong: a disk that is full, a folder that cannot be written, damaged files, another run, another scene.
 
 use std::path::Path;
 use std::process::Command;

@@ -33,7 +33,7 @@ fn cases() -> Vec<Case> {
     ]
 }
 
-/// Particles that nothing ties.
+/// Particles without links.
 fn free(count: usize) -> motes::State {
     let mut state = cloud(count, 5);
     state.links = Links::default();

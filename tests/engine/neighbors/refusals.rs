@@ -96,7 +96,7 @@ fn particles_at_nan_are_named_and_meet_none() {
                     simulation.step(0).expect("a start");
                     let error = pollster::block_on(simulation.check()).expect_err("an alarm");
                     assert!(matches!(error, Error::NotFinite { particle: 60, step: 0 }), "{name}: {error}");
-                    // All others meet what they would meet without the two.
+                    // All others have the neighbours that they would have without the two.
                     let mut others = positions.clone();
                     (others[60], others[131]) = (DVec3::NAN, DVec3::NAN);
                     let mut want = match over {

@@ -16,7 +16,7 @@ use crate::support::mutants::mutants;
 use crate::support::states::integrator;
 use crate::support::{self, Shared};
 
-/// A law of which `n` turns add 1 each, for all that one meets.
+/// A law of which `n` turns add 1 each, for each interaction.
 fn meetings(arguments: &str) -> String {
     format!(
         "struct Params {{ n: u32 }}
@@ -149,7 +149,7 @@ fn a_sum_that_a_driver_cuts_is_never_silent() {
     let cuts = cuts(&shared);
     let near = Over::Near { range: 100.0, of: None };
     let tree = Over::Tree { opening: Opening::Geometric { theta: 0.01 }, core: 0.0, auto: false };
-    // Far above 65 535 iterations for one invocation; all of 1200 are met, or seven.
+    // Far above 65 535 iterations for one invocation; all of 1200 are evaluated, or seven.
     for (over, met, n) in [
         (Over::Pairs, 1199.0, 600),
         (near, 1199.0, 400),

@@ -17,7 +17,7 @@ const WGSL: &str = "struct Sum { mass: f32, met: f32 }
     }
     fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
         (*sum).mass += you.mass;
-        // As one: only what is met by itself has an index.
+        // As one: only single particles have an index.
         if you.index < world.count && you.mass > 0.0 { (*sum).met += 1.0; }
     }
     fn finish(me: Particle, sum: Sum) -> vec4f { return vec4f(sum.mass, sum.met, me.mass, 0.0); }";
@@ -119,7 +119,7 @@ fn so_they_do_in_a_deep_tree() {
     complete("deep", &mut walk, &bodies);
 }
 
-/// What fills a place, and a particle itself, is met by no law: one that does not multiply by mass would notice.
+/// What fills a place, and a particle itself, is passed to no law: one that does not multiply by mass would notice.
 #[test]
 fn padding_and_oneself_are_not_met() {
     let shared = support::device();

@@ -1,4 +1,4 @@
-//! Jelly and hair: how many ties of which lengths, which way they look, and what is refused.
+//! Jelly and hair: how many links of which lengths, which way they look, and what is refused.
 
 use glam::DVec3;
 use motes::settings::Value;

@@ -1,4 +1,4 @@
-//! The time by a clock of ticks: stops are met, batches and reruns give the same bits, and methods keep their order.
+//! The time by a clock of ticks: stops are reached exactly, batches and reruns give the same bits, and methods keep their order.
 
 use glam::DVec3;
 use motes::kernel::{Backend, POSITION, Reason, VELOCITY};

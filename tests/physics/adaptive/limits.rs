@@ -160,7 +160,7 @@ fn what_makes_no_sense_is_refused() {
     }
 }
 
-/// The longest step that a viscosity allows is one that it bears: shear dies out, and at three times as long a step it does not.
+/// The longest step that a viscosity allows is stable: shear dies out, and at three times as long a step it does not.
 #[test]
 fn what_viscosity_bears_is_what_is_allowed() {
     let side = 12;

@@ -45,7 +45,7 @@ fn the_dead_stay_dead_and_ids_are_never_reused() {
         let of = now.population();
         assert_eq!(of, pollster::block_on(simulation.population()).expect("a count"));
         assert_eq!(of.pending + of.active + of.removed, count as u64);
-        // The ledger's sums are those over the living, of their own masses.
+        // The ledger's sums are those over active particles, with their own masses.
         let own = |id: usize| {
             setup.state.births.iter().find(|b| b.id as usize == id).map_or(setup.state.mass()[id], |b| b.mass)
         };
@@ -74,7 +74,7 @@ fn inactive_particles_are_in_no_pair() {
         pollster::block_on(simulation.read(POSITION)).expect("positions")[..n].to_vec()
     };
     let mut some = alone.state.clone();
-    // In the midst of the pool, some of them dead.
+    // In the midst of the pool, some of them removed.
     for k in n..some.len() {
         some.position_mut()[k] = some.position()[k % n] + DVec3::new(0.013, 0.021, 0.0);
         some.set_life(k, [Life::Pending, Life::Removed][k % 2]);

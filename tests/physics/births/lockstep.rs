@@ -72,7 +72,7 @@ fn states_of_density_agree_with_their_references() {
         let density = pollster::block_on(simulation.read(DENSITY)).expect("densities");
         let life = pollster::block_on(simulation.read(LIFE)).expect("lives");
         let of = |word: u32| density.iter().zip(&life).filter(move |(_, life)| **life == word).map(|(rho, _)| *rho);
-        // As at rest, until they are born; then they are pressed.
+        // As at rest, until they are spawned; then they are pressed.
         assert!(of(0).all(|rho| rho.to_bits() == 1000.0f32.to_bits()));
         assert!(of(1).any(|rho| (rho - 1000.0).abs() > 1.0));
     }

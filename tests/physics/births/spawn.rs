@@ -58,7 +58,7 @@ fn cases() -> Vec<Case> {
 }
 
 fn on_device(setup: &Setup) -> Simulation<Gpu> {
-    // A device of its own: tests side by side would poll one from two threads, which wgpu does not bear where a wait times out.
+    // A device of its own: tests side by side would poll one from two threads, which wgpu does not support where a wait times out.
     let own = support::open();
     Simulation::new(&own.found.device, &own.found.queue, setup).expect("a simulation")
 }

@@ -119,7 +119,7 @@ fn newton_converges_on_a_cloth() {
         if solves == 12 {
             assert_eq!(report.failures, 0, "{report:?}");
         }
-        // The one that is tied to nothing falls as backward Euler has it.
+        // The one without links falls as backward Euler has it.
         let (_, v) = phase(&mut simulation, particles.len() - 1);
         let want = 0.3 - 9.81 * 5.0 * H;
         assert!((v.z - want).abs() < 1e-6, "{v} should fall by {want}");

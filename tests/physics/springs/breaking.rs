@@ -15,7 +15,7 @@ fn tearing(particles: &State, strain: f64, name: &str, dt: f64) -> Setup {
     setup(particles, all, name, dt)
 }
 
-/// A row of four, of which the last is torn off.
+/// A row of four, of which the last breaks off.
 fn row() -> State {
     let mut row = at(&[[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0], [3.0, 0.0, 0.0]], 1.0);
     row.links.springs = (0..3).map(|i| spring([i, i + 1], 1.0, 100.0)).collect();
