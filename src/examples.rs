@@ -20,7 +20,7 @@
 //! `examples/own_law.rs`
 #![doc = concat!("```ignore\n", include_str!("../examples/own_law.rs"), "```")]
 //!
-//! # Particles that come and go
+//! # Spawn and remove particles
 //!
 //! `examples/spawn_and_remove.rs`
 #![doc = concat!("```ignore\n", include_str!("../examples/spawn_and_remove.rs"), "```")]

@@ -7,7 +7,7 @@
 
 const WORKGROUP: u32 = 64u;
 const HIDDEN: f32 = -1.0;
-// The lightest is drawn so large, beside the heaviest.
+// The radius of the lightest, relative to that of the heaviest.
 const LIGHTEST: f32 = 0.5;
 
 fn marker(mass: f32) -> f32 {

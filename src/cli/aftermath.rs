@@ -71,7 +71,7 @@ fn neighbors(setup: &Setup, particle: u32) -> String {
     let named: Vec<_> =
         others.iter().take(NAMED).filter_map(|other| ids.get(*other as usize)).map(u32::to_string).collect();
     let more = if others.len() > NAMED { format!(" and {} more", others.len() - NAMED) } else { String::new() };
-    format!("it is tied to {}{more}", named.join(", "))
+    format!("it is linked to {}{more}", named.join(", "))
 }
 
 fn keep(last: &State, folder: &Path, formats: &[&Format], precision: Precision) -> Result<String, Error> {

@@ -6,16 +6,16 @@ use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
 
 const AFTER: &str = "\
 Exit codes:
-  0   done
-  2   the arguments are wrong
-  3   the scene, or a WGSL file it names, is wrong
-  4   a file of particles is wrong
-  5   no adapter fits, or a limit of the device is too small
-  6   a number stopped being finite, speeds ran away, or a law of one's own took too many turns
-  7   the device was lost, ran out of memory or did not answer, or no thread could be started
-  8   a result could not be written, or stands in the way of another's
+  0   success
+  2   invalid arguments
+  3   an error in the scene, or in a WGSL file that it names
+  4   an error in a file of particles
+  5   no suitable adapter, or a limit of the device is exceeded
+  6   NaN or infinity, a runaway, or a user's law with too many loop iterations
+  7   the device was lost, ran out of memory or did not respond, or no thread could be started
+  8   a result could not be written, or would overwrite those of another run
   9   `compare` or `doctor` found a disagreement
-  75  stopped by Ctrl-C, SIGTERM, SIGHUP or --max-hours after everything up to there and a checkpoint were written
+  75  stopped by Ctrl-C, SIGTERM, SIGHUP or --max-hours; all results up to that step and a checkpoint are written
 
 Examples:
   motes run galaxy

@@ -1,9 +1,9 @@
-//! The scenes that come with the program: `motes run galaxy`.
+//! The built-in scenes: `motes run galaxy`.
 
-/// A scene in the program.
+/// A built-in scene.
 #[derive(Debug)]
 pub struct Builtin {
-    /// What `motes run` calls it.
+    /// Its name for `motes run`.
     pub name: &'static str,
     /// The scene.
     pub text: &'static str,

@@ -35,7 +35,7 @@ pub const DRAIN_KEYS: &[Key] = &[
         "species",
         Kind::Species,
         Value::Text(Cow::Borrowed("all")),
-        "which particles it removes: a species, or \"all\" that are not held",
+        "which particles it removes: a species, or \"all\" that are not fixed",
     ),
 ];
 

@@ -16,10 +16,10 @@ use super::tree::Entry;
 use super::walk::Table;
 
 pub(super) const OWN: &[&str] = &["color", "species", "first"];
-/// What every emitter may say beside what the library's may.
+/// The key of every emitter in addition to those of the library.
 const SPECIES: Key = Key::new("species", Kind::Whole, Value::Number(0.0), "the species of its particles");
 
-/// What a scene may say of an emitter.
+/// The keys of an emitter in a scene.
 pub use crate::shapes::emitter::KEYS as EMITTER_KEYS;
 
 /// One entry, read: how many particles, and their colour.
@@ -28,8 +28,8 @@ pub(super) struct Emitted {
     pub(super) color: Option<[u8; 3]>,
 }
 
-/// Reads an entry, and adds its particles to those that are there; or only their births, where the particles of a file wait
-/// already from the id `first` on. A run that has continued for a time t continues from a state of it with `start` less t, `first`
+/// Reads an entry, and adds its particles to the existing ones; or only their births, if a file holds these particles as pending,
+/// from the id `first` on. A run of duration t continues from its state with `start` reduced by t, `first`
 /// and a `count`: particles that are spawned already are not spawned again.
 pub(super) fn read(
     table: &Table<'_>,

@@ -14,13 +14,13 @@ use super::{bounds, checkpoint, column, drain, emitter, links, motion, particles
 pub struct Section {
     /// Its name.
     pub name: &'static str,
-    /// What it is about, in one line.
+    /// A one-line description.
     pub about: &'static str,
     /// Whether it is written `[[name]]` and may come several times.
     pub many: bool,
-    /// Keys that the walker reads by itself.
+    /// Keys that the generic reader handles.
     pub keys: &'static [Key],
-    /// What the keys mean that the section's own file reads.
+    /// Descriptions of the keys that the section's own file reads.
     pub own: &'static [Own],
     /// More keys, of the kinds that an entry may be of.
     pub(super) kinds: fn() -> Vec<&'static [Key]>,

@@ -26,7 +26,7 @@ const KEYS: &[Key] = &[
     Key::new("from", Kind::Vector, Value::Vector(DVec3::ZERO), "where the first is [length]"),
     Key::new("to", Kind::Vector, Value::Vector(DVec3::X), "where the last is [length]"),
     MASS,
-    Key::new("tie", Kind::Choice(&["spring", "rope", "rod"]), Value::Text(Cow::Borrowed("spring")), "what ties them"),
+    Key::new("tie", Kind::Choice(&["spring", "rope", "rod"]), Value::Text(Cow::Borrowed("spring")), "the kind of link"),
     Key::new(
         "stiffness",
         Kind::NotNegative,

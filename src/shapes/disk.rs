@@ -119,7 +119,7 @@ fn build(settings: &Settings) -> Result<State, Error> {
     reader.finished(particles)
 }
 
-/// How many particles are disk, halo and bulge.
+/// The numbers of particles of disk, halo and bulge.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -159,7 +159,7 @@ fn parts(settings: &Settings) -> Vec<(&'static str, u32)> {
     vec![("halo_color", halo), ("bulge_color", bulge)]
 }
 
-/// One star of the disk, turning about z.
+/// One star of the disk, which rotates about z.
 fn star(galaxy: &Galaxy, rotation: &Rotation, random: &mut Random) -> (DVec3, DVec3) {
     // R exp(-R) is the distribution of the sum of two exponential numbers.
     let radius = -galaxy.disk_scale * libm::log(random.uniform() * random.uniform());

@@ -23,8 +23,8 @@ pub const KEYS: &[Key] = &[
         "the shape of the nozzle; in 2 dimensions a disk and a rectangle are lines",
     ),
     CENTER,
-    Key::new("direction", Kind::Direction, Value::Vector(DVec3::X), "where to it emits, straight out of its mouth"),
-    Key::new("radius", Kind::Positive, Value::Number(0.5), "disk: the radius of the mouth [length]"),
+    Key::new("direction", Kind::Direction, Value::Vector(DVec3::X), "the direction of emission, normal to the nozzle"),
+    Key::new("radius", Kind::Positive, Value::Number(0.5), "disk: the radius of the nozzle [length]"),
     Key::new(
         "size",
         Kind::Vector,
@@ -37,7 +37,7 @@ pub const KEYS: &[Key] = &[
         Value::Vector(DVec3::ZERO),
         "rectangle: the direction of its first side; zero: any",
     ),
-    Key::required("speed", Kind::Positive, "how fast they leave the mouth [length / time]"),
+    Key::required("speed", Kind::Positive, "the speed of emitted particles [length / time]"),
     Key::new(
         "spacing",
         Kind::NotNegative,

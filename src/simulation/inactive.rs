@@ -30,12 +30,12 @@ pub fn serves(particles: &State, forces: &[Box<dyn Component>], integrator: &dyn
     let mut tied = springs.chain(corners);
     if !particles.drains.is_empty() && tied.next().is_some() {
         return refuse(
-            "a drain takes particles, and here some are tied: links cannot lose an end. Take away one of them"
+            "a drain removes particles, and some are linked: links cannot lose an end. Remove the drain or the links"
                 .to_owned(),
         );
     }
     match tied.find(idle) {
-        Some(id) => refuse(format!("particle {id} is tied, and does not live from the start: tie others")),
+        Some(id) => refuse(format!("particle {id} is linked, and is not active from the start: link other particles")),
         None => Ok(()),
     }
 }

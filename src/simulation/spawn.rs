@@ -1,4 +1,4 @@
-//! Particles come and go: new ones are put into free rows, which the plan covers already, and removed ones leave theirs free.
+//! Spawning and removing particles: new ones are put into free rows, which the plan covers already, and removed ones leave theirs free.
 
 use std::collections::BTreeSet;
 
@@ -78,7 +78,7 @@ impl<B: Backend> Simulation<B> {
             match self.rows.row(*id).filter(|row| !gone(row)) {
                 Some(row) if bound.contains(&row) => {
                     return refuse(format!(
-                        "particle {id} is tied, fixed or kinematic, and cannot be removed: choose others"
+                        "particle {id} is linked, fixed or kinematic, and cannot be removed: choose others"
                     ));
                 }
                 Some(row) => rows.push(row),
@@ -116,7 +116,7 @@ impl<B: Backend> Simulation<B> {
             && links.joints.is_empty()
             && links.triangles.is_empty());
         if tied || !new.held.is_empty() || !new.motions.is_empty() {
-            return refuse("particles that are spawned cannot be tied, fixed or kinematic: spawn free ones".to_owned());
+            return refuse("particles that are spawned cannot be linked, fixed or kinematic: spawn free ones".to_owned());
         }
         if !new.births.is_empty() || !new.drains.is_empty() || (0..new.len()).any(|place| !new.is_active(place)) {
             return refuse(

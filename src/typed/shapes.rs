@@ -311,7 +311,7 @@ typed! {
         to: DVec3,
         /// Mass of each particle \[mass\].
         mass: f64,
-        /// What ties them: spring, rope, rod.
+        /// The kind of link: spring, rope, rod.
         tie: Cow<'static, str>,
         /// Springs, ropes: Hooke's constant of each \[mass / time²\].
         stiffness: f64,

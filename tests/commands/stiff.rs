@@ -76,7 +76,7 @@ fn lost_numbers_leave_neighbors_advice_and_the_last_good_state() {
         assert_eq!(code, 6, "{words}");
         for said in [
             "stopped being finite",
-            "it is tied to",
+            "it is linked to",
             "safe is 0.0291",
             "--auto-substeps",
             "last good state, after step",

@@ -236,7 +236,7 @@ fn refusals<B: Backend>(make: impl Fn(&Setup) -> Simulation<B>) {
         (&[1, 77][..], "no particle 77"),
         (&[1, 2], "particle 2 has been removed already"),
         (&[1, 1], "particle 1 is to be removed twice"),
-        (&[1, 4], "particle 4 is tied, fixed or kinematic"),
+        (&[1, 4], "particle 4 is linked, fixed or kinematic"),
     ] {
         let why = why(ids);
         assert!(why.contains(words), "{why}");
@@ -253,7 +253,7 @@ fn refusals<B: Backend>(make: impl Fn(&Setup) -> Simulation<B>) {
         (odd, "no column `charge`"),
         (named, "get ids of their own"),
         (broken, "particle 1 has a number that is NaN"),
-        (tied, "cannot be tied"),
+        (tied, "cannot be linked"),
     ] {
         let why = wait(simulation.spawn(&new)).expect_err("a refusal").to_string();
         assert!(why.contains(words), "{why}");
