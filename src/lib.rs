@@ -33,7 +33,7 @@
 //! [`Simulation`], [`Readback`], [`State`], [`Setup`] and [`Run`](run::Run) are `Send + Sync + 'static` (but in a browser, where devices
 //! stay in their thread): a simulation may be a resource of a game's schedule, and step in whichever thread that runs.
 //!
-//! What is shown here is what programs use. Other modules are public for the command and for tests, are not documented here, and
+//! This page shows the public interface. Other modules are public for the command and for tests, are not documented here, and
 //! promise nothing.
 
 #[doc(hidden)]

@@ -1,4 +1,4 @@
-//! What a scene may say to a force or a shape: names, kinds, defaults and units, declared once, next to the thing itself.
+//! Settings of forces and shapes: names, kinds, defaults and units, declared once, next to their component.
 
 mod kind;
 mod nearest;

@@ -41,8 +41,10 @@ pub fn check(bounds: &Bounds) -> Result<(), Error> {
             return Err(Error::Scene(text));
         }
         if bounds.dimensions == 2 && axis == 2 {
-            let text =
-                format!("in 2 dimensions the box cannot be {} along z: make it open along z, or set dimensions = 3", side.name());
+            let text = format!(
+                "in 2 dimensions the box cannot be {} along z: make it open along z, or set dimensions = 3",
+                side.name()
+            );
             return Err(Error::Scene(text));
         }
     }

@@ -1,4 +1,4 @@
-//! What is reported and kept when numbers are lost: links of the particle at fault, what to do, and the last good state.
+//! The report after NaN or a runaway: links of the limiting particle, advice, and the last good state.
 
 use std::fmt::Write as _;
 use std::path::Path;

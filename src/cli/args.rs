@@ -1,4 +1,4 @@
-//! What the command line accepts.
+//! Arguments of the command line.
 
 use std::path::PathBuf;
 

@@ -117,9 +117,8 @@ async fn start(
     options.precision = engine.precision();
     let conserved = conserved(&setup)?;
     let mut run = if let Some((folder, from, damaged)) = kept {
-        remarks.extend(
-            damaged.iter().map(|error| format!("a checkpoint is damaged, and an older one is used: {error}")),
-        );
+        remarks
+            .extend(damaged.iter().map(|error| format!("a checkpoint is damaged, and an older one is used: {error}")));
         Run::resume(scene, &mut setup, options, (folder, *from))?
     } else {
         remarks.extend(

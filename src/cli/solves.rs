@@ -1,4 +1,4 @@
-//! What a run says of its implicit solves.
+//! The report on the implicit solves of a run.
 
 use motes::simulation::{Outcome, PressureSolves, Solves};
 use serde_json::json;

@@ -1,4 +1,4 @@
-//! What one should know of a setup before it runs.
+//! Remarks on a setup before it runs.
 
 use crate::error::Error;
 use crate::forces::{Law, Over};
@@ -211,9 +211,7 @@ pub fn advice(setup: &Setup, end: Option<f64>) -> Result<Vec<Remark>, Error> {
             remarks.push(depends(&name));
         }
         if over == Over::Pairs && setup.bounds.has(Side::Periodic) && !all_images {
-            let text = format!(
-                "`{name}` in a periodic box acts on nearest images only, without an Ewald sum"
-            );
+            let text = format!("`{name}` in a periodic box acts on nearest images only, without an Ewald sum");
             let remark = Remark::note("nearest-images", text);
             remarks.push(if name == "gravity" {
                 remark.advice("set images = \"ewald\", in a cube that is periodic on all sides")

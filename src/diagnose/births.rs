@@ -1,4 +1,4 @@
-//! What emitters are going to do.
+//! Remarks on emitters.
 
 use super::Remark;
 use crate::life::schedule;

@@ -1,4 +1,4 @@
-//! What `check` says of a fluid before it runs.
+//! The report of `check` on a fluid.
 
 use crate::error::Error;
 use crate::forces::Over;

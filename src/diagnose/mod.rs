@@ -1,5 +1,5 @@
-//! What one should know of a setup before it runs: forces that lead out of the plane, what is conserved, steps that springs and fluids do
-//! not bear, particles that overlap, numbers that single precision loses.
+//! Remarks on a setup before it runs: forces out of the plane, conserved quantities, steps that springs and fluids do
+//! not allow, particles that overlap, numbers that single precision loses.
 
 mod advice;
 mod births;

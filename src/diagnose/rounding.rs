@@ -1,4 +1,4 @@
-//! What single precision does to a scene: motions and softenings that its last place swallows.
+//! Rounding in single precision: motions and softenings below its last place.
 
 use super::Remark;
 use crate::kernel::Scalar;

@@ -86,5 +86,9 @@ pub fn others(setup: &Setup, verdict: &Verdict) -> String {
     }
     let bears = |entry: &&Entry| entry.by_default().damps_at_any_step() && entry.name != setup.integrator.name();
     let names: Vec<_> = INTEGRATORS.iter().filter(bears).map(|entry| entry.name).collect();
-    if names.is_empty() { String::new() } else { format!(", or take {}, which is stable at any dt", names.join(" or ")) }
+    if names.is_empty() {
+        String::new()
+    } else {
+        format!(", or take {}, which is stable at any dt", names.join(" or "))
+    }
 }

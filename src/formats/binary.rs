@@ -1,4 +1,4 @@
-//! Numbers in binary files, of either byte order, and the bytes that there are.
+//! Numbers in binary files, of either byte order, with checks of the length.
 
 use std::io::Read;
 use std::path::Path;

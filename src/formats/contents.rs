@@ -1,4 +1,4 @@
-//! What a file holds beside positions, velocities and masses, so that all of it can be read.
+//! The contents of a file besides positions, velocities and masses.
 
 use std::collections::BTreeMap;
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! What files call the components of columns, and what their numbers may be.
+//! Names of the components of columns in files, and their valid values.
 
 use std::borrow::Cow;
 use std::fmt::Write as _;

@@ -1,4 +1,4 @@
-//! That a submission is done. The device says so, and is asked without a wait: of two threads that wait for a time on one device, wgpu
+//! Completion of a submission. The device is polled without waiting: of two threads that wait for a time on one device, wgpu
 //! lets one panic when its time is over while the other clears the queue.
 
 use std::sync::Arc;

@@ -1,4 +1,4 @@
-//! What a device complains of, as typed errors.
+//! Errors of a device, as typed errors.
 
 use std::pin::pin;
 use std::sync::{Arc, Mutex};

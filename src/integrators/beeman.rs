@@ -1,6 +1,6 @@
 //! Beeman's method (Beeman 1976): the positions are those of leapfrog, and the velocities, by the accelerations of three times,
 //! are of one order more. x ← x + v dt + (4 a − a') dt² / 6, v ← v + (2 a(x) + 5 a − a') dt / 6, with a' of the step before.
-//! A particle that has none, as one in its first step, takes a for it, which is leapfrog.
+//! A particle in its first step has none, and uses a instead, which is leapfrog.
 
 use std::sync::Arc;
 

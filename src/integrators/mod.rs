@@ -1,4 +1,4 @@
-//! Integrators: how forces become motion. Each is written in verbs and reads like its line in the textbook.
+//! Integrators. Each is written in verbs (kick, drift, evaluate) and reads like its formula in a textbook.
 
 mod adaptive;
 mod step;
@@ -42,7 +42,8 @@ pub trait Integrator: Copied + Send + Sync {
     }
     /// Why it requires a fixed time step, if it does.
     fn fixed_step(&self) -> Option<&'static str> {
-        self.is_implicit().then_some("their time step limits are those of explicit methods, and the integrator is implicit")
+        self.is_implicit()
+            .then_some("their time step limits are those of explicit methods, and the integrator is implicit")
     }
     /// How long its steps are, where they are not all alike.
     fn adaptive_step(&self) -> Option<AdaptiveStep> {

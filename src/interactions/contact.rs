@@ -1,4 +1,4 @@
-//! Grains: spheres that touch, with friction that remembers how far they have slid.
+//! Granular contacts: spheres with friction that depends on their sliding history.
 
 use std::f64::consts::PI;
 

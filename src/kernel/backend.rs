@@ -1,4 +1,4 @@
-//! What a backend does: hold fields by name, and run plans.
+//! The interface of backends: hold fields by name, and run plans.
 
 use std::task::Waker;
 

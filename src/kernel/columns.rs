@@ -31,9 +31,14 @@ pub fn base() -> Vec<Column> {
         Column::new("size", Kind::Scalar, "length", "the radius that pictures draw; 0 lets them choose")
             .within("velocity", 3),
         Column::new("acceleration", Kind::Vector, "length / time²", "the sum of all laws").summed(),
-        Column::new("potential", Kind::Scalar, "length² / time²", "its share of the potential energy, per unit of mass")
-            .within("acceleration", 3)
-            .summed(),
+        Column::new(
+            "potential",
+            Kind::Scalar,
+            "length² / time²",
+            "its share of the potential energy, per unit of mass",
+        )
+        .within("acceleration", 3)
+        .summed(),
         Column::new("species", Kind::Whole, "", "the species, a number by which laws distinguish particles"),
         Column::new("life", Kind::Whole, "", "its state of life: 0 pending, 1 active, 2 removed")
             .starting([1.0, 0.0, 0.0, 0.0]),

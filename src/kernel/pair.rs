@@ -1,4 +1,4 @@
-//! What integrators advance beside positions and velocities: a column and its rate.
+//! Columns that integrators advance in addition to positions and velocities: a column and its rate.
 
 use super::Name;
 use super::column::{Advance, Column, Kind, Role, Shape};

@@ -1,4 +1,4 @@
-//! What a plan is written for.
+//! The problem for which a plan is written: particles, box, links, motions.
 
 use std::sync::Arc;
 

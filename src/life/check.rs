@@ -1,4 +1,4 @@
-//! What births and drains must be.
+//! Validation of births and drains.
 
 use super::{Birth, Drain, Life};
 use crate::error::Error;

@@ -1,4 +1,4 @@
-//! What links must be.
+//! Validation of links.
 
 use std::collections::BTreeSet;
 
@@ -84,14 +84,17 @@ impl Rod {
 fn apart(what: &str, ids: &[u32], masses: &[f64]) -> Result<(), Error> {
     for (place, id) in ids.iter().enumerate() {
         let Some(mass) = masses.get(*id as usize) else {
-            let text = format!("{what} connects particle {id}, but there are {} particles: ids start at 0", masses.len());
+            let text =
+                format!("{what} connects particle {id}, but there are {} particles: ids start at 0", masses.len());
             return Err(Error::Scene(text));
         };
         if ids[..place].contains(id) {
             return Err(Error::Scene(format!("{what} connects particle {id} to itself")));
         }
         if *mass == 0.0 {
-            return Err(Error::Scene(format!("{what} connects particle {id}, which has mass 0: give it a mass, or fix it")));
+            return Err(Error::Scene(format!(
+                "{what} connects particle {id}, which has mass 0: give it a mass, or fix it"
+            )));
         }
     }
     Ok(())

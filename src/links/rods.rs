@@ -1,4 +1,4 @@
-//! What rods must be at the start.
+//! Validation of rods at the start.
 
 use std::collections::HashSet;
 

@@ -1,4 +1,4 @@
-//! What motions and fixed particles must be.
+//! Validation of motions and fixed particles.
 
 use std::collections::BTreeSet;
 
@@ -31,7 +31,9 @@ pub fn check(held: &[Held], motions: &[Motion], count: usize, dimensions: u32, d
     for one in held {
         let id = one.id;
         if id as usize >= count {
-            return Err(Error::Scene(format!("particle {id} is fixed, but there are {count} particles: ids start at 0")));
+            return Err(Error::Scene(format!(
+                "particle {id} is fixed, but there are {count} particles: ids start at 0"
+            )));
         }
         if !ids.insert(id) {
             return Err(Error::Scene(format!("particle {id} is fixed twice: list it once")));
@@ -66,10 +68,8 @@ impl Motion {
             }
             let across = key.shift.z != 0.0 || key.turn.x != 0.0 || key.turn.y != 0.0;
             if dimensions == 2 && across {
-                return Err(
-                    "leaves the plane, which is impossible in 2 dimensions: shift along x and y, turn about z"
-                        .to_owned(),
-                );
+                return Err("leaves the plane, which is impossible in 2 dimensions: shift along x and y, turn about z"
+                    .to_owned());
             }
         }
         if let Some(pair) = self.keys.windows(2).find(|pair| pair[1].time <= pair[0].time) {
@@ -81,7 +81,9 @@ impl Motion {
                 return Err(format!("repeats after {period}, which is less than a step of {dt}: make it longer"));
             }
             if !same(first, last) {
-                return Err("repeats, and its last key differs from its first: it would jump; make them equal".to_owned());
+                return Err(
+                    "repeats, and its last key differs from its first: it would jump; make them equal".to_owned()
+                );
             }
         }
         Ok(())

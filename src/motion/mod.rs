@@ -1,4 +1,4 @@
-//! What moves by itself, whatever forces say: particles that are fixed, and the motions that lead them.
+//! Prescribed motions: fixed and kinematic particles, on which forces do not act.
 
 mod check;
 mod pose;

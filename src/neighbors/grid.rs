@@ -1,4 +1,4 @@
-//! The shape of a grid: how wide a cell is, and how many there are before it is folded.
+//! The grid of a cell list: the width of a cell, and the number of cells before folding.
 
 use glam::DVec3;
 

@@ -1,4 +1,4 @@
-//! Sums of all that stands before: the exclusive scan.
+//! The exclusive scan (prefix sum).
 //!
 //! Reduce, then scan (Dotsenko et al. 2008): blocks are summed, the sums scanned, the blocks scanned from there. No
 //! workgroup waits for another, so no device can hang that promises no progress.

@@ -1,4 +1,4 @@
-//! The numbers of a fluid, from what a scene says and where its particles are.
+//! Parameters of a fluid in pictures, from the scene and the particles.
 
 use glam::DVec3;
 

@@ -1,4 +1,4 @@
-//! What a scene may say in `[picture]`.
+//! The keys of `[picture]`.
 
 use std::borrow::Cow;
 

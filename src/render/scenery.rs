@@ -1,4 +1,4 @@
-//! What stands in a picture beside particles: links between them, and solids.
+//! Contents of a picture besides particles: links between them, and obstacles.
 
 use std::sync::Arc;
 

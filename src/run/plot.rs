@@ -1,4 +1,4 @@
-//! `energy.svg`: energies over time, and how well they are kept.
+//! `energy.svg`: energies over time, and their errors.
 
 use std::io::Write;
 use std::path::Path;

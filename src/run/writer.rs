@@ -1,4 +1,4 @@
-//! What takes the states of a run.
+//! Writers, which receive the states of a run.
 
 use std::sync::Arc;
 

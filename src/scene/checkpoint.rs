@@ -1,4 +1,4 @@
-//! `[checkpoint]`: how often a run keeps all that it needs to continue.
+//! `[checkpoint]`: intervals of checkpoints.
 
 use crate::settings::{Key, Kind, Settings, Value};
 
@@ -82,8 +82,10 @@ pub(super) fn read(table: Option<&Table<'_>>, dt: f64, report: &mut Report) -> C
             }
             Some(given) => every = given,
             None => {
-                report
-                    .push(Fault::at(&entry.node.place, "`every` is not a valid interval").label(format!("it must be {FORMS}")));
+                report.push(
+                    Fault::at(&entry.node.place, "`every` is not a valid interval")
+                        .label(format!("it must be {FORMS}")),
+                );
             }
         }
     }

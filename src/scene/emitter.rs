@@ -92,8 +92,10 @@ pub(super) fn read(
     }
     let have = particles.len() as u64;
     if first + u64::from(count) > have {
-        let fault =
-            Fault::at(&entry.node.place, format!("{count} particles to spawn from id {first} on are more than there are"));
+        let fault = Fault::at(
+            &entry.node.place,
+            format!("{count} particles to spawn from id {first} on are more than there are"),
+        );
         report.push(fault.label(format!("there are {have}; the file must hold the pending particles of its emitters")));
         return None;
     }

@@ -88,9 +88,7 @@ pub(super) fn check(
         }
         Err(why) => Fault::at(table.place, why.to_string()),
         Ok(()) if !force.properties().makes_fluid => return false,
-        Ok(()) if earlier => {
-            Fault::at(table.place, "there are two fluids of all particles: remove one of them")
-        }
+        Ok(()) if earlier => Fault::at(table.place, "there are two fluids of all particles: remove one of them"),
         Ok(()) if !particles.is_empty() && particles.held.len() == particles.len() => Fault::at(
             table.place,
             "there is a fluid and nothing of it: all particles are held, and held particles are its walls; add a [[particles]] of \

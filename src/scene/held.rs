@@ -29,8 +29,10 @@ pub(super) fn read(
     let names: Vec<_> = motions.iter().map(|motion| motion.name.as_str()).collect();
     let Some(name) = motion(table, &names, report) else { return };
     if particles.held.is_empty() && report.len() == faults {
-        let fault =
-            Fault::at(&entry.node.place, format!("no particle in {} is fixed, so the motion moves nothing", table.name));
+        let fault = Fault::at(
+            &entry.node.place,
+            format!("no particle in {} is fixed, so the motion moves nothing", table.name),
+        );
         report.push(fault.label("name some: fixed = [0]"));
     }
     let number = names.iter().position(|known| *known == name).and_then(|n| u32::try_from(n).ok()).unwrap_or(0);

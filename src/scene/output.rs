@@ -1,4 +1,4 @@
-//! `[output]`: how often the run is written down, and in which formats.
+//! `[output]`: intervals and formats of written states.
 
 use crate::formats::{FORMATS, Format};
 use crate::kernel::Columns;

@@ -1,4 +1,4 @@
-//! What the keys mean that a section's own file reads: lists, tables and names, for which [`Key`](crate::settings::Key) has no kind.
+//! Descriptions of keys that a section's own file reads: lists, tables and names, for which [`Key`](crate::settings::Key) has no kind.
 
 /// A key that a section reads by itself.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -38,11 +38,7 @@ pub const SECTIONS: &[Section] = &[
         about: "tolerances of the solver of implicit integrators",
         ..Section::new("solver", false, solver::SOLVER_KEYS)
     },
-    Section {
-        about: "the domain and its boundaries",
-        own: own::BOX,
-        ..Section::new("box", false, bounds::BOX_KEYS)
-    },
+    Section { about: "the domain and its boundaries", own: own::BOX, ..Section::new("box", false, bounds::BOX_KEYS) },
     Section {
         about: "prescribed motions of fixed particles and obstacles, by keyframes",
         own: own::MOTION,

@@ -1,4 +1,4 @@
-//! `[simulation]`: the step, how many of them, and by which integrator.
+//! `[simulation]`: the time step, the number of steps and the integrator.
 
 use crate::integrators::{self, INTEGRATORS, Integrator};
 use crate::kernel::AdaptiveStep;
@@ -142,8 +142,7 @@ fn adaptive_step(
     let entry = table.get("adaptive").filter(|_| settings.flag("adaptive"));
     let Some(entry) = entry else {
         for entry in ADAPTIVE.iter().filter_map(|key| table.get(key)) {
-            let fault =
-                Fault::at(&entry.place, format!("`{}` is for adaptive steps, and dt is fixed", entry.key));
+            let fault = Fault::at(&entry.place, format!("`{}` is for adaptive steps, and dt is fixed", entry.key));
             report.push(fault.label("remove it, or set adaptive = true"));
         }
         return None;

@@ -1,4 +1,4 @@
-//! `[solver]`: how well implicit integrators solve their equations.
+//! `[solver]`: tolerances of implicit integrators.
 
 use crate::kernel::{LEAST_TOLERANCE, MOST_ITERATIONS, MOST_SOLVES, Solver};
 use crate::settings::{Key, Kind, Value};

@@ -1,4 +1,4 @@
-//! What values keys accept.
+//! Kinds of keys: the values that they accept.
 
 use super::{Key, SIDES, Value, listed, nearest};
 

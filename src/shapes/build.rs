@@ -1,4 +1,4 @@
-//! What all generators share: the keys that mean the same everywhere, and the checks before and after.
+//! Keys and checks that all shapes share.
 
 use glam::DVec3;
 

@@ -150,7 +150,9 @@ impl Threads {
         let number = |key| reader.not_negative(key);
         let (stretch, shear, bend) = (number("stretch")?, number("shear")?, number("bend")?);
         if stretch == 0.0 && number("damping")? > 0.0 {
-            return Err(reader.error("damping is set and stretch is 0, to which damping is proportional: set stretch, or leave damping out"));
+            return Err(reader.error(
+                "damping is set and stretch is 0, to which damping is proportional: set stretch, or leave damping out",
+            ));
         }
         Ok(Self { stretch, shear, bend, damping: number("damping")?, rest: number("rest")? })
     }

@@ -176,7 +176,10 @@ impl Mouth {
             "rectangle" => {
                 let size = reader.vector("size")?;
                 if size.x <= 0.0 || size.y <= 0.0 {
-                    let text = format!("the nozzle of an emitter has the sides {} by {}: both must be above 0", size.x, size.y);
+                    let text = format!(
+                        "the nozzle of an emitter has the sides {} by {}: both must be above 0",
+                        size.x, size.y
+                    );
                     return Err(Error::Scene(text));
                 }
                 [0.5 * size.x, 0.5 * size.y]

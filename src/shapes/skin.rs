@@ -1,4 +1,4 @@
-//! What all walls of a fluid have in common, and where their layers stand.
+//! Keys that all walls of a fluid share, and the positions of their layers.
 
 use std::borrow::Cow;
 
@@ -10,12 +10,9 @@ use crate::settings::{Key, Kind, Value};
 use crate::sph::{Smoothing, gap};
 use crate::state::State;
 
-pub(super) const SPACING: Key = Key::required(
-    "spacing",
-    Kind::Positive,
-    "the particle spacing; left out: that of the force `fluid` [length]",
-)
-.of_fluid();
+pub(super) const SPACING: Key =
+    Key::required("spacing", Kind::Positive, "the particle spacing; left out: that of the force `fluid` [length]")
+        .of_fluid();
 pub(super) const DENSITY: Key = Key::new(
     "density",
     Kind::Positive,

@@ -1,4 +1,4 @@
-//! A tank: what a fluid stands in.
+//! A tank: walls around a fluid.
 //!
 //! Walls of particles, those of [`TANK`] and of the shape `wall`, are part of the fluid's sums: it is as dense beside them as
 //! elsewhere, leans on them with its pressure, and rubs. They are what a fluid should stand in. The force `solid` is no part of

@@ -1,4 +1,4 @@
-//! What a caller may read and write: the fields that plans name, by what their elements are.
+//! Fields that a caller may read and write, by the type of their elements.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::mem::discriminant;

@@ -1,4 +1,4 @@
-//! What goes together with births and deaths, and what does not.
+//! Which components are compatible with spawning and removal.
 
 use crate::error::Error;
 use crate::forces::{Component, Over};

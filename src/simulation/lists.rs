@@ -1,4 +1,4 @@
-//! The list of neighbours: how much room it has, and more of it where that is too little.
+//! The capacity of the neighbour list, and its growth.
 
 use std::collections::BTreeSet;
 

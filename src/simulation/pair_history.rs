@@ -1,4 +1,4 @@
-//! History of pairs in a state: what is read of it, and how a simulation takes it up.
+//! History of pairs in a state: reading and restoring it.
 //!
 //! A state holds the pairs that remember something, by the rows of both. A simulation that begins with them gets a list of neighbours
 //! that holds no other pairs and is out of date: the first evaluation builds it anew, and gives history to its pairs, as it does in

@@ -1,4 +1,4 @@
-//! What became of the solves for pressure of a run.
+//! Statistics of the pressure solves of a run.
 
 use super::Simulation;
 use crate::error::Error;

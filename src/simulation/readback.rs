@@ -28,9 +28,7 @@ impl<T: Element> Readback<T> {
     /// were returned already.
     pub fn look(&mut self) -> Option<Result<Vec<T>, Error>> {
         let Some(arrival) = &mut self.arrival else {
-            return Some(Err(Error::Scene(
-                "these values were returned already: request the field again".to_owned(),
-            )));
+            return Some(Err(Error::Scene("these values were returned already: request the field again".to_owned())));
         };
         let answer = arrival.look()?;
         self.arrival = None;

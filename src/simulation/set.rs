@@ -1,4 +1,4 @@
-//! Settings that change between two steps. Plans are written anew with them, and their programs are made of the pipelines that there are:
+//! Settings that change between two steps. Plans are rewritten with them, and their programs use the existing pipelines:
 //! only numbers differ, and nothing is compiled.
 
 use std::collections::BTreeSet;

@@ -1,4 +1,4 @@
-//! What a simulation is made of, checked, and the plans that come of it.
+//! The setup of a simulation, its validation, and the plans made from it.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! What became of the implicit solves of a run.
+//! Statistics of the implicit solves of a run.
 
 use super::Simulation;
 use crate::error::Error;

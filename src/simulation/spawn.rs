@@ -116,7 +116,9 @@ impl<B: Backend> Simulation<B> {
             && links.joints.is_empty()
             && links.triangles.is_empty());
         if tied || !new.held.is_empty() || !new.motions.is_empty() {
-            return refuse("particles that are spawned cannot be linked, fixed or kinematic: spawn free ones".to_owned());
+            return refuse(
+                "particles that are spawned cannot be linked, fixed or kinematic: spawn free ones".to_owned(),
+            );
         }
         if !new.births.is_empty() || !new.drains.is_empty() || (0..new.len()).any(|place| !new.is_active(place)) {
             return refuse(

@@ -1,4 +1,4 @@
-//! What cannot be a fluid, and where one cannot be.
+//! Validation of fluids and of the boxes that hold them.
 
 use super::Medium;
 use crate::error::Error;

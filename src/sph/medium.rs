@@ -1,4 +1,4 @@
-//! A fluid at rest, and how it is smoothed.
+//! A fluid at rest, and its smoothing kernel.
 
 use glam::DVec3;
 

@@ -1,4 +1,4 @@
-//! Fluids: smoothed particle hydrodynamics. What is smoothed and how, and the searches that a step of it takes; which of them,
+//! Fluids: smoothed particle hydrodynamics. The quantities, kernels and searches of a step; which of them,
 //! and in which order, is for the forces to say.
 
 mod continuity;

@@ -1,4 +1,4 @@
-//! How a fluid starts: how dense it is before the first step, and whether that would blow it apart.
+//! The start of a fluid: its density before the first step, and whether it is over-dense.
 
 use std::f64::consts::SQRT_2;
 
@@ -271,6 +271,9 @@ fn cause(fluid: &Continuum, still: &Still<'_>, nearby: &Nearby<'_>, mass: &[f64]
              of {} spacings): move it away, or let the shapes tank and wall place it",
             medium.support
         ),
-        _ => format!("{:.0} % of that is from walls, the rest from fluid around it: increase the distance", 100.0 * walls),
+        _ => format!(
+            "{:.0} % of that is from walls, the rest from fluid around it: increase the distance",
+            100.0 * walls
+        ),
     }
 }

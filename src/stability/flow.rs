@@ -1,4 +1,4 @@
-//! What a step is to a fluid: what its sound, its viscosities and XSPH ask of an integrator.
+//! Stability limits of a fluid: by its speed of sound, its viscosities and XSPH.
 
 use super::mode::Mode;
 use super::oscillator::Oscillator;

@@ -1,6 +1,6 @@
-//! One particle on a damped spring under an integrator: x″ = −ω² x − c x′. What a step makes of it is a matrix, and the
-//! matrix says all (Hairer, Lubich & Wanner 2006, chapter I). It is measured from the step itself, so that an integrator
-//! needs no formula to be asked how far it goes.
+//! One particle on a damped spring under an integrator: x″ = −ω² x − c x′. A step is a matrix, and the
+//! matrix determines stability (Hairer, Lubich & Wanner 2006, chapter I). It is measured from the step itself, so that an integrator
+//! needs no formula for its stability limit.
 
 use std::borrow::Cow;
 

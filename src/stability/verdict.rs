@@ -1,4 +1,4 @@
-//! What a step is to a network of springs: safe, too long by the bound, or too long for certain.
+//! The verdict on a time step for a network of springs: stable, possibly unstable by the bound, or certainly unstable.
 
 use super::bound::Bound;
 use super::mode::{Mode, Network};

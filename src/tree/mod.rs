@@ -3,7 +3,7 @@
 //!
 //! Particles are sorted along a Hilbert curve and cut into leaves of [`LEAF`]; a node is what two nodes below it hold. Its
 //! place in the fields is a heap's: 1 is the root, 2 n and 2 n + 1 are the children of n, and all leaves stand
-//! [`height`](Tree::height) levels below the root. What stands behind the last leaf does not exist, and is not visited.
+//! [`height`](Tree::height) levels below the root. Nodes after the last leaf do not exist, and are not visited.
 
 mod build;
 mod curve;

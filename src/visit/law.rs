@@ -1,4 +1,4 @@
-//! What happens.
+//! Laws: interactions of particles, in WGSL and as an f64 reference.
 
 use std::sync::Arc;
 

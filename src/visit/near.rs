@@ -20,7 +20,8 @@ pub fn grid(law: &Law, problem: &Problem) -> Result<Option<(Grid, bool)>, Error>
         Over::Near { range, of } => Ok(Some((Grid::new(range, of, problem)?, law.asks_velocities()))),
         Over::Nearest { count } => {
             if !(1..=MOST_NEAREST).contains(&count) {
-                let text = format!("`{}` searches {count} nearest neighbours: 1 to {MOST_NEAREST} are possible", law.name);
+                let text =
+                    format!("`{}` searches {count} nearest neighbours: 1 to {MOST_NEAREST} are possible", law.name);
                 return Err(Error::Scene(text));
             }
             // So many that the first cube of 27 cells holds about three times the list.

@@ -1,4 +1,4 @@
-//! All pairs: which of the three files, and how pair evaluations are cut into dispatches.
+//! All pairs: the choice among three shaders, and the division of pair evaluations into dispatches.
 
 use std::sync::Arc;
 

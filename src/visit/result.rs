@@ -1,4 +1,4 @@
-//! What a law gives for a particle, as its reference says it: an acceleration, and values of columns.
+//! The result of a law for a particle, in its reference: an acceleration, and values of columns.
 
 use glam::DVec4;
 

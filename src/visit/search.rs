@@ -1,4 +1,4 @@
-//! What a law says of its search where it is one of a method that keeps fields of its own, some of them in the order of the cell list.
+//! The search of a law that belongs to a method with its own fields, some of them in the order of the cell list.
 
 use glam::DVec3;
 

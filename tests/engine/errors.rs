@@ -69,7 +69,7 @@ fn setups_that_make_no_sense() {
     // A test particle is fine where nothing is linked to it.
     let mut particles = good();
     particles.mass_mut()[4] = 0.0;
-    refused(&shared, &setup(particles.clone(), Vec::new(), 0.1), &["ties particle 4, which has no mass"]);
+    refused(&shared, &setup(particles.clone(), Vec::new(), 0.1), &["connects particle 4, which has mass 0"]);
     particles.links = motes::links::Links::default();
     assert!(on_gpu(&shared, &setup(particles, Vec::new(), 0.1)).is_ok());
 }

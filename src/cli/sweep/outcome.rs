@@ -1,4 +1,4 @@
-//! What came of a run, and how far its end is from that of another.
+//! The outcome of a run, and the difference of its final state from that of another.
 
 use std::path::Path;
 use std::sync::Arc;

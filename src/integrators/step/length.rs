@@ -41,8 +41,7 @@ impl Step<'_> {
         match offered[..] {
             [viscous] => Ok((plan, viscous)),
             [] => Err(Error::Scene(
-                "no force limits the time step, so it cannot be adaptive: give a fixed dt, or add a fluid"
-                    .to_owned(),
+                "no force limits the time step, so it cannot be adaptive: give a fixed dt, or add a fluid".to_owned(),
             )),
             _ => Err(Error::Scene(format!(
                 "{} forces limit the time step, and only one may: give a fixed dt, or leave only one fluid",

@@ -1,6 +1,6 @@
-//! What each verb does to the columns that components declare with a rate.
+//! The verbs applied to columns that components declare with a rate.
 //!
-//! A column whose rate is computed by evaluations continues with velocities, one whose rate is a state with positions. What is
+//! A column whose rate is computed by evaluations is advanced with velocities, one whose rate is a state with positions. What is
 //! carried along with positions by a rate that follows from velocities, as a density is, has its rate computed in the middle of
 //! each drift. A Runge–Kutta step gives all of them its stages. Implicit methods solve for positions and velocities alone: the
 //! columns continue explicitly, by rates computed where laws without a Jacobian are.

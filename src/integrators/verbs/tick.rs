@@ -1,4 +1,4 @@
-//! A step is done, and how speeds have grown is written down now and then.
+//! Counts a finished step, and records the growth of speeds at intervals.
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! What a user's law may name: its own memory, and what motes lets it read.
+//! Bindings that a user's law may use: its own buffers, and fields that motes lets it read.
 
 use naga::{AddressSpace, Block, Expression, Function, GlobalVariable, ResourceBinding, Statement, StorageAccess};
 

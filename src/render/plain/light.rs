@@ -1,4 +1,4 @@
-//! Light on what stands in a picture, shadows, and where rays intersect solids. In the picture's axes: right, up, towards the eye.
+//! Lighting of surfaces, shadows, and intersections of rays with solids. In the picture's axes: right, up, towards the eye.
 
 use glam::{DQuat, DVec2, DVec3};
 

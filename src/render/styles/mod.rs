@@ -1,4 +1,4 @@
-//! Styles: how particles are drawn. Each is one file, with shaders of its own where it needs them, and one line in the register below.
+//! Picture styles. Each is one file, with its own shaders if it needs them, and one line in the register below.
 
 use glam::DVec3;
 

@@ -333,5 +333,5 @@ fn what_cannot_remember_is_refused() {
         }
     }
     let text = refusal(vec![Box::new(Forgetful)]);
-    assert!(text.contains("`recall` is for a law that keeps history") && text.contains("slots = 3"), "{text}");
+    assert!(text.contains("`recall` is for a law with history of pairs") && text.contains("slots = 3"), "{text}");
 }

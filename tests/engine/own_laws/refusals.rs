@@ -83,7 +83,11 @@ fn bindings_in_places_that_are_not_a_laws() {
 #[test]
 fn what_motes_writes_is_not_a_laws() {
     let alarm = "@group(3) @binding(5) var<storage, read_write> alarm: array<atomic<u32>>;";
-    refused(Over::Each, &each(alarm, "atomicStore(&alarm[0], 3u); return vec4f();"), &["`alarm` is a buffer that only motes writes"]);
+    refused(
+        Over::Each,
+        &each(alarm, "atomicStore(&alarm[0], 3u); return vec4f();"),
+        &["`alarm` is a buffer that only motes writes"],
+    );
     for (over, inside) in [
         (Over::Pairs, "acceleration[you.index] = vec4f();"),
         (Over::Pairs, "parts[0] = Sum();"),
@@ -92,7 +96,11 @@ fn what_motes_writes_is_not_a_laws() {
         let gather = GATHER.replace("(*sum).acceleration += r;", inside);
         refused(over, &format!("{gather}\n{FINISH}"), &["is a buffer that only motes writes", "l.wgsl:1:"]);
     }
-    refused(Over::Each, &each("", "acceleration[0] = vec4f(); return vec4f();"), &["`acceleration` is a buffer that only motes writes"]);
+    refused(
+        Over::Each,
+        &each("", "acceleration[0] = vec4f(); return vec4f();"),
+        &["`acceleration` is a buffer that only motes writes"],
+    );
     // What a plan of motes has beside: in every measurement, or under one integrator.
     let own = |name: &str| {
         let own = format!("@group(3) @binding(5) var<storage, read_write> {name}: array<vec4f>;");

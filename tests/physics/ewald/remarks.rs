@@ -19,7 +19,10 @@ fn check(set: &[&str]) -> (bool, String) {
 #[test]
 fn images_that_are_left_out_are_remarked_on() {
     let (good, text) = check(&["force.0.images=\"nearest\""]);
-    assert!(good && text.contains("nearest images only, without an Ewald sum") && text.contains("images = \"ewald\""), "{text}");
+    assert!(
+        good && text.contains("nearest images only, without an Ewald sum") && text.contains("images = \"ewald\""),
+        "{text}"
+    );
     let (good, text) = check(&["force.0.images=\"ewald\""]);
     assert!(good && !text.contains("without an Ewald sum"), "{text}");
 }

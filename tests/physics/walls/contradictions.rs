@@ -112,7 +112,10 @@ fn a_solid_leaves_its_thickness_free() {
         &text,
         &[],
         0,
-        &["5 particles start inside of an obstacle, or closer to it than its thickness, the first is particle 0", "1.000e-2"],
+        &[
+            "5 particles start inside of an obstacle, or closer to it than its thickness, the first is particle 0",
+            "1.000e-2",
+        ],
     );
     let (_, said) = motes("check", &text, &["force.2.thickness=0.05"]);
     assert!(!said.contains("inside of an obstacle"), "{said}");
@@ -155,7 +158,12 @@ fn contradicting_parts_are_remarked_on() {
         0,
         &["has wall_mass = \"lattice\", and its fluid has wall_mass = \"sampled\""],
     );
-    says(DAM, &["particles.0.center=[0.25,0.7,0]"], 0, &["particles of the fluid start outside of the box, the first is particle 35 "]);
+    says(
+        DAM,
+        &["particles.0.center=[0.25,0.7,0]"],
+        0,
+        &["particles of the fluid start outside of the box, the first is particle 35 "],
+    );
     let extrapolate = ["force.1.walls=extrapolate", "force.1.weight=[0,-1,0]"];
     says(
         DAM,
@@ -176,7 +184,7 @@ fn emitters_go_by_the_fluid() {
     assert!(code == 0 && said.contains("emitter 1: ") && !said.contains("weigh "), "{said}");
     let heavy = "particles of emitter 1 have mass 2.0000e1, and density × spacing^2 of the force is 1.0000e1";
     says(&jet, &["emitter.0.density=2000"], 0, &[heavy, "[[emitter]] has density = 2000"]);
-    says(&jet, &["emitter.0.center=[0.3,0.4,0]"], 0, &["emitter 1 lets particles out where others are"]);
+    says(&jet, &["emitter.0.center=[0.3,0.4,0]"], 0, &["emitter 1 spawns particles where others are"]);
 }
 
 #[test]

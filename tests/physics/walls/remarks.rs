@@ -30,7 +30,10 @@ fn check_tells_of_a_fluid() {
     let light = ["--set", "particles.0.density=800"];
     let (_, out, _) = motes(&[&["check", "dam_break_2d"][..], &few, &light].concat());
     assert!(out.contains("under gravity it will collapse"), "{out}");
-    assert!(out.contains("masses from 3.2000e1 to 3.2000e1, and density × spacing^2 of the force is 4.0000e1"), "{out}");
+    assert!(
+        out.contains("masses from 3.2000e1 to 3.2000e1, and density × spacing^2 of the force is 4.0000e1"),
+        "{out}"
+    );
     let heavy = ["--set", "particles.0.density=1120"];
     let (_, out, _) = motes(&[&["check", "dam_break_2d"][..], &few, &heavy].concat());
     assert!(out.contains("more than the fastest flow that the speed of sound is made for"), "{out}");

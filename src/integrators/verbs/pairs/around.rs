@@ -1,4 +1,4 @@
-//! What is done around evaluations, measurements and steps: sums begin at zero, rates are kept, numbers are watched.
+//! Kernels around evaluations, measurements and steps: sums are zeroed, rates are saved, values are checked.
 
 use super::{Part, Real, Work, kernel};
 use crate::error::Error;
