@@ -54,7 +54,7 @@ pub struct State {
     pub(crate) free: Option<u32>,
     /// No particle has had an id from here on.
     pub(crate) next: u32,
-    /// What the last step kept for the next one.
+    /// Restart data of the last step.
     pub(crate) kept: Kept,
 }
 

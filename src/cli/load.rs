@@ -16,7 +16,7 @@ pub struct Loaded {
     pub scene: Scene,
     /// What the simulation is made of.
     pub setup: Setup,
-    /// What springs ask of its steps, if there are any.
+    /// The stability limit by springs, if there are any.
     pub verdict: Option<Verdict>,
     /// How its fluid starts, if there is one, and the lines about it; what is to be noted is among the scene's remarks.
     pub start: Option<Start>,

@@ -69,5 +69,5 @@ pub const EACH: Key = Key::new(
     "over",
     Kind::Choice(&["each"]),
     Value::Text(Cow::Borrowed("each")),
-    "what is evaluated: each particle alone",
+    "what is evaluated: single particles",
 );

@@ -15,7 +15,7 @@ pub const SPECIES: Key = Key::new(
     "species",
     settings::Kind::Species,
     Value::Text(Cow::Borrowed("all")),
-    "what it acts on: a species, or \"all\"",
+    "the species that it acts on, or \"all\"",
 );
 
 impl Kind {

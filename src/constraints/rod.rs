@@ -11,7 +11,7 @@ use crate::kernel::{Bounds, Host, Kernel, POSITION, Plan, Shader, VELOCITY};
 use crate::links::{Chains, Node};
 use crate::settings::{Key, Settings};
 
-/// What a scene may say.
+/// The keys in a scene.
 pub const KEYS: &[Key] = &[];
 
 /// `rod`: the particles' rods keep their lengths (RATTLE; Andersen 1983), in chains of any shape that hang from fixed particles

@@ -12,10 +12,10 @@ use crate::motion::{Motion, Pose};
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::solids::{self, Solid as Shape, Standing};
 
-/// What a scene may say.
+/// The keys in a scene.
 pub const KEYS: &[Key] = &[
     Key::new("shape", Kind::Choice(solids::SHAPES), Value::Text(Cow::Borrowed("sphere")), "what it is"),
-    Key::new("position", Kind::Vector, Value::Vector(DVec3::ZERO), "its middle, or a point on the plane [length]"),
+    Key::new("position", Kind::Vector, Value::Vector(DVec3::ZERO), "its centre, or a point on the plane [length]"),
     Key::new("radius", Kind::Positive, Value::Number(0.5), "sphere and capsule: the radius [length]"),
     Key::new("size", Kind::Vector, Value::Vector(DVec3::ONE), "box: its sides [length]"),
     Key::new("normal", Kind::Direction, Value::Vector(DVec3::Z), "plane: the direction to the free side"),

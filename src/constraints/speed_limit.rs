@@ -10,7 +10,7 @@ use crate::kernel::{Host, Kernel, Pass, Plan, Scalar, Shader, VELOCITY};
 use crate::visit::Particle;
 use crate::settings::{Key, Kind, Settings, Value};
 
-/// What a scene may say.
+/// The keys in a scene.
 pub const KEYS: &[Key] = &[
     Key::new("min", Kind::NotNegative, Value::Number(0.0), "the minimum speed; a particle at rest sets off along x [length / time]"),
     Key::required("max", Kind::Positive, "the maximum speed [length / time]"),

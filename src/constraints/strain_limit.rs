@@ -11,7 +11,7 @@ use crate::kernel::{Field, Host, Kernel, POSITION, Pass, Plan, Shader, VELOCITY}
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::visit;
 
-/// What a scene may say.
+/// The keys in a scene.
 pub const KEYS: &[Key] = &[
     Key::new("strain", Kind::Positive, Value::Number(0.1), "the largest strain of a spring: its extension over its rest length"),
     Key::new("sweeps", Kind::Count, Value::Number(8.0), "iterations over all springs after a drift: more bring long chains closer to the limit"),

@@ -100,7 +100,7 @@ pub async fn diagnose(setup: &Setup) -> Result<Vec<Remark>, Error> {
 /// What springs and fluids of a setup say of its steps.
 #[doc(hidden)]
 pub struct Judged {
-    /// What springs ask of steps, if there are any.
+    /// The stability limit by springs, if there are any.
     pub verdict: Option<Verdict>,
     /// How its fluid starts, if there is one.
     pub start: Option<Start>,

@@ -126,7 +126,7 @@ pub(super) fn state(columns: &Columns, mut given: Vec<Option<Vec<f64>>>, particl
 
 /// The numbers of a column, as a writer goes through them.
 pub(super) struct Strip<'a> {
-    /// What they are called.
+    /// Their names.
     pub text: String,
     values: &'a Array,
     slots: usize,

@@ -8,7 +8,7 @@ use super::wind::Gusts;
 use super::{Component, Law, Over, params};
 use crate::settings::{Key, Kind, Settings, Value};
 
-/// What a scene may say.
+/// The keys in a scene.
 pub const KEYS: &[Key] = &[
     Key::new("wind", Kind::Vector, Value::Vector(DVec3::ZERO), "the mean velocity of the air [length / time]"),
     Key::new("density", Kind::NotNegative, Value::Number(1.2), "the density of the air [mass / length³]"),

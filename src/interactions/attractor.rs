@@ -9,7 +9,7 @@ use super::{Component, EACH, Jacobian, Law, params};
 use crate::kernel::Scalar;
 use crate::settings::{Key, Kind, Settings, Value};
 
-/// What a scene may say.
+/// The keys in a scene.
 pub const KEYS: &[Key] = &[
     Key::new("position", Kind::Vector, Value::Vector(DVec3::ZERO), "where the centre is at time 0 [length]"),
     Key::new("velocity", Kind::Vector, Value::Vector(DVec3::ZERO), "its velocity [length / time]; energy is conserved only if it is at rest"),

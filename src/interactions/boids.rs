@@ -10,7 +10,7 @@ use crate::kernel::{Bounds, Plan, Scalar};
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::visit::Particle;
 
-/// What a scene may say.
+/// The keys in a scene.
 pub const KEYS: &[Key] = &[
     Key::new("range", Kind::Positive, Value::Number(0.5), "the range of view, near and within [length]"),
     Key::new("separation_range", Kind::NotNegative, Value::Number(0.2), "the range of separation; no larger than the range of view [length]"),

@@ -9,7 +9,7 @@ use crate::kernel::{Column, Kind as Element, Scalar};
 use crate::settings::{Key, Kind, Pair, Settings, Value};
 use crate::visit::{PairTable, Particle};
 
-/// What a scene may say.
+/// The keys in a scene.
 pub const KEYS: &[Key] = &[
     Key::required("pairs", Kind::Pairs(COEFFICIENTS), "the coefficients of each pair of species, as in [{ species = [0, 1], repulsion = 1.0, decay = 0.3 }]"),
     Key::required("range", Kind::Positive, "the cut-off radius, where energy and force end [length]"),

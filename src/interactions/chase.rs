@@ -7,7 +7,7 @@ use crate::kernel::World;
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::visit::Particle;
 
-/// What a scene may say.
+/// The keys in a scene.
 pub const KEYS: &[Key] = &[
     Key::new("range", Kind::Positive, Value::Number(1.0), "how far prey is seen [length]"),
     Key::new("max_speed", Kind::Positive, Value::Number(1.5), "the desired speed; for a limit see speed_limit [length / time]"),

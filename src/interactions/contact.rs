@@ -11,7 +11,7 @@ use crate::rotation;
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::visit::{Memory, Outcome, Particle};
 
-/// What a scene may say.
+/// The keys in a scene.
 pub const KEYS: &[Key] = &[
     Key::required("range", Kind::Positive, "the largest sum of two radii; larger ones are refused [length]"),
     Key::new("stiffness", Kind::Positive, Value::Number(1000.0), "k, the normal force per overlap [mass / time²]"),

@@ -7,7 +7,7 @@ use crate::kernel::World;
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::visit::Particle;
 
-/// What a scene may say.
+/// The keys in a scene.
 pub const KEYS: &[Key] = &[
     Key::new("range", Kind::Positive, Value::Number(1.0), "how far a predator is seen [length]"),
     Key::new("strength", Kind::NotNegative, Value::Number(5.0), "the acceleration away from a predator at distance 0 [length / time²]"),

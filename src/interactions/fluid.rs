@@ -12,7 +12,7 @@ use crate::sph::{
 use crate::kernel::{Bounds, Column, Plan};
 use crate::settings::{Key, Kind, Settings, Value};
 
-/// What a scene may say.
+/// The keys in a scene.
 pub const KEYS: &[Key] = &[
     Key::new("density", Kind::Positive, Value::Number(1000.0), "the density at rest [mass / length³, or mass / length² in two dimensions]").of_fluid(),
     Key::required("spacing", Kind::Positive, "the spacing of particles at rest, on a cubic lattice [length]").of_fluid(),

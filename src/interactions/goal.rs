@@ -5,7 +5,7 @@ use glam::{DVec3, DVec4};
 use super::{Component, EACH, Law, SPECIES, params, species};
 use crate::settings::{Key, Kind, Settings, Value};
 
-/// What a scene may say.
+/// The keys in a scene.
 pub const KEYS: &[Key] = &[
     Key::new("position", Kind::Vector, Value::Vector(DVec3::ZERO), "where it is at time 0 [length]"),
     Key::new("velocity", Kind::Vector, Value::Vector(DVec3::ZERO), "its velocity [length / time]"),

@@ -7,7 +7,7 @@ use glam::{DVec3, DVec4};
 use super::{Component, Law, Over};
 use crate::settings::{Key, Kind, Settings, Value};
 
-/// What a scene may say.
+/// The keys in a scene.
 pub const KEYS: &[Key] = &[Key::new(
     "over",
     Kind::Choice(&["joints"]),

@@ -9,10 +9,10 @@ use crate::kernel::Scalar;
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::solids::Solid;
 
-/// What a scene may say.
+/// The keys in a scene.
 pub const KEYS: &[Key] = &[
     Key::new("shape", Kind::Choice(SHAPES), Value::Text(Cow::Borrowed("sphere")), "what it is"),
-    Key::new("position", Kind::Vector, Value::Vector(DVec3::ZERO), "its middle, or a point on the plane [length]"),
+    Key::new("position", Kind::Vector, Value::Vector(DVec3::ZERO), "its centre, or a point on the plane [length]"),
     Key::new("radius", Kind::Positive, Value::Number(0.5), "sphere: its radius [length]"),
     Key::new("size", Kind::Vector, Value::Vector(DVec3::ONE), "box: its sides [length]"),
     Key::new("normal", Kind::Direction, Value::Vector(DVec3::Z), "plane: the direction to the free side"),

@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::kernel::Bounds;
 use crate::settings::{Key, Kind, Settings, Value};
 
-/// What a scene may say.
+/// The keys in a scene.
 pub const KEYS: &[Key] = &[
     Key::new("low", Kind::Vector, Value::Vector(DVec3::splat(-1.0)), "the lowest corner of the box [length]"),
     Key::new("high", Kind::Vector, Value::Vector(DVec3::ONE), "the highest corner [length]"),

@@ -8,7 +8,7 @@ use glam::{DVec3, DVec4};
 use super::{Component, Jacobian, Law};
 use crate::settings::{Key, Kind, Settings, Value};
 
-/// What a scene may say.
+/// The keys in a scene.
 pub const KEYS: &[Key] = &[Key::new(
     "over",
     Kind::Choice(&["links"]),

@@ -11,7 +11,7 @@ use crate::settings::{Key, Kind, Settings, Value};
 use crate::visit::Particle;
 use crate::visit::random::{fraction, pcg4d, words};
 
-/// What a scene may say.
+/// The keys in a scene.
 pub const KEYS: &[Key] = &[
     Key::new("range", Kind::Positive, Value::Number(1.0), "the radius of the neighbourhood, which includes the particle itself [length]"),
     Key::new("speed", Kind::Positive, Value::Number(0.03), "the speed of all particles; v₀ of the paper is this times dt [length / time]"),

@@ -8,7 +8,7 @@ use super::{Component, EACH, Jacobian, Law, params};
 use crate::kernel::Scalar;
 use crate::settings::{Key, Kind, Settings, Value};
 
-/// What a scene may say.
+/// The keys in a scene.
 pub const KEYS: &[Key] = &[
     Key::new("center", Kind::Vector, Value::Vector(DVec3::ZERO), "a point on the axis [length]"),
     Key::new("axis", Kind::Direction, Value::Vector(DVec3::Z), "the axis of rotation, by the right-hand rule"),

@@ -8,7 +8,7 @@ use super::{Component, EACH, Law, Properties, SEED, SPECIES, params, species, se
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::visit::random::{fraction, pcg4d, words};
 
-/// What a scene may say.
+/// The keys in a scene.
 pub const KEYS: &[Key] = &[
     Key::new("strength", Kind::NotNegative, Value::Number(0.5), "σ: after the time t a velocity has changed by σ √t (rms), for any dt [length / time^(3/2)]"),
     SEED,

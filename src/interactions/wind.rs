@@ -8,7 +8,7 @@ use glam::DVec3;
 use super::{Component, EACH, Jacobian, Law, params};
 use crate::settings::{Key, Kind, Settings, Value};
 
-/// What a scene may say.
+/// The keys in a scene.
 pub const KEYS: &[Key] = &[
     Key::new("velocity", Kind::Vector, Value::Vector(DVec3::X), "the mean velocity of the air [length / time]"),
     Key::new("rate", Kind::NotNegative, Value::Number(1.0), "the rate at which particles adopt the velocity of the air [1 / time]"),

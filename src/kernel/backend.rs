@@ -53,7 +53,7 @@ pub trait Arrival: Mobile {
 pub trait Backend {
     /// A plan made ready.
     type Program;
-    /// What the device is like.
+    /// Properties of the device.
     fn machine(&self) -> Machine;
     /// The fields themselves, where they are on the host: a picture of them is drawn without kernels.
     fn host(&self) -> Option<&Host> {

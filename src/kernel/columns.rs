@@ -28,7 +28,7 @@ pub fn base() -> Vec<Column> {
             .within("position", 3)
             .starting([1.0, 0.0, 0.0, 0.0]),
         Column::new("velocity", Kind::Vector, "length / time", "how it moves").with_rate("acceleration"),
-        Column::new("size", Kind::Scalar, "length", "the radius that pictures draw; 0 lets them choose")
+        Column::new("size", Kind::Scalar, "length", "the radius in pictures; 0: chosen by the picture")
             .within("velocity", 3),
         Column::new("acceleration", Kind::Vector, "length / time²", "the sum of all laws").summed(),
         Column::new(

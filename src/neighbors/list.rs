@@ -57,7 +57,7 @@ impl List {
         let grid = Grid::new(shape.reach() * (1.0 + WIDER) + rounding, None, problem)?;
         Ok(Self { shape, grid: Grid { name: format!("the list {:?}", shape.reach()), ..grid } })
     }
-    /// What it is called in a plan.
+    /// Its name in a plan.
     #[must_use]
     pub fn title(&self) -> String {
         let ListShape { range, skin, words, capacity } = self.shape;

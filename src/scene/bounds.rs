@@ -14,7 +14,7 @@ use super::tree::Data;
 use super::value;
 use super::walk::{self, Table};
 
-/// What the section may say.
+/// The keys of the section.
 pub const BOX_KEYS: &[Key] = &[
     Key::required("size", Kind::Vector, "the lengths of its sides [length]; the third may be 0: a flat box"),
     Key::new("low", Kind::Vector, Value::Vector(DVec3::ZERO), "its lowest corner [length]"),

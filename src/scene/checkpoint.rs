@@ -7,7 +7,7 @@ use super::resolved::Writer;
 use super::tree::Data;
 use super::walk::Table;
 
-/// What the section may say, beside `every`.
+/// The keys of the section, beside `every`.
 pub(super) const KEYS: &[Key] =
     &[Key::new("keep", Kind::Count, Value::Number(2.0), "how many checkpoints are kept, the newest ones")];
 pub(super) const OWN: &[&str] = &["every"];

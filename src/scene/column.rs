@@ -19,7 +19,7 @@ pub const COLUMN_KEYS: &[Key] = &[
         "kind",
         settings::Kind::Choice(&["scalar", "vector", "whole", "quaternion"]),
         Value::Text(std::borrow::Cow::Borrowed("scalar")),
-        "what one value is: a number, three, a whole number from 0 on, or a unit quaternion x, y, z, w",
+        "the type of a value: a number, three numbers, a whole number from 0 on, or a unit quaternion x, y, z, w",
     ),
     Key::new(
         "role",

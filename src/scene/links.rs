@@ -17,7 +17,7 @@ use super::tree::{Data, Entry, Node};
 use super::value;
 use super::walk::Table;
 
-/// What the section may say.
+/// The keys of the section.
 pub const LINKS_KEYS: &[Key] = &[
     Key::new(
         "tie",

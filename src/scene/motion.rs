@@ -14,7 +14,7 @@ use super::tree::{Data, Node};
 use super::value;
 use super::walk::Table;
 
-/// What the section may say, beside its name and its keys.
+/// The keys of the section, beside its name and its keys.
 pub const MOTION_KEYS: &[Key] = &[
     Key::new("about", Kind::Vector, Value::Vector(DVec3::ZERO), "the centre of turning [length]"),
     Key::new("smooth", Kind::Flag, Value::Flag(false), "whether it sets off gently from each key, and arrives gently"),

@@ -60,7 +60,7 @@ pub const SECTIONS: &[Section] = &[
         own: own::EMITTER,
         ..Section::new("emitter", true, emitter::EMITTER_KEYS)
     },
-    Section { about: "a place where particles are removed", ..Section::new("drain", true, drain::DRAIN_KEYS) },
+    Section { about: "a region where particles are removed", ..Section::new("drain", true, drain::DRAIN_KEYS) },
     Section {
         about: "springs, rods and ropes between particles: from a file, or as pairs of ids",
         own: own::LINKS,
@@ -82,7 +82,7 @@ pub const SECTIONS: &[Section] = &[
         own: own::CHECKPOINT,
         ..Section::new("checkpoint", false, checkpoint::KEYS)
     },
-    Section { about: "how pictures are made", ..Section::new("picture", false, render::KEYS) },
+    Section { about: "pictures: camera, style and colours", ..Section::new("picture", false, render::KEYS) },
 ];
 
 impl Section {

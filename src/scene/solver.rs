@@ -7,7 +7,7 @@ use super::report::{Fault, Report};
 use super::resolved::Writer;
 use super::walk::Table;
 
-/// What the section may say.
+/// The keys of the section.
 pub const SOLVER_KEYS: &[Key] = &[
     Key::new(
         "tolerance",

@@ -76,7 +76,7 @@ impl<B: Backend> Simulation<B> {
     /// What the clock has counted; nothing where steps are all alike.
     ///
     /// # Errors
-    /// What reading says.
+    /// Errors of reading.
     pub async fn clock(&mut self) -> Result<Option<Clock>, Error> {
         self.settle().await?;
         self.clock_now().await

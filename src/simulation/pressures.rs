@@ -29,7 +29,7 @@ impl<B: Backend> Simulation<B> {
     /// solved for.
     ///
     /// # Errors
-    /// What reading says.
+    /// Errors of reading.
     pub async fn pressure_solves(&mut self) -> Result<Option<[PressureSolves; 2]>, Error> {
         if !self.reports[1] {
             return Ok(None);

@@ -72,7 +72,7 @@ pub struct Start {
     /// How far the fastest particle must move in the first step, at least, where pressure is solved for: that takes away at once all that is too
     /// dense; else 0 \[spacings\].
     pub thrust: f64,
-    /// What makes the densest so dense.
+    /// The cause of the maximum density.
     cause: String,
 }
 

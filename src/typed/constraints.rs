@@ -15,14 +15,14 @@ typed! {
         min: f64,
         /// The maximum speed \[length / time\].
         max: f64,
-        /// What it acts on: a species, or "all".
+        /// The species that it acts on, or "all".
         species: Option<u32>,
     }
     /// An obstacle or a container: a sphere, a box, a plane or a capsule, with restitution and friction.
     Solid "solid" solid() {
         /// What it is: sphere, box, plane, capsule.
         shape: Cow<'static, str>,
-        /// Its middle, or a point on the plane \[length\].
+        /// Its centre, or a point on the plane \[length\].
         position: DVec3,
         /// Sphere and capsule: the radius \[length\].
         radius: f64,
@@ -42,9 +42,9 @@ typed! {
         inside: bool,
         /// The motion that moves it, if any.
         motion: Cow<'static, str>,
-        /// What it acts on: a species, or "all".
+        /// The species that it acts on, or "all".
         species: Option<u32>,
-        /// What is evaluated: each particle alone.
+        /// What is evaluated: single particles.
         over: Cow<'static, str>,
     }
     /// Rigid rods in chains keep their lengths, whatever the other forces do (RATTLE: Andersen 1983).

@@ -32,7 +32,7 @@ typed! {
     Uniform "uniform" uniform() {
         /// The acceleration \[length / time²\].
         acceleration: DVec3,
-        /// What is evaluated: each particle alone.
+        /// What is evaluated: single particles.
         over: Cow<'static, str>,
     }
     /// Linear and quadratic drag in a medium that may move (Stokes 1851, Newton 1687).
@@ -43,7 +43,7 @@ typed! {
         quadratic: f64,
         /// The velocity of the medium \[length / time\].
         wind: DVec3,
-        /// What is evaluated: each particle alone.
+        /// What is evaluated: single particles.
         over: Cow<'static, str>,
     }
     /// A wind that blows in gusts and carries particles along.
@@ -58,7 +58,7 @@ typed! {
         period: f64,
         /// The distance from gust to gust, along the wind \[length\].
         wavelength: f64,
-        /// What is evaluated: each particle alone.
+        /// What is evaluated: single particles.
         over: Cow<'static, str>,
     }
     /// A vortex about an axis that carries particles along (Kaufmann 1962).
@@ -73,7 +73,7 @@ typed! {
         core: f64,
         /// The rate at which particles adopt the velocity of the flow \[1 / time\].
         rate: f64,
-        /// What is evaluated: each particle alone.
+        /// What is evaluated: single particles.
         over: Cow<'static, str>,
     }
     /// A fixed or moving centre: point mass, spring or logarithmic halo.
@@ -88,7 +88,7 @@ typed! {
         strength: f64,
         /// Point, logarithmic: the core radius ε \[length\].
         softening: f64,
-        /// What is evaluated: each particle alone.
+        /// What is evaluated: single particles.
         over: Cow<'static, str>,
     }
     /// A flock: separation, alignment and cohesion within a field of view (Reynolds 1987, 1999).
@@ -111,11 +111,11 @@ typed! {
         min_speed: f64,
         /// The maximum acceleration of each rule, and of all together \[length / time²\].
         max_force: f64,
-        /// What it acts on: a species, or "all".
+        /// The species that it acts on, or "all".
         species: Option<u32>,
-        /// Which neighbours: all in range, by a cell list, by a list that is kept over steps, or by brute force; or the k nearest neighbours, of all species, at any distance (Ballerini et al. 2008): near, list, within, nearest.
+        /// How neighbours in range are found: by a cell list, by a neighbour list that is reused over steps, by the faster of both, or by brute force; or the k nearest neighbours, of all species, at any distance (Ballerini et al. 2008): near, list, auto, within, nearest.
         over: Cow<'static, str>,
-        /// Over = "list": how much farther than the range the list reaches; 0: a fifth of the range \[length\].
+        /// Over = "list" or "auto": the skin of the neighbour list beyond the range; 0: a fifth of the range \[length\].
         skin: f64,
         /// Over = "nearest": the number k of neighbours.
         neighbors: u32,
@@ -124,7 +124,7 @@ typed! {
     Obstacle "obstacle" obstacle() {
         /// What it is: sphere, box, plane.
         shape: Cow<'static, str>,
-        /// Its middle, or a point on the plane \[length\].
+        /// Its centre, or a point on the plane \[length\].
         position: DVec3,
         /// Sphere: its radius \[length\].
         radius: f64,
@@ -138,9 +138,9 @@ typed! {
         clearance: f64,
         /// The acceleration of particles that touch it \[length / time²\].
         max_force: f64,
-        /// What it acts on: a species, or "all".
+        /// The species that it acts on, or "all".
         species: Option<u32>,
-        /// What is evaluated: each particle alone.
+        /// What is evaluated: single particles.
         over: Cow<'static, str>,
     }
     /// Prey flee from predators.
@@ -153,9 +153,9 @@ typed! {
         species: Option<u32>,
         /// The species that it flees.
         predators: Option<u32>,
-        /// Which neighbours: all in range, by a cell list, by a list that is kept over steps, or by brute force: near, list, within.
+        /// How neighbours in range are found: by a cell list, by a neighbour list that is reused over steps, by the faster of both, or by brute force: near, list, auto, within.
         over: Cow<'static, str>,
-        /// Over = "list": how much farther than the range the list reaches; 0: a fifth of the range \[length\].
+        /// Over = "list" or "auto": the skin of the neighbour list beyond the range; 0: a fifth of the range \[length\].
         skin: f64,
     }
     /// Predators chase prey.
@@ -170,9 +170,9 @@ typed! {
         species: Option<u32>,
         /// The species that is chased.
         prey: Option<u32>,
-        /// Which neighbours: all in range, by a cell list, by a list that is kept over steps, or by brute force: near, list, within.
+        /// How neighbours in range are found: by a cell list, by a neighbour list that is reused over steps, by the faster of both, or by brute force: near, list, auto, within.
         over: Cow<'static, str>,
-        /// Over = "list": how much farther than the range the list reaches; 0: a fifth of the range \[length\].
+        /// Over = "list" or "auto": the skin of the neighbour list beyond the range; 0: a fifth of the range \[length\].
         skin: f64,
     }
     /// A target to steer to and arrive at, or a roost to stay near (Reynolds 1999).
@@ -189,9 +189,9 @@ typed! {
         slow_radius: f64,
         /// The radius within which particles are not steered: a roost \[length\].
         free_radius: f64,
-        /// What it acts on: a species, or "all".
+        /// The species that it acts on, or "all".
         species: Option<u32>,
-        /// What is evaluated: each particle alone.
+        /// What is evaluated: single particles.
         over: Cow<'static, str>,
     }
     /// A random walk of velocities, with the same random numbers on every device.
@@ -200,9 +200,9 @@ typed! {
         strength: f64,
         /// Seed of the random numbers, counted by id and step.
         seed: u64,
-        /// What it acts on: a species, or "all".
+        /// The species that it acts on, or "all".
         species: Option<u32>,
-        /// What is evaluated: each particle alone.
+        /// What is evaluated: single particles.
         over: Cow<'static, str>,
     }
     /// A box whose soft walls turn particles back.
@@ -215,9 +215,9 @@ typed! {
         margin: f64,
         /// The acceleration of each side's wall \[length / time²\].
         acceleration: f64,
-        /// What it acts on: a species, or "all".
+        /// The species that it acts on, or "all".
         species: Option<u32>,
-        /// What is evaluated: each particle alone.
+        /// What is evaluated: single particles.
         over: Cow<'static, str>,
     }
     /// Each particle takes the mean heading of its neighbours, with noise, in the plane (Vicsek et al. 1995).
@@ -232,9 +232,9 @@ typed! {
         noise_kind: Cow<'static, str>,
         /// Seed of the random numbers, counted by id and step.
         seed: u64,
-        /// Which neighbours: all in range, by a cell list, by a list that is kept over steps, or by brute force: near, list, within.
+        /// How neighbours in range are found: by a cell list, by a neighbour list that is reused over steps, by the faster of both, or by brute force: near, list, auto, within.
         over: Cow<'static, str>,
-        /// Over = "list": how much farther than the range the list reaches; 0: a fifth of the range \[length\].
+        /// Over = "list" or "auto": the skin of the neighbour list beyond the range; 0: a fifth of the range \[length\].
         skin: f64,
     }
     /// Ions: repulsion and dispersion by pair of species, and damped Coulomb forces of their charges (Born & Mayer 1932).
@@ -247,9 +247,9 @@ typed! {
         coulomb: f64,
         /// α: the Coulomb energy is erfc(α r) / r; 0: shifted only \[1 / length\].
         damping: f64,
-        /// Which neighbours: all in range, by a cell list, by a list that is kept over steps, or by brute force: near, list, within.
+        /// How neighbours in range are found: by a cell list, by a neighbour list that is reused over steps, by the faster of both, or by brute force: near, list, auto, within.
         over: Cow<'static, str>,
-        /// Over = "list": how much farther than the range the list reaches; 0: a fifth of the range \[length\].
+        /// Over = "list" or "auto": the skin of the neighbour list beyond the range; 0: a fifth of the range \[length\].
         skin: f64,
     }
     /// Granular contacts of spheres: normal springs and dashpots, friction with history, torques (Cundall & Strack 1979).

@@ -23,11 +23,11 @@ typed! {
         g: f64,
         /// Share of the endless model's mass that is drawn from, from the centre outwards (at most 1).
         cutoff: f64,
-        /// Where the centre is put \[length\].
+        /// The position of the centre \[length\].
         center: DVec3,
-        /// How it moves as a whole \[length / time\].
+        /// The velocity of the whole \[length / time\].
         velocity: DVec3,
-        /// How large each particle is drawn \[length\]; 0 lets the picture choose.
+        /// The radius at which particles are drawn \[length\]; 0: chosen by the picture.
         particle_size: f64,
     }
     /// Hernquist's sphere, a galaxy or halo with a cusp ρ ∝ 1/r, in equilibrium (Hernquist 1990).
@@ -44,11 +44,11 @@ typed! {
         g: f64,
         /// Share of the endless model's mass that is drawn from, from the centre outwards (below 1); 0.99 ends at 199 a.
         cutoff: f64,
-        /// Where the centre is put \[length\].
+        /// The position of the centre \[length\].
         center: DVec3,
-        /// How it moves as a whole \[length / time\].
+        /// The velocity of the whole \[length / time\].
         velocity: DVec3,
-        /// How large each particle is drawn \[length\]; 0 lets the picture choose.
+        /// The radius at which particles are drawn \[length\]; 0: chosen by the picture.
         particle_size: f64,
     }
     /// A uniform sphere, cold or with Gaussian velocities (van Albada 1982).
@@ -67,11 +67,11 @@ typed! {
         spin: DVec3,
         /// Constant of gravity \[length³ / mass / time²\]; as in the force.
         g: f64,
-        /// Where the centre is put \[length\].
+        /// The position of the centre \[length\].
         center: DVec3,
-        /// How it moves as a whole \[length / time\].
+        /// The velocity of the whole \[length / time\].
         velocity: DVec3,
-        /// How large each particle is drawn \[length\]; 0 lets the picture choose.
+        /// The radius at which particles are drawn \[length\]; 0: chosen by the picture.
         particle_size: f64,
     }
     /// A disk galaxy in a halo, with a bulge or without, near equilibrium: the disk's particles first, then the halo's, then the bulge's (Hernquist 1993).
@@ -110,11 +110,11 @@ typed! {
         normal: DVec3,
         /// Constant of gravity \[length³ / mass / time²\]; as in the force.
         g: f64,
-        /// Where the centre is put \[length\].
+        /// The position of the centre \[length\].
         center: DVec3,
-        /// How it moves as a whole \[length / time\].
+        /// The velocity of the whole \[length / time\].
         velocity: DVec3,
-        /// How large each particle is drawn \[length\]; 0 lets the picture choose.
+        /// The radius at which particles are drawn \[length\]; 0: chosen by the picture.
         particle_size: f64,
     }
     /// Clumps of clumps, a fractal, cold or with Gaussian velocities (Soneira & Peebles 1978).
@@ -133,11 +133,11 @@ typed! {
         dimension: f64,
         /// Standard deviation of each component of the velocities \[length / time\].
         dispersion: f64,
-        /// Where the centre is put \[length\].
+        /// The position of the centre \[length\].
         center: DVec3,
-        /// How it moves as a whole \[length / time\].
+        /// The velocity of the whole \[length / time\].
         velocity: DVec3,
-        /// How large each particle is drawn \[length\]; 0 lets the picture choose.
+        /// The radius at which particles are drawn \[length\]; 0: chosen by the picture.
         particle_size: f64,
     }
     /// A simple cubic lattice, straight, jittered, or displaced by random waves that grow by gravity (Zel'dovich 1970).
@@ -158,11 +158,11 @@ typed! {
         growth: f64,
         /// Seed of the random numbers.
         seed: u64,
-        /// Where the centre is put \[length\].
+        /// The position of the centre \[length\].
         center: DVec3,
-        /// How it moves as a whole \[length / time\].
+        /// The velocity of the whole \[length / time\].
         velocity: DVec3,
-        /// How large each particle is drawn \[length\]; 0 lets the picture choose.
+        /// The radius at which particles are drawn \[length\]; 0: chosen by the picture.
         particle_size: f64,
     }
     /// A block of fluid: a cubic lattice that fills a box, or a rectangle.
@@ -181,11 +181,11 @@ typed! {
         strain: f64,
         /// Seed of the random numbers.
         seed: u64,
-        /// Where the centre is put \[length\].
+        /// The position of the centre \[length\].
         center: DVec3,
-        /// How it moves as a whole \[length / time\].
+        /// The velocity of the whole \[length / time\].
         velocity: DVec3,
-        /// How large each particle is drawn \[length\]; 0 lets the picture choose.
+        /// The radius at which particles are drawn \[length\]; 0: chosen by the picture.
         particle_size: f64,
     }
     /// A drop of fluid: a ball, an ellipsoid or a disk cut from a cubic lattice.
@@ -196,11 +196,11 @@ typed! {
         spacing: f64,
         /// The density at rest of the fluid, as in the force \[mass / length³, or mass / length²\].
         density: f64,
-        /// Where the centre is put \[length\].
+        /// The position of the centre \[length\].
         center: DVec3,
-        /// How it moves as a whole \[length / time\].
+        /// The velocity of the whole \[length / time\].
         velocity: DVec3,
-        /// How large each particle is drawn \[length\]; 0 lets the picture choose.
+        /// The radius at which particles are drawn \[length\]; 0: chosen by the picture.
         particle_size: f64,
     }
     /// A box, or a rectangle, of walls around a fluid, as fixed particles, without gaps at the edges (Akinci et al. 2012).
@@ -221,9 +221,9 @@ typed! {
         layers: u64,
         /// The density at rest of the fluid, as in the force \[mass / length³, or mass / length²\].
         density: f64,
-        /// Where the centre is put \[length\].
+        /// The position of the centre \[length\].
         center: DVec3,
-        /// How large each particle is drawn \[length\]; 0 lets the picture choose.
+        /// The radius at which particles are drawn \[length\]; 0: chosen by the picture.
         particle_size: f64,
     }
     /// A plane, a box, a sphere or a mesh as a wall of a fluid, of fixed particles or with a prescribed motion (Akinci et al. 2012).
@@ -252,9 +252,9 @@ typed! {
         layers: u64,
         /// The density at rest of the fluid, as in the force \[mass / length³, or mass / length²\].
         density: f64,
-        /// Where the centre is put \[length\].
+        /// The position of the centre \[length\].
         center: DVec3,
-        /// How large each particle is drawn \[length\]; 0 lets the picture choose.
+        /// The radius at which particles are drawn \[length\]; 0: chosen by the picture.
         particle_size: f64,
     }
     /// A box filled uniformly at random, at rest or warm.
@@ -269,11 +269,11 @@ typed! {
         mass: f64,
         /// Thermal speed: standard deviation of each velocity component, but across a flat box \[length / time\], √(k T / m) of a gas.
         speed: f64,
-        /// Where the centre is put \[length\].
+        /// The position of the centre \[length\].
         center: DVec3,
-        /// How it moves as a whole \[length / time\].
+        /// The velocity of the whole \[length / time\].
         velocity: DVec3,
-        /// How large each particle is drawn \[length\]; 0 lets the picture choose.
+        /// The radius at which particles are drawn \[length\]; 0: chosen by the picture.
         particle_size: f64,
     }
     /// Particles thrown from a nozzle into a cone: sparks, drops, a fountain.
@@ -294,11 +294,11 @@ typed! {
         nozzle: f64,
         /// Mass of each particle \[mass\].
         mass: f64,
-        /// Where the centre is put \[length\].
+        /// The position of the centre \[length\].
         center: DVec3,
-        /// How it moves as a whole \[length / time\].
+        /// The velocity of the whole \[length / time\].
         velocity: DVec3,
-        /// How large each particle is drawn \[length\]; 0 lets the picture choose.
+        /// The radius at which particles are drawn \[length\]; 0: chosen by the picture.
         particle_size: f64,
     }
     /// Particles in a row, each connected to the next by springs, ropes or rods: pendulums, strings, beams.
@@ -323,9 +323,9 @@ typed! {
         bending: f64,
         /// Which of the particles are fixed: none, first, ends.
         pins: Cow<'static, str>,
-        /// How it moves as a whole \[length / time\].
+        /// The velocity of the whole \[length / time\].
         velocity: DVec3,
-        /// How large each particle is drawn \[length\]; 0 lets the picture choose.
+        /// The radius at which particles are drawn \[length\]; 0: chosen by the picture.
         particle_size: f64,
     }
     /// A sheet of springs: along the threads, across the squares, and over two against bending (Provot 1995).
@@ -358,11 +358,11 @@ typed! {
         jitter: f64,
         /// Seed of the random numbers.
         seed: u64,
-        /// Where the centre is put \[length\].
+        /// The position of the centre \[length\].
         center: DVec3,
-        /// How it moves as a whole \[length / time\].
+        /// The velocity of the whole \[length / time\].
         velocity: DVec3,
-        /// How large each particle is drawn \[length\]; 0 lets the picture choose.
+        /// The radius at which particles are drawn \[length\]; 0: chosen by the picture.
         particle_size: f64,
     }
     /// An elastic block: a cubic lattice of springs along edges and face diagonals, of Young's modulus 2.5 k / a and Poisson's ratio 1/4.
@@ -377,11 +377,11 @@ typed! {
         stiffness: f64,
         /// Damping of each spring, along its axis \[mass / time\].
         damping: f64,
-        /// Where the centre is put \[length\].
+        /// The position of the centre \[length\].
         center: DVec3,
-        /// How it moves as a whole \[length / time\].
+        /// The velocity of the whole \[length / time\].
         velocity: DVec3,
-        /// How large each particle is drawn \[length\]; 0 lets the picture choose.
+        /// The radius at which particles are drawn \[length\]; 0: chosen by the picture.
         particle_size: f64,
     }
     /// Strands of rods and joints that stand on a head; the first two particles of each are fixed.
@@ -406,9 +406,9 @@ typed! {
         up: DVec3,
         /// Seed of the random numbers.
         seed: u64,
-        /// Where the centre is put \[length\].
+        /// The position of the centre \[length\].
         center: DVec3,
-        /// How large each particle is drawn \[length\]; 0 lets the picture choose.
+        /// The radius at which particles are drawn \[length\]; 0: chosen by the picture.
         particle_size: f64,
     }
 }

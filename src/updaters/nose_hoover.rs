@@ -12,7 +12,7 @@ use crate::kernel::{
 use crate::primitives::{Items, Operation, reduce};
 use crate::settings::{Key, Kind, Settings, Value};
 
-/// What a scene may say.
+/// The keys in a scene.
 pub const KEYS: &[Key] = &[
     Key::required("temperature", Kind::Positive, "k T, twice the mean kinetic energy of a degree of freedom [energy]"),
     Key::new("time", Kind::Positive, Value::Number(1.0), "τ, the relaxation time of the thermostat; some periods of the fastest motion [time]"),

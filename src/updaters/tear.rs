@@ -10,7 +10,7 @@ use crate::links::{Half, WORDS};
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::visit::{self, LINK, LINK_START};
 
-/// What a scene may say.
+/// The keys in a scene.
 pub const KEYS: &[Key] = &[
     Key::new("strain", Kind::Positive, Value::Number(0.5), "the strain at which a spring breaks: its extension over its rest length"),
     Key::new("over", Kind::Choice(&["links"]), Value::Text(Cow::Borrowed("links")), "what breaks: springs and ropes"),

@@ -13,7 +13,7 @@ impl Law {
     pub(super) fn has_loops(&self) -> bool {
         self.wgsl.law && self.wgsl.has_loops()
     }
-    /// What looks at the turns of its loops.
+    /// The check of its loop iterations.
     pub(super) fn turns(&self) -> Source {
         if self.has_loops() { crate::shader!("own/turns.wgsl") } else { crate::shader!("own/no_turns.wgsl") }
     }

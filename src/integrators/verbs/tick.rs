@@ -8,7 +8,7 @@ use crate::kernel::{ALARM, ALARM_WORDS, Kernel, Shader, World};
 /// Steps between two looks at how speeds have grown.
 const WINDOW: u32 = 16;
 
-/// What it is called in a plan, and in its shader.
+/// Its name in a plan, and in its shader.
 pub const NAME: &str = "tick";
 
 /// Writes down how speeds have grown, if it is time to.
