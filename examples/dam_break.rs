@@ -28,7 +28,7 @@ const INK: RGBColor = RGBColor(38, 42, 51);
 const FAINT: RGBColor = RGBColor(226, 229, 235);
 const LINES: [RGBColor; 3] = [RGBColor(150, 188, 230), RGBColor(36, 104, 196), RGBColor(146, 86, 190)];
 const MARKS: [RGBColor; 2] = [RGBColor(214, 112, 32), RGBColor(24, 132, 96)];
-/// The backend rounds to whole numbers: so many of them for each pixel make smooth lines.
+/// The backend rounds to integers: so many of them for each pixel make smooth lines.
 const FINE: i32 = 8;
 
 type Points = Vec<(f64, f64)>;

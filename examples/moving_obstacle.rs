@@ -1,4 +1,4 @@
-//! A flock and a ball that is led through it: the ball's place is set before each frame, and nothing is compiled for that.
+//! A flock and a ball that moves through it: the ball's place is set before each frame, and nothing is compiled for that.
 //!
 //! `cargo run --release --example moving_obstacle`
 

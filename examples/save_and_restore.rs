@@ -1,4 +1,4 @@
-//! A state is saved while a run goes on, changed, and another run goes on from it: to the bit where nothing is changed.
+//! A state is saved while a run continues, changed, and another run continues from it: bit for bit where nothing is changed.
 //!
 //! `cargo run --release --example save_and_restore`
 

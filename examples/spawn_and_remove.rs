@@ -1,4 +1,4 @@
-//! A fountain that runs for ever: particles are spawned at its mouth and removed where they fall below it, while the plan stays as it
+//! A fountain that runs forever: particles are spawned at its mouth and removed where they fall below it, while the plan stays as it
 //! was compiled. Rows are used again, and ids are not.
 //!
 //! `cargo run --release --example spawn_and_remove`

@@ -1,4 +1,4 @@
-// What a law may read. A name that it does not use is not bound.
+// Fields that a law may read. A name that it does not use is not bound.
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read> position: array<vec4f>; // xyz, mass
 @group(1) @binding(1) var<storage, read> velocity: array<vec4f>; // xyz, radius

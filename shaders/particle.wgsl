@@ -1,4 +1,4 @@
-// A particle as a law sees it.
+// A particle, as passed to a law.
 struct Particle { index: u32, position: vec3f, mass: f32 }
 
 // Lanes behind the last particle repeat it; nothing of theirs is stored.

@@ -1,4 +1,4 @@
-// What every kernel knows: the time at which forces are evaluated, the step size, the steps done, the rows that are in use and
+// Parameters of every kernel: the time at which forces are evaluated, the step size, the steps done, the rows that are in use and
 // all that there are, and the box. `sides` has a byte for each axis: 0 open, 1 periodic, 2 reflecting. `period` is 0 along axes
 // that have none, and so is `frequency`, one over it.
 struct World {

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// The scene (or the caller's setup) asks for something that makes no sense. Mended in the scene or by the caller.
+    /// The scene (or the caller's setup) is invalid. Mended in the scene or by the caller.
     #[error("{0}")]
     Scene(String),
     /// The same, and which key of a component says it.
@@ -51,7 +51,7 @@ pub enum Error {
     /// Speeds grow without end, and numbers are about to be lost. Mended by a smaller step, or by another integrator.
     #[error(
         "particle {particle} is running away in step {step}: for the eighth time running the largest speed of 16 steps is more \
-         than twice that of the 16 before: try a smaller dt, or an integrator that bears stiffer forces"
+         than twice that of the 16 before: try a smaller dt, or an integrator that is stable for stiffer forces"
     )]
     Runaway {
         /// The lowest id among those that are so fast.
@@ -59,7 +59,7 @@ pub enum Error {
         /// The step, counted from 0, in which that was seen.
         step: u64,
     },
-    /// Forces ask for a step that is shorter than the shortest. Mended by a softer start, or by a shorter one.
+    /// Forces require a step that is shorter than the minimum. Mended by a softer start, or by a shorter one.
     #[error(
         "step {step} would have to be {wanted:.3e} long, shorter than dt_min = {least:.3e}, because of the {reason} of {particle}: look \
          for particles that start too close to each other or to a wall, or set a smaller dt_min"
@@ -79,10 +79,10 @@ pub enum Error {
     /// More particles are within reach of one than a search for neighbours or a walk of a tree can visit. Mended by a shorter
     /// range, or by a greater opening angle.
     #[error(
-        "particle {particle} has more others close around it than can be visited at once (240000 in the cells of a search, \
+        "particle {particle} has more neighbours than can be visited at once (240000 in the cells of a search, \
          all dispatches of a walk of a tree, and twice as many as at rest in a fluid with solver = \"dfsph\"): choose a \
          shorter range or a greater theta, for a fluid a shorter dt or the spacing that its particles have, or look for what \
-         drives all particles to one place"
+         drives all particles to one position"
     )]
     TooManyNeighbors {
         /// The lowest id of such a particle.
@@ -91,7 +91,7 @@ pub enum Error {
     /// The driver has ended the loops of a user's law before they were done, so that forces are wrong. Mended in that law, or by
     /// another driver.
     #[error(
-        "{law}: its loops and those of its visit take more turns than this driver gives them (Mesa before 25 ends the loops of an \
+        "{law}: its loops and those of its visit need more iterations than this driver allows (Mesa before 25 ends the loops of an \
          invocation after 65535 turns in all, without a word), so that its forces would be wrong: let fewer turns or a shorter range do, \
          choose over = \"pairs\", which is cut into slices of 128 particles, or install Mesa 25 or choose another adapter"
     )]
@@ -101,8 +101,8 @@ pub enum Error {
     },
     /// A loop of a user's law does not end. Mended in that law.
     #[error(
-        "{law}: its loops have taken 16777216 turns in one invocation without coming to an end, and were ended: look for one that \
-         never does, or let fewer turns do"
+        "{law}: its loops took 16777216 iterations in one invocation without ending, and were stopped: look for an \
+         infinite loop, or reduce the iterations"
     )]
     Endless {
         /// The law and its file.
@@ -113,7 +113,7 @@ pub enum Error {
     #[error(
         "particle {particle} has more neighbours within range + skin = {reach:.6} than its list holds: there is room for {capacity}, \
          the most that any particle had is {longest}, and the list cannot grow here; choose a smaller skin, or over = \"near\", which has no limit, or look for what \
-         drives particles to one place"
+         drives particles to one position"
     )]
     ListFull {
         /// The lowest id of such a particle.

@@ -20,12 +20,12 @@
 //! `examples/own_law.rs`
 #![doc = concat!("```ignore\n", include_str!("../examples/own_law.rs"), "```")]
 //!
-//! # Particles that come and go
+//! # Spawn and remove particles
 //!
 //! `examples/spawn_and_remove.rs`
 #![doc = concat!("```ignore\n", include_str!("../examples/spawn_and_remove.rs"), "```")]
 //!
-//! # Save, restore, and go on to the bit
+//! # Save, restore, and continue bit for bit
 //!
 //! `examples/save_and_restore.rs`
 #![doc = concat!("```ignore\n", include_str!("../examples/save_and_restore.rs"), "```")]

@@ -22,7 +22,7 @@
 //! | change settings, obstacles, motions, a law's parameters and tables between frames | [`Simulation::set`], [`Simulation::set_motion`] |
 //! | read back without a stall | [`Simulation::request`], [`Readback`] |
 //! | add and take away particles | [`Simulation::spawn`], [`Simulation::remove`] |
-//! | save, restore, go on to the bit | [`Simulation::snapshot`], [`Simulation::setup`], [`State`] |
+//! | save, restore, continue bit for bit | [`Simulation::snapshot`], [`Simulation::setup`], [`State`] |
 //! | give settings as fields | [`typed`] |
 //! | write a law of your own | [`Custom`] |
 //! | know before a run what is wrong with it | [`diagnose`](diagnose::diagnose) |
@@ -33,7 +33,7 @@
 //! [`Simulation`], [`Readback`], [`State`], [`Setup`] and [`Run`](run::Run) are `Send + Sync + 'static` (but in a browser, where devices
 //! stay in their thread): a simulation may be a resource of a game's schedule, and step in whichever thread that runs.
 //!
-//! What is shown here is what programs use. Other modules are public for the command and for tests, are not documented here, and
+//! This page shows the public interface. Other modules are public for the command and for tests, are not documented here, and
 //! promise nothing.
 
 #[doc(hidden)]

@@ -70,7 +70,7 @@ pub async fn compare(gpu: &mut Gpu, plan: &Plan, count: u32) -> Result<Vec<Verdi
     compare_while(gpu, plan, count, |_| true).await
 }
 
-/// The same up to the first kernel with a verdict that does not let it go on.
+/// The same up to the first kernel with a verdict that does not let it continue.
 ///
 /// # Errors
 /// As [`compare`].
@@ -154,7 +154,7 @@ pub async fn compare_while(
             let (data, tail) = all.split_at(usize::try_from(*bytes).unwrap_or(0).min(all.len()));
             let spilled = tail.chunks_exact(4).any(|word| word != sentinel(place));
             let (Some(start), Some(want)) = (began, host.get(name)) else { continue };
-            // What has another length than particles have is made anew each time, whatever it was. Whole numbers are exact.
+            // What has another length than particles have is made anew each time, whatever it was. Integers are exact.
             // So is the acceleration by the first law.
             let first =
                 name == ACCELERATION.name && kernel.passes.iter().any(|p| p.constants.contains(&("FIRST", 1.0)));

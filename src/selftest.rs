@@ -114,7 +114,7 @@ async fn loops(gpu: &mut Gpu, source: &Source) -> Result<Finding, Error> {
                 }
             } else {
                 let text = format!(
-                    "a loop of {turns} turns is cut short without a word (Mesa before 25 does so after 65 535); motes keeps its loops shorter"
+                    "a loop of {turns} iterations is silently cut short (Mesa before 25 does so after 65 535); motes keeps its loops shorter"
                 );
                 Finding { name, outcome: Outcome::Warn, text }
             });

@@ -1,4 +1,4 @@
-//! What a scene may say to a force or a shape: names, kinds, defaults and units, declared once, next to the thing itself.
+//! Settings of forces and shapes: names, kinds, defaults and units, declared once, next to their component.
 
 mod kind;
 mod nearest;
@@ -167,7 +167,7 @@ impl Settings {
         };
         self.misnamed(keys).or_else(|| self.0.iter().find_map(refused)).or_else(|| {
             let missing = keys.iter().find(|key| key.default.is_none() && !self.0.contains_key(key.name))?;
-            Some(format!("wants a value for its key `{}`: {}", missing.name, missing.about))
+            Some(format!("requires a value for its key `{}`: {}", missing.name, missing.about))
         })
     }
     /// The same of names and kinds alone, for an owner that looks at ranges itself.

@@ -88,12 +88,12 @@ pub struct Simulation<B: Backend> {
     list: Option<ListShape>,
     repeat: lists::Repeat,
     steps: u64,
-    /// What a step leaves for the next one beside columns, and a number that tells this step from others.
+    /// Restart data that a step saves for the next one beside columns, and a hash of this step.
     carried: Vec<Carried>,
     print: u64,
-    /// Whether it went on from a state that had all of it.
+    /// Whether it continued from a state that had all of it.
     goes_on: bool,
-    /// Where particles were at the start of the run, and how many held ones began somewhere.
+    /// Where particles were at the start of the run, and how many fixed ones began somewhere.
     extent: (DVec3, DVec3),
     anchored: usize,
     /// For what its plans were written, and these: a setting that changes has them written anew.
@@ -106,7 +106,7 @@ pub struct Simulation<B: Backend> {
 }
 
 impl<B: Backend> Simulation<B> {
-    /// Puts a setup on a backend. It begins at the time and the step of its state, and goes on from there: see
+    /// Puts a setup on a backend. It begins at the time and the step of its state, and continues from there: see
     /// [`Simulation::snapshot`] and [`State::begin_anew`].
     ///
     /// # Errors
@@ -214,7 +214,7 @@ impl<B: Backend> Simulation<B> {
     fn room(&self, steps: u32) -> Result<(), Error> {
         if self.steps + u64::from(steps) > u64::from(u32::MAX) {
             let text =
-                format!("{} steps are done, and {} are the most: begin anew from a snapshot", self.steps, u32::MAX);
+                format!("{} steps are done, the maximum is {}: start a new run from a snapshot", self.steps, u32::MAX);
             return Err(Error::Scene(text));
         }
         Ok(())
@@ -236,7 +236,7 @@ impl<B: Backend> Simulation<B> {
         let (all, rows) = (self.fields.len(field.name, like)?, self.rows.capacity() as usize);
         Ok(if all < rows { all } else { self.rows.used() as usize })
     }
-    /// Asks for a field as it is behind all steps that were submitted, one element for each row in use, and goes on: the answer is
+    /// Asks for a field as it is behind all steps that were submitted, one element for each row in use, and continues: the answer is
     /// looked at in a later frame, or awaited elsewhere. It borrows nothing, several may be under way, and one that is dropped costs
     /// nothing. What a caller has encoded counts once it is submitted.
     ///
@@ -271,12 +271,12 @@ impl<B: Backend> Simulation<B> {
         self.begun &= field.name != POSITION.name && field.name != VELOCITY.name;
         self.backend.write_at(field.name, first, &array)
     }
-    /// The state at the end of the last step, with the column `potential` and all that ties, moves, spawns and removes particles. It
+    /// The state at the end of the last step, with the column `potential` and all links, motions, births and drains. It
     /// evaluates the forces once more, and leaves no trace of that in the run.
     ///
-    /// A setup of it goes on from there: at its time and step, with the same bits as if the run had never stopped, under the same
+    /// A setup of it continues from there: at its time and step, with the same bits as if the run had never stopped, under the same
     /// forces, integrator and step length on the same device; [`Simulation::goes_on`] says whether it did. Where positions, velocities
-    /// or other columns of the state are changed, accelerations are evaluated anew, and the clock goes on all the same.
+    /// or other columns of the state are changed, accelerations are evaluated again, and the clock continues all the same.
     /// [`State::begin_anew`] puts it back to time 0.
     ///
     /// # Errors
@@ -349,7 +349,7 @@ impl<B: Backend> Simulation<B> {
         self.generation
     }
     /// What it is made of now, without its state: forces as they were [set](Simulation::set). With the state of
-    /// [`Simulation::snapshot`] another simulation goes on from here.
+    /// [`Simulation::snapshot`] another simulation continues from here.
     #[must_use]
     pub fn setup(&self) -> &Setup {
         &self.setup
@@ -363,7 +363,7 @@ impl<B: Backend> Simulation<B> {
 
 /// The rendering app's door: its device, its queue, its encoder.
 impl Simulation<Gpu> {
-    /// On a device that the caller owns and goes on using. It needs no optional feature and nothing beyond WebGPU's default limits;
+    /// On a device that the caller owns and continues using. It needs no optional feature and nothing beyond WebGPU's default limits;
     /// [`wanted_features`](crate::gpu::wanted_features) and [`wanted_limits`](crate::gpu::wanted_limits) say what is worth asking
     /// for: speed where there are subgroups, and room for more than 8 million particles.
     ///
@@ -373,7 +373,7 @@ impl Simulation<Gpu> {
         let gpu = Gpu::new(device, queue, setup.check()?)?;
         Self::on(gpu, setup)
     }
-    /// Encodes steps into the caller's encoder and submits nothing. The clock is on the device, so every call goes on
+    /// Encodes steps into the caller's encoder and submits nothing. The clock is on the device, so every call continues
     /// where the one before it ended, if the caller submits them in that order. How long a submission becomes is in the
     /// caller's hand: a system ends one of some seconds. An encoder that is dropped takes its steps with it, and the
     /// simulation no longer knows its own time: make a new one then. Submit before anything is read: a read may make buffers anew.
@@ -392,7 +392,7 @@ impl Simulation<Gpu> {
         Ok(())
     }
     /// A field's buffer, usable as a vertex buffer: draw without a copy. It stays the same until the simulation makes room for
-    /// more rows or neighbours, which [`Simulation::generation`] tells.
+    /// more rows or neighbours, as [`Simulation::generation`] shows.
     #[must_use]
     pub fn buffer<T>(&self, field: Field<T>) -> Option<&wgpu::Buffer> {
         self.backend.buffer(field.name)

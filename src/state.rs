@@ -1,4 +1,4 @@
-//! The state of a simulation: columns of all particles, and what ties, moves, spawns and removes them. Shapes make it, files
+//! The state of a simulation: columns of all particles, and links, motions, births and drains. Shapes make it, files
 //! hold it, a simulation starts from it and gives it back.
 
 mod append;
@@ -25,7 +25,7 @@ pub(crate) use kept::{
 };
 pub(crate) use room::{NONE, parked};
 
-/// Particles and all that a run needs to go on with them. Every array has one element per particle, in the order of ids. Units
+/// Particles and all that a run needs to continue with them. Every array has one element per particle, in the order of ids. Units
 /// are the scene's own.
 ///
 /// Positions, velocities, masses, sizes and species are always there; any other column has values when some are given.
@@ -33,7 +33,7 @@ pub(crate) use room::{NONE, parked};
 pub struct State {
     /// The basic columns in the order of [`BASIC`], then the others in the order of their names.
     columns: Vec<Filled>,
-    /// What ties particles together.
+    /// Links between particles.
     pub links: Links,
     /// Those that forces do not move.
     pub held: Vec<Held>,
@@ -54,7 +54,7 @@ pub struct State {
     pub(crate) free: Option<u32>,
     /// No particle has had an id from here on.
     pub(crate) next: u32,
-    /// What the last step kept for the next one.
+    /// Restart data of the last step.
     pub(crate) kept: Kept,
 }
 
@@ -130,7 +130,7 @@ impl State {
     pub fn vector(&self, name: &str) -> Option<&[glam::DVec3]> {
         if let Some(Array::Vec3(values)) = self.get(name) { Some(values) } else { None }
     }
-    /// The values of a column of whole numbers.
+    /// The values of a column of integers.
     #[must_use]
     pub fn whole(&self, name: &str) -> Option<&[u32]> {
         if let Some(Array::Uint(values)) = self.get(name) { Some(values) } else { None }

@@ -16,7 +16,7 @@ fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
 }
 fn finish(me: Particle, sum: Sum) -> vec4f { return vec4f(sum.far, sum.near, 0.0, 0.0); }";
 
-/// The law; no group that may come nearer than `core` is met as one.
+/// The law; no group that may come nearer than `core` is evaluated as one.
 pub fn met(opening: Opening, core: f64) -> Law {
     let nothing = |_: &Particle, _: &Particle, _: DVec3, (): &mut ()| ();
     let over = Over::Tree { opening, core, auto: false };

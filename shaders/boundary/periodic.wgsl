@@ -1,11 +1,11 @@
-// Periodic sides: x ← x − L ⌊(x − low) / L⌋ along each axis with a period L, so that low ≤ x < high.
+// Periodic boundaries: x ← x − L ⌊(x − low) / L⌋ along each axis with a period L, so that low ≤ x < high.
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read_write> position: array<vec4f>; // xyz, mass
 
 const WORKGROUP: u32 = 64u;
 
 fn wrapped(x: f32, low: f32, high: f32, period: f32, frequency: f32) -> f32 {
-    // A particle inside stays there to the bit.
+    // A particle inside stays there bit for bit.
     if period == 0.0 || (x >= low && x < high) { return x; }
     let inside = x - period * floor((x - low) * frequency);
     if inside >= low && inside < high { return inside; }

@@ -1,4 +1,4 @@
-// Reflecting sides: x ← 2 b − x and v ← −v at a side b, as often as it takes until low ≤ x ≤ high.
+// Reflecting boundaries: x ← 2 b − x and v ← −v at a side b, as often as it takes until low ≤ x ≤ high.
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read_write> position: array<vec4f>; // xyz, mass
 @group(1) @binding(1) var<storage, read_write> velocity: array<vec4f>; // xyz, radius
@@ -8,7 +8,7 @@ const REFLECTING: u32 = 2u;
 
 // Where it comes to be along an axis, and what becomes of the sign of its velocity there.
 fn thrown_back(x: f32, low: f32, high: f32, side: u32) -> vec2f {
-    // A particle inside stays there to the bit.
+    // A particle inside stays there bit for bit.
     if side != REFLECTING || (x >= low && x <= high) { return vec2f(x, 1.0); }
     // Two reflections are a shift. After as many as there are it is beyond a side by half a box at most, and where the
     // quotient rounds to one shift more or less, the last reflection leads to the same place.

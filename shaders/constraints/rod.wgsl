@@ -9,7 +9,7 @@
 @group(3) @binding(1) var<storage, read> chain_node: array<Node>;
 @group(3) @binding(2) var<storage, read_write> chain_sweep: array<vec2f>; // for each rod, at its last node: x and y below
 
-// A particle in a chain, and the length of the rod that leads to it; held particles do not move.
+// A particle in a chain, and the length of the rod that leads to it; fixed particles do not move.
 struct Node { id: u32, held: u32, length: f32 }
 // A particle: where, how fast, and one over its mass.
 struct Bob { x: vec3f, v: vec3f, w: f32 }

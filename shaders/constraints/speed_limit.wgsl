@@ -1,4 +1,4 @@
-// A speed within limits:  v ← v clamp(|v|, least, most) / |v|;  where it must not rest, it sets off along x.
+// A speed within limits:  v ← v clamp(|v|, min, max) / |v|;  a particle at rest starts along x if the minimum is above 0.
 struct Params { unused_word: u32, least: f32, most: f32, species: u32 }
 
 @group(0) @binding(0) var<uniform> world: World;

@@ -1,4 +1,4 @@
-// What a sweep over springs asks for: particles go there, and have gone there during the drift before.
+// Applies a sweep over springs: particles are displaced, and their velocities change as if they had moved so during the last drift.
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read_write> position: array<vec4f>; // xyz, mass
 @group(1) @binding(1) var<storage, read_write> velocity: array<vec4f>; // xyz, radius

@@ -1,2 +1,2 @@
-// Particles are known by their rows.
+// The id of a particle is its row.
 fn id_of(index: u32) -> u32 { return index; }

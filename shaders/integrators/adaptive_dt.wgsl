@@ -1,5 +1,5 @@
-// How long the step is:  dt = min over the limits, of which each says how many of it would make a longest step; no more than a
-// fifth above the last; and where it would pass the stop, shorter: two of one length reach it rather than a long and a tiny one.
+// The adaptive step:  dt = min over the limits, each given as the number of steps in a longest step; no more than a
+// fifth above the last; shorter before a stop, which two equal steps reach rather than a long and a tiny one.
 @group(0) @binding(0) var<storage, read_write> world: World;
 // 0 and 1 the time in longest steps and ticks; 2 the ticks of this step, 3 those that only limits shorten, 4 reason, 5 particle;
 // 6 to 9 the alarm: the step, reason, particle, how many; 10 and 11 the shortest and the longest; from 12 on steps by their reasons

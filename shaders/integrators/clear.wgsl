@@ -1,4 +1,4 @@
-// Before the first law: no acceleration, no potential.
+// Before the first law: acceleration and potential are zero.
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read_write> acceleration: array<vec4f>;
 

@@ -1,4 +1,4 @@
-// From the middle of the step to its end, along a straight line: v ← 2 v − v₀.
+// Linear extrapolation from the middle of the step to its end: v ← 2 v − v₀.
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read_write> velocity: array<vec4f>; // xyz, radius
 @group(1) @binding(1) var<storage, read> start_velocity: array<vec4f>;

@@ -1,4 +1,4 @@
-// Before a measurement evaluates the forces anew: keep those that the next step is going to use.
+// Before a measurement evaluates the forces again: save those that the next step will use.
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read> acceleration: array<vec4f>;
 @group(1) @binding(1) var<storage, read_write> kept_acceleration: array<vec4f>;

@@ -1,4 +1,4 @@
-// The limiting particle: the lowest id of those whose criterion wants as many steps as the maximum.
+// The limiting particle: the lowest id of those with the maximum criterion.
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read_write> step_clock: array<atomic<u32>>; // 4 reason, 5 particle; 6 to 8 the alarm: step, reason, particle
 @group(1) @binding(1) var<storage, read> step_criteria: array<vec4f>;

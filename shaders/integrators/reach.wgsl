@@ -1,4 +1,4 @@
-// Where a part of the step leads from its start: x ← x₀ + c v dt.
+// The position after a part of the step, from its start: x ← x₀ + c v dt.
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read_write> position: array<vec4f>;
 @group(1) @binding(1) var<storage, read> velocity: array<vec4f>;

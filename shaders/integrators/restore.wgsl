@@ -1,4 +1,4 @@
-// After a measurement: put back the forces that the next step is going to use.
+// After a measurement: restore the forces that the next step will use.
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read_write> acceleration: array<vec4f>;
 @group(1) @binding(1) var<storage, read> kept_acceleration: array<vec4f>;

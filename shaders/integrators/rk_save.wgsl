@@ -1,4 +1,4 @@
-// A Runge–Kutta step begins: keep where it starts, and start the weighted sum of slopes.
+// A Runge–Kutta step begins: save its start, and start the weighted sum of slopes.
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read> position: array<vec4f>;
 @group(1) @binding(1) var<storage, read> velocity: array<vec4f>;

@@ -1,4 +1,4 @@
-// Where nothing is tied: rows are blocks of their own.
+// Without links: the matrix is block diagonal.
 struct Expansion { pull: vec3f, own: vec3f }
 
 fn is_tied(i: u32) -> bool { return false; }

@@ -1,4 +1,4 @@
-// What links add to the product with the matrix, without the matrix. The law says:
+// The contribution of links to the matrix-vector product, matrix-free. The law defines:
 // fn jvp(me, you, r, link, dx, dv) -> vec3f, the change of the force on me when you move by dx, and by dv in velocity,
 // relative to me. The caller defines the direction.
 struct Expansion { pull: vec3f, own: vec3f }

@@ -1,5 +1,5 @@
-// The first half of an iteration of conjugate gradients (Chronopoulos & Gear 1989): A z, and the sums that it asks for.
-// Each workgroup takes a run of particles and leaves its part of the sums.
+// The first half of an iteration of conjugate gradients (Chronopoulos & Gear 1989): A z, and its partial sums.
+// Each workgroup processes a block of particles and writes its partial sums.
 @group(1) @binding(4) var<storage, read_write> rows: array<Row>;
 @group(2) @binding(2) var<storage, read> residuals: array<Residual>;
 @group(2) @binding(4) var<storage, read_write> dots: array<Dots>;

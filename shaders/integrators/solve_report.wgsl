@@ -1,4 +1,4 @@
-// Counts what became of a step's solve: solves, failures, the step of the first one, the most iterations; iterations and
+// Statistics of a step's solves: solves, failures, the step of the first one, the maximum of iterations; iterations and
 // outcome of the last: 1 converged, 2 broken down, 3 out of iterations.
 @group(0) @binding(0) var<uniform> world: World;
 @group(2) @binding(5) var<storage, read> solve_state: array<State>;

@@ -17,7 +17,7 @@ struct Residual { z: vec4f, r: vec4f }
 // The direction of search p, its image s, and the solution y, which is Δv.
 struct Direction { p: vec4f, s: vec4f, y: vec4f }
 
-// Sums over particles: r · z, z · A z, r · r of those that are tied and of those that are alone.
+// Sums over particles: r · z, z · A z, r · r of those that are linked and of those that are alone.
 struct Dots { gamma: f32, delta: f32, tied: f32, alone: f32 }
 
 // first: |b|² of the step's first solve; iterations of this solve, and of all in the step; code: 0 on its way, 1 converged,

@@ -1,4 +1,4 @@
-// The rows of the system, expanded about where particles are: mass, ties, and h² K v where the step begins.
+// The rows of the system, linearized about the current positions: mass, links, and h² K v at the start of the step.
 // Laws of each particle alone add to its block afterwards.
 @group(1) @binding(4) var<storage, read_write> rows: array<Row>;
 

@@ -1,4 +1,4 @@
-// Adds what all invocations of a workgroup hold, by a fixed tree. Every one of them has the result.
+// Sum over the invocations of a workgroup, by a fixed tree. Every invocation has the result.
 const WORKGROUP: u32 = 256u;
 
 var<workgroup> shares: array<vec4f, WORKGROUP>;

@@ -1,4 +1,4 @@
-// The solution is taken: v ← v + Δv.
+// The solution is applied: v ← v + Δv.
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read_write> velocity: array<vec4f>;
 @group(2) @binding(3) var<storage, read> directions: array<Direction>;

@@ -1,4 +1,4 @@
-// A step is done; with every sixteenth, how the largest speed has grown since the sixteen before it is written down.
+// A step is done; every sixteenth step records the growth of the maximum speed since the previous sixteen.
 @group(0) @binding(0) var<storage, read_write> world: World;
 // 5 the largest speed of these 16 steps, 6 of those before, 7 how often in a row it has more than doubled
 @group(1) @binding(0) var<storage, read_write> alarm: array<u32>;

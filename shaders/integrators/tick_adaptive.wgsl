@@ -1,5 +1,5 @@
-// A step is done, which took so many ticks; one of no length was none. With every sixteenth, how the largest speed has grown since
-// the sixteen before it is written down.
+// A step is done, of this many ticks; a step of zero length does not count. Every sixteenth step records the growth of the maximum speed since
+// the previous sixteen.
 @group(0) @binding(0) var<storage, read_write> world: World;
 // 5 the largest speed of these 16 steps, 6 of those before, 7 how often in a row it has more than doubled
 @group(1) @binding(0) var<storage, read_write> alarm: array<u32>;

@@ -1,5 +1,5 @@
-// Raises the alarm when a number is no number any more: keeps after how many steps that is first seen, and the lowest id
-// there; and when speeds run away: one is more than twice the largest of the 16 steps before, for the eighth time running.
+// Raises the alarm when a number is not finite: records the first step in which that is seen, and the lowest id
+// there; and at a runaway: a speed is more than twice the maximum of the 16 steps before, for the eighth time in a row.
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read> position: array<vec4f>;
 @group(1) @binding(1) var<storage, read> velocity: array<vec4f>;

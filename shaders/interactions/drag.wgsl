@@ -1,4 +1,4 @@
-// The resistance of a medium, linear (Stokes 1851) and quadratic (Newton 1687):  a = −(γ + c |u|) u,  u = v − wind
+// Drag in a medium, linear (Stokes 1851) and quadratic (Newton 1687):  a = −(γ + c |u|) u,  u = v − wind
 struct Params { unused_word: u32, linear: f32, quadratic: f32, wind: vec3f }
 
 @group(3) @binding(0) var<uniform> params: Params;

@@ -1,5 +1,5 @@
 // A goal (seek and arrival; Reynolds 1999):  a = truncate(u − v, f_max),  u = v_max unit(r) min(1, |r| / r_slow);
-// nearer than r_free one is free (a roost).
+// within r_free there is no steering (a roost).
 struct Params {
     unused_word: u32,
     position: vec3f, velocity: vec3f, max_speed: f32, max_force: f32,

@@ -1,10 +1,10 @@
-// What all images and the mean density do beyond the faded law, each particle's own images among them (Ewald 1921):
+// The long-range part of the Ewald sum: all images and the mean density beyond the faded law, including a particle's own images (Ewald 1921):
 // φ = −(G / L) [Σ A(k) Re S*(k) exp(2πi k·x / L) − 2 P(1) m],  a = −∇φ
 @group(3) @binding(1) var<storage, read> structure: array<f32>;
 @group(1) @binding(2) var<storage, read_write> acceleration: array<vec4f>;
 
 override G: f32 = 1.0;
-// 2 P(1): what the faded law lacks where a particle meets itself.
+// 2 P(1): what the faded law lacks for a particle with itself.
 override SELF: f32 = 1.0;
 const WORKGROUP: u32 = 64u;
 

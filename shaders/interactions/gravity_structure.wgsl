@@ -1,4 +1,4 @@
-// The structure factor of all particles, S(k) = Σ m exp(2πi k·x / L): an invocation has a wave, and adds a block of them.
+// The structure factor of all particles, S(k) = Σ m exp(2πi k·x / L): each invocation sums a block of particles for one wave vector.
 @group(3) @binding(1) var<storage, read_write> structure_parts: array<vec2f>;
 
 override BLOCK: u32 = 64u;

@@ -1,4 +1,4 @@
-// Adds the blocks of the structure factor, in their order: real and imaginary parts, wave by wave.
+// Sums the blocks of the structure factor, in their order: real and imaginary parts, by wave vector.
 @group(3) @binding(1) var<storage, read_write> structure_parts: array<vec2f>;
 @group(3) @binding(2) var<storage, read_write> structure: array<f32>;
 

@@ -1,5 +1,5 @@
 // Hooke's law, damped along the spring:  F = (k (1 − L / l) + c (v_you − v_me) · r / l²) r,  with r from me to you, l = |r|.
-// Without a length at rest it is k r, to the bit. A rope (L below zero) is slack while it is shorter than −L, and never pushes.
+// With rest length 0 it is k r, bit for bit. A rope (L below zero) is slack while it is shorter than −L, and never pushes.
 override DAMPED: bool = true; // whether any spring is
 
 struct Sum { force: vec3f, energy: f32 }

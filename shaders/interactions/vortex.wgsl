@@ -1,4 +1,4 @@
-// A whirl about an axis that carries particles along (Kaufmann 1962):  a = γ (u − v),  |u| = Γ r / 2π (r² + r_c²)
+// A vortex about an axis that carries particles along (Kaufmann 1962):  a = γ (u − v),  |u| = Γ r / 2π (r² + r_c²)
 struct Params { unused_word: u32, center: vec3f, axis: vec3f, circulation: f32, core: f32, rate: f32 }
 
 @group(3) @binding(0) var<uniform> params: Params;

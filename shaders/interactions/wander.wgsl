@@ -1,5 +1,5 @@
-// Wandering:  a = σ n / √dt, with n a random direction, another one for every particle and step. So in the time t a velocity
-// walks σ² t in the mean square, whatever the step.
+// Wandering:  a = σ n / √dt, with n a random direction, drawn for every particle and step. So in the time t a velocity
+// changes by σ² t in the mean square, for any time step.
 struct Params { unused_word: u32, strength: f32, seed_low: u32, seed_high: u32, species: u32 }
 
 @group(3) @binding(0) var<uniform> params: Params;

@@ -1,4 +1,4 @@
-// Random numbers by counting (pcg4d; Jarzynski & Olano, JCGT 9(3), 2020), for a law that calls for them: four new words for
+// Counter-based random numbers (pcg4d; Jarzynski & Olano, JCGT 9(3), 2020), for laws that call `pcg4d`: four words for
 // every counter, the same on every device. Count with `id_of(me.index)`: rows may be used again for other particles.
 fn pcg4d(counter: vec4u) -> vec4u {
     var v = counter * 1664525u + vec4u(1013904223u);

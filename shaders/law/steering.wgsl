@@ -1,4 +1,4 @@
-// Steering (Reynolds 1999), for a law that calls for it:  a = truncate(u − v, f_max), with u the velocity that is wished for.
+// Steering (Reynolds 1999), for laws that use it:  a = truncate(u − v, f_max), with u the desired velocity.
 
 // The direction of v; what has no length has none, and is zero.
 fn unit(v: vec3f) -> vec3f {

@@ -1,4 +1,4 @@
-// An active particle inside of a solid, or outside of it, is removed: it stays there at rest, without mass.
+// An active particle inside of a drain's solid, or outside of it, is removed: it stays there at rest, without mass.
 struct Params { unused_word: u32, position: vec3f, radius: f32, size: vec3f, shape: u32, axis: vec3f, side: f32, species: u32 }
 
 @group(0) @binding(0) var<uniform> world: World;

@@ -1,4 +1,4 @@
-// A particle just spawned goes straight on: forces do not move it before it is free. Its share of the potential energy stays.
+// A particle just spawned moves at constant velocity: forces do not act on it before it is free. Its share of the potential energy stays.
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read_write> acceleration: array<vec4f>; // xyz, potential
 

@@ -1,4 +1,4 @@
-// A pending particle that is due is spawned:  x ← x + (t − b) v,  from where it waited, as if it had left there at the time b of its birth.
+// A pending particle that is due is spawned:  x ← x + (t − b) v,  from its initial position, as if it had started there at its spawn time b.
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read_write> position: array<vec4f>; // xyz, mass
 @group(1) @binding(1) var<storage, read_write> velocity: array<vec4f>; // xyz, radius

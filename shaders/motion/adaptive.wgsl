@@ -1,4 +1,4 @@
-// How late it is, where steps differ: in longest steps, and 2²⁴ths of one.
+// The time with adaptive steps: in longest steps, and 2²⁴ths of one.
 struct Now { whole: u32, rest: f32, unit: f32 }
 
 @group(2) @binding(2) var<storage, read> step_clock: array<u32>;

@@ -1,4 +1,4 @@
-// How late it is, where all steps are alike: a part of the step after so many of them.
+// The time with a fixed step: the number of steps, and a fraction of one.
 struct Now { whole: u32, rest: f32, unit: f32 }
 
 fn now(part: f32) -> Now { return Now(world.step, part, world.dt); }

@@ -1,2 +1,2 @@
-// A fixed particle goes to its initial place, and mostly is there.
+// A fixed particle moves to its initial position, where it usually is already.
 fn way(id: u32, motion: u32, home: vec3f, x: vec3f) -> Way { return Way(home - x, world.dt); }

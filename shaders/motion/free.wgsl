@@ -1,2 +1,2 @@
-// Whether a particle is held, where none is.
+// Whether a particle is fixed, in a simulation without fixed particles: none is.
 fn is_held(id: u32) -> bool { return false; }

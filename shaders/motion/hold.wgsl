@@ -1,4 +1,4 @@
-// What is held is not accelerated; its share of the potential energy stays.
+// Fixed particles are not accelerated; their share of the potential energy stays.
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read_write> acceleration: array<vec4f>; // xyz, potential
 @group(1) @binding(1) var<storage, read> holds: array<vec2u>;              // id, motion

@@ -1,4 +1,4 @@
-// Particles that are held go on a straight line to where they shall be:  v = way / time,  as a step begins.
+// Fixed and kinematic particles move on a straight line to their target position:  v = displacement / time,  set at the start of a step.
 struct Way { way: vec3f, time: f32 }
 
 @group(0) @binding(0) var<uniform> world: World;

@@ -1,4 +1,4 @@
-// A particle with a target is there at the target's time, or at the end of the step if that is sooner, and then stays.
+// A particle with a target reaches it at the target's time, or at the end of the step if that is earlier, and then stays.
 @group(1) @binding(4) var<storage, read> kinematic_target: array<vec4f>; // xyz, time; by id
 
 fn way(id: u32, motion: u32, home: vec3f, x: vec3f) -> Way {

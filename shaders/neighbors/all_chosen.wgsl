@@ -1,2 +1,2 @@
-// All particles are put into the grid.
+// All particles are put into the cell list.
 fn chosen(i: u32) -> bool { return true; }

@@ -1,4 +1,4 @@
-// What a law that asks for velocities finds in the grid.
+// The cell list's data for a law that reads velocities.
 @group(2) @binding(6) var<storage, read_write> sorted_position: array<vec4f>;
 @group(2) @binding(7) var<storage, read_write> sorted_velocity: array<vec4f>;
 

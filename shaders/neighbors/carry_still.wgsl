@@ -1,4 +1,4 @@
-// What a law that does not ask for velocities finds in the grid.
+// The cell list's data for a law that does not read velocities.
 @group(2) @binding(6) var<storage, read_write> sorted_position: array<vec4f>;
 
 fn carry(i: u32, slot: u32) { sorted_position[slot] = vec4f(wrapped(position[i].xyz), position[i].w); }

@@ -1,5 +1,5 @@
 // A uniform grid over all of space, folded onto a box of cells: cell c of an axis is kept as c modulo the cells of the
-// axis. Along a periodic axis that is the period itself; elsewhere far cells share a place, and what is met there fails
+// axis. Along a periodic axis that is the period itself; elsewhere far cells share a slot, and particles found there fail
 // the test of distance. So there is no edge, and no particle is outside.
 // A range is `fine` cells, more of them along x, where cells are contiguous: so rows are cut closer to the particle.
 struct Grid {
@@ -8,13 +8,13 @@ struct Grid {
 
 @group(2) @binding(0) var<uniform> grid: Grid;
 
-// In how many lists of all cells particles are kept, one behind the other: 2 where held particles stand behind all others.
+// In how many lists of all cells particles are kept, one after the other: 2 where fixed particles stand behind all others.
 override LAYERS: u32 = 1u;
 
 // Beyond so many cells all are one: there, f32 holds no two places that are a cell apart.
 const FARTHEST: f32 = 536870912.0; // 2²⁹
 
-// How many cells from the grid's corner, along each axis.
+// How many cells from the cell list's corner, along each axis.
 fn away(x: vec3f) -> vec3f { return (x - grid.low) * grid.per_cell; }
 
 fn fold(c: i32, cells: u32) -> u32 {
@@ -31,7 +31,7 @@ fn wrapped(x: vec3f) -> vec3f {
     return select(y, world.low, !inside & ((y < world.low) | (y >= world.high)));
 }
 
-// The cell of a wrapped place, folded. It is some cell even where the place is no number: the watch finds it.
+// The cell of a wrapped place, folded. It is some cell even where the place is NaN: the watch finds it.
 fn cell(x: vec3f) -> vec3u {
     let last = select(vec3f(FARTHEST), vec3f(grid.cells) - 1.0, world.period > vec3f());
     let c = vec3i(clamp(floor(away(x)), vec3f(-FARTHEST), last));

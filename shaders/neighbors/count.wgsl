@@ -1,4 +1,4 @@
-// The cell of each particle, and how many are in each. The arrival in a cell is a race, and only a place to be put down for now.
+// The cell of each particle, and how many are in each. The order of arrival in a cell is a race; it is only a temporary slot.
 @group(2) @binding(1) var<storage, read_write> starts: array<atomic<u32>>;
 @group(2) @binding(2) var<storage, read_write> keys: array<u32>;
 @group(2) @binding(3) var<storage, read_write> arrivals: array<u32>;
@@ -13,7 +13,7 @@ fn count(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: v
         var k = NOWHERE;
         if chosen(i) && is_active(i) {
             k = key(cell(wrapped(position[i].xyz)));
-            // Held particles stand behind all others, where the grid keeps them apart.
+            // Fixed particles stand behind all others, where the grid keeps them apart.
             if is_held(i) { k += grid.cells.x * grid.cells.y * grid.cells.z; }
             arrivals[i] = atomicAdd(&starts[k], 1u);
         }

@@ -1,5 +1,5 @@
-// History of pairs: so many words for the n-th neighbour of row k, twice. One half holds what the step began with, and the other
-// what it leaves; they change places with each step, so that an evaluation more or less changes nothing.
+// History of pairs: a number of words for the n-th neighbour of row k, twice. One half holds the values at the start of the step, and the other
+// those it writes; they are swapped in each step, so that an additional evaluation changes nothing.
 override SLOTS: u32 = 1u;
 
 fn pair_at(k: u32, n: u32) -> u32 { return n * 2u * SLOTS * world.capacity + k; }

@@ -1,4 +1,4 @@
-// What lane 0, 1, … has loaded, as far as it is asked of a neighbour; the lane of a broadcast must be a constant.
+// Broadcasts what lane 0, 1, … has loaded of a neighbour; the lane of a broadcast must be a constant.
 fn broadcast0(q: Particle) -> Particle { return Particle(subgroupBroadcast(q.index, 0u), subgroupBroadcast(q.position, 0u), q.slot); }
 fn broadcast1(q: Particle) -> Particle { return Particle(subgroupBroadcast(q.index, 1u), subgroupBroadcast(q.position, 1u), q.slot); }
 fn broadcast2(q: Particle) -> Particle { return Particle(subgroupBroadcast(q.index, 2u), subgroupBroadcast(q.position, 2u), q.slot); }

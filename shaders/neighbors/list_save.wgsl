@@ -1,4 +1,4 @@
-// The list as it was, with the history of its pairs, before it is built anew.
+// The list as it was, with the history of its pairs, before it is rebuilt.
 @group(2) @binding(8) var<storage, read> list: array<vec4u>;
 @group(2) @binding(9) var<storage, read> history: array<f32>;
 @group(2) @binding(12) var<storage, read> list_origin: array<vec4f>;

@@ -1,5 +1,5 @@
-// From the order of arrival to that of ids: each counts those of its cell that come before it. That costs less than to
-// meet them, and the sums over a cell have one order, whichever won the race.
+// From the order of arrival to that of ids: each particle counts those of its cell with lower ids. That costs less than to
+// evaluate them, and the sums over a cell have one order, for any order of arrival.
 @group(2) @binding(1) var<storage, read> starts: array<u32>;
 @group(2) @binding(2) var<storage, read> keys: array<u32>;
 @group(2) @binding(4) var<storage, read> slots: array<u32>;

@@ -1,2 +1,2 @@
-// Every particle stands in a slot of the grid, or looks around by id.
+// Every particle is in a slot of the cell list, or searches by id.
 fn present() -> u32 { return world.count; }

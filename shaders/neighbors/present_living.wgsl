@@ -1,4 +1,4 @@
-// Active particles stand in slots of the grid; slots behind them are empty.
+// Active particles are in slots of the cell list; later slots are empty.
 override CELLS: u32 = 1u;
 
 fn present() -> u32 { return starts[CELLS]; }

@@ -1,4 +1,4 @@
-// Puts each particle down in its cell, in the order of arrival.
+// Scatters each particle into its cell, in the order of arrival.
 @group(2) @binding(1) var<storage, read> starts: array<u32>;
 @group(2) @binding(2) var<storage, read> keys: array<u32>;
 @group(2) @binding(3) var<storage, read> arrivals: array<u32>;

@@ -1,2 +1,2 @@
-// One species is put into the grid.
+// One species is put into the cell list.
 fn chosen(i: u32) -> bool { return species[i] == grid.only; }

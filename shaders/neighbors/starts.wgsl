@@ -1,2 +1,2 @@
-// Where the particles of each cell begin in the grid; behind the last cell, how many are in it.
+// The first slot of each cell in the cell list; after the last cell, the number of all particles.
 @group(2) @binding(1) var<storage, read> starts: array<u32>;

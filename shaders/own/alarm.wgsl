@@ -1,2 +1,2 @@
-// The alarm, where a visit has none of its own.
+// The alarm, for visits that do not declare it.
 @group(1) @binding(4) var<storage, read_write> alarm: array<atomic<u32>>;

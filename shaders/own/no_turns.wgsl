@@ -1,2 +1,2 @@
-// A law without loops: the turns of its visit are known, and below what every driver bears.
+// A law without loops: the iterations of its visit are known, and below the limit of every driver.
 fn check_turns(me: Particle) {}

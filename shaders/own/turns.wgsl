@@ -1,5 +1,5 @@
-// Turns of the loops of a user's law. Mesa before 25 ends the loops of an invocation after 65 535 turns of all of them together,
-// without a word, and each loop behind that after its first turn: so does the loop here. No driver ends a loop that has no end.
+// Counts the iterations of the loops of a user's law. Mesa before 25 ends the loops of an invocation after 65 535 iterations of all of them together,
+// silently, and each loop behind that after its first turn: so does the loop here. No driver ends a loop that has no end.
 // words 8 and 9 of the alarm: the mark of a law whose loops the driver has ended; the mark of one whose loops take too many turns
 override LAW: u32;
 

@@ -1,5 +1,5 @@
 // How often each digit occurs in each chunk, digit by digit, each chunk by one invocation: neither barriers nor atomics,
-// which cost a processor that plays a GPU much.
+// which are expensive on a software adapter.
 struct Extent { unused_word: u32, elements: u32, block: u32, blocks: u32, shift: u32, mask: u32 }
 
 @group(1) @binding(0) var<storage, read> keys: array<u32>;

@@ -1,4 +1,4 @@
-// Each invocation takes its chunk to where it belongs, key by key.
+// Each invocation scatters its chunk to the sorted positions, key by key.
 struct Extent { unused_word: u32, elements: u32, block: u32, blocks: u32, shift: u32, mask: u32 }
 
 @group(1) @binding(0) var<storage, read> keys: array<u32>;

@@ -1,4 +1,4 @@
-// Pairs as they are: before an odd number of moves to and fro.
+// Copies pairs: before an odd number of passes between two buffers.
 struct Extent { unused_word: u32, elements: u32 }
 
 @group(1) @binding(0) var<storage, read> keys: array<u32>;

@@ -1,4 +1,4 @@
-// How often each digit occurs in each block, digit by digit: the scan of that says where each block's keys go.
+// How often each digit occurs in each block, digit by digit: its scan gives the offsets of each block's keys.
 struct Extent { unused_word: u32, elements: u32, block: u32, blocks: u32, shift: u32, mask: u32 }
 
 @group(1) @binding(0) var<storage, read> keys: array<u32>;

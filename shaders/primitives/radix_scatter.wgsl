@@ -1,4 +1,4 @@
-// Each workgroup takes its block to where it belongs, tile by tile: sorted by the digit in its own memory first, so that
+// Each workgroup scatters its block to the sorted positions, tile by tile: sorted by the digit in workgroup memory first, so that
 // neighbours write to neighbours.
 struct Extent { unused_word: u32, elements: u32, block: u32, blocks: u32, shift: u32, mask: u32 }
 

@@ -1,5 +1,5 @@
 // One item out of many, by a fixed tree, so that every run gives the same bits: each invocation takes every 256th item of
-// its workgroup's block, then halves are put together. Beside it: what an item is, and what putting together means.
+// its workgroup's block, then halves are combined. A second file defines the item and the combination.
 struct Extent { unused_word: u32, elements: u32, block: u32, neutral: u32 }
 
 @group(1) @binding(0) var<storage, read> items: array<Item>;

@@ -1,2 +1,2 @@
-// All elements hold something.
+// All elements take part.
 fn end_of(block: u32) -> u32 { return min(block + extent.block, extent.elements); }

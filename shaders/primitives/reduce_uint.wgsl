@@ -1,4 +1,4 @@
-// Items are whole numbers; sums wrap at 2³².
+// Items are integers; sums wrap at 2³².
 alias Item = u32;
 
 fn neutral(bits: u32) -> Item { return bits; }

@@ -1,4 +1,4 @@
-// The sum of each chunk, by one invocation: no barriers, which cost a processor that plays a GPU much.
+// The sum of each chunk, by one invocation: no barriers, which are expensive on a software adapter.
 struct Extent { unused_word: u32, elements: u32, chunk: u32 }
 
 @group(1) @binding(0) var<storage, read> items: array<u32>;

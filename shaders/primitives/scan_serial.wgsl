@@ -1,4 +1,4 @@
-// One invocation scans all items: items[i] = sum of items[j] over j < i. For a processor that plays a GPU.
+// One invocation scans all items: items[i] = sum of items[j] over j < i. For a software adapter.
 struct Extent { unused_word: u32, elements: u32 }
 
 @group(1) @binding(0) var<storage, read_write> items: array<u32>;

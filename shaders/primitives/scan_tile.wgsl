@@ -1,4 +1,4 @@
-// A workgroup scans what fits its memory, for `scan_line` and `scan_blocks`: serially in each invocation, then over the
+// A workgroup scans what fits into its memory, for `scan_line` and `scan_blocks`: serially in each invocation, then over the
 // invocations' totals (Hillis, Steele 1986).
 struct Extent { unused_word: u32, elements: u32 }
 

@@ -1,5 +1,5 @@
-// The order of arrival is a race; this ends it: in each bin ids ascend. Each looks at all of its bin, and stands behind
-// those with lower ids. A bin of more than LARGEST stays as it is, which would take too long, and `largest` says so.
+// The order of arrival is a race; this sorts the ids of each bin in ascending order. Each element counts those of its bin
+// with lower ids. A bin of more than LARGEST, which would take too long, stays unsorted, and `largest` reports it.
 struct Extent { unused_word: u32, elements: u32, bins: u32 }
 
 @group(1) @binding(0) var<storage, read> keys: array<u32>;

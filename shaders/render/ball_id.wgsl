@@ -1,4 +1,4 @@
-// The particle of the nearest ball in each pixel; of several at one depth the one with the lowest id.
+// The particle of the nearest ball in each pixel; of several at the same depth the one with the lowest id.
 @group(3) @binding(3) var<storage, read> front: array<u32>;
 @group(3) @binding(4) var<storage, read_write> owner: array<atomic<u32>>;
 

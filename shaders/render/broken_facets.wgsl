@@ -1,4 +1,4 @@
-// Which facets are broken: those with a side of which the spring has neither stiffness nor damping left.
+// Which facets are broken: those with a side whose spring has neither stiffness nor damping left.
 struct Link { partner: u32, rest: f32, stiffness: f32, damping: f32 }
 
 @group(1) @binding(5) var<storage, read> slot: array<u32>; // of each of a facet's three sides: its place among the links

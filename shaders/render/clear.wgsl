@@ -1,4 +1,4 @@
-// An empty canvas.
+// Clears the canvas.
 @group(3) @binding(1) var<storage, read_write> not_drawn: array<u32>;
 @group(3) @binding(2) var<storage, read_write> canvas: array<u32>;
 @group(3) @binding(3) var<storage, read_write> front: array<u32>;

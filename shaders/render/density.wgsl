@@ -1,5 +1,5 @@
 // Mass along the line of sight:  Σ = Σ m w,  w = q²,  q = 1 − d²/R², in whole parts of the light of the mean mass.
-// Whole numbers add up to the same bits in any order, and all mass on one pixel does not overflow. Where nothing has mass, particles are counted.
+// Integers add up to the same bits in any order, and all mass on one pixel does not overflow. Where nothing has mass, particles are counted.
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read> position: array<vec4f>;  // xyz, mass
 @group(1) @binding(2) var<storage, read> projected: array<vec4f>; // pixels right and down, depth, radius

@@ -1,4 +1,4 @@
-// The pixels of every ball's disc: what is done with each, fn mark(i: u32, p: vec4f, x: i32, y: i32) says. Each layer of the dispatch
+// The pixels of every ball's disc, each passed to fn mark(i: u32, p: vec4f, x: i32, y: i32). Each layer of the dispatch
 // has rows of its own, so that no invocation loops too long.
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(2) var<storage, read> projected: array<vec4f>; // pixels right and down, depth of its front, radius

@@ -1,4 +1,4 @@
-// A drop of fluid in the picture, by its depth at each pixel: a ball, but flatter towards its rim.
+// The depth of a drop of fluid at each pixel: a ball that is flatter towards its edge.
 fn bulge(p: vec4f, x: i32, y: i32) -> f32 {
     let d = (middle(x, y) - p.xy) / p.w;
     return sqrt(max(1.0 - dot(d, d), 0.0));

@@ -53,7 +53,7 @@ struct Frame {
 const NONE: u32 = 0xffffffffu;
 // Nearer to the eye than this part of its distance nothing is seen.
 const NEAR: f32 = 0.05;
-// What is so many pixels away is out of the picture; further on whole numbers would end.
+// What is so many pixels away is out of the picture; further on integers would end.
 const FAR_OUT: f32 = 1e6;
 
 struct Seen { place: vec2f, depth: f32, scale: f32, visible: bool }
@@ -90,7 +90,7 @@ fn pixel(x: i32, y: i32) -> u32 { return u32(y) * frame.width + u32(x); }
 // The middle of a pixel.
 fn middle(x: i32, y: i32) -> vec2f { return vec2f(f32(x), f32(y)) + 0.5; }
 
-// Whole numbers in the order of depths, those below 0 too.
+// Integers in the order of depths, those below 0 too.
 fn key(depth: f32) -> u32 {
     let bits = bitcast<u32>(depth);
     let negative = bits >= 0x80000000u;

@@ -1,4 +1,4 @@
-// Particles that a surface or a line stands for are not drawn by themselves.
+// Particles represented by a surface or a line are not drawn themselves.
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(2) var<storage, read_write> projected: array<vec4f>; // pixels right and down, depth of its front, radius
 @group(1) @binding(11) var<storage, read> hidden: array<u32>;            // 1 for those

@@ -1,4 +1,4 @@
-// How many pixels are how bright: eight bins for each doubling, by the bits of the number alone.
+// The luminance histogram of the pixels: eight bins for each doubling, by the bits of the number.
 @group(3) @binding(2) var<storage, read> canvas: array<u32>; // red, green, blue
 @group(3) @binding(6) var<storage, read_write> histogram: array<atomic<u32>>;
 

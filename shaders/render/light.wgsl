@@ -7,7 +7,7 @@ const LAMP_RIGHT: vec3f = vec3f(0.8, 0.0, 0.6);
 const LAMP_UP: vec3f = vec3f(0.36, 0.8, -0.48);
 // A surface that is so near casts no shadow [pixels of the map].
 const BIAS: f32 = 2.5;
-// The shadow's rim [pixels of the map]; and the lamp's own width, as seen from here.
+// The shadow's edge [pixels of the map]; and the lamp's own width, as seen from here.
 const RIM: f32 = 4.0;
 const WIDTH: f32 = 0.09;
 

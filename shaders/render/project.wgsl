@@ -1,4 +1,4 @@
-// Where each particle is seen, how far, and how large:  r = max(R s, drop s, marker (m / heaviest)^⅛), as a ball if that is enough pixels.
+// The projected position, depth and radius of each particle:  r = max(R s, drop s, marker (m / heaviest)^⅛), as a ball if that is enough pixels.
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read> position: array<vec4f>;             // xyz, mass
 @group(1) @binding(1) var<storage, read> velocity: array<vec4f>;             // xyz, radius
@@ -7,7 +7,7 @@
 
 const WORKGROUP: u32 = 64u;
 const HIDDEN: f32 = -1.0;
-// The lightest is drawn so large, beside the heaviest.
+// The radius of the lightest, relative to that of the heaviest.
 const LIGHTEST: f32 = 0.5;
 
 fn marker(mass: f32) -> f32 {

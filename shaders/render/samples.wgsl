@@ -1,5 +1,5 @@
-// The samples of the picture that each facet touches, some rows in each layer of a dispatch: what is done with each,
-// fn mark(i: u32, at: u32, depth: u32) says.
+// The samples of the picture that each facet touches, some rows in each layer of a dispatch, each passed to
+// fn mark(i: u32, at: u32, depth: u32).
 @group(1) @binding(7) var<storage, read> broken_facet: array<u32>;
 
 override FIRST: u32 = 0u;

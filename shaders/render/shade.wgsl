@@ -1,4 +1,4 @@
-// What stands in the picture: facets and solids, by the mean of a pixel's samples.
+// Shading of facets and obstacles: the mean of a pixel's samples.
 @group(1) @binding(3) var<storage, read> color: array<u32>;
 @group(3) @binding(3) var<storage, read_write> front: array<u32>;
 @group(3) @binding(13) var<storage, read> holder: array<u32>;

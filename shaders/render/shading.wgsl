@@ -1,4 +1,4 @@
-// From light to looks:  t = log(1 + L / knee) / log(1 + white / knee)  (Drago et al. 2003, with a fixed base)
+// Tone mapping:  t = log(1 + L / knee) / log(1 + white / knee)  (Drago et al. 2003, with a fixed base)
 // In canvas units; 1 / log2(1 + white / knee); how much darker ink is than light would be light.
 struct Exposure { unused_word: u32, knee: f32, slope: f32, body: f32 }
 

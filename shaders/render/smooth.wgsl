@@ -1,6 +1,6 @@
 // A smooth surface: a mean along the rows, or along the columns, of depths in a narrow range (Truong and Yuksel 2018), with
-// weights w = (1 − k² / K²)². What is farther than the range is another surface: so is then its mirror image no part of this
-// one, and a slope is no step. What is nearer counts as at the range's end.
+// weights w = (1 − k² / K²)². A depth farther than the range belongs to another surface: then its mirror image is excluded too,
+// so that a slope is not a step. A nearer depth counts as at the end of the range.
 @group(3) @binding(20) var<storage, read> level: array<f32>;
 @group(3) @binding(21) var<storage, read> thickness: array<f32>;
 @group(3) @binding(22) var<storage, read> dye: array<u32>;

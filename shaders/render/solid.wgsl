@@ -1,4 +1,4 @@
-// Where rays meet solids: a ball or capsule (a segment along its own z, and all within a radius of it), a box by its slabs
+// Where rays intersect solids: a ball or capsule (a segment along its own z, and all within a radius of it), a box by its slabs
 // (Kay and Kajiya 1986), or a plane across its own z, seen from above. In the picture's axes.
 struct Solid {
     place: vec3f, radius: f32,
@@ -33,7 +33,7 @@ fn meet_round(o: vec3f, d: vec3f, s: Solid) -> vec4f {
     let tube = along - sqrt(max(s.radius * s.radius - dot(off, off), 0.0) / flat);
     let core = vec3f(0.0, 0.0, clamp(o.z + tube * d.z, -s.size.z, s.size.z));
     var way = to_ball(o - core, d, s.radius);
-    // Between the ends the tube is met; beyond them a ball.
+    // Between the ends the ray intersects the tube; beyond them a ball.
     if abs(o.z + tube * d.z) < s.size.z { way = select(tube, NEVER, dot(off, off) > s.radius * s.radius); }
     return vec4f((o + way * d - core) / s.radius, way);
 }

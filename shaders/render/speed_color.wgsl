@@ -1,4 +1,4 @@
-// Colours by speed, from blue by way of pale to gold, lighter as it is faster: straight lines between five colours.
+// Colours by speed, from blue through pale to gold, lighter with speed: linear interpolation between five colours.
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read> velocity: array<vec4f>;        // xyz, radius
 @group(1) @binding(1) var<storage, read_write> color: array<u32>;       // red, green, blue from the lowest byte on

@@ -1,5 +1,5 @@
 // Light of small particles on the canvas:  w = q² (¼ + ¾ q⁴),  q = 1 − d²/R², a core in a wider glow, in whole parts of `unit`.
-// Whole numbers add up to the same bits in any order. The unit is such that all lights on one pixel do not overflow.
+// Integers add up to the same bits in any order. The unit is such that all lights on one pixel do not overflow.
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(2) var<storage, read> projected: array<vec4f>; // pixels right and down, depth, radius
 @group(1) @binding(3) var<storage, read> color: array<u32>;

@@ -1,4 +1,4 @@
-// The finished picture: sky, what stands and flies in front of it, a bloom around what is bright, and noise instead of bands.
+// The finished picture: sky, surfaces and particles in front of it, bloom around bright pixels, and dithering against banding.
 @group(3) @binding(7) var<storage, read_write> pixels: array<u32>; // red, green, blue, 255 from the lowest byte on
 @group(3) @binding(9) var<storage, read> bloom: array<vec4f>;
 @group(3) @binding(15) var<storage, read> scenery: array<u32>; // red, green, blue, and how much of the pixel they cover
@@ -18,7 +18,7 @@ fn bloom_at(place: vec2f) -> vec3f {
     return mix(mix(near(x, y), near(x + 1, y), part.x), mix(near(x, y + 1), near(x + 1, y + 1), part.x), part.y);
 }
 
-// A hash of whole numbers (Wellons 2018), as a number in [0, 1).
+// A hash of integers (Wellons 2018), as a number in [0, 1).
 fn noise(n: u32) -> f32 {
     var h = n;
     h = (h ^ (h >> 16u)) * 0x7feb352du;

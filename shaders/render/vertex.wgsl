@@ -1,4 +1,4 @@
-// The corners of facets: where they are seen, and the surface's normal there,  n = Σ (b − a) × (c − a)  over the triangles
+// The vertices of facets: their projected positions, and the surface normal there,  n = Σ (b − a) × (c − a)  over the triangles
 // around it (Gouraud 1971); along a line its direction,  Σ (b − a).  In the picture's axes: right, up, towards the eye.
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read> position: array<vec4f>;      // xyz, mass

@@ -1,4 +1,4 @@
-// Light on a fluid: what is behind it is bent and absorbed,  T = exp(−t (k − stain dye) / clarity)  (Beer 1852), the rest is dye;
+// Light on a fluid: what is behind it is bent and absorbed,  T = exp(−t (k − stain dye) / clarity)  (Beer 1852), the rest is the colour of the dye;
 // the sky is reflected by Schlick's fraction (1994), the lamp as a highlight (Blinn 1977). Foam is matte.
 @group(3) @binding(3) var<storage, read> front: array<u32>;
 @group(3) @binding(15) var<storage, read> scenery: array<u32>;

@@ -1,5 +1,5 @@
-// A loop goes on: the next of its iterations gets the workgroups of all its dispatches, unless the flag is set. They are its indirect
-// arguments, also for this very kernel: an iteration that is not needed dispatches nothing, and gives nothing to the one behind it.
+// Starts the next iteration of a loop: it gets the workgroups of all its dispatches, unless the flag is set. They are its indirect
+// arguments, also for this very kernel: an iteration that is not needed dispatches nothing, and neither do those after it.
 @group(0) @binding(0) var<storage, read> flag: array<u32>;
 @group(0) @binding(1) var<storage, read> workgroups: array<u32>;
 @group(0) @binding(2) var<storage, read_write> arguments: array<u32>;

@@ -1,4 +1,4 @@
-// A loop has ended: no iteration of it has workgroups any more, and none is counted.
+// Resets a loop: no iteration has workgroups, and the count is zero.
 @group(0) @binding(0) var<storage, read_write> odd: array<u32>;
 @group(0) @binding(1) var<storage, read_write> even: array<u32>;
 @group(0) @binding(2) var<storage, read_write> iterations: array<u32>;

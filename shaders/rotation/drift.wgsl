@@ -1,7 +1,7 @@
-// A body turns freely. With L = R π along its axes, H = Σ πₖ² / 2 Iₖ is split into its three terms (Dullweber, Leimkuhler &
+// Free rotation of a rigid body. With L = R π along its axes, H = Σ πₖ² / 2 Iₖ is split into its three terms (Dullweber, Leimkuhler &
 // McLachlan 1997; by quaternions Miller et al. 2002), each of which turns the body about one axis by the angle φ = dt πₖ / Iₖ:
 //   half about the first, half about the second, all about the third, half about the second, half about the first.
-// For tan(φ/2) stands φ/2, which is as exact as the splitting: each turn is still that of a Hamiltonian of πₖ alone, so that
+// tan(φ/2) is replaced by φ/2, which is as accurate as the splitting: each turn is still that of a Hamiltonian of πₖ alone, so that
 // the whole is symplectic and reversible, and R π stays what it is.
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read_write> orientation: array<vec4f>;      // x, y, z | w

@@ -1,5 +1,5 @@
-// The slopes of a turning body:  q' = ω q / 2,  and in its own axes Euler's equations (1765)  I ω' = τ − ω × I ω.
-// Between the stages of a Runge–Kutta step q is no unit, and turns as the unit along it does.
+// The time derivatives of a rotating body:  q' = ω q / 2,  and in its own axes Euler's equations (1765)  I ω' = τ − ω × I ω.
+// Between the stages of a Runge–Kutta step q is not normalized, and rotates as q / |q| does.
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read> orientation: array<vec4f>;
 @group(1) @binding(1) var<storage, read> angular_velocity: array<vec4f>;

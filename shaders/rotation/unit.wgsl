@@ -1,4 +1,4 @@
-// A Runge–Kutta step leaves the unit quaternions by its own error: back onto them.
+// Normalizes quaternions after a Runge–Kutta step, which preserves the norm only to its order.
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read_write> orientation: array<vec4f>;
 

@@ -1,4 +1,4 @@
-// What compilers do to numbers: the rounding error of a + b (Knuth's two-sum), plain and with its steps hidden from the
+// Compiler arithmetic: the rounding error of a + b (Knuth's two-sum), plain and with its steps hidden from the
 // compiler by a zero that it cannot know; whether fma rounds once; and which tests find a NaN.
 @group(0) @binding(0) var<storage, read> probe: array<u32>;       // a, b, c as bits; 0; a NaN, infinity, the NaN again
 @group(0) @binding(1) var<storage, read_write> answer: array<u32>;

@@ -1,6 +1,6 @@
-// Signed distances φ of simple solids, and ∇φ (Hart 1996), at a way d from the middle: sphere 0, box 1, plane 2, capsule 3.
-// `axis` is the normal of a plane, or leads from one end of a capsule's line to the other. Where all ways out are as long,
-// one goes along x; from the line of a capsule across it and z.
+// Signed distances φ of simple solids, and ∇φ (Hart 1996), at a displacement d from the centre: sphere 0, box 1, plane 2, capsule 3.
+// `axis` is the normal of a plane, or the vector from one end of a capsule's axis to the other. Where all directions outwards are equally long,
+// the one along x is used; on the axis of a capsule the one perpendicular to it and to z.
 fn signed_distance(shape: u32, d: vec3f, radius: f32, size: vec3f, axis: vec3f) -> vec4f {
     if shape == 2u { return vec4f(axis, dot(axis, d)); }
     if shape == 1u { return to_box(d, size); }

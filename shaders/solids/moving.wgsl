@@ -1,4 +1,4 @@
-// A solid that goes along with a motion: where it is when so much of the step is done.
+// An obstacle with a prescribed motion: its pose at a fraction of the step.
 override REACHED: f32 = 1.0;
 
 fn frame() -> Frame {

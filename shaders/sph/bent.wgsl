@@ -1,4 +1,4 @@
-// A particle of a fluid or a wall, out of the grid, with the way of its surface.
+// A particle of a fluid or a wall, from the cell list, with the normal of its surface.
 @group(2) @binding(5) var<storage, read> sorted_id: array<u32>;
 @group(2) @binding(6) var<storage, read> sorted_position: array<vec4f>;
 @group(3) @binding(3) var<storage, read> flow: array<vec4f>;

@@ -1,4 +1,4 @@
-// How fast neighbours come or go, at most:  |μ| = s |v·r| / (r² + 0.01 s²), with s the smoothing length (Monaghan 1992). It adds to
+// The maximum rate at which neighbours approach or separate:  |μ| = s |v·r| / (r² + 0.01 s²), with s the smoothing length (Monaghan 1992). It adds to
 // the speed of sound where steps follow from both.
 struct Sum { most: f32 }
 

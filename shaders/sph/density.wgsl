@@ -1,4 +1,4 @@
-// Density by summation:  ρ = Σ m W(r), over all in range and oneself. Walls are not asked.
+// Density by summation:  ρ = Σ m W(r), over all in range and the particle itself, for particles of the fluid only.
 struct Sum { density: f32 }
 
 @group(3) @binding(2) var<storage, read_write> density: array<f32>;

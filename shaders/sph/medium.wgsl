@@ -1,4 +1,4 @@
-// A fluid at rest, and how it is smoothed: see `src/sph/medium.rs`.
+// A fluid at rest, and its smoothing kernel: see `src/sph/medium.rs`.
 override PER_SUPPORT: f32;  // 1 / h
 override WEIGHT: f32;       // W(r) = WEIGHT profile(r / h)
 override SLOPE: f32;        // W'(r) / r = SLOPE profile_slope(r / h)

@@ -1,7 +1,7 @@
 // Momentum (Monaghan 1992, 2005), with r from me to you, v = v_you − v_me, and g r the gradient of W at you:
 //   a = Σ m (p/ρ² + p'/ρ'² + Π) g r,  Π = −α c μ / ρ̄,  μ = s v·r / (r² + 0.01 s²) where they come closer, s the smoothing length
-//   a −= Σ m ν (1/ρ + 1/ρ') g v   (Morris, Fox & Zhu 1997, with ρ ν for each of them; g is finite, so that nothing else need be)
-// Walls have the density of rest, my own pressure (Akinci et al. 2012) or one of theirs, and a share of the friction.
+//   a −= Σ m ν (1/ρ + 1/ρ') g v   (Morris, Fox & Zhu 1997, with ρ ν for each of them; g is finite, so that no regularization is needed)
+// Walls have the density of rest, the pressure of the fluid particle (Akinci et al. 2012) or their own, and a share of the viscosity.
 struct Params { unused_word: u32, alpha: f32, viscosity: f32, wall: f32, mirror: u32 }
 struct Sum { acceleration: vec3f }
 

@@ -1,4 +1,4 @@
-// Tait's equation of state, in the order of the grid:  p = B ((ρ/ρ₀)^γ − 1), and the energy ∫ p / ρ² dρ (Monaghan 1994).
+// Tait's equation of state, in the order of the cell list:  p = B ((ρ/ρ₀)^γ − 1), and the energy ∫ p / ρ² dρ (Monaghan 1994).
 @group(2) @binding(5) var<storage, read> sorted_id: array<u32>;
 @group(3) @binding(2) var<storage, read> density: array<f32>;
 @group(3) @binding(3) var<storage, read_write> flow: array<vec4f>;

@@ -1,5 +1,5 @@
-// How many steps a particle of a fluid wants in a longest one T (Monaghan 1992; Ihmsen et al. 2014), C the Courant number, s the
-// smoothing length, d the spacing:  T / C √(|a| / s),  T / C (c + 0.6 α c + |μ|) / s,  T / C |v| / (0.4 d).  Walls want none, nor particles
+// The number of steps in a longest step T that the criteria of a fluid particle require (Monaghan 1992; Ihmsen et al. 2014), C the Courant number, s the
+// smoothing length, d the spacing:  T / C √(|a| / s),  T / C (c + 0.6 α c + |μ|) / s,  T / C |v| / (0.4 d).  Walls require none, nor do particles
 // that are not active.
 struct Params { unused_word: u32, acceleration: f32, signal: f32, sound: f32, speed: f32 } // sound: c + 0.6 α c
 

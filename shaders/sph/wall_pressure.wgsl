@@ -1,4 +1,4 @@
-// Walls have the pressure of the fluid around them, and what weighs between (Adami, Hu & Adams 2012), with r from me to you:
+// Walls have the pressure of the fluid around them, with the hydrostatic difference (Adami, Hu & Adams 2012), with r from me to you:
 //   p = (Σ p' W − w·Σ ρ' r W) / Σ W
 struct Params { unused_word: u32, weight: vec3f }
 struct Sum { pressure: f32, number: f32 }

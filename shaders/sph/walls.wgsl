@@ -1,4 +1,4 @@
-// Walls weigh as much as the fluid whose place their particles take:  m = ρ₀ / Σ W, over the walls (Akinci et al. 2012),
+// Wall particles have the mass of the fluid that they displace:  m = ρ₀ / Σ W, over the walls (Akinci et al. 2012),
 // or the mass that is given.
 struct Params { unused_word: u32, mass: f32 }
 struct Sum { number: f32 }

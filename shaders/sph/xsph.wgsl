@@ -1,4 +1,4 @@
-// Velocities drawn towards those around (XSPH: Monaghan 1989; as a viscosity: Schechter & Bridson 2012), as an acceleration:
+// Velocities drawn towards those of neighbours (XSPH: Monaghan 1989; as a viscosity: Schechter & Bridson 2012), as an acceleration:
 //   a = ε / dt Σ m / ρ̄ (v_you − v_me) W
 struct Params { unused_word: u32, xsph: f32 }
 struct Sum { velocity: vec3f }

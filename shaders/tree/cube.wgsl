@@ -1,4 +1,4 @@
-// The cube that keys divide: the lowest corner of all positions, and cells per length along its side, 2²¹ of them along
+// The bounding cube of the keys: the lowest corner of all positions, and cells per length along its side, 2²¹ of them along
 // the longest side of their box.
 @group(2) @binding(0) var<storage, read> tree_least: array<vec4f>;
 @group(2) @binding(1) var<storage, read> tree_greatest: array<vec4f>;

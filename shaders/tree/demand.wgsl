@@ -1,6 +1,6 @@
-// What a group of targets asks for where the opening is relative: G / (α a) with the least last acceleration a of any of them, or
-// with a thirty-second of what the sizes of all pulls on the group add up to, where that is more: where pulls cancel, a force
-// has no size that errors could be measured by, and a group would open all there is.
+// The relative opening criterion of a group of targets: G / (α a) with the smallest last acceleration a in the group, or
+// with 1/32 of the sum of the magnitudes of all attractions on the group, if that is larger: where they cancel, the force
+// is no scale for errors, and the group would open all nodes.
 @group(1) @binding(1) var<storage, read> acceleration: array<vec4f>; // xyz, potential
 @group(2) @binding(0) var<storage, read> tree_id: array<u32>;
 @group(2) @binding(1) var<storage, read_write> tree_demand: array<f32>;

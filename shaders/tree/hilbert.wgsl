@@ -1,4 +1,4 @@
-// Where a cell lies along the Hilbert curve through 2²¹ cells each way (J. Skilling, Programming the Hilbert curve, AIP
+// The position of a cell along the Hilbert curve through 2²¹ cells along each axis (J. Skilling, Programming the Hilbert curve, AIP
 // Conf. Proc. 707, 381, 2004): 63 bits, the upper 32 and the lower 31.
 
 const BITS: u32 = 21u;

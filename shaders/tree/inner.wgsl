@@ -1,4 +1,4 @@
-// Node n is what its children 2 n and 2 n + 1 are together. The last of a level may have one alone.
+// Node n combines its children 2 n and 2 n + 1. The last node of a level may have only one.
 const WORKGROUP: u32 = 64u;
 
 @compute @workgroup_size(WORKGROUP)

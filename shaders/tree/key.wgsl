@@ -1,4 +1,4 @@
-// The key of each body: the place of its cell along the Hilbert curve. No product is followed by a sum, which a compiler might
+// The key of each body: the position of its cell along the Hilbert curve. No product is followed by a sum, which a compiler might
 // contract, so that every device finds the same cells.
 @group(2) @binding(0) var<storage, read> tree_cube: array<vec4f>;
 @group(2) @binding(1) var<storage, read_write> tree_key: array<u32>;
@@ -18,7 +18,7 @@ fn key(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec
     }
     if i < world.count {
         let cube = tree_cube[0];
-        // A place that is no number is in some cell: the watch finds it.
+        // A place that is NaN is in some cell: the watch finds it.
         let cell = vec3u((position[i].xyz - cube.xyz) * cube.w);
         let words = hilbert(min(cell, vec3u(CELLS - 1u)));
         tree_upper[i] = words.x;

@@ -1,4 +1,4 @@
-// Leaf j is what the bodies from LEAF j on are together.
+// Leaf j combines the bodies from LEAF j on.
 @group(2) @binding(6) var<storage, read> tree_body: array<vec4f>;
 
 const WORKGROUP: u32 = 64u;

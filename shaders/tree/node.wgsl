@@ -1,6 +1,6 @@
-// What a node is: its mass M, its centre of mass c, its second moments Σ m y yᵀ with y = x - c (first xx, xy and xz, then
-// yy, yz and zz, so that each vector is as large as what its parts may cancel from), and its tight box. Two are
-// put together by the parallel axis theorem, so that nothing is the difference of large sums:
+// A node: its mass M, its centre of mass c, its second moments Σ m y yᵀ with y = x - c (first xx, xy and xz, then
+// yy, yz and zz, so that each vector has the magnitude of its cancelling terms), and its tight bounding box. Two are
+// combined by the parallel axis theorem, so that nothing is the difference of large sums:
 // Σ m y yᵀ = those of both + m₁ m₂ / M d dᵀ, with d from one centre to the other.
 struct Node { mass: f32, center: vec3f, first: vec3f, second: vec3f, low: vec3f, high: vec3f }
 // The nodes of one level: where they begin, and how many levels above the leaves that is.

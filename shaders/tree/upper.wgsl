@@ -1,4 +1,4 @@
-// The upper words of keys, in the order that the lower ones have brought about.
+// The upper words of keys, in the order sorted by the lower words.
 @group(2) @binding(0) var<storage, read> tree_id: array<u32>;
 @group(2) @binding(1) var<storage, read> tree_upper: array<u32>;
 @group(2) @binding(2) var<storage, read_write> tree_key: array<u32>;

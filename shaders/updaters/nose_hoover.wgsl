@@ -1,7 +1,7 @@
 // The thermostat of Nosé (1984) and Hoover (1985) over a part h of the step (Martyna et al. 1996), with N degrees of freedom:
 //   ξ ← ξ + h/2 G(K),  v ← v exp(−h ξ),  η ← η + h ξ,  ξ ← ξ + h/2 G(K exp(−2 h ξ)),  G(K) = (2 K / N k T − 1) / τ²
-// For exp(−x) stands (1 − x/2 + x²/12) / (1 + x/2 + x²/12), which is reversible too, and says to the last digit what velocities
-// change by: −x / (1 + x/2 + x²/12), as a part of them.
+// exp(−x) is replaced by (1 − x/2 + x²/12) / (1 + x/2 + x²/12), which is reversible too, and gives the relative change of velocities
+// without cancellation: −x / (1 + x/2 + x²/12).
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read> thermostat_total: array<vec4f>; // 2 K, how many particles
 @group(1) @binding(1) var<storage, read_write> thermostat_rate: array<f32>;

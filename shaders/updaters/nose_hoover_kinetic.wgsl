@@ -1,4 +1,4 @@
-// Twice the kinetic energy of a particle that is free and has mass, m v², and 1 to count it.
+// Twice the kinetic energy of a particle that is free and has mass, m v², and 1 for its count.
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read> position: array<vec4f>; // xyz, mass
 @group(1) @binding(1) var<storage, read> velocity: array<vec4f>; // xyz, radius

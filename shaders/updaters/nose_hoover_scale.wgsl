@@ -1,4 +1,4 @@
-// The velocities of all particles that are free and have mass change by a part of themselves.
+// The velocities of all particles that are free and have mass are rescaled.
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read> position: array<vec4f>;       // xyz, mass
 @group(1) @binding(1) var<storage, read_write> velocity: array<vec4f>; // xyz, radius

@@ -1,5 +1,5 @@
-// What is stretched beyond its strength breaks:  l > (1 + s) L.  Both ends look at the same two places, and decide alike.
-// What is broken has neither stiffness nor damping; what has no length at rest does not break.
+// A spring breaks beyond the strain s:  l > (1 + s) L.  Both ends evaluate the same two positions, and decide alike.
+// A broken spring has neither stiffness nor damping; a spring of rest length 0 does not break.
 struct Link { partner: u32, rest: f32, stiffness: f32, damping: f32 }
 
 @group(2) @binding(0) var<storage, read> link_start: array<u32>; // one for each particle, and the end

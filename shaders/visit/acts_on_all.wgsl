@@ -1,2 +1,2 @@
-// A law that does not say on which particles it acts acts on all.
+// A law without `acts_on` acts on all particles.
 fn acts_on(me: Particle) -> bool { return true; }

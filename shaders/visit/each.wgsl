@@ -1,4 +1,4 @@
-// Each particle alone. The law says: fn force(me: Particle) -> vec4f, acceleration and potential per unit mass.
+// Each particle alone. The law defines: fn force(me: Particle) -> vec4f, acceleration and potential per unit mass.
 @group(1) @binding(2) var<storage, read_write> acceleration: array<vec4f>;
 
 // Whether this is the first law: there is no acceleration yet.

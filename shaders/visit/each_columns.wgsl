@@ -1,4 +1,4 @@
-// Each particle alone, for a law that gives no acceleration. The law says: fn update(me: Particle), and writes its columns itself.
+// Each particle alone, for a law that gives no acceleration. The law defines: fn update(me: Particle), which writes its columns itself.
 const WORKGROUP: u32 = 64u;
 
 @compute @workgroup_size(WORKGROUP)

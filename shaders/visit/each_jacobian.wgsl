@@ -1,5 +1,5 @@
-// What a law of each particle alone adds to its row: −(h² K + h D), its symmetric part, and h² K v where the step begins.
-// The law says: fn jvp(me: Particle, dx: vec3f, dv: vec3f) -> vec3f, the change of acceleration when I move by dx and my
+// The contribution of a law of single particles to its row: −(h² K + h D), its symmetric part, and h² K v at the start of the step.
+// The law defines: fn jvp(me: Particle, dx: vec3f, dv: vec3f) -> vec3f, the change of acceleration when I move by dx and my
 // velocity changes by dv.
 @group(1) @binding(4) var<storage, read_write> rows: array<Row>;
 

@@ -1,4 +1,4 @@
-// Each particle meets those that it is linked to, in the order of their ids. The law says:
+// Each particle interacts with those that it is linked to, in the order of their ids. The law defines:
 // fn gather(me, you, r: vec3f, link: Link, sum: ptr<function, Sum>), with r from me to you, and fn finish(me, sum: Sum) -> vec4f,
 // acceleration and potential per unit mass. A link is stored from both of its ends, so nothing is written twice.
 const WORKGROUP: u32 = 64u;

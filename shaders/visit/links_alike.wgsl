@@ -1,5 +1,5 @@
-// Each particle meets those that it is linked to, where there are up to four kinds of links: those of one kind follow each
-// other, by the ids of the partners, and a link is no more than its partner. What a law says is as in shaders/visit/links.wgsl.
+// Each particle interacts with those that it is linked to, where there are up to four kinds of links: those of one kind follow each
+// other, by the ids of the partners, and a link is no more than its partner. A law defines the same functions as in shaders/visit/links.wgsl.
 struct Link { partner: u32, rest: f32, stiffness: f32, damping: f32 }
 
 @group(2) @binding(0) var<storage, read> partner_start: array<vec4u>; // of each kind, for each particle, and the end

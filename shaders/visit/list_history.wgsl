@@ -1,4 +1,4 @@
-// A law that keeps history of pairs: words that it leaves for the next step, in slots that outlive the list.
+// A law with history of pairs: words that it saves for the next step, in slots that outlive the list.
 @group(2) @binding(9) var<storage, read_write> history: array<f32>;
 
 const REMEMBERS: bool = true;

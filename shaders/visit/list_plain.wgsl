@@ -1,4 +1,4 @@
-// A law that keeps no history of pairs.
+// A law without history of pairs.
 const REMEMBERS: bool = false;
 
 fn pair_at(k: u32, n: u32) -> u32 { return 0u; }

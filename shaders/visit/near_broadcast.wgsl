@@ -1,4 +1,4 @@
-// What lane 0, 1, … holds; the lane of a broadcast must be a constant.
+// Broadcasts what lane 0, 1, … holds; the lane of a broadcast must be a constant.
 fn broadcast0(q: Particle) -> Particle { return Particle(subgroupBroadcast(q.index, 0u), subgroupBroadcast(q.position, 0u), subgroupBroadcast(q.mass, 0u), subgroupBroadcast(q.velocity, 0u)); }
 fn broadcast1(q: Particle) -> Particle { return Particle(subgroupBroadcast(q.index, 1u), subgroupBroadcast(q.position, 1u), subgroupBroadcast(q.mass, 1u), subgroupBroadcast(q.velocity, 1u)); }
 fn broadcast2(q: Particle) -> Particle { return Particle(subgroupBroadcast(q.index, 2u), subgroupBroadcast(q.position, 2u), subgroupBroadcast(q.mass, 2u), subgroupBroadcast(q.velocity, 2u)); }

@@ -1,4 +1,4 @@
-// A particle out of the grid, for a law that asks for velocities.
+// A particle from the cell list, for a law that reads velocities.
 @group(2) @binding(5) var<storage, read> sorted_id: array<u32>;
 @group(2) @binding(6) var<storage, read> sorted_position: array<vec4f>;
 @group(2) @binding(7) var<storage, read> sorted_velocity: array<vec4f>;

@@ -1,10 +1,10 @@
-// What the `near` visits share: the rows of cells around me. A row is contiguous in the grid, but for the seam of the
+// What the `near` visits share: the rows of cells around me. A row is contiguous in the cell list, but for the seam of the
 // fold: there it is in parts, of which the middle one is on my side.
 @group(1) @binding(4) var<storage, read_write> alarm: array<atomic<u32>>; // steps done, id, id of one with too many around
 
-// Candidates of one search, at most: lavapipe ends an invocation's loops after 65 535 turns, without a word.
+// Candidates of one search, at most: lavapipe ends an invocation's loops after 65 535 iterations silently.
 override MOST: u32 = 240000u;
-// What a stretch costs beside its candidates, in candidates: the turns of the loops around it, and one that is not full.
+// What a stretch costs beside its candidates, in candidates: the iterations of the loops around it, and one that is not full.
 const STRETCH: u32 = 16u;
 
 // My cell, how far I look, and how many rows and cells that is.

@@ -1,4 +1,4 @@
-// A particle out of the grid, for a law that does not ask for velocities.
+// A particle from the cell list, for a law that does not read velocities.
 @group(2) @binding(5) var<storage, read> sorted_id: array<u32>;
 @group(2) @binding(6) var<storage, read> sorted_position: array<vec4f>;
 

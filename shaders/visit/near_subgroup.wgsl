@@ -1,7 +1,7 @@
 // All pairs within a range, for adapters whose subgroups are all of eight lanes (lavapipe with 256-bit
-// vectors). Particles side by side in a row of cells walk together: each lane loads one candidate of all their
-// cells taken as one, and the eight are passed round by broadcast. What of that is not around a lane fails its test of
-// distance, so each meets the same, in the same order, as alone.
+// vectors). Adjacent particles of a row of cells search together: each lane loads one candidate of all their
+// cells together, and the eight are passed round by broadcast. Candidates that are not in a lane's neighbourhood fail its test of
+// distance, so each evaluates the same neighbours, in the same order, as by itself.
 const LANES: u32 = 8u;
 const WORKGROUP: u32 = 8u * LANES;
 const NONE: u32 = 0xffffffffu;
@@ -36,7 +36,7 @@ fn near(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
     var waits = awake;
     var walked = 0u;
     for (var turn = 0u; turn < LANES && subgroupAny(waits); turn += 1u) {
-        // Of the turns that an invocation's loops may take, those before this one had some. Two searches of MOST are all.
+        // Of the iterations that an invocation's loops may take, those before this one had some. Two searches of MOST are all.
         let spent = max(walked, MOST) - MOST;
         var seen = spent;
         // The first that waits, and all that can go along.

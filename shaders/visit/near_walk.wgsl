@@ -1,4 +1,4 @@
-// One target walks the rows around it, and meets those in range.
+// One target walks the rows around it, and evaluates those in range.
 fn consider(k: u32, slot: u32, s: Stretch, me: Particle, sum: ptr<function, Sum>) {
     let you = candidate(slot);
     let r = way(me.position, you.position, s.shift);

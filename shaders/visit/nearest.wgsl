@@ -1,4 +1,4 @@
-// Each particle meets the so many that are nearest to it (topological flocking: Ballerini et al. 2008), exactly: cells are
+// Each particle interacts with its k nearest neighbours (topological flocking: Ballerini et al. 2008), exactly: cells are
 // looked at in growing cubes around me, until the last of my list is nearer than anything outside of the cube can be.
 @group(2) @binding(5) var<storage, read> sorted_id: array<u32>;
 @group(2) @binding(6) var<storage, read> sorted_position: array<vec4f>;

@@ -1,4 +1,4 @@
-// Adds the parts that the layers of `pairs` left, in the order of the layers, and finishes the law.
+// Adds the partial sums of the layers of `pairs`, in the order of the layers, and finishes the law.
 override LAYERS: u32 = 1u;
 
 const WORKGROUP: u32 = 64u;

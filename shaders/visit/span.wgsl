@@ -1,9 +1,9 @@
-// What the `pairs` visits share. A law says: fn gather(me, you, r: vec3f, sum: ptr<function, Sum>), with r from me to you,
+// What the `pairs` visits share. A law defines: fn gather(me, you, r: vec3f, sum: ptr<function, Sum>), with r from me to you,
 // and fn finish(me, sum: Sum) -> vec4f, acceleration and potential per unit mass.
 //
-// Sources are met in blocks, each with a sum of its own, so that rounding grows with √(number of blocks), not √(sources).
+// Sources are evaluated in blocks, each with a sum of its own, so that rounding grows with √(number of blocks), not √(sources).
 // One dispatch sees the sources first ≤ j < end; its layer l those from first + l · slice on. Sums over what a dispatch
-// does not see are kept in `parts`, and a later dispatch takes them up again to the bit.
+// does not see are kept in `parts`, and a later dispatch takes them up again bit for bit.
 struct Span { unused_word: u32, first: u32, end: u32, slice: u32 }
 
 @group(2) @binding(0) var<uniform> span: Span;
@@ -31,7 +31,7 @@ fn add(i: u32, sum: Sum) {
     conclude(particle(i), 0.5, sum);
 }
 
-// No particle meets itself. Both ways are computed and one is kept: a branch would cost more.
+// No particle interacts with itself. Both ways are computed and one is kept: a branch would cost more.
 fn meet_other(me: Particle, you: Particle, sum: ptr<function, Sum>) {
     var met = *sum;
     meets(me, you, shortest(you.position - me.position), &met);

@@ -1,4 +1,4 @@
-// Groups of targets walk the tree, for processors that play a GPU and have no subgroups: a vector of eight lanes for each, four
+// Groups of targets walk the tree, for software adapters without subgroups: a vector of eight lanes for each, four
 // targets a lane, no barrier, no memory of where it has been. Below a node its left child comes next; then the next node of
 // its level, or of the level of the first above it that has one. All lanes of a group open the same nodes. A turn has one node,
 // or one body of a leaf: an adapter that runs lanes as vectors takes every way of every branch, so there are few.

@@ -1,4 +1,4 @@
-// Four targets of a lane meet the eight particles, or the eight far groups, that the lanes of its subgroup hold: they are
+// Interaction of the four targets of a lane with the eight particles, or far groups, that the lanes of its subgroup hold: they are
 // passed round by broadcast. The lane of a broadcast must be a constant.
 // A body of a place along the curve, if it is there, and four targets from `mine` on, of which one may be that body: none
 // meets itself. Both ways are computed and one is kept.

@@ -1,5 +1,5 @@
-// Some adapters end the loops of an invocation after so many turns. A walk stops before that, keeps what its targets have
-// met and where it stands, and goes on in a later dispatch.
+// Some adapters end the loops of an invocation after so many iterations. A walk stops before that, saves the sums of its targets
+// and its position in the tree, and continues in a later dispatch.
 struct Kept { sum: Sum, at: u32 }
 
 // For each target of a dispatch. Where all is done, `at` says 0 for the node that comes next.

@@ -1,7 +1,7 @@
-// Eight lanes look for what their group meets: at the eight nodes three levels below one, and at the six between. Far groups
+// Eight lanes test the nodes that their group may open: the eight nodes three levels below one, and the six between. Far groups
 // go into one list, leaves go into another.
 const WORKGROUP: u32 = 8u;
-// Entries of the lists that are met together, and room for what a look at eight nodes adds. Powers of two: they are rings.
+// Entries of the lists that are evaluated together, and room for what a look at eight nodes adds. Powers of two: they are rings.
 const FAR: u32 = 128u;
 const NEAR: u32 = 64u;
 
@@ -11,7 +11,7 @@ var<workgroup> list: array<u32, 2u * FAR + 2u * NEAR>;
 // Nodes that are still to be looked at are bits of `waits`: eight children of a node are a byte, those of the lowest come
 // last. Of 25 levels at most, the lowest three are leaves' and wait for nothing: that leaves eight bytes. Next are those so
 // many levels below `node`, which stands on the level of `depth`, if there are more. So many have been listed, far groups
-// and leaves, and so many turns are spent.
+// and leaves, and so many iterations are spent.
 struct Search { waits: vec2u, node: u32, depth: u32, levels: u32, more: bool, listed: vec2u, spent: u32 }
 
 // The level of those that are looked at first: from there on it is three levels at once down to the leaves.

@@ -1,9 +1,9 @@
-// What all walks of the tree share: targets walk in groups, so that a group's nodes are looked up once and met by all.
-// A law says: fn gather(me, you, r: vec3f, sum: ptr<function, Sum>), with r from me to you, fn finish(me, sum: Sum) -> vec4f,
-// and it may say fn distant(me, you: Group, r: vec3f, sum: ptr<function, Sum>), with r from me to the centre of mass.
+// What all walks of the tree share: targets walk in groups, so that a group's nodes are looked up once and evaluated by all.
+// A law defines: fn gather(me, you, r: vec3f, sum: ptr<function, Sum>), with r from me to you, fn finish(me, sum: Sum) -> vec4f,
+// and it may define fn distant(me, you: Group, r: vec3f, sum: ptr<function, Sum>), with r from me to the centre of mass.
 //
 // Nodes have a heap's numbers: 1 is the root, 2 n and 2 n + 1 are below n, and leaves stand `height` levels below the root.
-// A dispatch has the targets first ≤ k < end. With `again` it goes on where another one of the same targets had to stop.
+// A dispatch has the targets first ≤ k < end. With `again` it continues where another one of the same targets had to stop.
 struct Tree { unused_word: u32, first: u32, end: u32, height: u32, widened: f32, again: u32 }
 
 @group(2) @binding(0) var<uniform> tree: Tree;
@@ -70,12 +70,12 @@ fn is_own(node: u32, depth: u32, leaf: u32) -> bool {
 
 fn squared_size(d: vec3f) -> f32 { return d.x * d.x + d.y * d.y + d.z * d.z; }
 
-// The least distance from the group's box to a place, squared.
+// The minimum distance from the group's box to a place, squared.
 fn apart(place: Place, x: vec3f) -> f32 {
     return squared_size(max(abs(shortest(x - place.middle)) - place.half_side, vec3f()));
 }
 
-// The least distance from any of the targets to a place, squared.
+// The minimum distance from any of the targets to a place, squared.
 fn nearest(place: Place, x: vec3f) -> f32 {
     var least = squared_size(shortest(x - tree_body[place.first].xyz));
     for (var k = place.first + 1u; k < min(place.first + GROUP, world.count); k += 1u) {

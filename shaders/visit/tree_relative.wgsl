@@ -1,5 +1,5 @@
-// A node reaches as far as G M l² / d⁴ > α a, with a the least last acceleration of any of the group (Springel 2005),
-// and l + s at least, which it holds; where one has none yet, l / θ + s. Here d is squared.
+// A node is opened where G M l² / d⁴ > α a, with a the least last acceleration of any of the group (Springel 2005),
+// and within l + s, a stored radius; within l / θ + s if a target has no acceleration yet. Here d is squared.
 @group(2) @binding(6) var<storage, read> tree_demand: array<f32>; // G / (α a)
 
 fn demand_of(group: u32) -> f32 { return tree_demand[group]; }

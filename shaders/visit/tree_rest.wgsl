@@ -1,5 +1,5 @@
-// Whether walks had to stop: then another dispatch of all their groups goes on, and otherwise none does. A walk that has gone
-// on and is still not done in the end is an alarm.
+// Whether walks had to stop: then another dispatch of all their groups continues, and otherwise none does. A walk that was
+// continued and is still not finished raises an alarm.
 @group(2) @binding(8) var<storage, read_write> tree_go: array<u32>;
 
 // Workgroups that a device has in a row.

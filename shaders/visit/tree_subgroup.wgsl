@@ -1,5 +1,5 @@
 // Groups of targets walk the tree, for adapters whose subgroups are all of eight lanes (lavapipe with 256-bit vectors): lanes
-// look at nodes side by side and list what is met. When a list is long, each lane loads an entry of it and the eight are
+// test nodes side by side and list what is to be evaluated. When a list is long, each lane loads an entry of it and the eight are
 // passed round by broadcast.
 @compute @workgroup_size(WORKGROUP)
 fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(subgroup_invocation_id) place: u32) {
@@ -23,7 +23,7 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
     var sum_c = Sum();
     var sum_d = Sum();
     var search = begun();
-    // Those of the group itself are met one by one.
+    // Those of the group itself are evaluated one by one.
     var ours = GROUP;
     let kept = first - tree.first;
     if tree.again > 0u {
@@ -43,7 +43,7 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
             look(&search, here, own, place);
         }
         workgroupBarrier();
-        // Whole eights are met, and at the end what is left, one by one: the very last leaf may not be full.
+        // Whole eights are evaluated, and at the end what is left, one by one: the very last leaf may not be full.
         let ends = !search.more || search.spent > MOST;
         let listed = search.listed;
         var part_a = Sum();

@@ -1,6 +1,6 @@
-// Groups of targets walk the tree, for GPUs: a workgroup for each, a lane for each target. Nodes that wait are a stack in
+// Groups of targets walk the tree, for GPUs: a workgroup for each, a lane for each target. Pending nodes are a stack in
 // workgroup memory; each lane tests one, and far nodes, and leaves, go into lists. When a list is long, its entries
-// pass through workgroup memory and every lane meets them. Places in the lists are counted by votes, in the order of lanes.
+// pass through workgroup memory and every lane evaluates them. Places in the lists are counted by votes, in the order of lanes.
 const WORKGROUP: u32 = 32u;
 // The stack is in the order of levels, the lowest on top, and so it stays: children are put where their parents were, in
 // their order. A level's nodes are taken when fewer than a workgroup stand above them, and those are taken with them;
@@ -25,7 +25,7 @@ var<workgroup> ids: array<u32, WORKGROUP>;
 
 fn votes_for(what: u32) -> u32 { return countOneBits(atomicLoad(&votes[what])); }
 
-// Where a lane's target meets what is in the tile.
+// The interaction of a lane's target with the tile.
 fn meet_groups(me: Particle, some: u32, sum: ptr<function, Sum>) {
     var part = Sum();
     for (var i = 0u; i < some; i += 1u) { distant(me, tile[i], shortest(places[i].xyz - me.position), &part); }
@@ -80,7 +80,7 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
         far += more[FAR];
         near += more[NEAR];
         top += 2u * more[OPEN];
-        // Whole tiles are met, and at the end what is left.
+        // Whole tiles are evaluated, and at the end what is left.
         let done = top == 0u;
         while far >= select(WORKGROUP, 1u, done) {
             let full = min(far, WORKGROUP);

@@ -17,7 +17,7 @@ fn narrow(x: f64) -> f64 {
 /// Whether there can be such a box.
 ///
 /// # Errors
-/// [`Error::Scene`] when it has not 2 or 3 dimensions, when 2 dimensions are closed along z, when a corner is no number
+/// [`Error::Scene`] when it has not 2 or 3 dimensions, when 2 dimensions are closed along z, when a corner is NaN
 /// or too far out, or when along a closed axis the box does not end above where it begins, in single precision.
 pub fn check(bounds: &Bounds) -> Result<(), Error> {
     if !(2..=3).contains(&bounds.dimensions) {
@@ -41,8 +41,10 @@ pub fn check(bounds: &Bounds) -> Result<(), Error> {
             return Err(Error::Scene(text));
         }
         if bounds.dimensions == 2 && axis == 2 {
-            let text =
-                format!("in 2 dimensions the box cannot be {} along z: make it open there, or take 3", side.name());
+            let text = format!(
+                "in 2 dimensions the box cannot be {} along z: make it open along z, or set dimensions = 3",
+                side.name()
+            );
             return Err(Error::Scene(text));
         }
     }

@@ -1,4 +1,4 @@
-//! The sides of the box: what brings particles back, and which boxes there can be.
+//! Boundaries of the box: periodic and reflecting sides, and the validation of boxes.
 
 mod check;
 mod periodic;
@@ -10,7 +10,7 @@ pub use periodic::wrapped;
 use crate::error::Error;
 use crate::kernel::{Kernel, Problem, Side};
 
-/// What runs where positions have been advanced; nothing in open space. Mirrors do not reflect held particles.
+/// The kernels that run after positions have been advanced; none in open space. Reflecting sides do not reflect fixed particles.
 ///
 /// # Errors
 /// When a shader does not compile.

@@ -25,7 +25,7 @@ pub fn kernel(count: u32) -> Result<Kernel, Error> {
 }
 
 /// The image that is in the box: low ≤ x < high along its periodic axes, also when the result is rounded to single
-/// precision. What is no number stays what it is.
+/// precision. What is NaN stays what it is.
 #[must_use]
 pub fn wrapped(bounds: &Bounds, mut x: DVec3) -> DVec3 {
     for axis in (0..3).filter(|axis| bounds.sides[*axis] == Side::Periodic) {

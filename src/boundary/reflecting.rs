@@ -1,4 +1,4 @@
-//! Reflecting sides: x ← 2 b − x and v ← −v at a side b, as often as it takes.
+//! Reflecting boundaries: x ← 2 b − x and v ← −v at a side b, repeated until the particle is inside.
 
 use std::sync::Arc;
 
@@ -39,8 +39,8 @@ pub fn kernel(problem: &Problem) -> Result<Kernel, Error> {
     Ok(Kernel { tables, ..Kernel::new("reflecting", shader, Vec::new(), problem.capacity, Arc::new(reference)) })
 }
 
-/// The way of a particle to and fro between two sides, unrolled, is a straight line: where on it x is, and whether the
-/// particle is on its way back there.
+/// The path of a particle reflected between two sides, unfolded, is a straight line: the position of x on it, and whether the
+/// particle is reflected there.
 fn folded(x: f64, low: f64, high: f64) -> (f64, bool) {
     if (low..=high).contains(&x) {
         return (x, false);

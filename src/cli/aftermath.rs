@@ -1,4 +1,4 @@
-//! What is reported and kept when numbers are lost: links of the particle at fault, what to do, and the last good state.
+//! The report after NaN or a runaway: links of the limiting particle, advice, and the last good state.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -71,7 +71,7 @@ fn neighbors(setup: &Setup, particle: u32) -> String {
     let named: Vec<_> =
         others.iter().take(NAMED).filter_map(|other| ids.get(*other as usize)).map(u32::to_string).collect();
     let more = if others.len() > NAMED { format!(" and {} more", others.len() - NAMED) } else { String::new() };
-    format!("it is tied to {}{more}", named.join(", "))
+    format!("it is linked to {}{more}", named.join(", "))
 }
 
 fn keep(last: &State, folder: &Path, formats: &[&Format], precision: Precision) -> Result<String, Error> {

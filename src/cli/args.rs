@@ -1,4 +1,4 @@
-//! What the command line accepts.
+//! Arguments of the command line.
 
 use std::path::PathBuf;
 
@@ -6,16 +6,16 @@ use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
 
 const AFTER: &str = "\
 Exit codes:
-  0   done
-  2   the arguments are wrong
-  3   the scene, or a WGSL file it names, is wrong
-  4   a file of particles is wrong
-  5   no adapter fits, or a limit of the device is too small
-  6   a number stopped being finite, speeds ran away, or a law of one's own took too many turns
-  7   the device was lost, ran out of memory or did not answer, or no thread could be started
-  8   a result could not be written, or stands in the way of another's
+  0   success
+  2   invalid arguments
+  3   an error in the scene, or in a WGSL file that it names
+  4   an error in a file of particles
+  5   no suitable adapter, or a limit of the device is exceeded
+  6   NaN or infinity, a runaway, or a user's law with too many loop iterations
+  7   the device was lost, ran out of memory or did not respond, or no thread could be started
+  8   a result could not be written, or would overwrite those of another run
   9   `compare` or `doctor` found a disagreement
-  75  stopped by Ctrl-C, SIGTERM, SIGHUP or --max-hours after everything up to there and a checkpoint were written
+  75  stopped by Ctrl-C, SIGTERM, SIGHUP or --max-hours; all results up to that step and a checkpoint are written
 
 Examples:
   motes run galaxy
@@ -25,7 +25,7 @@ Examples:
   motes convert stars.csv stars.hdf5
   motes compare galaxy --steps 20";
 
-/// Particles moved by forces, on any GPU, checked against a second opinion in f64.
+/// A GPU particle simulator, verified against an f64 CPU reference.
 #[derive(Debug, Parser)]
 #[command(name = "motes", version, after_help = AFTER, arg_required_else_help = true)]
 pub struct Args {
@@ -35,9 +35,9 @@ pub struct Args {
 
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Run a scene: numbers, snapshots, a plot and pictures go into a folder
+    /// Run a scene: tables, snapshots, a plot and pictures are written to a folder
     Run(RunArgs),
-    /// Go on with a run that was stopped or killed, from the newest checkpoint in its folder
+    /// Resume a run that was stopped or killed, from the newest checkpoint in its folder
     Resume(ResumeArgs),
     /// Check a scene, and predict memory and time, without running it
     Check(SceneArgs),
@@ -45,19 +45,19 @@ pub enum Command {
     Explain(SceneArgs),
     /// Compare the device with the f64 references, kernel by kernel and over some steps
     Compare(CompareArgs),
-    /// Run a scene for all combinations of some values, and tabulate and plot what becomes of it
+    /// Run a scene for all combinations of some values, and tabulate and plot the results
     Sweep(SweepArgs),
     /// List the scenes that come with motes, or print one
     Scenes(ScenesArgs),
-    /// Write the particles of a file in another format, that of the new file's ending
+    /// Convert a file of particles to another format, chosen by the extension of the new file
     Convert(ConvertArgs),
-    /// Say what a file of particles holds: counts, columns, box, time, extent, energies
+    /// Print what a file of particles contains: counts, columns, box, time, extent, energies
     Info(InfoArgs),
-    /// Run the oscillator and the decay of textbooks under every integrator, and draw which explode, decay or stay
+    /// Integrate a harmonic oscillator and an exponential decay with every integrator, and plot which are stable
     Stability(StabilityArgs),
     /// Measure how fast this machine steps scenes: gravity, a tree, neighbours, springs and fluids
     Bench(BenchArgs),
-    /// List adapters and test what simulations rely on
+    /// List adapters, and test driver features that simulations rely on
     Doctor(DoctorArgs),
 }
 
@@ -98,7 +98,7 @@ pub struct SceneArgs {
     /// Let the scene name files outside of its own folder
     #[arg(long)]
     pub allow_outside: bool,
-    /// Divide steps that are too long for the scene's springs into as many as its integrator needs
+    /// Divide time steps that are unstable for the scene's springs into stable substeps
     #[arg(long)]
     pub auto_substeps: bool,
     #[command(flatten)]
@@ -112,22 +112,22 @@ pub struct RunArgs {
     /// The folder for results [default: out/NAME]
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,
-    /// Remove the results and checkpoints of an earlier run that the folder holds
+    /// Remove the results and checkpoints of an earlier run in the folder
     #[arg(long)]
     pub overwrite: bool,
-    /// Go on from a state that an earlier run of the scene has written, snapshot_*.npz; steps and until still count from its start
+    /// Continue from a state written by an earlier run of the scene, snapshot_*.npz; steps and until count from the start of that run
     #[arg(long, value_name = "FILE")]
     pub from: Option<PathBuf>,
-    /// Take so many pictures, evenly spaced from the first state to the last, and join them to a film
+    /// Draw this many pictures, evenly spaced from the first state to the last, and join them into a film
     #[arg(long, value_name = "N")]
     pub frames: Option<u64>,
-    /// How many of them are shown in a second
+    /// Frames per second of the film
     #[arg(long, value_name = "N", default_value_t = 30, value_parser = clap::value_parser!(u16).range(1..=1000))]
     pub fps: u16,
-    /// Write the ledger of a fluid, fluid.csv, after every step
+    /// Write the diagnostics of a fluid, fluid.csv, after every step
     #[arg(long)]
     pub ledger: bool,
-    /// Go on where the folder has a checkpoint of this run, and begin where it has none
+    /// Resume if the folder has a checkpoint of this run, otherwise start
     #[arg(long, conflicts_with = "overwrite")]
     pub resume: bool,
     #[command(flatten)]
@@ -140,7 +140,7 @@ pub struct RunArgs {
 pub struct SweepArgs {
     #[command(flatten)]
     pub scene: SceneArgs,
-    /// A value of the scene and what it takes, such as simulation.dt=0.1,0.05,0.025; given again, all combinations run
+    /// A key of the scene and its values, such as simulation.dt=0.1,0.05,0.025; given again, all combinations run
     #[arg(long, value_name = "KEY=VALUES", required = true)]
     pub vary: Vec<String>,
     /// The folder for the table, the plot and a folder of tables for each run [default: out/NAME_sweep]; pictures and snapshots are
@@ -174,12 +174,12 @@ pub struct ResumeArgs {
 /// What ends a run before its last step.
 #[derive(Debug, Clone, ClapArgs)]
 pub struct StopArgs {
-    /// Stop after so many hours, with a checkpoint from which --resume and `motes resume` go on
+    /// Stop after this many hours, with a checkpoint from which --resume and `motes resume` continue
     #[arg(long, value_name = "H", value_parser = positive)]
     pub max_hours: Option<f64>,
 }
 
-/// How a run shows itself.
+/// What a run prints.
 #[derive(Debug, Clone, ClapArgs)]
 pub struct ShowArgs {
     /// Print events as lines of JSON on standard output; `sweep` prints one object
@@ -194,7 +194,7 @@ pub struct ShowArgs {
 pub struct CompareArgs {
     /// A scene file, or the name of a scene that `motes scenes` lists
     pub scene: String,
-    /// Steps that device and references run side by side
+    /// Number of steps for which device and references are compared
     #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..))]
     pub steps: u32,
     /// Set a value of the scene; may be given again
@@ -206,7 +206,7 @@ pub struct CompareArgs {
     /// An adapter, by a part of its name or by its number in `motes doctor`
     #[arg(long, value_name = "NAME")]
     pub adapter: Option<String>,
-    /// Compare forces through the tree with direct sums alone, at these opening angles, with and without quadrupoles
+    /// Compare only the tree's forces with direct summation, at these opening angles, with and without quadrupoles
     #[arg(long, value_name = "ANGLES", value_delimiter = ',')]
     pub theta: Vec<f64>,
     /// Print the result as JSON
@@ -218,15 +218,15 @@ pub struct CompareArgs {
 pub struct ScenesArgs {
     /// Print the text of this one; with --keys, the keys of this force, shape or section
     pub name: Option<String>,
-    /// Print what a scene may say: every key of its sections, of forces and of shapes, with its unit and default
+    /// Print every key of scenes, of forces and of shapes, with its unit and default
     #[arg(long)]
     pub keys: bool,
 }
 
-/// How many digits numbers get.
+/// Precision of the numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Width {
-    /// Single where no number loses a bit by it, double otherwise
+    /// Single where it represents all numbers exactly, double otherwise
     Auto,
     /// 32 bits
     Single,
@@ -240,10 +240,10 @@ pub struct ConvertArgs {
     pub from: PathBuf,
     /// The file that is written
     pub to: PathBuf,
-    /// How many digits, or bytes, numbers get
+    /// Precision of the numbers
     #[arg(long, value_enum, default_value = "auto")]
     pub precision: Width,
-    /// Replace a file that is there
+    /// Replace an existing file
     #[arg(long)]
     pub overwrite: bool,
 }
@@ -262,10 +262,10 @@ pub struct StabilityArgs {
     /// ha: the length of a step, in units of 1 / a of the decay
     #[arg(long, value_name = "Z", default_value_t = 2.5, value_parser = positive)]
     pub decay_step: f64,
-    /// How many steps
+    /// Number of steps
     #[arg(long, value_name = "N", default_value_t = 40, value_parser = clap::value_parser!(u32).range(2..=100_000))]
     pub steps: u32,
-    /// The picture
+    /// The file of the picture
     #[arg(short, long, value_name = "FILE", default_value = "stability.svg")]
     pub out: PathBuf,
     #[command(flatten)]
@@ -299,7 +299,7 @@ pub struct BenchArgs {
     /// What to measure; all, if it is left out
     #[arg(value_enum)]
     pub topic: Option<Topic>,
-    /// How often each thing is measured; the median counts
+    /// Repetitions of each measurement; the median is reported
     #[arg(long, value_name = "N", default_value_t = 7)]
     pub repeat: usize,
     /// An adapter, by a part of its name or by its number in `motes doctor`

@@ -1,4 +1,4 @@
-//! `motes bench`: how fast this machine steps scenes that come with motes. `benches/baselines` holds steps beside plain Rust.
+//! `motes bench`: the speed of steps of built-in scenes. `benches/baselines` compares steps with plain Rust.
 
 use std::time::{Duration, Instant};
 

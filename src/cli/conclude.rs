@@ -1,4 +1,4 @@
-//! The end of a run: what it says of itself.
+//! The final report of a run.
 
 use motes::run::{Book, Counts, Course, End, Flocks, Run};
 use serde_json::json;

@@ -12,7 +12,7 @@ pub fn convert(args: &ConvertArgs) -> Result<(), Failure> {
     let real = |path: &std::path::Path| std::fs::canonicalize(path).ok();
     // `formats::convert` refuses a file that would replace itself.
     if args.to.exists() && !args.overwrite && real(&args.from) != real(&args.to) {
-        return Err(refuse("the file is there already: choose another name, or say --overwrite").into());
+        return Err(refuse("the file exists: choose another name, or use --overwrite").into());
     }
     let precision = match args.precision {
         Width::Auto => None,

@@ -61,7 +61,7 @@ impl Engine {
     pub fn own(&self) -> Vec<String> {
         match self {
             Self::Cpu(Some(reason)) => {
-                vec![format!("{reason}; running the f64 references instead, which are exact and slow")]
+                vec![format!("{reason}; running the f64 references instead, which are slow")]
             }
             Self::Cpu(None) => Vec::new(),
             Self::Gpu(found) => {

@@ -1,4 +1,4 @@
-//! What went wrong, as words on standard error and an exit code.
+//! Errors as a message on standard error and an exit code.
 
 use std::process::ExitCode;
 

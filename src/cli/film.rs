@@ -1,4 +1,4 @@
-//! What joins the pictures of a film to a video.
+//! Encoding of the pictures of a film as a video.
 
 use std::io;
 use std::path::Path;

@@ -22,7 +22,7 @@ pub fn info(args: &InfoArgs) -> Result<(), Failure> {
     out!("{}: {bytes} bytes, {format}", path.display());
     out!("particles  {}", state.len());
     out!("time       {:?}, step {}", state.time, state.step);
-    let bounds = contents.bounds.map_or_else(|| "the file tells of none".to_owned(), |bounds| bounds.to_string());
+    let bounds = contents.bounds.map_or_else(|| "none in the file".to_owned(), |bounds| bounds.to_string());
     out!("box        {bounds}");
     if let Some((low, high)) = extent(state.position()) {
         out!("extent     {} to {}", corner(low), corner(high));

@@ -1,4 +1,4 @@
-//! Scenes of arguments: loaded, judged, and divided into steps that their springs bear.
+//! Scenes of arguments: loaded, judged, and divided into steps at which their springs are stable.
 
 use motes::diagnose::{Judged, Remark, culprit, limit, others, unsafe_steps};
 use motes::scene::Scene;
@@ -16,14 +16,14 @@ pub struct Loaded {
     pub scene: Scene,
     /// What the simulation is made of.
     pub setup: Setup,
-    /// What springs ask of its steps, if there are any.
+    /// The stability limit by springs, if there are any.
     pub verdict: Option<Verdict>,
-    /// How its fluid starts, if there is one, and the lines that tell of it; what is to be noted is among the scene's remarks.
+    /// How its fluid starts, if there is one, and the lines about it; what is to be noted is among the scene's remarks.
     pub start: Option<Start>,
     pub lines: Vec<String>,
 }
 
-/// Loads the scene of the arguments, with more values set; with `--auto-substeps` in steps that its springs bear.
+/// Loads the scene of the arguments, with more values set; with `--auto-substeps` in steps at which its springs are stable.
 pub async fn load(args: &SceneArgs, more: &[String]) -> Result<Loaded, Failure> {
     let mut loaded = judge(engine::load_with(args, more)?).await?;
     let (dt, steps, every) = (loaded.scene.dt, loaded.scene.steps, loaded.scene.output.every);
@@ -34,14 +34,14 @@ pub async fn load(args: &SceneArgs, more: &[String]) -> Result<Loaded, Failure> 
         return Ok(loaded);
     }
     let text = match (loaded.verdict, parts) {
-        (None, _) => "--auto-substeps goes by springs, and there are none: steps stay as they are".to_owned(),
+        (None, _) => "--auto-substeps depends on springs, and there are none: dt is unchanged".to_owned(),
         (Some(verdict), Some(1)) => {
             format!("--auto-substeps: dt = {dt} is safe by {}{}", loaded.scene.integrator.name, limit(&verdict))
         }
         (Some(verdict), None) => {
             let name = loaded.scene.integrator.name;
             return Err(Error::Scene(format!(
-                "no dt makes {name} safe for {}: choose another integrator{}",
+                "{name} is unstable for {} at any dt: choose another integrator{}",
                 culprit(&verdict, &loaded.setup),
                 others(&loaded.setup, &verdict)
             ))

@@ -53,7 +53,7 @@ pub async fn run(args: &RunArgs) -> Result<(), Failure> {
     start(loaded, options, (kept, remarks), &args.scene.device, &args.show).await
 }
 
-/// What is said where a run that left no checkpoint begins anew, and its results are removed: only where the next one may have one.
+/// What is said where a run that left no checkpoint starts over, and its results are removed: only where the next one may have one.
 fn begins_anew(folder: Folder, loaded: &Loaded) -> Result<String, Error> {
     let folder = folder.named(&loaded.scene.name);
     let count = folder.results()?.len();
@@ -73,7 +73,7 @@ fn begins_anew(folder: Folder, loaded: &Loaded) -> Result<String, Error> {
 pub async fn resume(args: &ResumeArgs) -> Result<(), Failure> {
     let refuse = |message: &str| Err(Error::Output { file: args.folder.clone(), message: message.to_owned() }.into());
     if !args.folder.is_dir() {
-        return refuse("there is no such folder: name that of a run");
+        return refuse("the folder does not exist: give the folder of a run");
     }
     let folder = Folder::hold(&args.folder)?;
     let (from, damaged) = match Found::of(&folder)? {
@@ -100,7 +100,7 @@ pub async fn resume(args: &ResumeArgs) -> Result<(), Failure> {
 
 fn complete(folder: &Path, step: u64, show: &ShowArgs) {
     if !show.quiet && !show.json {
-        out!("the run in {} is complete, with step {step}: there is nothing to go on with", folder.display());
+        out!("the run in {} is complete, with step {step}: there is nothing to resume", folder.display());
     }
 }
 
@@ -117,9 +117,8 @@ async fn start(
     options.precision = engine.precision();
     let conserved = conserved(&setup)?;
     let mut run = if let Some((folder, from, damaged)) = kept {
-        remarks.extend(
-            damaged.iter().map(|error| format!("a checkpoint is not whole, and an older one is taken: {error}")),
-        );
+        remarks
+            .extend(damaged.iter().map(|error| format!("a checkpoint is damaged, and an older one is used: {error}")));
         Run::resume(scene, &mut setup, options, (folder, *from))?
     } else {
         remarks.extend(

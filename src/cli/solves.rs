@@ -1,4 +1,4 @@
-//! What a run says of its implicit solves.
+//! The report on the implicit solves of a run.
 
 use motes::simulation::{Outcome, PressureSolves, Solves};
 use serde_json::json;
@@ -22,7 +22,7 @@ pub fn tell(progress: &Progress, solves: Option<Solves>, pressures: Option<[Pres
     ));
     if let Some(step) = first_failure {
         let why = match outcome {
-            Outcome::BrokenDown => "its matrix is not positive: choose a smaller dt, or a law that damps",
+            Outcome::BrokenDown => "its matrix is not positive definite: choose a smaller dt, or add damping",
             _ => "raise solver.iterations or solver.solves, loosen solver.tolerance, or choose a smaller dt",
         };
         progress.say(&format!("warning: {failures} of {all} solves did not converge, the first in step {step}: {why}"));

@@ -1,4 +1,4 @@
-//! What a run says of itself in the end.
+//! The summary at the end of a run.
 
 use std::time::Duration;
 
@@ -75,5 +75,8 @@ pub fn population(of: Population) -> String {
 
 /// How many springs broke.
 pub fn broken(whole: usize, left: usize) -> String {
-    format!("{} of {whole} springs are torn; those that are left are in the files of links", whole.saturating_sub(left))
+    format!(
+        "{} of {whole} springs are broken; the remaining ones are in the files of links",
+        whole.saturating_sub(left)
+    )
 }

@@ -36,7 +36,7 @@ pub const SEE_NEAR: Key = Key::new(
     "over",
     Kind::Choice(&["near", "list", "auto", "within"]),
     Value::Text(Cow::Borrowed("near")),
-    "which neighbours: all in range, by a cell list, by a list that is kept over steps, by the faster of both, or by brute force",
+    "how neighbours in range are found: by a cell list, by a neighbour list that is reused over steps, by the faster of both, or by brute force",
 );
 
 /// How far a list reaches beyond the range.
@@ -44,7 +44,7 @@ pub const SKIN: Key = Key::new(
     "skin",
     Kind::NotNegative,
     Value::Number(0.0),
-    "over = \"list\" or \"auto\": how much farther than the range the list reaches; 0: a fifth of the range [length]",
+    "over = \"list\" or \"auto\": the skin of the neighbour list beyond the range; 0: a fifth of the range [length]",
 );
 
 /// The seed of random numbers.
@@ -69,5 +69,5 @@ pub const EACH: Key = Key::new(
     "over",
     Kind::Choice(&["each"]),
     Value::Text(Cow::Borrowed("each")),
-    "what is evaluated: each particle alone",
+    "what is evaluated: single particles",
 );

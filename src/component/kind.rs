@@ -1,4 +1,4 @@
-//! Kinds of particles, as forces tell them apart.
+//! Kinds of particles, by which forces distinguish them.
 
 use std::borrow::Cow;
 
@@ -15,7 +15,7 @@ pub const SPECIES: Key = Key::new(
     "species",
     settings::Kind::Species,
     Value::Text(Cow::Borrowed("all")),
-    "what it acts on: a species, or \"all\"",
+    "the species that it acts on, or \"all\"",
 );
 
 impl Kind {

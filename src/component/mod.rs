@@ -62,7 +62,7 @@ pub trait Component: Copied + Send + Sync {
         let cell_lists = self.laws().into_iter().filter_map(|law| law.grid(problem).transpose());
         Ok(Resolved { cell_lists: cell_lists.collect::<Result<_, _>>()?, ..Resolved::default() })
     }
-    /// Adds its kernels at a stage of a step; without a word, those of its laws where accelerations are evaluated.
+    /// Adds its kernels at a stage of a step; by default, those of its laws where accelerations are evaluated.
     ///
     /// # Errors
     /// When a law does not compile or lacks a parameter, or the component makes no sense there.

@@ -8,8 +8,8 @@ use crate::visit::Over;
 
 components! {
     CONSTRAINTS, Constraint;
-    speed_limit: SpeedLimit, "the least and the greatest speed of a species";
-    solid: Solid, "a sphere, a box, a plane or a capsule that lets no particle in, or out: bounces and friction";
+    speed_limit: SpeedLimit, "the minimum and the maximum speed of a species";
+    solid: Solid, "an obstacle or a container: a sphere, a box, a plane or a capsule, with restitution and friction";
     rod: Rod, "rigid rods in chains keep their lengths, whatever the other forces do (RATTLE: Andersen 1983)";
-    strain_limit: StrainLimit, "springs that are not stretched farther than so much (Provot 1995)";
+    strain_limit: StrainLimit, "an upper limit of the strain of springs (Provot 1995)";
 }

@@ -11,11 +11,11 @@ use crate::kernel::{Bounds, Host, Kernel, POSITION, Plan, Shader, VELOCITY};
 use crate::links::{Chains, Node};
 use crate::settings::{Key, Settings};
 
-/// What a scene may say.
+/// The keys in a scene.
 pub const KEYS: &[Key] = &[];
 
-/// `rod`: the particles' rods keep their lengths (RATTLE; Andersen 1983), in chains of any shape that hang from held particles
-/// or fly free; held particles are infinitely heavy to them.
+/// `rod`: the particles' rods keep their lengths (RATTLE; Andersen 1983), in chains of any shape that hang from fixed particles
+/// or fly free; fixed particles are infinitely heavy to them.
 ///
 /// It is written as two projections, so that every integrator has it. After a drift by c dt velocities change along the rods as
 /// they were before it, v ← v + δ, and positions with them, x ← x + c dt δ, until no length has changed; and what is left of
@@ -29,7 +29,7 @@ pub const KEYS: &[Key] = &[];
 ///
 /// What rounding makes of the lengths is taken back from positions alone, in every step anew: lengths hold to about 1e-7 of the
 /// larger of the length and the distance from the origin, and speeds know nothing of it. A chain that turns by about a radian
-/// in one drift is not found again: its particles then are no numbers, which stops the run. In a scene it stands behind the
+/// in one drift is not found again: its particles are then NaN, which stops the run. In a scene it stands behind the
 /// forces that limit speeds or move particles out of solids, because the last word is right.
 #[derive(Clone)]
 pub struct Rod;
@@ -44,7 +44,7 @@ impl Rod {
 
 impl Component for Rod {
     fn properties(&self) -> Properties {
-        let why = "rods are kept by velocities that were made for the step before";
+        let why = "rods are constrained with velocities of the previous step, which must have the same length";
         Properties { fixed_step: Some(why), keeps_rods: true, constrains: true, ..Properties::default() }
     }
     fn stage(&self, stage: Stage, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {

@@ -12,26 +12,26 @@ use crate::motion::{Motion, Pose};
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::solids::{self, Solid as Shape, Standing};
 
-/// What a scene may say.
+/// The keys in a scene.
 pub const KEYS: &[Key] = &[
     Key::new("shape", Kind::Choice(solids::SHAPES), Value::Text(Cow::Borrowed("sphere")), "what it is"),
-    Key::new("position", Kind::Vector, Value::Vector(DVec3::ZERO), "its middle, or a point on the plane [length]"),
+    Key::new("position", Kind::Vector, Value::Vector(DVec3::ZERO), "its centre, or a point on the plane [length]"),
     Key::new("radius", Kind::Positive, Value::Number(0.5), "sphere and capsule: the radius [length]"),
     Key::new("size", Kind::Vector, Value::Vector(DVec3::ONE), "box: its sides [length]"),
     Key::new("normal", Kind::Direction, Value::Vector(DVec3::Z), "plane: the direction to the free side"),
     Key::new("axis", Kind::Vector, Value::Vector(DVec3::X), "capsule: from the centre of one end to the other's [length]"),
-    Key::new("thickness", Kind::NotNegative, Value::Number(0.0), "how far off centres of particles keep [length]"),
-    Key::new("restitution", Kind::NotNegative, Value::Number(0.0), "the part of the speed that bounces back, 0 to 1"),
+    Key::new("thickness", Kind::NotNegative, Value::Number(0.0), "the minimum distance of particle centres from the surface [length]"),
+    Key::new("restitution", Kind::NotNegative, Value::Number(0.0), "the coefficient of restitution, 0 to 1"),
     Key::new("friction", Kind::NotNegative, Value::Number(0.3), "Coulomb's coefficient of friction"),
-    Key::new("inside", Kind::Flag, Value::Flag(false), "whether it is a container, and keeps particles in"),
-    Key::new("motion", Kind::Motion, Value::Text(Cow::Borrowed("")), "the motion that it goes along with, if any"),
+    Key::new("inside", Kind::Flag, Value::Flag(false), "whether it is a container that keeps particles inside"),
+    Key::new("motion", Kind::Motion, Value::Text(Cow::Borrowed("")), "the motion that moves it, if any"),
     SPECIES,
     EACH,
 ];
 
 /// `solid`: a sphere, a box, a plane or a capsule, still or moving, that lets no particle in, or out. After every drift a particle too
 /// near to its surface is put there; normal velocity bounces (Newton 1687), friction takes tangential velocity (Coulomb
-/// 1785), both in the frame of the surface. Held particles are left alone. It accelerates no particle by itself.
+/// 1785), both in the frame of the surface. Fixed particles are left alone. It accelerates no particle by itself.
 #[derive(Clone)]
 pub struct Solid(Settings);
 
@@ -81,13 +81,13 @@ impl Solid {
             ));
         }
         if number("restitution") > 1.0 {
-            return refuse(format!("bounces with restitution {}: 1 is the most", number("restitution")));
+            return refuse(format!("has restitution {}: the maximum is 1", number("restitution")));
         }
         let name = self.0.text("motion");
         let known = problem.motions.iter().zip(0..).find(|(motion, _)| motion.name == name);
         let motion = match known {
             Some((motion, number)) if !name.is_empty() => Some((number, motion.clone())),
-            None if !name.is_empty() => return refuse(format!("goes along with \"{name}\", and no motion is called so")),
+            None if !name.is_empty() => return refuse(format!("has the motion \"{name}\", and there is no motion of this name")),
             _ => None,
         };
         let contained = inside && !matches!(shape, Shape::Plane(_));

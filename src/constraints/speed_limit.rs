@@ -10,7 +10,7 @@ use crate::kernel::{Host, Kernel, Pass, Plan, Scalar, Shader, VELOCITY};
 use crate::visit::Particle;
 use crate::settings::{Key, Kind, Settings, Value};
 
-/// What a scene may say.
+/// The keys in a scene.
 pub const KEYS: &[Key] = &[
     Key::new("min", Kind::NotNegative, Value::Number(0.0), "the minimum speed; a particle at rest sets off along x [length / time]"),
     Key::required("max", Kind::Positive, "the maximum speed [length / time]"),
@@ -42,10 +42,10 @@ impl Component for SpeedLimit {
     }
 }
 
-/// The kernel that keeps the speeds of a kind between the least and the most.
+/// The kernel that keeps the speeds of a species between the minimum and the maximum.
 ///
 /// # Errors
-/// [`Error::Scene`] when the least is above the most.
+/// [`Error::Scene`] when the minimum is above the maximum.
 pub fn kernel(problem: &Problem, [least, most]: [f64; 2], species: Only) -> Result<Kernel, Error> {
     if least > most {
         let text = format!("the minimum speed, {least}, is above the maximum, {most}: lower one or raise the other");

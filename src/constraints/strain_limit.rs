@@ -11,10 +11,10 @@ use crate::kernel::{Field, Host, Kernel, POSITION, Pass, Plan, Shader, VELOCITY}
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::visit;
 
-/// What a scene may say.
+/// The keys in a scene.
 pub const KEYS: &[Key] = &[
-    Key::new("strain", Kind::Positive, Value::Number(0.1), "how much longer than at rest a spring may get, as a part of that"),
-    Key::new("sweeps", Kind::Count, Value::Number(8.0), "how often all springs are looked at after a drift: more bring long rows nearer to the limit"),
+    Key::new("strain", Kind::Positive, Value::Number(0.1), "the largest strain of a spring: its extension over its rest length"),
+    Key::new("sweeps", Kind::Count, Value::Number(8.0), "iterations over all springs after a drift: more bring long chains closer to the limit"),
     Key::new("over", Kind::Choice(&["links"]), Value::Text(Cow::Borrowed("links")), "what is limited: springs and ropes"),
 ];
 
@@ -22,7 +22,7 @@ pub const KEYS: &[Key] = &[
 const LIMITED: Field<Vec4> = Field::new("limited");
 
 /// `strain_limit`: after each drift, ends of springs longer than (1 + strain) L are brought nearer (Provot 1995), all at once
-/// and in several sweeps, with the velocity that this takes. The centre of mass and its momentum stay, held particles too;
+/// and in several sweeps, with the velocity that this takes. The centre of mass and its momentum stay, fixed particles too;
 /// energy is taken. What the sweeps do not reach stays longer: the limit is approached, and not promised.
 #[derive(Clone)]
 pub struct StrainLimit {
@@ -94,7 +94,7 @@ fn apply(problem: &Problem, factor: f64) -> Result<Kernel, Error> {
 
 impl Component for StrainLimit {
     fn properties(&self) -> Properties {
-        let why = "strain_limit corrects velocities by what a step of a known length makes of them";
+        let why = "strain_limit corrects velocities for a fixed time step";
         Properties { fixed_step: Some(why), constrains: true, ..Properties::default() }
     }
     fn stage(&self, stage: Stage, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {

@@ -1,4 +1,4 @@
-//! What one should know of a setup before it runs.
+//! Remarks on a setup before it runs.
 
 use crate::error::Error;
 use crate::forces::{Law, Over};
@@ -55,7 +55,7 @@ fn in_the_plane(name: &str, reference: &Reference, setup: &Setup) -> Result<(), 
     let across = host.read(ACCELERATION)?.iter().map(|a| a.z).find(|z| z.abs() > 0.0);
     across.map_or(Ok(()), |z| {
         Err(Error::Scene(format!(
-            "`{name}` pushes across the plane (by {z:e}), and in 2 dimensions particles stay in it: give its vectors no z, or \
+            "`{name}` accelerates out of the plane (by {z:e}), where particles must stay in 2 dimensions: give its vectors no z, or \
              say dimensions = 3 in [box]"
         )))
     })
@@ -87,7 +87,7 @@ fn idle(links: &Links, laws: &[Law]) -> Vec<Remark> {
     ];
     let idle = ties.into_iter().filter(|(n, over, ..)| *n > 0 && laws.iter().all(|law| law.over != *over));
     idle.map(|(n, _, what, force)| {
-        Remark::note("idle-links", format!("nothing comes of the {what} (of which there are {n})"))
+        Remark::note("idle-links", format!("no force acts on the {what} ({n} of them)"))
             .with("links", n as f64)
             .advice(format!("add a [[force]] of kind = \"{force}\""))
     })
@@ -114,7 +114,7 @@ pub fn conserved(setup: &Setup) -> Result<Conserved, Error> {
         // What some do to others, and not others to them, keeps nothing.
         conserved.energy &= law.over == Over::Each || law.reciprocal;
         if matches!(law.over, Over::Links | Over::Joints | Over::Triangles) {
-            // It goes by those that are tied, and by nothing else; what resists takes energy.
+            // It goes by those that are linked, and by nothing else; what resists takes energy.
             conserved.energy &= law.over != Over::Links || !damped(&setup.state.links);
             continue;
         }
@@ -154,7 +154,7 @@ fn inside(setup: &Setup) -> Result<Option<Remark>, Error> {
     let Some((first, depth)) = moved.first() else { return Ok(None) };
     let deepest = moved.iter().map(|(_, depth)| *depth).fold(0.0, f64::max);
     let text = format!(
-        "{} particles begin inside of a solid, or nearer to it than its thickness, particle {first} first of them, by {depth:.3e}, and \
+        "{} particles start inside of an obstacle, or closer to it than its thickness, the first is particle {first}, by {depth:.3e}, and \
          by {deepest:.3e} at most: the first step puts them out, wherever others are",
         moved.len()
     );
@@ -211,12 +211,10 @@ pub fn advice(setup: &Setup, end: Option<f64>) -> Result<Vec<Remark>, Error> {
             remarks.push(depends(&name));
         }
         if over == Over::Pairs && setup.bounds.has(Side::Periodic) && !all_images {
-            let text = format!(
-                "`{name}` in a periodic box comes from nearest images alone: all other images are left out, there is no Ewald sum"
-            );
+            let text = format!("`{name}` in a periodic box acts on nearest images only, without an Ewald sum");
             let remark = Remark::note("nearest-images", text);
             remarks.push(if name == "gravity" {
-                remark.advice("images = \"ewald\" has it, in a cube that is periodic on all sides")
+                remark.advice("set images = \"ewald\", in a cube that is periodic on all sides")
             } else {
                 remark
             });
@@ -250,7 +248,7 @@ pub fn advice(setup: &Setup, end: Option<f64>) -> Result<Vec<Remark>, Error> {
         if properties.evaluated_last {
             if !its.contains(&name) {
                 let text = format!(
-                    "the fluid solves for the pressure of a whole step, evaluated where it begins: it wants {}, not {name}",
+                    "the fluid solves for the pressure of a whole step, evaluated at its start: it requires {}, not {name}",
                     its.join(" or ")
                 );
                 remarks.push(Remark::note("other-integrator", text));
@@ -259,12 +257,12 @@ pub fn advice(setup: &Setup, end: Option<f64>) -> Result<Vec<Remark>, Error> {
         }
         if !its.contains(&name) {
             let law = force.laws().first().map(|law| law.name.clone()).unwrap_or_default();
-            let text = format!("`{law}` is a rule for whole steps: it wants {}, not {name}", its.join(" or "));
+            let text = format!("`{law}` is a rule for whole steps: it requires {}, not {name}", its.join(" or "));
             remarks.push(Remark::note("other-integrator", text));
         }
         if setup.forces.iter().filter(|force| !force.laws().is_empty()).count() > 1 {
             let text = format!(
-                "{} sets velocities by itself: beside other forces it is no more than a pull towards them",
+                "{} sets velocities itself: combined with other forces it is only a relaxation towards them",
                 force.laws().first().map_or_else(String::new, |law| format!("`{}`", law.name))
             );
             remarks.push(Remark::note("velocities-set", text));
@@ -275,7 +273,7 @@ pub fn advice(setup: &Setup, end: Option<f64>) -> Result<Vec<Remark>, Error> {
         remarks.push(Remark::note("reduced-order", text).with("order", 2.0));
     }
     if name == "forward_euler" && setup.forces.iter().all(|force| !force.properties().integrators.contains(&name)) {
-        let text = "forward_euler gains energy in every step, whatever the step: it is here to show why not";
+        let text = "forward_euler gains energy in every step, at any dt: it is here for comparison only";
         remarks.push(Remark::note("gains-energy", text));
     }
     Ok(remarks)

@@ -1,4 +1,4 @@
-//! What emitters are going to do.
+//! Remarks on emitters.
 
 use super::Remark;
 use crate::life::schedule;
@@ -16,9 +16,9 @@ pub fn forecast(setup: &Setup, end: f64) -> Vec<String> {
         let rest = if due as u64 == *count {
             format!("it is empty at {last:.6}")
         } else {
-            format!("{} of them wait when the run ends", count - due as u64)
+            format!("{} of them are pending when the run ends", count - due as u64)
         };
-        format!("emitter {}: {count} particles, born from {first:.6} to {last:.6}; {rest}", number + 1)
+        format!("emitter {}: {count} particles, spawned from {first:.6} to {last:.6}; {rest}", number + 1)
     };
     schedule(births).iter().enumerate().map(line).collect()
 }
@@ -41,7 +41,7 @@ pub fn early(setup: &Setup, end: f64) -> Vec<Remark> {
                 .with("emitter", (number + 1) as f64)
                 .with("particles", *count as f64)
                 .with("time", *last)
-                .advice("for more give it a larger `count`, or a later `stop`")
+                .advice("give it a larger `count`, or a later `stop`")
         })
     };
     schedule(births).iter().enumerate().filter_map(line).collect()

@@ -29,7 +29,7 @@ pub fn all(setup: &Setup, start: &Start, weight: Weight) -> Result<Vec<Remark>, 
 fn births(setup: &Setup, medium: &Medium) -> Option<Remark> {
     let birth = setup.state.births.iter().find(|birth| (birth.mass / medium.mass() - 1.0).abs() > ALIKE)?;
     let text = format!(
-        "particles of emitter {} weigh {:.4e}, and density × spacing^{} of the force is {:.4e}",
+        "particles of emitter {} have mass {:.4e}, and density × spacing^{} of the force is {:.4e}",
         birth.emitter + 1,
         birth.mass,
         medium.dimensions,
@@ -40,7 +40,7 @@ fn births(setup: &Setup, medium: &Medium) -> Option<Remark> {
             .with("emitter", f64::from(birth.emitter + 1))
             .with("mass", birth.mass)
             .with("fluid_mass", medium.mass())
-            .advice("leave out its `spacing` and `density`, and it has those of the force"),
+            .advice("leave out its `spacing` and `density` to take those of the force"),
     )
 }
 
@@ -69,7 +69,7 @@ fn mouths(setup: &Setup, medium: &Medium) -> Option<Remark> {
     let other = others.iter().min_by(nearest)?;
     let distance = setup.bounds.shortest(place(*other) - place(*site)).length();
     let text = format!(
-        "emitter {} lets particles out where others are: particle {other} is {distance:.3e} from a place of its mouth, and the spacing \
+        "emitter {} spawns particles where others are: particle {other} is {distance:.3e} from a point of its nozzle, and the spacing \
          is {}",
         emitter + 1,
         medium.spacing
@@ -96,7 +96,7 @@ fn weighed(setup: &Setup, Weight { pull: weight, largest }: Weight) -> Result<Op
     let alike = off <= ALIKE * given.length().max(weight.length()) || off <= ROUNDING * largest.max(given.length());
     Ok((!alike).then(|| {
         let text = format!(
-            "the fluid has weight = [{}, {}, {}], and forces accelerate all particles by [{}, {}, {}]: a fluid at rest would not stay so",
+            "the fluid has weight = [{}, {}, {}], and forces accelerate all particles by [{}, {}, {}]: a fluid at rest would not stay at rest",
             given.x, given.y, given.z, weight.x, weight.y, weight.z
         );
         Remark::note("fluid-weight", text).with("difference", off).advice("give both the same")
@@ -117,7 +117,7 @@ fn outside(setup: &Setup) -> Option<Remark> {
     let first = all.next()?;
     let count = 1 + all.count();
     let text = format!(
-        "{count} particles of the fluid begin out of the box, particle {first} at {} first of them: open sides keep no particle in",
+        "{count} particles of the fluid start outside of the box, the first is particle {first} at {}: open sides do not confine particles",
         particles.position()[first]
     );
     Some(Remark::note("fluid-outside", text).with("particles", count as f64).with("particle", first as f64))

@@ -21,15 +21,15 @@ pub fn remarks(setup: &Setup, machine: Machine) -> Result<Vec<Remark>, Error> {
             let why = if problem.capacity < from {
                 format!("a tree is faster from about {from} particles on here")
             } else {
-                "a tree cannot group nearest images".to_owned()
+                "a tree cannot approximate nearest images".to_owned()
             };
-            let text = format!("`{}` is summed directly over all pairs: {why}", law.name);
+            let text = format!("`{}` uses direct summation: {why}", law.name);
             Remark::note("direct-summation", text).with("crossing", f64::from(from))
         }),
         (Over::Tree { auto, opening, .. }, _) => Some({
             let since = if auto { format!("; faster from about {from} particles on here") } else { String::new() };
             let text = format!(
-                "`{}` takes far groups as one, through a tree ({opening}{since}): `motes compare` says how exact that is",
+                "`{}` approximates far groups by a tree ({opening}{since}): `motes compare` measures the error",
                 law.name
             );
             Remark::note("tree", text).with("crossing", f64::from(from))
@@ -40,11 +40,11 @@ pub fn remarks(setup: &Setup, machine: Machine) -> Result<Vec<Remark>, Error> {
     let walks = setup.forces.iter().flat_map(|force| force.laws()).any(|law| law.tree(&problem).is_some());
     if let Some(ratio) = Some(spread(setup.state.position())).filter(|ratio| walks && *ratio > FAR) {
         let text = format!(
-            "a particle is {ratio:.0e} times as far out as 98 of 100 are wide: the tree cannot resolve the others, and takes as long \
+            "a particle is {ratio:.0e} times as far out as the extent of 98 % of all particles: the tree cannot resolve the others, and takes as long \
              as direct summation"
         );
         let stray = Remark::note("stray-particle", text).with("ratio", ratio);
-        all.push(stray.advice("remove stray particles, or say over = \"pairs\""));
+        all.push(stray.advice("remove stray particles, or set over = \"pairs\""));
     }
     Ok(all)
 }

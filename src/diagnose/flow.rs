@@ -30,7 +30,7 @@ pub fn line(flow: &Flow, dt: f64) -> Option<String> {
     let safe = flow.safe.is_finite() && flow.excess > 0.0;
     safe.then(|| {
         format!(
-            "  steps        dt = {dt} is {:.2} of the largest that {what} bears, {}",
+            "  steps        dt = {dt} is {:.2} of the stability limit by {what}, {}",
             flow.excess,
             digits(flow.safe)
         )
@@ -51,7 +51,7 @@ pub fn warning(flow: &Flow, setup: &Setup) -> Result<Option<Remark>, Error> {
         Asks::Friction => "the fluid's viscosity (alpha, viscosity)",
         Asks::Xsph => {
             let text = format!(
-                "the fluid's xsph is {:.2} times as strong as {name} bears, whatever dt is: in a step no particle can take on more than \
+                "the fluid's xsph is {:.2} times the stability limit of {name}, at any dt: in a step no particle can take on more than \
                  there is; 0.5 is much",
                 flow.excess
             );
@@ -83,11 +83,11 @@ pub fn hurry(medium: &Medium, dt: f64, (particle, most): (usize, f64)) -> Option
     let pressed = if medium.sound > 0.0 { most * length / (medium.sound * medium.sound) } else { 0.0 };
     let start = format!("particle {particle} of the fluid begins with an acceleration of {most:.3e}");
     if dt > longest {
-        return Some(format!("{start}, for which dt = {dt} is too long: {} would do", digits(longest)));
+        return Some(format!("{start}, for which dt = {dt} is too long: choose {}", digits(longest)));
     }
     (pressed > PRESSED).then(|| {
         format!(
-            "{start}, which presses the fluid together by {:.0} % within a smoothing length: is its tension too strong for its speed of \
+            "{start}, which compresses the fluid by {:.0} % within a smoothing length: is its tension too strong for its speed of \
              sound, or are particles too close?",
             100.0 * pressed
         )

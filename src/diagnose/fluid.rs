@@ -1,4 +1,4 @@
-//! What `check` says of a fluid before it runs.
+//! The report of `check` on a fluid.
 
 use crate::error::Error;
 use crate::forces::Over;
@@ -22,7 +22,7 @@ pub fn remarks(setup: &Setup, start: &Start) -> Result<(Vec<String>, Vec<Remark>
     let size = if medium.dimensions == 2 { "square" } else { "cubic" };
     let mut lines = vec![
         format!(
-            "  at rest      density {}, on a {size} lattice of {}; a particle weighs {:.4e} and reaches {:.4e}",
+            "  at rest      density {}, on a {size} lattice of {}; a particle has mass {:.4e} and support {:.4e}",
             medium.density,
             medium.spacing,
             medium.mass(),
@@ -48,11 +48,11 @@ pub fn remarks(setup: &Setup, start: &Start) -> Result<(Vec<String>, Vec<Remark>
     if solved {
         let bears = COURANT * medium.spacing / setup.dt;
         lines.push(format!(
-            "  solved       for pressure; the fastest flow expected {fastest:.4}, and dt is for {bears:.4}: {how}"
+            "  solved       for pressure; the fastest flow expected {fastest:.4}, and dt is stable up to {bears:.4}: {how}"
         ));
         if fastest > bears {
             let text = format!(
-                "the fastest flow expected is {fastest:.4} ({how}), and dt = {} is for speeds up to {bears:.4}",
+                "the fastest flow expected is {fastest:.4} ({how}), and dt = {} is stable for speeds up to {bears:.4}",
                 setup.dt
             );
             let largest = COURANT * medium.spacing / fastest;
@@ -81,12 +81,12 @@ pub fn remarks(setup: &Setup, start: &Start) -> Result<(Vec<String>, Vec<Remark>
             );
         }
     } else {
-        lines.push(format!("  sound        {}; nothing says how fast it will flow", medium.sound));
+        lines.push(format!("  sound        {}; the speed of the flow is not known in advance", medium.sound));
     }
     let (light, heavy) = start.mass;
     if light < 0.99 * medium.mass() || heavy > 1.01 * medium.mass() {
         let text = format!(
-            "particles of the fluid weigh {light:.4e} to {heavy:.4e}, and density × spacing^{} of the force is {:.4e}: is their spacing \
+            "particles of the fluid have masses from {light:.4e} to {heavy:.4e}, and density × spacing^{} of the force is {:.4e}: is their spacing \
              another, or their density?",
             medium.dimensions,
             medium.mass()
@@ -112,12 +112,12 @@ pub fn remarks(setup: &Setup, start: &Start) -> Result<(Vec<String>, Vec<Remark>
     } else {
         format!("a pressure of {pressure}")
     };
-    lines.push(format!("  at the start the densest at {densest:.4} of rest (particle {dense}), {asks}"));
-    lines.push(format!("               the thinnest at {thinnest:.4} of rest (particle {thin})"));
+    lines.push(format!("  at the start the maximum density is {densest:.4} of rest (particle {dense}), {asks}"));
+    lines.push(format!("               the minimum density is {thinnest:.4} of rest (particle {thin})"));
     let burst = start.burst();
     if !solved && burst > MACH * medium.sound {
         let text = format!(
-            "the densest of the fluid, particle {dense}, is at {densest:.3} times the density at rest: that bursts at {burst:.3e}, which is \
+            "the maximum density of the fluid, at particle {dense}, is {densest:.3} times that at rest: it expands at {burst:.3e}, which is \
              more than the fastest flow that the speed of sound is made for"
         );
         let start = Remark::note("dense-start", text).with("particle", f64::from(dense));
@@ -125,7 +125,7 @@ pub fn remarks(setup: &Setup, start: &Start) -> Result<(Vec<String>, Vec<Remark>
     }
     if densest < 0.97 {
         let text = format!(
-            "the densest of the fluid, particle {dense}, is at {densest:.3} times the density at rest: under weight it will sink together \
+            "the maximum density of the fluid, at particle {dense}, is {densest:.3} times that at rest: under gravity it will collapse \
              by as much"
         );
         let start =

@@ -33,7 +33,7 @@ pub fn remarks(setup: &Setup, end: f64) -> Vec<Remark> {
                 .with("jump", jump)
                 .with("time", time)
                 .with("largest_dt", largest)
-                .advice(format!("say smooth = true, or choose dt below {largest:.2e}"))
+                .advice(format!("set smooth = true, or choose dt below {largest:.2e}"))
         })
     };
     particles.motions.iter().enumerate().filter_map(remark).collect()

@@ -1,5 +1,5 @@
-//! What one should know of a setup before it runs: forces that lead out of the plane, what is conserved, steps that springs and fluids do
-//! not bear, particles that overlap, numbers that single precision loses.
+//! Remarks on a setup before it runs: forces out of the plane, conserved quantities, steps that springs and fluids do
+//! not allow, particles that overlap, numbers that single precision loses.
 
 mod advice;
 mod births;
@@ -100,11 +100,11 @@ pub async fn diagnose(setup: &Setup) -> Result<Vec<Remark>, Error> {
 /// What springs and fluids of a setup say of its steps.
 #[doc(hidden)]
 pub struct Judged {
-    /// What springs ask of steps, if there are any.
+    /// The stability limit by springs, if there are any.
     pub verdict: Option<Verdict>,
     /// How its fluid starts, if there is one.
     pub start: Option<Start>,
-    /// Lines that tell of it.
+    /// Lines about it.
     pub lines: Vec<String>,
     /// What is to be noted of it.
     pub remarks: Vec<Remark>,

@@ -1,4 +1,4 @@
-//! What single precision does to a scene: motions and softenings that its last place swallows.
+//! Rounding in single precision: motions and softenings below its last place.
 
 use super::Remark;
 use crate::kernel::Scalar;
@@ -46,7 +46,7 @@ fn motions(setup: &Setup) -> Option<Remark> {
     let (x, v) = (particles.position()[first], speed(first));
     let place = last_place(x.abs().max_element());
     let text = format!(
-        "{} of {count} moving particles go less far in a step than the last place of single precision, particle {first} first of them: \
+        "{} of {count} moving particles move less in a step than the last place of single precision, the first is particle {first}: \
          |v| dt = {:.1e}, and numbers at {:.4e} are {place:.1e} apart: such motion is rounded or lost",
         1 + others,
         v * setup.dt,
@@ -102,7 +102,7 @@ pub fn crossings(setup: &Setup) -> Option<Remark> {
     let (first, times) = all().next()?;
     let count = all().count();
     let text = format!(
-        "{count} particles cross the periodic box in a step, particle {first} first of them, {times:.1} times: what is on their way is \
+        "{count} particles cross the periodic box in a step, the first is particle {first}, {times:.1} times: what is on their way is \
          not met, and beyond some 10^7 times their places are rounding alone"
     );
     Some(

@@ -1,11 +1,11 @@
-//! Steps that springs bear: what is wrong with those that are too long.
+//! The stability limit of springs, and remarks on steps that are too long.
 
 use super::Remark;
 use crate::integrators::{Entry, INTEGRATORS};
 use crate::simulation::Setup;
 use crate::stability::Verdict;
 
-/// The spring that asks for the shortest step.
+/// The spring that limits the step.
 #[must_use]
 pub fn culprit(verdict: &Verdict, setup: &Setup) -> String {
     if !verdict.by_damping && verdict.joints > verdict.bound.stiffness.sum {
@@ -29,9 +29,9 @@ pub fn culprit(verdict: &Verdict, setup: &Setup) -> String {
 #[must_use]
 pub fn limit(verdict: &Verdict) -> String {
     if verdict.safe.is_infinite() {
-        ", which bears any".to_owned()
+        ", which is stable at any".to_owned()
     } else {
-        format!(", which bears up to dt = {}", digits(verdict.safe))
+        format!(", which is stable up to dt = {}", digits(verdict.safe))
     }
 }
 
@@ -77,7 +77,7 @@ fn trouble(verdict: &Verdict, setup: &Setup) -> Option<(String, String)> {
     Some((format!("dt = {dt} is too long for {name} and {spring}"), format!("{way}{}", others(setup, verdict))))
 }
 
-/// Integrators that bear any step, after a comma.
+/// Integrators that are stable at any step, after a comma.
 #[must_use]
 pub fn others(setup: &Setup, verdict: &Verdict) -> String {
     // Joints stay explicit under all of them.
@@ -86,5 +86,9 @@ pub fn others(setup: &Setup, verdict: &Verdict) -> String {
     }
     let bears = |entry: &&Entry| entry.by_default().damps_at_any_step() && entry.name != setup.integrator.name();
     let names: Vec<_> = INTEGRATORS.iter().filter(bears).map(|entry| entry.name).collect();
-    if names.is_empty() { String::new() } else { format!(", or take {}, which bears any dt", names.join(" or ")) }
+    if names.is_empty() {
+        String::new()
+    } else {
+        format!(", or take {}, which is stable at any dt", names.join(" or "))
+    }
 }

@@ -1,4 +1,4 @@
-//! What a scene may name as a force: the interactions, the constraints and the updaters, and users' laws.
+//! Forces of a scene: the interactions, the constraints and the updaters, and users' laws.
 
 mod custom;
 

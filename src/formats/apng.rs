@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use super::atomically;
 use crate::error::Error;
 
-/// Writes a film of pictures of one size, of three bytes for each pixel, that repeats for ever. Each picture is shown for
+/// Writes a film of pictures of one size, of three bytes for each pixel, that repeats forever. Each picture is shown for
 /// 1 / `rate` s. Of a picture only the pixels that differ from the one before are kept, so that a sky that stays costs
 /// nothing. Two pictures are held at a time.
 ///

@@ -46,7 +46,7 @@ impl<R: Read + Seek> Arrays<R> {
         }
     }
 
-    /// The names of what a step keeps for the next one.
+    /// The names of the restart data of a step.
     pub(super) fn kept(&self) -> Vec<String> {
         let mut names: Vec<String> =
             self.archive.array_names().filter(|name| name.starts_with(KEPT)).map(str::to_owned).collect();

@@ -1,4 +1,4 @@
-//! Numbers in binary files, of either byte order, and the bytes that there are.
+//! Numbers in binary files, of either byte order, with checks of the length.
 
 use std::io::Read;
 use std::path::Path;
@@ -31,7 +31,7 @@ impl Type {
             Self::I64 | Self::U64 | Self::F64 => 8,
         }
     }
-    /// Whether it is of whole numbers that are not below 0.
+    /// Whether it is of integers that are not below 0.
     pub fn is_whole(self) -> bool {
         matches!(self, Self::U8 | Self::U16 | Self::U32 | Self::U64)
     }

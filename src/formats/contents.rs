@@ -1,4 +1,4 @@
-//! What a file holds beside positions, velocities and masses, so that all of it can be read.
+//! The contents of a file besides positions, velocities and masses.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -16,7 +16,7 @@ pub struct Contents {
     pub rows: usize,
     /// Its lists of numbers, one for each component of a column.
     pub headings: Vec<Heading>,
-    /// The box, if it tells of one.
+    /// The box, if it has one.
     pub bounds: Option<Bounds>,
     /// What readers pass over, in words: `97026 edges`.
     pub left_out: Vec<String>,
@@ -38,7 +38,7 @@ pub struct Heading {
 pub fn contents(path: &Path) -> Result<Contents, Error> {
     match of(path)? {
         Some(format) => (format.contents)(path),
-        None => Err(input(path, "is of no format that is known")),
+        None => Err(input(path, "is not of a known format")),
     }
 }
 

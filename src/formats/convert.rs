@@ -32,7 +32,7 @@ pub fn convert(from: &Path, to: &Path, precision: Option<Precision>) -> Result<C
     let refuse = |message: String| Error::Output { file: to.to_owned(), message };
     let format = by_ending(to).ok_or_else(|| {
         let names: Vec<_> = writable().flat_map(|format| format.endings).map(|ending| format!(".{ending}")).collect();
-        refuse(format!("its ending says no format: give one of {}", names.join(", ")))
+        refuse(format!("its extension names no format: use one of {}", names.join(", ")))
     })?;
     let write = format.write.ok_or_else(|| {
         let names: Vec<_> = writable().map(|format| format.name).collect();
@@ -41,7 +41,7 @@ pub fn convert(from: &Path, to: &Path, precision: Option<Precision>) -> Result<C
     if std::fs::canonicalize(to).is_ok_and(|to| std::fs::canonicalize(from).is_ok_and(|from| from == to)) {
         return Err(refuse("is the file that is read: choose another name".to_owned()));
     }
-    let source = of(from)?.ok_or_else(|| input(from, "is of no format that is known"))?;
+    let source = of(from)?.ok_or_else(|| input(from, "is not of a known format"))?;
     let before = contents(from)?;
     let state = read(from, &known(&before))?;
     let precision = precision.unwrap_or_else(|| if is_single(&state) { Precision::Single } else { Precision::Double });
@@ -65,7 +65,7 @@ pub fn convert(from: &Path, to: &Path, precision: Option<Precision>) -> Result<C
                 }
             };
             back().and_then(whole).map_err(|why| {
-                refuse(format!("what was written cannot be read back, so it is not kept: {}", reported(&why)))
+                refuse(format!("what was written cannot be read back, so it is discarded: {}", reported(&why)))
             })
         },
     )?;
@@ -111,7 +111,7 @@ fn lost(state: &State, back: &State) -> Vec<String> {
         lost.push("ids".to_owned());
     }
     if state.keeps() && !back.keeps() {
-        lost.push("what the last step kept, so that a run goes on with the same bits".to_owned());
+        lost.push("restart data of the last step, with which a run continues bit for bit".to_owned());
     }
     for (column, values) in state.columns().filter(|(column, _)| column.name != "id") {
         match back.get(&column.name) {

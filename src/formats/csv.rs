@@ -173,7 +173,7 @@ fn real(record: &ByteRecord, place: usize, title: &str, line: &Line, problems: &
     None
 }
 
-/// A whole number that fits 32 bits.
+/// An integer that fits 32 bits.
 fn whole(record: &ByteRecord, place: usize, title: &str, line: &Line, problems: &mut Problems) -> Option<u32> {
     match cell(record, place).map(str::parse::<u32>) {
         Some(Ok(number)) => return Some(number),

@@ -20,7 +20,7 @@ const NAMES: &[&str] =
     &["scene.toml", "energy.csv", "energy.svg", "flock.csv", "population.csv", "fluid.csv", "snapshots.pvd"];
 /// Files of which it writes many, with the number of a step or a picture between these, beside states.
 const NUMBERED: &[(&str, &str)] = &[("links_", "csv"), ("picture_", "png"), ("frame_", "png"), CHECKPOINT];
-/// What a run goes on from.
+/// What a run continues from.
 const CHECKPOINT: (&str, &str) = ("checkpoint_", "npz");
 /// States, and the last good one, in any format.
 const STATE: &str = "snapshot_";
@@ -38,7 +38,7 @@ pub struct Folder {
 }
 
 impl Folder {
-    /// What the resolved scene says in the line that tells of the run.
+    /// What the resolved scene says in the line about the run.
     pub const SIGNATURE: &str = "# Run by motes ";
 
     /// Whether a run of the scene `name`, which reads the files `read`, may write into the folder. It may not where its

@@ -15,7 +15,7 @@ use crate::error::Error;
 use crate::kernel::Bounds;
 use crate::links::{Link, Links, Rod};
 
-/// What ties two particles, as scenes and files call it.
+/// The kind of a link, as scenes and files call it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Tie {
     /// A spring.
@@ -108,7 +108,7 @@ pub fn read(path: &Path, positions: &[DVec3], bounds: &Bounds, usual: &Usual) ->
         };
         let mut one = Links::default();
         own.tie(&mut one, [a, b], bounds.shortest(positions[b as usize] - positions[a as usize]).length(), rest);
-        let what = format!("{line}: what ties {a} and {b}");
+        let what = format!("{line}: the link of {a} and {b}");
         let faults =
             one.springs.iter().map(|link| link.check(&what)).chain(one.rods.iter().map(|rod| rod.check(&what)));
         faults.filter_map(Result::err).for_each(|fault| problems.note(|| fault.to_string()));

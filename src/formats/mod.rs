@@ -127,7 +127,7 @@ pub fn format(name: &str) -> Option<&'static Format> {
 pub fn read(path: &Path, columns: &Columns) -> Result<State, Error> {
     match of(path)?.and_then(|format| format.read) {
         Some(read) => read(path, columns),
-        None => Err(input(path, "is of no format that is known")),
+        None => Err(input(path, "is not of a known format")),
     }
 }
 

@@ -1,6 +1,6 @@
 //! NPZ, `NumPy`'s archive of named arrays: `id`, `x`, `y`, `z`, `vx`, `vy`, `vz`, `mass`, `size`, `species`, `life`, those of any other
 //! column (`charge`, or `spin_x`, `spin_y`, `spin_z`), quantities of the system by their names, and `time` and `step`. Arrays whose names
-//! begin with `kept_` hold what a step keeps for the next one, so that a run goes on with the same bits; nothing else reads them.
+//! begin with `kept_` hold the restart data of a step, so that a run continues with the same bits; nothing else reads them.
 //!
 //! `numpy.load("snapshot.npz")["x"]` is the array of x by id.
 

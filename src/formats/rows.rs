@@ -4,7 +4,7 @@ use std::io::{self, BufRead, Seek, SeekFrom};
 
 use ::csv::{ByteRecord, Position, Reader, ReaderBuilder, Trim};
 
-/// The longest beginning of a file that is looked at to tell how its cells are separated \[bytes\].
+/// The longest beginning of a file that is looked at to find out how its cells are separated \[bytes\].
 const START: u64 = 1 << 16;
 
 /// A table, row by row. Empty lines and lines that start with `#` are no rows.
@@ -21,7 +21,7 @@ pub(super) enum Rows<R> {
     },
 }
 
-/// What the beginning of a file tells of a table.
+/// What the beginning of a file shows of a table.
 pub(super) struct Opened<R> {
     /// Its rows.
     pub(super) rows: Rows<R>,

@@ -1,4 +1,4 @@
-//! What files call the components of columns, and what their numbers may be.
+//! Names of the components of columns in files, and their valid values.
 
 use std::borrow::Cow;
 use std::fmt::Write as _;
@@ -126,7 +126,7 @@ pub(super) fn state(columns: &Columns, mut given: Vec<Option<Vec<f64>>>, particl
 
 /// The numbers of a column, as a writer goes through them.
 pub(super) struct Strip<'a> {
-    /// What they are called.
+    /// Their names.
     pub text: String,
     values: &'a Array,
     slots: usize,
@@ -183,7 +183,7 @@ impl Strip<'_> {
             Array::Uint(list) => Number::Whole(list[place]),
         }
     }
-    /// Whether they are whole numbers.
+    /// Whether they are integers.
     pub fn is_whole(&self) -> bool {
         matches!(self.values, Array::Uint(_))
     }
@@ -233,7 +233,7 @@ pub(super) struct Field<'a> {
 }
 
 impl Field<'_> {
-    /// Whether they are whole numbers.
+    /// Whether they are integers.
     pub fn is_whole(&self) -> bool {
         self.strips.first().is_some_and(Strip::is_whole)
     }

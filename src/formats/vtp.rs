@@ -182,7 +182,7 @@ impl Collection {
     /// What a run calls it.
     pub const NAME: &str = "snapshots.pvd";
 
-    /// What such a file lists before this step: a run that goes on writes those from there on anew.
+    /// What such a file lists before this step: a run that continues writes those from there on anew.
     #[must_use]
     pub fn before(file: &Path, step: u64) -> Self {
         let text = std::fs::read_to_string(file).unwrap_or_default();

@@ -41,7 +41,7 @@ impl Found {
     pub fn substitute(&self) -> Option<String> {
         driver::substitute(&self.adapter.get_info())
     }
-    /// Whether it is a processor that plays a GPU.
+    /// Whether it is a software adapter.
     #[must_use]
     pub fn software(&self) -> bool {
         self.adapter.get_info().device_type == wgpu::DeviceType::Cpu
@@ -216,7 +216,7 @@ pub(super) fn machine(device: &wgpu::Device) -> Machine {
     let fixed = info.subgroup_min_size == info.subgroup_max_size;
     let subgroup =
         if device.features().contains(wgpu::Features::SUBGROUP) && fixed { info.subgroup_min_size } else { 0 };
-    // A large GPU holds about a quarter of a million invocations at once; a processor wants a workgroup for each core.
+    // A large GPU holds about a quarter of a million invocations at once; a software adapter needs one workgroup per core.
     let invocations = if software { 256 } else { 1 << 18 };
     let limits = device.limits();
     let workgroups = limits.max_compute_workgroups_per_dimension;

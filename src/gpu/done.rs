@@ -1,4 +1,4 @@
-//! That a submission is done. The device says so, and is asked without a wait: of two threads that wait for a time on one device, wgpu
+//! Completion of a submission. The device is polled without waiting: of two threads that wait for a time on one device, wgpu
 //! lets one panic when its time is over while the other clears the queue.
 
 use std::sync::Arc;
@@ -39,7 +39,7 @@ impl Done {
         if !wait_until(device, time, || self.event.is_set())? {
             return Ok(false);
         }
-        // A device that is lost takes submissions without a word, says that they are done, and does not know them afterwards. One that is
+        // A device that is lost takes submissions silently, says that they are done, and does not know them afterwards. One that is
         // done is not waited for.
         let known = wgpu::PollType::Wait { submission_index: Some(self.index.clone()), timeout: Some(Duration::ZERO) };
         polled(device, known).map(|()| true)

@@ -1,4 +1,4 @@
-//! What drivers are known for, and why it is not the expected one.
+//! Known drivers, and why the expected one is not used.
 
 use std::ffi::OsString;
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! What a device complains of, as typed errors.
+//! Errors of a device, as typed errors.
 
 use std::pin::pin;
 use std::sync::{Arc, Mutex};
@@ -56,7 +56,7 @@ pub fn scoped<T>(device: &wgpu::Device, call: impl FnOnce() -> T) -> Result<T, E
     }
 }
 
-/// A device that is lost, or that its owner has destroyed, makes invalid buffers without a word: their use is refused.
+/// A device that is lost, or that its owner has destroyed, makes invalid buffers silently: their use is refused.
 fn is_lost(device: &wgpu::Device) -> bool {
     let usage = wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST;
     let descriptor = wgpu::BufferDescriptor { label: Some("probe"), size: 4, usage, mapped_at_creation: false };

@@ -48,7 +48,7 @@ pub struct Gpu {
 }
 
 impl Gpu {
-    /// Borrows a device for `count` particles. The handles are cheap clones; the owner goes on using its own.
+    /// Borrows a device for `count` particles. The handles are cheap clones; the owner continues using its own.
     ///
     /// # Errors
     /// [`Error::Scene`] when there are no particles.

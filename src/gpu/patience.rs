@@ -1,4 +1,4 @@
-//! Users' laws are compiled in a thread that can be given up: a driver may take for ever, and says nothing meanwhile.
+//! Users' laws are compiled in a thread with a timeout, because a driver may never finish.
 
 use std::sync::mpsc;
 use std::time::Duration;

@@ -29,22 +29,22 @@ impl Pipelines {
         Self { device, queue, made: HashMap::new(), kept: HashMap::new() }
     }
 
-    /// Keeps those that there are.
+    /// Retains the existing pipelines.
     pub fn keep(&mut self) {
         self.kept.extend(self.made.drain());
     }
 
-    /// How many there are.
+    /// The number of pipelines.
     pub fn len(&self) -> usize {
         self.made.len() + self.kept.len()
     }
 
-    /// Lets go of all that are not kept; programs keep theirs.
+    /// Drops all that are not retained; programs hold their own.
     pub fn forget(&mut self) {
         self.made.clear();
     }
 
-    /// The pipeline of a pass; for a user's law the driver has so long.
+    /// The pipeline of a pass; for a user's law compilation times out after `patience`.
     pub fn get(&mut self, pass: &Pass, patience: Duration) -> Result<Pipeline, Error> {
         let constants = pass.constants.iter().map(|(name, value)| (*name, value.to_bits())).collect();
         let key = (pass.shader.text().to_owned(), constants);
@@ -59,7 +59,7 @@ impl Pipelines {
         Ok(pipeline)
     }
 
-    /// What a user's shader might ask for beyond the device's limits, said in words.
+    /// Checks a user's shader against the device's limits, with a readable error.
     fn check(&self, shader: &Shader) -> Result<(), Error> {
         let (limits, reflection) = (self.device.limits(), shader.reflection());
         let storage = reflection.bindings.iter().filter(|b| b.access != Access::Uniform).count();
@@ -88,7 +88,7 @@ fn scoped(device: &wgpu::Device, pass: &Pass) -> Result<Pipeline, Error> {
     fault::scoped(device, || make(device, pass))
 }
 
-/// The same for a user's law, which may take a driver for ever.
+/// The same for a user's law, which a driver may never finish to compile.
 #[cfg(not(target_arch = "wasm32"))]
 fn patiently(device: &wgpu::Device, queue: &wgpu::Queue, pass: &Pass, patience: Duration) -> Result<Pipeline, Error> {
     super::patience::made(device, queue, pass, patience)
@@ -99,7 +99,7 @@ fn patiently(device: &wgpu::Device, _: &wgpu::Queue, pass: &Pass, _: Duration) -
     scoped(device, pass)
 }
 
-/// What the device refuses of a user's file is the file's fault.
+/// A device error about a user's file is an error of that file.
 fn blame(error: Error, shader: &Shader) -> Error {
     match (error, shader.sources().iter().find(|s| !s.ours)) {
         (Error::Device(message), Some(theirs)) => Error::Shader { message: format!("{}: {message}", theirs.file) },
@@ -107,7 +107,7 @@ fn blame(error: Error, shader: &Shader) -> Error {
     }
 }
 
-#[expect(unsafe_code, reason = "the only way to switch off checks that cost time in every turn of an inner loop")]
+#[expect(unsafe_code, reason = "the only way to switch off checks that cost time in every iteration of an inner loop")]
 fn module(device: &wgpu::Device, shader: &Shader) -> wgpu::ShaderModule {
     let label = shader.sources().last().map(|s| s.file.as_ref());
     let descriptor = wgpu::ShaderModuleDescriptor { label, source: wgpu::ShaderSource::Wgsl(shader.text().into()) };
@@ -115,7 +115,7 @@ fn module(device: &wgpu::Device, shader: &Shader) -> wgpu::ShaderModule {
         return device.create_shader_module(descriptor);
     }
     // SAFETY: every loop of this crate's shaders is bounded by a uniform or a constant, tests reach each of them, and
-    // bounds checks stay on. A user's shader never comes here.
+    // bounds checks stay on. A user's shader is never compiled here.
     unsafe {
         let mut checks = wgpu::ShaderRuntimeChecks::checked();
         checks.force_loop_bounding = false;

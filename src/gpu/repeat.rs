@@ -25,7 +25,7 @@ pub(super) struct Repeat {
     workgroups: Vec<[u32; 3]>,
     /// The arguments of odd iterations, and of even ones.
     arguments: [usize; 2],
-    /// The kernels that let an odd iteration go on, and an even one.
+    /// The kernels that let an odd iteration continue, and an even one.
     proceed: [usize; 2],
     reset: usize,
 }
@@ -75,7 +75,7 @@ impl Builder<'_> {
         }
     }
     fn repeat(&mut self, most: u32, until: &Flag, body: Vec<Node>) -> Result<Repeat, Error> {
-        // What lets it go on has one workgroup.
+        // What lets it continue has one workgroup.
         let mut workgroups = vec![[1; 3]];
         self.collect(&body, &mut workgroups);
         let [words, slots] = [3 * u32::try_from(workgroups.len()).unwrap_or(u32::MAX), (most / 2).max(1)];

@@ -141,7 +141,7 @@ impl Queue {
         Ok(())
     }
 
-    /// Waits for all that is in flight, and leaves the executor its turn while that goes on.
+    /// Waits for all that is in flight, and leaves the executor its turn while that continues.
     #[cfg(not(target_arch = "wasm32"))]
     pub async fn idle(&mut self) -> Result<(), Error> {
         let mut deadline = Instant::now() + self.patience;

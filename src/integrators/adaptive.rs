@@ -1,4 +1,4 @@
-//! Steps as long as forces allow. What is symplectic with steps all alike is not so any more: energy that such a method keeps
+//! Adaptive time steps. A method that is symplectic with a fixed step is not with adaptive steps: energy that it keeps
 //! in bounds may drift (Skeel & Gear 1992).
 
 use super::{Integrator, Step};

@@ -1,6 +1,6 @@
 //! Beeman's method (Beeman 1976): the positions are those of leapfrog, and the velocities, by the accelerations of three times,
 //! are of one order more. x ← x + v dt + (4 a − a') dt² / 6, v ← v + (2 a(x) + 5 a − a') dt / 6, with a' of the step before.
-//! A particle that has none, as one in its first step, takes a for it, which is leapfrog.
+//! A particle in its first step has none, and uses a instead, which is leapfrog.
 
 use std::sync::Arc;
 
@@ -23,10 +23,10 @@ impl Integrator for Beeman {
         2
     }
     fn fixed_step(&self) -> Option<&'static str> {
-        Some("beeman takes the accelerations of three times that are equally far apart")
+        Some("beeman requires accelerations at three equally spaced times")
     }
     fn columns(&self) -> Vec<Column> {
-        let about = "the acceleration at the start of the step before: Beeman's method goes on with it";
+        let about = "the acceleration at the start of the previous step, which Beeman's method uses";
         let has = "1 where there is such an acceleration, 0 before a particle's first step";
         vec![
             Column::new(EARLIER.name, Kind::Vector, "length / time²", about),

@@ -1,4 +1,4 @@
-//! Integrators: how forces become motion. Each is written in verbs and reads like its line in the textbook.
+//! Integrators. Each is written in verbs (kick, drift, evaluate) and reads like its formula in a textbook.
 
 mod adaptive;
 mod step;
@@ -42,7 +42,8 @@ pub trait Integrator: Copied + Send + Sync {
     }
     /// Why it requires a fixed time step, if it does.
     fn fixed_step(&self) -> Option<&'static str> {
-        self.is_implicit().then_some("their limits are those of explicit methods, and the integrator is implicit")
+        self.is_implicit()
+            .then_some("their time step limits are those of explicit methods, and the integrator is implicit")
     }
     /// How long its steps are, where they are not all alike.
     fn adaptive_step(&self) -> Option<AdaptiveStep> {
@@ -121,10 +122,10 @@ macro_rules! register {
 }
 
 register! {
-    forward_euler: ForwardEuler, "order 1, gains energy: to show why not";
-    symplectic_euler: SymplecticEuler, "order 1, keeps energy in bounds";
+    forward_euler: ForwardEuler, "order 1, gains energy: for comparison only";
+    symplectic_euler: SymplecticEuler, "order 1, symplectic: the energy error stays bounded";
     leapfrog: Leapfrog, "order 2, symplectic, one evaluation per step: the default";
-    beeman: Beeman, "order 2, the positions of leapfrog with better velocities: molecules (Beeman 1976)";
+    beeman: Beeman, "order 2, the positions of leapfrog with more accurate velocities: molecular dynamics (Beeman 1976)";
     midpoint: Midpoint, "order 2 (Runge-Kutta), for forces that depend on velocity";
     heun: Heun, "order 2 (Runge-Kutta, trapezoid rule), for forces that depend on velocity";
     rk4: RungeKutta4, "order 4 (Runge-Kutta), four evaluations: accurate over short times";
@@ -132,9 +133,9 @@ register! {
     pefrl: Pefrl, "order 4, symplectic, four evaluations: the most accurate over long times";
     linear_backward_euler: LinearBackwardEuler, "order 1, for stiff springs: damped at any step, by one linear solve (Baraff & Witkin 1998)";
     backward_euler: BackwardEuler, "order 1, for stiff springs: damped at any step, its equations solved by Newton's method";
-    linear_trapezoid: LinearTrapezoid, "order 2, for stiff springs: keeps the energy of linear ones, by one linear solve";
-    trapezoid: Trapezoid, "order 2, for stiff springs: keeps the energy of linear ones, by Newton's method";
-    linear_implicit_midpoint: LinearImplicitMidpoint, "order 2, for stiff springs: keeps the energy of linear ones, by one linear solve";
+    linear_trapezoid: LinearTrapezoid, "order 2, for stiff springs: conserves the energy of linear springs, by one linear solve";
+    trapezoid: Trapezoid, "order 2, for stiff springs: conserves the energy of linear springs, by Newton's method";
+    linear_implicit_midpoint: LinearImplicitMidpoint, "order 2, for stiff springs: conserves the energy of linear springs, by one linear solve";
     implicit_midpoint: ImplicitMidpoint, "order 2, symplectic, for stiff springs: its equations solved by Newton's method";
 }
 

@@ -114,7 +114,7 @@ impl<'a> Step<'a> {
             self.add_all(life::still(&self.problem));
         }
     }
-    /// Held particles get the velocity that brings them to their place at the end of the step.
+    /// Fixed particles get the velocity that brings them to their place at the end of the step.
     pub fn lead(&mut self) {
         self.add_all(held::lead(&self.problem));
     }
@@ -139,7 +139,7 @@ impl<'a> Step<'a> {
         self.limit();
     }
     /// A kick by a kernel of the integrator's own, which changes velocities, within the limits of speed; other columns whose rates
-    /// evaluations compute go on by a part of the step.
+    /// evaluations compute continue by a part of the step.
     pub fn kick_by(&mut self, kernel: Result<Kernel, Error>, factor: f64) {
         self.kick_pairs(factor);
         self.add(kernel);
@@ -185,7 +185,7 @@ impl<'a> Step<'a> {
         self.add(runge_kutta::save(self.problem.capacity));
         self.save_pairs();
     }
-    /// Adds `weight` times the slopes (v, a) to their sum, and goes on to x₀ + c v dt, v₀ + c a dt.
+    /// Adds `weight` times the slopes (v, a) to their sum, and continues to x₀ + c v dt, v₀ + c a dt.
     pub fn stage(&mut self, weight: f64, factor: f64) {
         self.moved = true;
         self.slopes();

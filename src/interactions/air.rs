@@ -8,15 +8,15 @@ use super::wind::Gusts;
 use super::{Component, Law, Over, params};
 use crate::settings::{Key, Kind, Settings, Value};
 
-/// What a scene may say.
+/// The keys in a scene.
 pub const KEYS: &[Key] = &[
     Key::new("wind", Kind::Vector, Value::Vector(DVec3::ZERO), "the mean velocity of the air [length / time]"),
     Key::new("density", Kind::NotNegative, Value::Number(1.2), "the density of the air [mass / length³]"),
     Key::new("drag", Kind::NotNegative, Value::Number(1.0), "the drag coefficient of a triangle that faces the wind"),
     Key::new("lift", Kind::NotNegative, Value::Number(0.5), "the lift coefficient"),
-    Key::new("gust", Kind::NotNegative, Value::Number(0.0), "the strength of gusts, as a part of the mean"),
+    Key::new("gust", Kind::NotNegative, Value::Number(0.0), "the amplitude of gusts, relative to the mean velocity"),
     Key::new("period", Kind::Positive, Value::Number(1.0), "the time from gust to gust [time]"),
-    Key::new("wavelength", Kind::Positive, Value::Number(1.0), "the way from gust to gust, along the wind [length]"),
+    Key::new("wavelength", Kind::Positive, Value::Number(1.0), "the distance from gust to gust, along the wind [length]"),
     Key::new(
         "over",
         Kind::Choice(&["triangles"]),

@@ -9,11 +9,11 @@ use super::{Component, EACH, Jacobian, Law, params};
 use crate::kernel::Scalar;
 use crate::settings::{Key, Kind, Settings, Value};
 
-/// What a scene may say.
+/// The keys in a scene.
 pub const KEYS: &[Key] = &[
     Key::new("position", Kind::Vector, Value::Vector(DVec3::ZERO), "where the centre is at time 0 [length]"),
-    Key::new("velocity", Kind::Vector, Value::Vector(DVec3::ZERO), "how it moves [length / time]; energy is kept only if it rests"),
-    Key::new("profile", Kind::Choice(PROFILES), Value::Text(Cow::Borrowed("point")), "how the pull falls off"),
+    Key::new("velocity", Kind::Vector, Value::Vector(DVec3::ZERO), "its velocity [length / time]; energy is conserved only if it is at rest"),
+    Key::new("profile", Kind::Choice(PROFILES), Value::Text(Cow::Borrowed("point")), "the profile of the attraction"),
     Key::new("strength", Kind::Number, Value::Number(1.0), "point: G M [length³ / time²]; harmonic: ω² [1 / time²]; logarithmic: v₀² [length² / time²]"),
     Key::new("softening", Kind::NotNegative, Value::Number(0.0), "point, logarithmic: the core radius ε [length]"),
     EACH,

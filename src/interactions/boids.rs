@@ -10,21 +10,21 @@ use crate::kernel::{Bounds, Plan, Scalar};
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::visit::Particle;
 
-/// What a scene may say.
+/// The keys in a scene.
 pub const KEYS: &[Key] = &[
     Key::new("range", Kind::Positive, Value::Number(0.5), "the range of view, near and within [length]"),
     Key::new("separation_range", Kind::NotNegative, Value::Number(0.2), "the range of separation; no larger than the range of view [length]"),
     Key::new("separation", Kind::NotNegative, Value::Number(1.5), "the weight of separation"),
     Key::new("alignment", Kind::NotNegative, Value::Number(1.0), "the weight of alignment"),
     Key::new("cohesion", Kind::NotNegative, Value::Number(1.0), "the weight of cohesion"),
-    Key::new("vision", Kind::NotNegative, Value::Number(135.0), "half of the angle of view; 180 and more is all round, and so is the view of a bird at rest [degrees]"),
-    Key::new("max_speed", Kind::Positive, Value::Number(1.0), "the speed of the wishes, and the maximum speed [length / time]"),
+    Key::new("vision", Kind::NotNegative, Value::Number(135.0), "half of the angle of view; 180 and more is all round; a bird at rest sees all round [degrees]"),
+    Key::new("max_speed", Kind::Positive, Value::Number(1.0), "the desired speed, and the maximum speed [length / time]"),
     Key::new("min_speed", Kind::NotNegative, Value::Number(0.0), "the minimum speed; a bird at rest sets off along x [length / time]"),
     Key::new("max_force", Kind::Positive, Value::Number(1.5), "the maximum acceleration of each rule, and of all together [length / time²]"),
     SPECIES,
-    Key::new("over", Kind::Choice(&["near", "list", "auto", "within", "nearest"]), Value::Text(Cow::Borrowed("near")), "which neighbours: all in range, by a cell list, by a list that is kept over steps, by the faster of both, or by brute force; or the nearest, of all species, however far (Ballerini et al. 2008)"),
+    Key::new("over", Kind::Choice(&["near", "list", "auto", "within", "nearest"]), Value::Text(Cow::Borrowed("near")), "how neighbours in range are found: by a cell list, by a neighbour list that is reused over steps, by the faster of both, or by brute force; or the k nearest neighbours, of all species, at any distance (Ballerini et al. 2008)"),
     SKIN,
-    Key::new("neighbors", Kind::Count, Value::Number(7.0), "how many are nearest"),
+    Key::new("neighbors", Kind::Count, Value::Number(7.0), "over = \"nearest\": the number k of neighbours"),
 ];
 
 /// `boids`: separation, alignment and cohesion (Reynolds 1987), each as steering (Reynolds 1999), bounded one by one and in

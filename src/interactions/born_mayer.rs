@@ -9,12 +9,12 @@ use crate::kernel::{Column, Kind as Element, Scalar};
 use crate::settings::{Key, Kind, Pair, Settings, Value};
 use crate::visit::{PairTable, Particle};
 
-/// What a scene may say.
+/// The keys in a scene.
 pub const KEYS: &[Key] = &[
     Key::required("pairs", Kind::Pairs(COEFFICIENTS), "the coefficients of each pair of species, as in [{ species = [0, 1], repulsion = 1.0, decay = 0.3 }]"),
     Key::required("range", Kind::Positive, "the cut-off radius, where energy and force end [length]"),
     Key::new("coulomb", Kind::NotNegative, Value::Number(1.0), "Coulomb's constant, 1 / 4π ε₀ [energy length / charge²]"),
-    Key::new("damping", Kind::NotNegative, Value::Number(0.2), "α: Coulomb's energy is erfc(α r) / r; 0: it is only shifted [1 / length]"),
+    Key::new("damping", Kind::NotNegative, Value::Number(0.2), "α: the Coulomb energy is erfc(α r) / r; 0: shifted only [1 / length]"),
     SEE_NEAR,
     SKIN,
 ];
@@ -98,7 +98,7 @@ fn erfc(x: f64) -> f64 {
 
 impl Component for BornMayer {
     fn columns(&self) -> Vec<Column> {
-        vec![Column::new("charge", Element::Scalar, "charge", "how strongly it acts by Coulomb's law, and of which sign")]
+        vec![Column::new("charge", Element::Scalar, "charge", "its charge, with sign")]
     }
     fn laws(&self) -> Vec<Law> {
         let [range, constant, damping] = ["range", "coulomb", "damping"].map(|name| self.0.number(name));

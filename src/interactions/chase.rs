@@ -7,11 +7,11 @@ use crate::kernel::World;
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::visit::Particle;
 
-/// What a scene may say.
+/// The keys in a scene.
 pub const KEYS: &[Key] = &[
     Key::new("range", Kind::Positive, Value::Number(1.0), "how far prey is seen [length]"),
-    Key::new("max_speed", Kind::Positive, Value::Number(1.5), "the speed of the wish; for a limit see speed_limit [length / time]"),
-    Key::new("max_force", Kind::Positive, Value::Number(1.5), "the most that steering does [length / time²]"),
+    Key::new("max_speed", Kind::Positive, Value::Number(1.5), "the desired speed; for a limit see speed_limit [length / time]"),
+    Key::new("max_force", Kind::Positive, Value::Number(1.5), "the maximum acceleration by steering [length / time²]"),
     Key::new("species", Kind::Species, Value::Number(1.0), "the species that chases"),
     Key::new("prey", Kind::Species, Value::Number(0.0), "the species that is chased"),
     SEE_NEAR,

@@ -1,4 +1,4 @@
-//! Grains: spheres that touch, with friction that remembers how far they have slid.
+//! Granular contacts: spheres with friction that depends on their sliding history.
 
 use std::f64::consts::PI;
 
@@ -11,15 +11,15 @@ use crate::rotation;
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::visit::{Memory, Outcome, Particle};
 
-/// What a scene may say.
+/// The keys in a scene.
 pub const KEYS: &[Key] = &[
     Key::required("range", Kind::Positive, "the largest sum of two radii; larger ones are refused [length]"),
     Key::new("stiffness", Kind::Positive, Value::Number(1000.0), "k, the normal force per overlap [mass / time²]"),
-    Key::new("restitution", Kind::Fraction, Value::Number(0.8), "the speed after a head-on impact, as a part of that before"),
-    Key::new("friction", Kind::NotNegative, Value::Number(0.5), "μ: spheres slide where the tangential force would be above μ times the normal one"),
-    Key::new("tangential_stiffness", Kind::NotNegative, Value::Number(2.0 / 7.0), "the stiffness across the contact, as a part of the normal one"),
-    Key::new("tangential_damping", Kind::NotNegative, Value::Number(0.5), "the damping across the contact, as a part of the normal one"),
-    Key::new("skin", Kind::NotNegative, Value::Number(0.0), "how much farther than the range the list of neighbours reaches; 0: a fifth of the range [length]"),
+    Key::new("restitution", Kind::Fraction, Value::Number(0.8), "the coefficient of restitution: the speed after a head-on impact over that before"),
+    Key::new("friction", Kind::NotNegative, Value::Number(0.5), "the friction coefficient μ: spheres slide where the tangential force would exceed μ times the normal force"),
+    Key::new("tangential_stiffness", Kind::NotNegative, Value::Number(2.0 / 7.0), "the tangential stiffness, relative to the normal one"),
+    Key::new("tangential_damping", Kind::NotNegative, Value::Number(0.5), "the tangential damping, relative to the normal one"),
+    Key::new("skin", Kind::NotNegative, Value::Number(0.0), "the skin of the neighbour list beyond the range; 0: a fifth of the range [length]"),
 ];
 
 /// `contact`: a linear spring and dashpot along the line between two spheres that overlap, and across it a spring that sliding
@@ -73,7 +73,7 @@ impl Component for Contact {
     }
     fn properties(&self) -> Properties {
         Properties {
-            fixed_step: Some("contact adds up how far spheres slide by steps of one length"),
+            fixed_step: Some("contact integrates the sliding distance with a fixed time step"),
             dissipates: vec!["contacts"],
             turns: true,
             largest: vec![Largest { column: "radius", value: 0.5 * self.0.number("range"), why: "its range is the largest sum of two radii" }],

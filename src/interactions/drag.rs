@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::{Component, EACH, Jacobian, Law, params};
 use crate::settings::{Key, Kind, Settings, Value};
 
-/// What a scene may say.
+/// The keys in a scene.
 pub const KEYS: &[Key] = &[
     Key::new("linear", Kind::NotNegative, Value::Number(0.0), "the rate of linear (Stokes) drag [1 / time]"),
     Key::new("quadratic", Kind::NotNegative, Value::Number(0.0), "the coefficient of quadratic (Newton) drag [1 / length]"),

@@ -12,31 +12,31 @@ use crate::sph::{
 use crate::kernel::{Bounds, Column, Plan};
 use crate::settings::{Key, Kind, Settings, Value};
 
-/// What a scene may say.
+/// The keys in a scene.
 pub const KEYS: &[Key] = &[
     Key::new("density", Kind::Positive, Value::Number(1000.0), "the density at rest [mass / length³, or mass / length² in two dimensions]").of_fluid(),
-    Key::required("spacing", Kind::Positive, "how far apart particles are at rest, on a cubic lattice [length]").of_fluid(),
-    Key::new("support", Kind::Positive, Value::Number(2.0), "how far the kernel reaches [spacings]").of_fluid(),
-    Key::new("kernel", Kind::Choice(Smoothing::NAMES), Value::Text(Cow::Borrowed("cubic")), "what smooths: the cubic spline, or Wendland's C2").of_fluid(),
+    Key::required("spacing", Kind::Positive, "the spacing of particles at rest, on a cubic lattice [length]").of_fluid(),
+    Key::new("support", Kind::Positive, Value::Number(2.0), "the support radius of the kernel [spacings]").of_fluid(),
+    Key::new("kernel", Kind::Choice(Smoothing::NAMES), Value::Text(Cow::Borrowed("cubic")), "the smoothing kernel: the cubic spline, or Wendland's C2").of_fluid(),
     Key::new("solver", Kind::Choice(&["wcsph", "dfsph"]), Value::Text(Cow::Borrowed("wcsph")), "pressure by an equation of state, or solved for (Bender & Koschier 2015)"),
     Key::new("sound_speed", Kind::NotNegative, Value::Number(0.0), "wcsph: the speed of sound: ten times the fastest flow makes the density vary by 1 % [length / time]"),
     Key::new("gamma", Kind::Count, Value::Number(7.0), "the exponent of Tait's equation p = (ρ₀ c² / γ) ((ρ/ρ₀)^γ − 1), 2 to 15"),
     Key::new("negative_pressure", Kind::Flag, Value::Flag(false), "whether pressure may be below 0: where there is no free surface"),
     Key::new("alpha", Kind::NotNegative, Value::Number(0.0), "the artificial viscosity α (Monaghan 1992)"),
     Key::new("viscosity", Kind::NotNegative, Value::Number(0.0), "the kinematic viscosity ν (Morris, Fox & Zhu 1997) [length² / time]"),
-    Key::new("xsph", Kind::NotNegative, Value::Number(0.0), "ε of XSPH: how much of the mean velocity around is taken on in each step (Schechter & Bridson 2012)"),
-    Key::new("wall_friction", Kind::NotNegative, Value::Number(1.0), "how much of both viscosities walls have; 0 lets slip"),
+    Key::new("xsph", Kind::NotNegative, Value::Number(0.0), "ε of XSPH: how far velocities are drawn to the mean of the neighbours in each step (Schechter & Bridson 2012)"),
+    Key::new("wall_friction", Kind::NotNegative, Value::Number(1.0), "the part of both viscosities that acts at walls; 0: free slip"),
     Key::new("walls", Kind::Choice(WALLS), Value::Text(Cow::Borrowed("mirror")), "the pressure of walls: that of the particle at the wall (Akinci et al. 2012), or that of the fluid around them (Adami, Hu & Adams 2012, as if they were not accelerated)"),
-    Key::new("wall_mass", Kind::Choice(WALL_MASS), Value::Text(Cow::Borrowed("sampled")), "what walls weigh: by how close they are, for one layer (Akinci et al. 2012), or each a share of the lattice, for several").of_fluid(),
-    Key::new("density_by", Kind::Choice(DENSITY_BY), Value::Text(Cow::Borrowed("summation")), "where density comes from: masses around, or the continuity equation (Monaghan 1994), which knows of no surface"),
-    Key::new("diffusion", Kind::NotNegative, Value::Number(0.0), "δ of the diffusion of density by continuity, 0.1 say (Molteni & Colagrossi 2009)"),
-    Key::new("weight", Kind::Vector, Value::Vector(DVec3::ZERO), "the acceleration of weight that a force gives, so that diffusion (Fourtakas et al. 2019) and walls leave a fluid at rest alone [length / time²]"),
-    Key::new("tension", Kind::NotNegative, Value::Number(0.0), "surface tension γ (Akinci, Akinci & Teschner 2013), which is not σ: with water's 1000 for density, in space, σ is about 25 000, 55 000 or 75 000 γ spacing² where support is 2, 2.5 or 3"),
-    Key::new("adhesion", Kind::NotNegative, Value::Number(0.0), "how walls pull the fluid, β (as above)"),
-    Key::new("tolerance", Kind::Positive, Value::Number(1e-4), "dfsph: the mean error of the density that is left [parts of the density]"),
-    Key::new("divergence_tolerance", Kind::Positive, Value::Number(1e-3), "dfsph: what the velocity may compress by in a step, in the mean [parts of the density]"),
-    Key::new("min_iterations", Kind::Count, Value::Number(2.0), "dfsph: the fewest iterations of a solve"),
-    Key::new("max_iterations", Kind::Count, Value::Number(50.0), "dfsph: the most iterations of a solve"),
+    Key::new("wall_mass", Kind::Choice(WALL_MASS), Value::Text(Cow::Borrowed("sampled")), "the mass of wall particles: from their spacing, for one layer (Akinci et al. 2012), or that of a lattice particle, for several layers").of_fluid(),
+    Key::new("density_by", Kind::Choice(DENSITY_BY), Value::Text(Cow::Borrowed("summation")), "how density is computed: by summation over neighbours, or by the continuity equation (Monaghan 1994), which has no deficit at free surfaces"),
+    Key::new("diffusion", Kind::NotNegative, Value::Number(0.0), "density_by = \"continuity\": the density diffusion δ, for instance 0.1 (Molteni & Colagrossi 2009)"),
+    Key::new("weight", Kind::Vector, Value::Vector(DVec3::ZERO), "the gravitational acceleration that another force applies, so that density diffusion (Fourtakas et al. 2019) and walls preserve hydrostatic equilibrium [length / time²]"),
+    Key::new("tension", Kind::NotNegative, Value::Number(0.0), "the surface tension coefficient γ (Akinci, Akinci & Teschner 2013), which is not the physical σ: with density 1000, in three dimensions, σ is about 25 000, 55 000 or 75 000 γ spacing² where support is 2, 2.5 or 3"),
+    Key::new("adhesion", Kind::NotNegative, Value::Number(0.0), "the adhesion coefficient β of walls (Akinci, Akinci & Teschner 2013)"),
+    Key::new("tolerance", Kind::Positive, Value::Number(1e-4), "dfsph: the tolerance of the mean density error [relative to the density]"),
+    Key::new("divergence_tolerance", Kind::Positive, Value::Number(1e-3), "dfsph: the tolerance of the mean density change by divergence in a step [relative to the density]"),
+    Key::new("min_iterations", Kind::Count, Value::Number(2.0), "dfsph: the minimum number of iterations of a solve"),
+    Key::new("max_iterations", Kind::Count, Value::Number(50.0), "dfsph: the maximum number of iterations of a solve"),
 ];
 
 const WALLS: &[&str] = &["mirror", "extrapolate"];
@@ -44,7 +44,7 @@ const WALL_MASS: &[&str] = &["sampled", "lattice"];
 const DENSITY_BY: &[&str] = &["summation", "continuity"];
 
 /// `fluid`: smoothed particle hydrodynamics with density by summation or continuity and Tait's equation of state (Monaghan 1994; Becker &
-/// Teschner 2007). Particles that are not held are of the fluid; held ones are its boundary particles (Akinci et al. 2012).
+/// Teschner 2007). Particles that are not fixed are of the fluid; fixed ones are its boundary particles (Akinci et al. 2012).
 #[derive(Clone)]
 pub struct Fluid(Settings);
 
@@ -163,7 +163,7 @@ impl Component for Fluid {
             (on("diffusion"), "diffusion"),
             (solves, "pressure that is solved for"),
         ];
-        let caution = "alpha goes with the speed of sound, which is none where pressure is solved for: give viscosity instead";
+        let caution = "alpha is proportional to the speed of sound, which a pressure solve does not have: give viscosity instead";
         Properties {
             evaluated_last: solves,
             dissipates: all.into_iter().filter(|(is, _)| *is).map(|(_, what)| what).collect(),

@@ -5,14 +5,14 @@ use glam::{DVec3, DVec4};
 use super::{Component, EACH, Law, SPECIES, params, species};
 use crate::settings::{Key, Kind, Settings, Value};
 
-/// What a scene may say.
+/// The keys in a scene.
 pub const KEYS: &[Key] = &[
     Key::new("position", Kind::Vector, Value::Vector(DVec3::ZERO), "where it is at time 0 [length]"),
-    Key::new("velocity", Kind::Vector, Value::Vector(DVec3::ZERO), "how it moves [length / time]"),
-    Key::new("max_speed", Kind::Positive, Value::Number(1.0), "the speed of the wish [length / time]"),
-    Key::new("max_force", Kind::Positive, Value::Number(1.0), "the most that steering does [length / time²]"),
-    Key::new("slow_radius", Kind::NotNegative, Value::Number(0.5), "within it particles slow down, to rest at the goal [length]"),
-    Key::new("free_radius", Kind::NotNegative, Value::Number(0.0), "within it particles are free: a roost, steered to from outside alone [length]"),
+    Key::new("velocity", Kind::Vector, Value::Vector(DVec3::ZERO), "its velocity [length / time]"),
+    Key::new("max_speed", Kind::Positive, Value::Number(1.0), "the desired speed [length / time]"),
+    Key::new("max_force", Kind::Positive, Value::Number(1.0), "the maximum acceleration by steering [length / time²]"),
+    Key::new("slow_radius", Kind::NotNegative, Value::Number(0.5), "the radius within which particles slow down, to rest at the goal [length]"),
+    Key::new("free_radius", Kind::NotNegative, Value::Number(0.0), "the radius within which particles are not steered: a roost [length]"),
     SPECIES,
     EACH,
 ];

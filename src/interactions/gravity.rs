@@ -11,16 +11,16 @@ use crate::settings::{Key, Kind, Settings, Value};
 use crate::tree::Opening;
 use crate::visit::{Particle, Group};
 
-/// What a scene may say.
+/// The keys in a scene.
 pub const KEYS: &[Key] = &[
     Key::new("g", Kind::Number, Value::Number(1.0), "the gravitational constant [length³ / mass / time²]"),
     Key::new("softening", Kind::NotNegative, Value::Number(0.0), "the Plummer softening ε; the spline ends at 2.8 ε, so for PKDGRAV's own ε (which ends at 2 ε) say 2/2.8 of it [length]"),
-    Key::new("kernel", Kind::Choice(&["plummer", "spline"]), Value::Text(Cow::Borrowed("plummer")), "how close encounters are softened"),
-    Key::new("over", Kind::Choice(&["pairs", "tree", "auto"]), Value::Text(Cow::Borrowed("pairs")), "which pairs are evaluated: all of them, or far groups as one, through a tree; \"auto\": whichever is faster"),
+    Key::new("kernel", Kind::Choice(&["plummer", "spline"]), Value::Text(Cow::Borrowed("plummer")), "the softening kernel"),
+    Key::new("over", Kind::Choice(&["pairs", "tree", "auto"]), Value::Text(Cow::Borrowed("pairs")), "which pairs are evaluated: all (direct summation), or far groups approximated by a tree; \"auto\": whichever is faster"),
     Key::new("theta", Kind::Fraction, Value::Number(0.5), "the opening angle θ of the tree, at most 1: a group of size l is approximated from the distance l / θ on"),
-    Key::new("alpha", Kind::NotNegative, Value::Number(0.0), "above 0: the tree opens by relative force (GADGET): a group is approximated where its quadrupole is below α of the last acceleration"),
-    Key::new("images", Kind::Choice(&["nearest", "ewald"]), Value::Text(Cow::Borrowed("nearest")), "in a periodic box: nearest images alone, or all images in a uniform background, in a cube (Ewald 1921)"),
-    Key::new("multipoles", Kind::Choice(&["quadrupole", "monopole"]), Value::Text(Cow::Borrowed("quadrupole")), "what the tree knows of a far group"),
+    Key::new("alpha", Kind::NotNegative, Value::Number(0.0), "above 0: the relative opening criterion (GADGET): a group is approximated where its quadrupole term is below α of the last acceleration"),
+    Key::new("images", Kind::Choice(&["nearest", "ewald"]), Value::Text(Cow::Borrowed("nearest")), "in a periodic box: nearest images only, or Ewald sums over all images on a neutralizing background, in a cube (Ewald 1921)"),
+    Key::new("multipoles", Kind::Choice(&["quadrupole", "monopole"]), Value::Text(Cow::Borrowed("quadrupole")), "the multipole order of far groups"),
 ];
 
 /// `gravity`: a = G m r / (r² + ε²)^(3/2), or the spline of GADGET, which is exact beyond 2.8 ε
@@ -69,7 +69,7 @@ impl Gravity {
         }
         Ok(())
     }
-    /// The law of far groups; none where they are met as one particle.
+    /// The law of far groups; none where they are evaluated as one particle.
     fn distant(&self, law: Source) -> Option<Source> {
         (self.0.text("multipoles") == "quadrupole").then_some(law)
     }

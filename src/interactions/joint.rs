@@ -7,12 +7,12 @@ use glam::{DVec3, DVec4};
 use super::{Component, Law, Over};
 use crate::settings::{Key, Kind, Settings, Value};
 
-/// What a scene may say.
+/// The keys in a scene.
 pub const KEYS: &[Key] = &[Key::new(
     "over",
     Kind::Choice(&["joints"]),
     Value::Text(Cow::Borrowed("joints")),
-    "what is evaluated: the three particles of a joint; its stiffness comes with it",
+    "what is evaluated: the three particles of a joint, which has its own stiffness",
 )];
 
 /// `joint`: E = ½ k θ² at every joint, with θ the angle by which the way turns there: a discrete elastica (Euler 1744), without

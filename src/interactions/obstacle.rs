@@ -9,15 +9,15 @@ use crate::kernel::Scalar;
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::solids::Solid;
 
-/// What a scene may say.
+/// The keys in a scene.
 pub const KEYS: &[Key] = &[
     Key::new("shape", Kind::Choice(SHAPES), Value::Text(Cow::Borrowed("sphere")), "what it is"),
-    Key::new("position", Kind::Vector, Value::Vector(DVec3::ZERO), "its middle, or a point on the plane [length]"),
+    Key::new("position", Kind::Vector, Value::Vector(DVec3::ZERO), "its centre, or a point on the plane [length]"),
     Key::new("radius", Kind::Positive, Value::Number(0.5), "sphere: its radius [length]"),
     Key::new("size", Kind::Vector, Value::Vector(DVec3::ONE), "box: its sides [length]"),
     Key::new("normal", Kind::Direction, Value::Vector(DVec3::Z), "plane: the direction to the free side"),
-    Key::new("look_ahead", Kind::NotNegative, Value::Number(1.0), "how far ahead it is seen [time]"),
-    Key::new("clearance", Kind::NotNegative, Value::Number(0.05), "the distance kept from it: the radius of a bird [length]"),
+    Key::new("look_ahead", Kind::NotNegative, Value::Number(1.0), "how far ahead particles look [time]"),
+    Key::new("clearance", Kind::NotNegative, Value::Number(0.05), "the minimum distance from it: the radius of a bird [length]"),
     Key::new("max_force", Kind::Positive, Value::Number(5.0), "the acceleration of particles that touch it [length / time²]"),
     SPECIES,
     EACH,

@@ -7,12 +7,12 @@ use crate::error::Error;
 use crate::kernel::Bounds;
 use crate::settings::{Key, Kind, Settings, Value};
 
-/// What a scene may say.
+/// The keys in a scene.
 pub const KEYS: &[Key] = &[
     Key::new("low", Kind::Vector, Value::Vector(DVec3::splat(-1.0)), "the lowest corner of the box [length]"),
     Key::new("high", Kind::Vector, Value::Vector(DVec3::ONE), "the highest corner [length]"),
-    Key::new("margin", Kind::NotNegative, Value::Number(0.25), "how deep the wall is, inside of the box; outside it has no end [length]"),
-    Key::new("acceleration", Kind::NotNegative, Value::Number(2.0), "how strong it is, for every side by itself [length / time²]"),
+    Key::new("margin", Kind::NotNegative, Value::Number(0.25), "the depth of the wall inside of the box; outside it is unlimited [length]"),
+    Key::new("acceleration", Kind::NotNegative, Value::Number(2.0), "the acceleration of each side's wall [length / time²]"),
     SPECIES,
     EACH,
 ];
@@ -37,7 +37,7 @@ impl Component for SoftTurn {
             None => Ok(()),
             Some(axis) => {
                 let (name, least, most) = (["x", "y", "z"][axis], low[axis], high[axis]);
-                let why = format!("soft_turn has high = {most} along {name}, and low = {least}: nothing is between; exchange them");
+                let why = format!("soft_turn has high = {most} along {name}, below low = {least}: exchange them");
                 Err(Error::Setting { key: "high", why })
             }
         }

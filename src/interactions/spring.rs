@@ -8,12 +8,12 @@ use glam::{DVec3, DVec4};
 use super::{Component, Jacobian, Law};
 use crate::settings::{Key, Kind, Settings, Value};
 
-/// What a scene may say.
+/// The keys in a scene.
 pub const KEYS: &[Key] = &[Key::new(
     "over",
     Kind::Choice(&["links"]),
     Value::Text(Cow::Borrowed("links")),
-    "which pairs are evaluated: those that a spring or a rope ties; its length, stiffness and damping come with it",
+    "which pairs are evaluated: those connected by a spring or a rope, which has its own length, stiffness and damping",
 )];
 
 /// `spring`: Hooke's law along every link, F = k (l − L) + c dl/dt, with the damping along the spring alone: pairs that move

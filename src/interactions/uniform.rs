@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::{Component, EACH, Law, params};
 use crate::settings::{Key, Kind, Settings, Value};
 
-/// What a scene may say.
+/// The keys in a scene.
 pub const KEYS: &[Key] = &[
     Key::new("acceleration", Kind::Vector, Value::Vector(DVec3::new(0.0, 0.0, -9.81)), "the acceleration [length / time²]"),
     EACH,

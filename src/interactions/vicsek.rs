@@ -11,11 +11,11 @@ use crate::settings::{Key, Kind, Settings, Value};
 use crate::visit::Particle;
 use crate::visit::random::{fraction, pcg4d, words};
 
-/// What a scene may say.
+/// The keys in a scene.
 pub const KEYS: &[Key] = &[
-    Key::new("range", Kind::Positive, Value::Number(1.0), "the range of view, in which a particle sees itself too [length]"),
+    Key::new("range", Kind::Positive, Value::Number(1.0), "the radius of the neighbourhood, which includes the particle itself [length]"),
     Key::new("speed", Kind::Positive, Value::Number(0.03), "the speed of all particles; v₀ of the paper is this times dt [length / time]"),
-    Key::new("noise", Kind::NotNegative, Value::Number(2.0), "η: angular, the width of the random turn [0 to 2π]; vectorial, the length of the random arrow [0 to 1]"),
+    Key::new("noise", Kind::NotNegative, Value::Number(2.0), "η: angular, the width of the random angle [0 to 2π]; vectorial, the length of the random vector [0 to 1]"),
     Key::new("noise_kind", Kind::Choice(KINDS), Value::Text(Cow::Borrowed("angular")), "whether the noise turns the mean heading, or adds to the headings"),
     SEED,
     SEE_NEAR,

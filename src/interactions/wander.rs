@@ -8,9 +8,9 @@ use super::{Component, EACH, Law, Properties, SEED, SPECIES, params, species, se
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::visit::random::{fraction, pcg4d, words};
 
-/// What a scene may say.
+/// The keys in a scene.
 pub const KEYS: &[Key] = &[
-    Key::new("strength", Kind::NotNegative, Value::Number(0.5), "σ: after the time t a velocity has walked σ √t, whatever dt [length / time^(3/2)]"),
+    Key::new("strength", Kind::NotNegative, Value::Number(0.5), "σ: after the time t a velocity has changed by σ √t (rms), for any dt [length / time^(3/2)]"),
     SEED,
     SPECIES,
     EACH,
@@ -31,7 +31,7 @@ impl Wander {
 
 impl Component for Wander {
     fn properties(&self) -> Properties {
-        Properties { fixed_step: Some("a random walk has as many kicks as steps, of a strength that goes with their length"), ..Properties::default() }
+        Properties { fixed_step: Some("a random walk has one kick per step, scaled by the time step"), ..Properties::default() }
     }
     fn laws(&self) -> Vec<Law> {
         let strength = self.0.number("strength");

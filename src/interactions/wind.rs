@@ -8,13 +8,13 @@ use glam::DVec3;
 use super::{Component, EACH, Jacobian, Law, params};
 use crate::settings::{Key, Kind, Settings, Value};
 
-/// What a scene may say.
+/// The keys in a scene.
 pub const KEYS: &[Key] = &[
     Key::new("velocity", Kind::Vector, Value::Vector(DVec3::X), "the mean velocity of the air [length / time]"),
-    Key::new("rate", Kind::NotNegative, Value::Number(1.0), "how fast particles take the air's velocity [1 / time]"),
-    Key::new("gust", Kind::NotNegative, Value::Number(0.0), "the strength of gusts, as a part of the mean"),
+    Key::new("rate", Kind::NotNegative, Value::Number(1.0), "the rate at which particles adopt the velocity of the air [1 / time]"),
+    Key::new("gust", Kind::NotNegative, Value::Number(0.0), "the amplitude of gusts, relative to the mean velocity"),
     Key::new("period", Kind::Positive, Value::Number(1.0), "the time from gust to gust [time]"),
-    Key::new("wavelength", Kind::Positive, Value::Number(1.0), "the way from gust to gust, along the wind [length]"),
+    Key::new("wavelength", Kind::Positive, Value::Number(1.0), "the distance from gust to gust, along the wind [length]"),
     EACH,
 ];
 

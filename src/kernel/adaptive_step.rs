@@ -1,13 +1,13 @@
 //! How long steps are, where they are not all alike. Such a clock counts in whole ticks, 2²⁴ in the longest step: sums of
-//! them are exact, so that nothing is lost between the first step and the last, and an end is met to the tick.
+//! them are exact, so that nothing is lost between the first step and the last, and an end time is reached to the tick.
 
 use super::{Field, Host, Problem, Source};
 use crate::error::Error;
 
-/// Steps as short as forces ask for, and no longer than `dt`.
+/// Steps as short as forces require, and no longer than `dt`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AdaptiveStep {
-    /// The shortest step \[time\]: where forces ask for less, a run ends.
+    /// The shortest step \[time\]: where forces require less, a run ends.
     pub least: f64,
     /// The Courant number C, a part of every limit that forces offer.
     pub courant: f64,
@@ -18,7 +18,7 @@ pub struct AdaptiveStep {
 
 /// Ticks in the longest step.
 pub const TICKS: u32 = 1 << 24;
-/// The shortest step, as a part of the longest, at least: ticks must tell steps apart.
+/// The shortest step, as a part of the longest, at least: ticks must distinguish steps.
 const LEAST_PART: f64 = 1e-6;
 
 /// The clock, word by word: 0 and 1: the time in longest steps and ticks; 2: the ticks of the step at hand, 0 where a run
@@ -108,7 +108,7 @@ impl AdaptiveStep {
         let Self { least, courant, before } = *self;
         if !(LEAST_PART * dt..=dt).contains(&least) {
             return Err(Error::Scene(format!(
-                "the shortest step is {least:e}, and the longest {dt:e}: choose one between {:e} and that",
+                "the shortest step is {least:e} and the longest {dt:e}: choose a shortest step between {:e} and the longest",
                 LEAST_PART * dt
             )));
         }
@@ -119,7 +119,7 @@ impl AdaptiveStep {
         }
         if let Some(before) = before.filter(|before| !(least..=dt).contains(before)) {
             return Err(Error::Scene(format!(
-                "the step before the first is {before:e}: it must be one between the shortest, {least:e}, and the longest, {dt:e}"
+                "the step before the first is {before:e}: it must be between the shortest, {least:e}, and the longest, {dt:e}"
             )));
         }
         Ok(())

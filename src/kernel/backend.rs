@@ -1,4 +1,4 @@
-//! What a backend does: hold fields by name, and run plans.
+//! The interface of backends: hold fields by name, and run plans.
 
 use std::task::Waker;
 
@@ -8,7 +8,7 @@ use crate::error::Error;
 /// What a plan may want to know of the machine it will run on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Machine {
-    /// The device is a processor that plays a GPU (lavapipe, SwiftShader, WARP): barriers cost, lanes are few.
+    /// The device is a software adapter (lavapipe, SwiftShader, WARP): barriers cost, lanes are few.
     pub software: bool,
     /// The size of every subgroup, when kernels may use subgroups and the size is fixed; else 0.
     pub subgroup: u32,
@@ -18,7 +18,7 @@ pub struct Machine {
     pub bindable: u64,
     /// Workgroups that it dispatches in one dimension, at most.
     pub workgroups: u32,
-    /// Turns that the loops of an invocation may take, all together: some drivers of processors end them after 65 535.
+    /// Iterations that the loops of an invocation may take, all together: some software drivers end them after 65 535.
     pub turns: u32,
 }
 
@@ -53,7 +53,7 @@ pub trait Arrival: Mobile {
 pub trait Backend {
     /// A plan made ready.
     type Program;
-    /// What the device is like.
+    /// Properties of the device.
     fn machine(&self) -> Machine;
     /// The fields themselves, where they are on the host: a picture of them is drawn without kernels.
     fn host(&self) -> Option<&Host> {

@@ -39,7 +39,7 @@ pub enum Kind {
     Vector,
     /// Four real numbers: a unit quaternion (x, y, z | w), `vec4f` on the device.
     Quaternion,
-    /// A whole number from 0 on: `u32`.
+    /// An integer from 0 on: `u32`.
     Whole,
 }
 
@@ -194,7 +194,7 @@ impl Column {
     }
     /// The same, advanced with positions by this rate, which follows from velocities: dρ/dt = −ρ ∇·v. Taken at the end of a
     /// drift it would count the second order of a straight way, by which what turns seems to expand, and in the middle it does
-    /// not: a drift goes half of its way, the rate is computed there, and the drift goes on. That is of order 2; where the rate depends on
+    /// not: a drift goes half of its way, the rate is computed there, and the drift continues. That is of order 2; where the rate depends on
     /// the column itself, which is that of the start then, of order 1.
     #[must_use]
     pub fn carried(self, rate: impl Into<Name>) -> Self {

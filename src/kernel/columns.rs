@@ -24,18 +24,23 @@ impl Default for Columns {
 pub fn base() -> Vec<Column> {
     vec![
         Column::new("position", Kind::Vector, "length", "where the particle is").with_rate("velocity").required(),
-        Column::new("mass", Kind::Scalar, "mass", "how heavy it is; 0 is a test particle")
+        Column::new("mass", Kind::Scalar, "mass", "the mass; 0: a test particle")
             .within("position", 3)
             .starting([1.0, 0.0, 0.0, 0.0]),
         Column::new("velocity", Kind::Vector, "length / time", "how it moves").with_rate("acceleration"),
-        Column::new("size", Kind::Scalar, "length", "the radius that pictures draw; 0 lets them choose")
+        Column::new("size", Kind::Scalar, "length", "the radius in pictures; 0: chosen by the picture")
             .within("velocity", 3),
         Column::new("acceleration", Kind::Vector, "length / time²", "the sum of all laws").summed(),
-        Column::new("potential", Kind::Scalar, "length² / time²", "its share of the potential energy, per unit mass")
-            .within("acceleration", 3)
-            .summed(),
-        Column::new("species", Kind::Whole, "", "of which kind it is, as a number that laws tell apart"),
-        Column::new("life", Kind::Whole, "", "whether it takes part: 0 is pending, 1 active, 2 removed")
+        Column::new(
+            "potential",
+            Kind::Scalar,
+            "length² / time²",
+            "its share of the potential energy, per unit of mass",
+        )
+        .within("acceleration", 3)
+        .summed(),
+        Column::new("species", Kind::Whole, "", "the species, a number by which laws distinguish particles"),
+        Column::new("life", Kind::Whole, "", "its state of life: 0 pending, 1 active, 2 removed")
             .starting([1.0, 0.0, 0.0, 0.0]),
         Column::new("id", Kind::Whole, "", "the number that stays with the particle; its row, where none is given"),
     ]

@@ -18,12 +18,12 @@ pub const SPECIES: Field<u32> = Field::new("species");
 pub const LIFE: Field<u32> = Field::new("life");
 /// The id of a particle. It is there where rows are used again for other particles; elsewhere ids are rows.
 pub const ID: Field<u32> = Field::new("id");
-/// Where held particles with a target shall be, by id: `xyz` the place \[length\], `w` the time at which they shall be there
+/// Where fixed particles with a target shall be, by id: `xyz` the place \[length\], `w` the time at which they shall be there
 /// \[time\]. They go there at constant velocity, and stay; a target whose time is over is reached in the next step. At the start it is where they
 /// are. Write it with [`Simulation::write`](crate::simulation::Simulation::write) whenever a new place is known. It is there
 /// where a particle is held by [`Hold::Target`](crate::motion::Hold::Target). `target` is a word of WGSL's own.
 pub const TARGET: Field<Vec4> = Field::new("kinematic_target");
-/// Where held particles were at the start, in the order of [`Problem::held`](super::Problem::held).
+/// Where fixed particles were at the start, in the order of [`Problem::held`](super::Problem::held).
 pub const HOME: Field<Vec4> = Field::new("home");
 /// What has gone wrong, word by word; `u32::MAX` in the first five and the last two while all is well.
 ///

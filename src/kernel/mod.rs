@@ -1,4 +1,4 @@
-//! What runs, as data only: fields, shaders as naga sees them, kernels with their references, plans. No device here.
+//! Plans as data, without a device: fields, reflected shaders, kernels with their references.
 
 mod adaptive_step;
 mod backend;

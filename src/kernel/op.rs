@@ -10,7 +10,7 @@ pub struct Flag {
     pub field: Name,
     /// The word of it, of four bytes each.
     pub word: u32,
-    /// What the shader calls it.
+    /// Its name in the shader.
     pub member: &'static str,
 }
 

@@ -28,9 +28,9 @@ pub struct Member {
     pub offset: usize,
     /// 1 for a number, 3 for a `vec3`; 0 for anything that a host cannot fill.
     pub components: usize,
-    /// Whether of `f32`; else of whole numbers.
+    /// Whether of `f32`; else of integers.
     pub float: bool,
-    /// Whether of whole numbers that may be below zero: `i32`.
+    /// Whether of integers that may be below zero: `i32`.
     pub signed: bool,
 }
 
@@ -49,7 +49,7 @@ fn bytes(x: f64) -> [u8; 4] {
 }
 
 impl Packed {
-    /// Packs values by name. Every member must be named once, with a value of its kind; a whole number will do where
+    /// Packs values by name. Every member must be named once, with a value of its kind; an integer will do where
     /// a float is wanted.
     ///
     /// # Errors
@@ -64,7 +64,7 @@ impl Packed {
         }
         for member in &self.members {
             let Some((_, value)) = values.iter().find(|(name, _)| *name == member.name) else {
-                return Err(Error::Scene(format!("{owner} wants a value for its parameter `{}`", member.name)));
+                return Err(Error::Scene(format!("{owner} requires a value for its parameter `{}`", member.name)));
             };
             let words: Vec<[u8; 4]> = match (*value, member.float, member.components) {
                 (Scalar::Float(x), true, 1) => vec![bytes(x)],

@@ -1,4 +1,4 @@
-//! What integrators advance beside positions and velocities: a column and its rate.
+//! Columns that integrators advance in addition to positions and velocities: a column and its rate.
 
 use super::Name;
 use super::column::{Advance, Column, Kind, Role, Shape};
@@ -123,7 +123,7 @@ impl Columns {
         let torque = rate.rate.as_ref().and_then(|torque| self.get(torque));
         let Some(torque) = torque.filter(|torque| torque.role != Role::State && rate.role == Role::State) else {
             return Err(Error::Scene(format!(
-                "the orientation `{}` turns by `{}`, which must be a state whose rate is a torque that evaluations compute",
+                "the rate of the orientation `{}` is `{}`, which must be a state whose rate is a torque that evaluations compute",
                 column.name, rate.name
             )));
         };
@@ -137,7 +137,7 @@ impl Columns {
         };
         match [column, rate, torque, moments].into_iter().find(|it| it.is_packed() || it.shape != Shape::Particle) {
             Some(it) => Err(Error::Scene(format!(
-                "the column `{}` is of what turns, and needs a buffer of its own with one value for each particle",
+                "the column `{}` belongs to a rigid body, and needs its own buffer with one value for each particle",
                 it.name
             ))),
             None => Ok(()),

@@ -118,7 +118,7 @@ impl std::fmt::Debug for Kernel {
 pub struct Plan {
     /// The different kernels.
     pub kernels: Vec<Kernel>,
-    /// What runs, in order.
+    /// The kernels, in order.
     pub ops: Vec<Op>,
 }
 

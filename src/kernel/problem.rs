@@ -1,4 +1,4 @@
-//! What a plan is written for.
+//! The problem for which a plan is written: particles, box, links, motions.
 
 use std::sync::Arc;
 
@@ -27,13 +27,13 @@ pub struct Problem {
     pub extent: (DVec3, DVec3),
     /// How many are of each species; nothing where there is but one.
     pub species: Vec<(u32, u32)>,
-    /// What ties them together.
+    /// Links between them.
     pub network: Arc<Network>,
     /// Whether that changes as it goes: springs that break.
     pub breaks: bool,
     /// Those that forces do not move, as [`motion::sorted`] has them.
     pub held: Arc<Vec<Held>>,
-    /// One word for each particle, 1 where it is held; empty where none is.
+    /// One word for each particle, 1 where it is fixed; empty where none is.
     pub mask: Arc<Vec<u32>>,
     /// What leads some of them, and solids.
     pub motions: Arc<Vec<Motion>>,
@@ -135,7 +135,7 @@ impl Problem {
         }
         Self { species: counts.into_iter().collect(), ..self }
     }
-    /// The same with these links, between these held ones.
+    /// The same with these links, between these fixed ones.
     #[must_use]
     pub fn tied(self, links: &Links, held: &[Held]) -> Self {
         let mask = if held.is_empty() { Vec::new() } else { motion::mask(self.capacity, held) };
@@ -190,7 +190,7 @@ impl Problem {
         files.push(file);
         table
     }
-    /// Whether a particle is held.
+    /// Whether a particle is fixed.
     #[must_use]
     pub fn is_held(&self, id: usize) -> bool {
         self.mask.get(id).is_some_and(|word| *word > 0)

@@ -1,4 +1,4 @@
-//! What naga says of a shader: which names are bound where, how wide their elements are, how large a workgroup is.
+//! Reflection of a shader by naga: bindings, strides of elements, size of a workgroup.
 //! This is the only place that knows binding numbers, and it reads them out of the WGSL.
 
 use std::collections::BTreeMap;

@@ -1,4 +1,4 @@
-//! What ends a loop on the device: each iteration is dispatched indirectly, with arguments that the one before it has written.
+//! Loops on the device: each iteration is dispatched indirectly, with arguments that the previous one has written.
 //!
 //! Every iteration but the first has arguments of its own, zero before the loop begins. [`proceed`] runs at the end of an
 //! iteration, dispatched like the rest of it, and gives the next one its workgroups unless the flag is set. So the first

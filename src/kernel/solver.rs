@@ -42,7 +42,7 @@ impl Solver {
         }
         for (name, n, most) in [("iterations", iterations, MOST_ITERATIONS), ("solves", solves, MOST_SOLVES)] {
             if !(1..=most).contains(&n) {
-                return Err(Error::Scene(format!("the solver may do {n} {name}: choose 1 to {most}")));
+                return Err(Error::Scene(format!("the solver has {n} {name}: choose 1 to {most}")));
             }
         }
         Ok(())

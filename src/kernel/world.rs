@@ -1,4 +1,4 @@
-//! What every kernel knows: `World` in `shaders/world.wgsl`, in f64.
+//! Parameters of every kernel: `World` in `shaders/world.wgsl`, in f64.
 
 use super::Bounds;
 use super::pack::{Packed, Scalar};

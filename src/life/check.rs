@@ -1,4 +1,4 @@
-//! What births and drains must be.
+//! Validation of births and drains.
 
 use super::{Birth, Drain, Life};
 use crate::error::Error;
@@ -18,16 +18,16 @@ pub fn check(
     let refuse = |text: String| Err(Error::Scene(text));
     let fits = |x: f64| x.abs() <= f64::from(f32::MAX);
     if life.len() > count {
-        return refuse(format!("it is said of {} particles whether they live, and there are {count}", life.len()));
+        return refuse(format!("the life of {} particles is given, but there are {count}", life.len()));
     }
     let mut born = vec![false; count];
     for birth in births {
         let id = birth.id;
         let Some(known) = born.get_mut(id as usize) else {
-            return refuse(format!("particle {id} is to be born, and there are {count}: ids go from 0"));
+            return refuse(format!("particle {id} is to be spawned, but there are {count} particles: ids start at 0"));
         };
         if std::mem::replace(known, true) {
-            return refuse(format!("particle {id} is to be born twice: give each birth an id of its own"));
+            return refuse(format!("particle {id} is to be spawned twice: give each birth its own id"));
         }
         let numbers = birth.velocity.to_array().into_iter().chain([birth.time, birth.mass, birth.guided]);
         if !numbers.into_iter().all(fits) || birth.mass < 0.0 || birth.guided < 0.0 {
@@ -43,7 +43,7 @@ pub fn check(
     }
     let led = |one: &&Held| born.get(one.id as usize).is_some_and(|born| *born) || idle(life, one.id);
     if let Some(one) = held.iter().find(led) {
-        return refuse(format!("particle {} is held, and does not live from the start: hold others", one.id));
+        return refuse(format!("particle {} is fixed, and is not active from the start: fix other particles", one.id));
     }
     for (number, drain) in drains.iter().enumerate() {
         let (numbers, good) = match drain.solid {

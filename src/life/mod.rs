@@ -16,7 +16,7 @@ use crate::solids::Solid;
 /// Whether a particle takes part. One that does not is in no cell list, has no acceleration, no mass and no velocity, and is not drawn.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Life {
-    /// It is yet to be born, and stands where that will be.
+    /// It is pending, and stands where that will be.
     Pending,
     /// It takes part.
     #[default]
@@ -38,8 +38,8 @@ impl Life {
     }
 }
 
-/// When and how a particle that waits is born. At the end of the first step that reaches its time it is put where it would be
-/// had it left the place where it waited just then, at this velocity. One that does not wait is not born again.
+/// When and how a pending particle is spawned. At the end of the first step that reaches its time it is put where it would be
+/// had it left the place where it waited just then, at this velocity. One that does not wait is not spawned again.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Birth {
     /// Its id.
@@ -48,7 +48,7 @@ pub struct Birth {
     pub time: f64,
     /// How it moves \[length / time\].
     pub velocity: DVec3,
-    /// How heavy it is \[mass\].
+    /// Mass \[mass\].
     pub mass: f64,
     /// How long it goes straight on, whatever forces say, so that those before it have something behind them \[time\].
     pub guided: f64,
@@ -65,7 +65,7 @@ pub struct Drain {
     pub position: DVec3,
     /// Whether one dies outside of the shape instead of inside.
     pub outside: bool,
-    /// The species that it removes; all, but held particles, where none is named.
+    /// The species that it removes; all, but fixed particles, where none is named.
     pub species: Option<u32>,
 }
 

@@ -1,20 +1,20 @@
-//! How many there are.
+//! Counts of pending, active and removed particles.
 
 use super::{Birth, Life};
 
-/// How many wait, live and are removed. Together they are all particles that there are.
+/// Counts of pending, active and removed particles, which sum to all particles.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Population {
-    /// Those yet to be spawned.
+    /// Particles yet to be spawned.
     pub pending: u64,
-    /// Those that take part.
+    /// Particles in the simulation.
     pub active: u64,
-    /// Those removed.
+    /// Removed particles.
     pub removed: u64,
 }
 
 impl Population {
-    /// Counts `count` particles; one of which nothing is said is active.
+    /// Counts `count` particles; those without an entry are active.
     #[must_use]
     pub fn of(life: &[Life], count: usize) -> Self {
         let number = |wanted: Life| life.iter().take(count).filter(|life| **life == wanted).count() as u64;

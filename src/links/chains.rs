@@ -1,4 +1,4 @@
-//! Rods as chains: open ways from particle to particle. Held particles are not pulled, so that chains end at them.
+//! Rods as chains: open ways from particle to particle. Fixed particles are not pulled, so that chains end at them.
 
 use super::Rod;
 use crate::error::Error;
@@ -35,7 +35,7 @@ impl Chains {
         let mut ends: Vec<(u32, usize)> = rods.iter().enumerate().flat_map(both).collect();
         ends.sort_unstable();
         if let Some(n) = rods.iter().position(|rod| rod.ends.iter().all(|id| held(*id))) {
-            return Err(Error::Scene(format!("rod {n} ties two particles that are held, and does nothing: remove it")));
+            return Err(Error::Scene(format!("rod {n} connects two fixed particles, and has no effect: remove it")));
         }
         let of = |id: u32| {
             let from = ends.partition_point(|(other, _)| *other < id);
@@ -102,7 +102,7 @@ impl Chains {
         }
         starts
     }
-    /// Three words for each node: the id, whether it is held, and as `f32` the length.
+    /// Three words for each node: the id, whether it is fixed, and as `f32` the length.
     #[must_use]
     pub fn words(&self) -> Vec<u32> {
         let words = |node: &Node| [node.id, u32::from(node.held), super::network::bits(node.length)];

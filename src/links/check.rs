@@ -1,4 +1,4 @@
-//! What links must be.
+//! Validation of links.
 
 use std::collections::BTreeSet;
 
@@ -56,11 +56,11 @@ impl Link {
         let numbers = [("rest length", self.rest), ("stiffness", self.stiffness), ("damping", self.damping)];
         numbers.iter().try_for_each(|(name, x)| not_negative(what, name, *x))?;
         if self.stiffness == 0.0 && self.damping == 0.0 {
-            let text = format!("{what} has neither stiffness nor damping: it does nothing; remove it");
+            let text = format!("{what} has neither stiffness nor damping, and has no effect: remove it");
             return Err(Error::Scene(text));
         }
         if self.rope && self.rest == 0.0 {
-            return Err(Error::Scene(format!("{what} is a rope of no length: it never is slack; make it a spring")));
+            return Err(Error::Scene(format!("{what} is a rope of length 0, which is never slack: make it a spring")));
         }
         Ok(())
     }
@@ -74,7 +74,7 @@ impl Rod {
     pub fn check(&self, what: &str) -> Result<(), Error> {
         not_negative(what, "length", self.length)?;
         if self.length == 0.0 {
-            return Err(Error::Scene(format!("{what} has no length: make its two particles one")));
+            return Err(Error::Scene(format!("{what} has length 0: merge its two particles")));
         }
         Ok(())
     }
@@ -84,14 +84,17 @@ impl Rod {
 fn apart(what: &str, ids: &[u32], masses: &[f64]) -> Result<(), Error> {
     for (place, id) in ids.iter().enumerate() {
         let Some(mass) = masses.get(*id as usize) else {
-            let text = format!("{what} ties particle {id}, and there are {}: ids go from 0", masses.len());
+            let text =
+                format!("{what} connects particle {id}, but there are {} particles: ids start at 0", masses.len());
             return Err(Error::Scene(text));
         };
         if ids[..place].contains(id) {
-            return Err(Error::Scene(format!("{what} ties particle {id} to itself")));
+            return Err(Error::Scene(format!("{what} connects particle {id} to itself")));
         }
         if *mass == 0.0 {
-            return Err(Error::Scene(format!("{what} ties particle {id}, which has no mass that a force could move")));
+            return Err(Error::Scene(format!(
+                "{what} connects particle {id}, which has mass 0: give it a mass, or fix it"
+            )));
         }
     }
     Ok(())
@@ -101,13 +104,13 @@ fn twice(what: &str, [a, b]: [u32; 2], pairs: &mut BTreeSet<[u32; 2]>) -> Result
     if pairs.insert([a.min(b), a.max(b)]) {
         return Ok(());
     }
-    Err(Error::Scene(format!("{what} ties particles {a} and {b}, which another one ties already: make them one")))
+    Err(Error::Scene(format!("{what} connects particles {a} and {b}, which another link connects already: merge them")))
 }
 
 fn not_negative(what: &str, name: &str, x: f64) -> Result<(), Error> {
     if x > 0.0 && x < f64::from(f32::MIN_POSITIVE) {
         return Err(Error::Scene(format!(
-            "{what} has the {name} {x:e}, which single precision takes for 0: say 0, or more"
+            "{what} has the {name} {x:e}, which is 0 in single precision: give 0, or a larger number"
         )));
     }
     if (0.0..=f64::from(f32::MAX)).contains(&x) {

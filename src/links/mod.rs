@@ -1,4 +1,4 @@
-//! What ties particles together: springs and ropes, rigid rods, joints that resist bending, and triangles in the
+//! Links between particles: springs and ropes, rigid rods, joints that resist bending, and triangles in the
 //! wind. Plain lists, by the particles' ids; kernels see them as tables, each element from each of its particles.
 
 mod chains;
@@ -48,7 +48,7 @@ pub struct Joint {
     pub stiffness: f64,
 }
 
-/// All that ties particles together.
+/// All links between particles.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Links {
     /// Springs and ropes.
@@ -62,7 +62,7 @@ pub struct Links {
 }
 
 impl Links {
-    /// Whether nothing is tied.
+    /// Whether there are no links.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.springs.is_empty() && self.rods.is_empty() && self.joints.is_empty() && self.triangles.is_empty()

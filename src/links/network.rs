@@ -34,7 +34,7 @@ pub struct Network {
     pub triangle_start: Arc<Vec<u32>>,
     /// Five words for each corner, as for joints; the last is zero.
     pub triangle: Arc<Vec<u32>>,
-    /// The rods. How they make chains depends on which particles are held.
+    /// The rods. How they make chains depends on which particles are fixed.
     pub rods: Arc<Vec<Rod>>,
 }
 

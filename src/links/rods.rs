@@ -1,4 +1,4 @@
-//! What rods must be at the start.
+//! Validation of rods at the start.
 
 use std::collections::HashSet;
 
@@ -14,8 +14,8 @@ const SLACK: f64 = 1e-5;
 const FINE: f64 = 2e-4;
 
 impl Links {
-    /// Whether the rods make chains, and have their lengths where the particles are. Between held ones only `fixed` ones are
-    /// known to rest at the start; `shortest` gives the way to the nearest image.
+    /// Whether the rods make chains, and have their lengths where the particles are. Between fixed ones only `fixed` ones are
+    /// known to rest at the start; `shortest` gives the displacement to the nearest image.
     ///
     /// # Errors
     /// [`Error::Scene`] with what [`Chains::new`] says, or with the first rod that is too long, too short, too small for
@@ -49,7 +49,7 @@ impl Links {
                     r.length()
                 )));
             }
-            // Where a held one is led, the first step finds out how fast.
+            // The first step determines the velocity of a kinematic particle.
             let led = |id: &u32| held.contains(id) && !fixed.contains(id);
             if rod.ends.iter().any(led) {
                 continue;

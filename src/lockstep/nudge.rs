@@ -1,4 +1,4 @@
-//! What a reference says of inputs that single precision cannot tell from those it was given.
+//! The results of a reference for inputs within rounding to single precision of the given ones.
 
 use glam::{DVec3, DVec4};
 

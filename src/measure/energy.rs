@@ -1,4 +1,4 @@
-//! What is conserved, summed in f64.
+//! Conserved quantities, summed in f64.
 
 use glam::DVec3;
 use rayon::prelude::*;

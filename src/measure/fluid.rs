@@ -7,7 +7,7 @@ use crate::kernel::Bounds;
 use crate::sph::Medium;
 use crate::state::State;
 
-/// What a fluid has at a time, without held particles, which are its walls. A row of `fluid.csv`.
+/// What a fluid has at a time, without fixed particles, which are its walls. A row of `fluid.csv`.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Ledger {
     /// Steps done.

@@ -1,4 +1,4 @@
-//! What is measured of a state, in f64.
+//! Measurements of a state, in f64.
 
 mod energy;
 mod flock;

@@ -1,4 +1,4 @@
-//! What motions and held particles must be.
+//! Validation of motions and fixed particles.
 
 use std::collections::BTreeSet;
 
@@ -12,7 +12,7 @@ const MOST_STEPS: f64 = 2e9;
 /// By how much the first and the last pose of a motion that repeats may differ: degrees written with some digits.
 const SAME: f64 = 1e-6;
 
-/// Whether motions and held ones make sense, for `count` particles in so many dimensions and steps of `dt`.
+/// Whether motions and fixed ones make sense, for `count` particles in so many dimensions and steps of `dt`.
 ///
 /// # Errors
 /// [`Error::Scene`] that names the first motion or particle at fault.
@@ -31,17 +31,19 @@ pub fn check(held: &[Held], motions: &[Motion], count: usize, dimensions: u32, d
     for one in held {
         let id = one.id;
         if id as usize >= count {
-            return Err(Error::Scene(format!("particle {id} is held, and there are {count}: ids go from 0")));
+            return Err(Error::Scene(format!(
+                "particle {id} is fixed, but there are {count} particles: ids start at 0"
+            )));
         }
         if !ids.insert(id) {
-            return Err(Error::Scene(format!("particle {id} is held twice: hold it once")));
+            return Err(Error::Scene(format!("particle {id} is fixed twice: list it once")));
         }
         if let Hold::Motion(number) = one.by
             && number as usize >= motions.len()
         {
             let have = motions.len();
             return Err(Error::Scene(format!(
-                "particle {id} goes along with motion {number}, and there are {have}: numbers go from 0"
+                "particle {id} follows motion {number}, but there are {have} motions: numbers start at 0"
             )));
         }
     }
@@ -55,7 +57,7 @@ impl Motion {
             return Err("has no keys: give it at least one".to_owned());
         };
         if !fits(self.about) {
-            return Err(format!("turns about {}: these must be finite numbers that fit single precision", self.about));
+            return Err(format!("rotates by {}: these must be finite numbers that fit single precision", self.about));
         }
         for key in &self.keys {
             if !(key.time.is_finite() && fits(key.shift) && fits(key.turn)) {
@@ -66,10 +68,8 @@ impl Motion {
             }
             let across = key.shift.z != 0.0 || key.turn.x != 0.0 || key.turn.y != 0.0;
             if dimensions == 2 && across {
-                return Err(
-                    "leads out of the plane, and in 2 dimensions particles stay in it: shift along x and y, turn about z"
-                        .to_owned(),
-                );
+                return Err("leaves the plane, which is impossible in 2 dimensions: shift along x and y, turn about z"
+                    .to_owned());
             }
         }
         if let Some(pair) = self.keys.windows(2).find(|pair| pair[1].time <= pair[0].time) {
@@ -81,7 +81,9 @@ impl Motion {
                 return Err(format!("repeats after {period}, which is less than a step of {dt}: make it longer"));
             }
             if !same(first, last) {
-                return Err("repeats, and its last key is another pose than its first: it would jump".to_owned());
+                return Err(
+                    "repeats, and its last key differs from its first: it would jump; make them equal".to_owned()
+                );
             }
         }
         Ok(())

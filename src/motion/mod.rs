@@ -1,4 +1,4 @@
-//! What moves by itself, whatever forces say: particles that are held, and the motions that lead them.
+//! Prescribed motions: fixed and kinematic particles, on which forces do not act.
 
 mod check;
 mod pose;
@@ -14,7 +14,7 @@ pub use table::{Tables, list, mask, tables};
 
 /// A particle that forces do not move. At the start of each step it gets the velocity that brings it, on a straight line,
 /// to where it shall be at the end of the step: so every integrator carries it along, and between two places it passes
-/// all that lie in between. Where it is at the start of the run is its home, for ever: writing its position later sets no
+/// all that lie in between. Where it is at the start of the run is its home, forever: writing its position later sets no
 /// new one. Its own velocity at the start counts for nothing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Held {
@@ -27,7 +27,7 @@ pub struct Held {
 /// What a particle does that forces do not move.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Hold {
-    /// It stays where it is, to the bit.
+    /// It stays where it is, bit for bit.
     Fixed,
     /// It goes where the field [`TARGET`](crate::kernel::TARGET) says.
     Target,

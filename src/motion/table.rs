@@ -1,4 +1,4 @@
-//! Motions and held particles as kernels see them: tables of words.
+//! Motions and fixed particles as kernels see them: tables of words.
 
 use std::sync::Arc;
 
@@ -81,7 +81,7 @@ fn row(key: &Keyframe, next: Option<&Keyframe>, start: f64, dt: f64) -> [u32; KE
     words
 }
 
-/// One word for each particle: 1 where it is held, else 0.
+/// One word for each particle: 1 where it is fixed, else 0.
 #[must_use]
 pub fn mask(count: u32, held: &[Held]) -> Vec<u32> {
     let mut mask = vec![0; count as usize];
@@ -93,7 +93,7 @@ pub fn mask(count: u32, held: &[Held]) -> Vec<u32> {
     mask
 }
 
-/// Two words for each held particle: its id, and the number of its motion, 0 where it has none.
+/// Two words for each fixed particle: its id, and the number of its motion, 0 where it has none.
 #[must_use]
 pub fn list(held: &[Held]) -> Vec<u32> {
     let motion = |by| if let Hold::Motion(number) = by { number } else { 0 };

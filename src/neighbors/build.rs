@@ -10,7 +10,7 @@ use crate::kernel::{Host, Kernel, Name, POSITION, Pass, Problem, SPECIES, Shader
 use crate::primitives::{fill, scan};
 
 impl Grid {
-    /// What it is called in a plan.
+    /// Its name in a plan.
     #[must_use]
     pub fn title(&self) -> String {
         let [x, y, z] = self.cells;

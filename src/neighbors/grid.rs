@@ -1,4 +1,4 @@
-//! The shape of a grid: how wide a cell is, and how many there are before it is folded.
+//! The grid of a cell list: the width of a cell, and the number of cells before folding.
 
 use glam::DVec3;
 
@@ -44,7 +44,7 @@ pub struct Grid {
     pub cells: [u32; 3],
     /// Cells that make up a range along each axis.
     pub fine: [u32; 3],
-    /// Whether held particles stand behind all others: those that move are then side by side, and are searched for alone.
+    /// Whether fixed particles stand behind all others: those that move are then side by side, and are searched for alone.
     pub apart: bool,
     /// Particles of a cell at the start, when they are spread evenly.
     pub occupancy: f64,
@@ -66,7 +66,7 @@ impl Grid {
         Ok(Self::finest(&name, range, of, 1.0, problem))
     }
 
-    /// The same for all particles, with held ones behind all others.
+    /// The same for all particles, with fixed ones behind all others.
     ///
     /// # Errors
     /// [`Error::Scene`] when the range is not a positive number.
@@ -115,7 +115,7 @@ impl Grid {
         let wish = DVec3::select(periodic.cmpgt(DVec3::ZERO), whole_cells.floor(), whole_cells.ceil()).max(DVec3::ONE);
         let flat = problem.bounds.dimensions == 2;
         let room = (CELLS_PER_PARTICLE * f64::from(problem.count_of(of))).clamp(64.0, MOST / times);
-        // A few of one species are looked at one and all.
+        // A few of one species are looked at all together.
         let few = of.is_some() && problem.count_of(of) <= FEW;
         let wish = if few { DVec3::ONE } else { wish };
         let most = FINEST * parts;
@@ -168,7 +168,7 @@ impl Grid {
     pub fn count(&self) -> u32 {
         self.cells.iter().product()
     }
-    /// In how many lists particles are kept, one behind the other.
+    /// In how many lists particles are kept, one after the other.
     #[must_use]
     pub fn layers(&self) -> u32 {
         1 + u32::from(self.apart)
@@ -183,7 +183,7 @@ impl Grid {
     pub fn bins(&self) -> u32 {
         self.count() * self.layers() + 1
     }
-    /// How many stand before all held particles, at most.
+    /// How many stand before all fixed particles, at most.
     #[must_use]
     pub fn ahead(&self, problem: &Problem) -> u32 {
         let held = if self.apart { u32::try_from(problem.held.len()).unwrap_or(u32::MAX) } else { 0 };
@@ -250,7 +250,7 @@ fn low(problem: &Problem, width: f64) -> DVec3 {
     DVec3::new(corner(0), corner(1), corner(2))
 }
 
-/// How far particles are spread, or the box; 0 along an axis where that is no number.
+/// How far particles are spread, or the box; 0 along an axis where that is NaN.
 fn size(problem: &Problem) -> DVec3 {
     let open = problem.bounds.axes(Side::Open).cmpgt(DVec3::ZERO);
     let (low, high) = (problem.bounds.low, problem.bounds.high);

@@ -57,7 +57,7 @@ impl List {
         let grid = Grid::new(shape.reach() * (1.0 + WIDER) + rounding, None, problem)?;
         Ok(Self { shape, grid: Grid { name: format!("the list {:?}", shape.reach()), ..grid } })
     }
-    /// What it is called in a plan.
+    /// Its name in a plan.
     #[must_use]
     pub fn title(&self) -> String {
         let ListShape { range, skin, words, capacity } = self.shape;
@@ -175,7 +175,7 @@ impl List {
         }
         Ok(true)
     }
-    /// Whether a displacement is more than the list bears, by the device's own arithmetic.
+    /// Whether a displacement is more than the list allows, by the device's own arithmetic.
     #[expect(clippy::cast_possible_truncation, reason = "as the device holds it")]
     fn has_moved(&self, x: DVec3, from: DVec3, bounds: &Bounds) -> bool {
         let mut limit = self.limit() as f32;

@@ -23,7 +23,7 @@ pub(crate) const STARTS: &str = "starts";
 pub(crate) const SORTED_ID: &str = "sorted_id";
 /// Positions and masses in that order.
 pub(crate) const SORTED_POSITION: &str = "sorted_position";
-/// Velocities and radii in that order, where a law asks for them.
+/// Velocities and radii in that order, where a law reads them.
 pub(crate) const SORTED_VELOCITY: &str = "sorted_velocity";
 
 /// What is not needed any more when a grid is built: all grids share it.

@@ -19,7 +19,7 @@ pub fn histogram(keys: &Name, counts: &Name, elements: u32, bins: u32, machine: 
     let few = pass(&[crate::shader!("primitives/histogram_few.wgsl")], 1, elements, &fields, &extent)?;
     let constant = |name| few.shader.reflection().constant(name);
     let (block, most) = (constant("BLOCK"), constant("MOST"));
-    // Atomics of a processor do not contend, whatever the bins.
+    // Atomics of a software adapter do not contend, whatever the bins.
     let count = if machine.software || bins >= most {
         pass(&[crate::shader!("primitives/histogram.wgsl")], elements, elements, &fields, &extent)?
     } else {

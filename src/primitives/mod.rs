@@ -1,4 +1,4 @@
-//! What algorithms on arrays are made of: fill, scan, reduce, histogram, two sorts. Each takes the names of the fields
+//! Parallel primitives on arrays: fill, scan, reduce, histogram, two sorts. Each takes the names of the fields
 //! that it works on, and lengths that the host knows; each is exact, and has an integer reference (sums of vectors excepted,
 //! which round, by a fixed tree).
 //!

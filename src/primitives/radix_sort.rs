@@ -16,7 +16,7 @@ const DIGIT: u32 = 8;
 const TILE: u32 = 1024;
 /// Tiles of a block, at most: more make the table no shorter than it need be.
 const TILES: u32 = 16;
-/// Chunks of a processor's variant, at most, so that the table stays small.
+/// Chunks of the variant for software adapters, at most, so that the table stays small.
 const CHUNKS: u32 = 1 << 13;
 /// Keys of such a chunk, at least.
 const CHUNK: u32 = 2048;

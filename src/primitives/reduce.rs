@@ -1,4 +1,4 @@
-//! One element out of many: sum, least, greatest.
+//! One element out of many: sum, minimum, maximum.
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use crate::kernel::{Host, Kernel, Machine, Name, Reference, Source};
 /// What becomes of two elements.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Operation {
-    /// Their sum; of whole numbers it wraps at 2³².
+    /// Their sum; of integers it wraps at 2³².
     Sum,
     /// The lesser; of vectors, component by component. A NaN stays one.
     Min,
@@ -123,7 +123,7 @@ fn reduction(
             elements.div_ceil(block).max(1),
         ))
     };
-    // Barriers cost a processor that plays a GPU more, so that its blocks are longer.
+    // Barriers cost more on a software adapter, so that its blocks are longer.
     let block = if machine.software { 1 << 15 } else { 1 << 12 };
     let blocks = elements.div_ceil(block);
     let parts: Name = format!("{into}_parts").into();

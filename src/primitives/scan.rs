@@ -1,4 +1,4 @@
-//! Sums of all that stands before: the exclusive scan.
+//! The exclusive scan (prefix sum).
 //!
 //! Reduce, then scan (Dotsenko et al. 2008): blocks are summed, the sums scanned, the blocks scanned from there. No
 //! workgroup waits for another, so no device can hang that promises no progress.
@@ -13,7 +13,7 @@ use crate::kernel::{Host, Kernel, Machine, Name, Pass};
 const ALONE: u32 = 8192;
 /// Elements that a workgroup of the GPU's variant holds; `TILE` in `scan_tile.wgsl`.
 const TILE: u32 = 2048;
-/// Chunks of a processor's variant, at most; one invocation scans their sums.
+/// Chunks of the variant for software adapters, at most; one invocation scans their sums.
 const CHUNKS: u32 = 1 << 14;
 /// Elements of such a chunk, at least.
 const CHUNK: u32 = 1024;
@@ -89,7 +89,7 @@ pub fn passes(field: &Name, sums: &Name, elements: u32, machine: &Machine) -> Re
     Ok(vec![workgroups(first, tiles), alone(sums, tiles)?, workgroups(last, tiles)])
 }
 
-/// Elements of a chunk of the processor's variant: an invocation's loop stays far below 65 535 turns.
+/// Elements of a chunk of the variant for software adapters: an invocation's loop stays far below 65 535 iterations.
 fn chunk(elements: u32) -> u32 {
     elements.div_ceil(CHUNKS).max(CHUNK)
 }

@@ -1,4 +1,4 @@
-//! The numbers of a fluid, from what a scene says and where its particles are.
+//! Parameters of a fluid in pictures, from the scene and the particles.
 
 use glam::DVec3;
 
@@ -12,7 +12,7 @@ const FULL: f64 = 0.75;
 /// The same in a plane, where none is behind a hole.
 const FULL_FLAT: f64 = 0.95;
 const ALONE: f64 = 0.2;
-/// How far the rim of a drop is behind its front \[drop\]: at the edge of a fluid nothing smooths what is steep. In parallel
+/// How far the edge of a drop is behind its front \[drop\]: at the edge of a fluid nothing smooths what is steep. In parallel
 /// rays, as a plane is looked at, a fluid is nearly flat.
 const OBLATE: f64 = 0.7;
 const OBLATE_FLAT: f64 = 0.3;
@@ -37,7 +37,7 @@ pub const DYE: [u8; 3] = [18, 112, 176];
 pub struct Water {
     /// The radius of a drop \[length\]; zero where there is no fluid.
     pub drop: f64,
-    /// How far its rim is behind its front, as a part of that.
+    /// How far its edge is behind its front, as a part of that.
     pub oblate: f64,
     /// Parts in which the thickness of a drop is counted.
     pub grain: f64,
@@ -138,7 +138,7 @@ impl Water {
     }
 }
 
-/// The radius of drops of particles that are not held, by the middle of the distances from some to their nearest; zero
+/// The radius of drops of particles that are not fixed, by the middle of the distances from some to their nearest; zero
 /// where there is but one.
 pub fn drop_of(particles: &State) -> f64 {
     let mut free = vec![true; particles.len()];

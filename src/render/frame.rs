@@ -1,4 +1,4 @@
-//! What every kernel of a picture knows: `Frame` in `shaders/render/frame.wgsl`, and its geometry in f64.
+//! Parameters of every kernel of a picture: `Frame` in `shaders/render/frame.wgsl`, and its geometry in f64.
 
 use std::ops::Range;
 

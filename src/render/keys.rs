@@ -1,4 +1,4 @@
-//! What a scene may say in `[picture]`.
+//! The keys of `[picture]`.
 
 use std::borrow::Cow;
 
@@ -20,7 +20,7 @@ pub const KEYS: &[Key] = &[
         "projection",
         Kind::Choice(&["perspective", "orthographic"]),
         word("perspective"),
-        "whether what is nearer looks larger",
+        "perspective projection; false: parallel projection",
     ),
     Key::new(
         "auto_frame",
@@ -45,7 +45,7 @@ pub const KEYS: &[Key] = &[
         "style",
         Kind::Choice(super::styles::NAMES),
         word("auto"),
-        "how particles are drawn: as balls where they are few or large, as lights, as balls, as the surface of a fluid, or their mass along the line of sight",
+        "how particles are drawn: as balls where they are few or large, as points of light, as balls, as the surface of a fluid, or as surface density",
     ),
     Key::new(
         "drop",
@@ -57,13 +57,13 @@ pub const KEYS: &[Key] = &[
         "clarity",
         Kind::NotNegative,
         Value::Number(0.0),
-        "of a fluid: how deep one sees into it; 0: as water, or hardly where colours say something [length]",
+        "of a fluid: the visibility depth; 0: that of water, or small where colours have a meaning [length]",
     ),
     Key::new(
         "foam",
         Kind::NotNegative,
         Value::Number(0.0),
-        "of a fluid: the speed from which on it is white with foam; 0: never [length / time]",
+        "of a fluid: the speed above which it is drawn as white foam; 0: never [length / time]",
     ),
     Key::new(
         "color",
@@ -75,13 +75,13 @@ pub const KEYS: &[Key] = &[
         "draw",
         Kind::Choice(&["auto", "points", "surface", "lines"]),
         word("auto"),
-        "what is tied together: triangles as a surface and other springs and rods as lines; all particles alone; only triangles; all springs and rods as lines",
+        "links: triangles as a surface and other springs and rods as lines; no links; only triangles; all springs and rods as lines",
     ),
     Key::new(
         "tail",
         Kind::NotNegative,
         Value::Number(0.0),
-        "draw each particle as a stroke of light from where it was so long ago [time]",
+        "draw each particle as a streak from its position this long ago [time]",
     ),
     Key::new(
         "exposure",

@@ -1,4 +1,4 @@
-//! Colours of groups, and how a picture's particles get theirs.
+//! Colours of groups and of particles in a picture.
 
 use glam::DVec3;
 

@@ -55,7 +55,7 @@ impl Picture {
     pub fn new(settings: &Settings, particles: &State, groups: &[u32], trail: Trail) -> Result<Self, Error> {
         Self::with(settings, particles, groups, trail, &Scenery::default())
     }
-    /// The same with what ties the particles together, and with solids. What of it is drawn the key `draw` says.
+    /// The same with links between the particles, and with solids. What of it is drawn the key `draw` says.
     ///
     /// # Errors
     /// As for [`Picture::new`]; when a link has an id that no particle has, or there are too many solids.

@@ -1,4 +1,4 @@
-//! What stands in a picture beside particles: what ties them together, and solids.
+//! Contents of a picture besides particles: links between them, and obstacles.
 
 use std::sync::Arc;
 
@@ -19,7 +19,7 @@ use crate::state::State;
 /// What a picture shows beside particles.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Scenery {
-    /// What ties the particles together, by their ids.
+    /// Links between the particles, by their ids.
     pub links: Arc<Links>,
     /// Solids.
     pub solids: Vec<Solid>,
@@ -29,14 +29,14 @@ pub struct Scenery {
     pub bounded: Option<Solid>,
     /// The radius of the drops of a fluid, by how far apart particles are at the start \[length\]; zero: as they are now.
     pub drop: f64,
-    /// The held particles, by id: in a fluid those are walls.
+    /// The fixed particles, by id: in a fluid those are walls.
     pub held: Arc<Vec<u32>>,
     /// The same in a scene, and the motions that they go along with: see [`Scenery::at`].
     pub standing: (Vec<Standing>, Vec<Motion>),
 }
 
 impl Scenery {
-    /// What ties particles together, and no solids.
+    /// Links between particles, and no solids.
     #[must_use]
     pub fn of(particles: &State) -> Self {
         let held = particles.held.iter().map(|one| one.id).collect();

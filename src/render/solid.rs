@@ -1,4 +1,4 @@
-//! Solids in a picture, and where rays meet them.
+//! Obstacles in a picture, and their intersections with rays.
 
 use glam::{DMat3, DQuat, DVec3, DVec4};
 

@@ -103,7 +103,7 @@ mod tests {
         let first: Vec<f64> = trail.points().step_by(3).map(|x| x.x).collect();
         assert!(first.len() >= MOMENTS / 2 && first[0].abs() < 0.5, "{}", first.len());
         let stride = first[1];
-        // Whole numbers, exact in f64.
+        // Integers, exact in f64.
         assert!(first.windows(2).all(|w| (w[1] - w[0]).to_bits() == stride.to_bits()), "{stride}");
         assert!(first[first.len() - 1] > 50_000.0 - 2.0 * stride);
     }

@@ -1,4 +1,4 @@
-//! Rigid bodies: how an orientation turns with its angular velocity, and that with a torque.
+//! Rigid bodies: orientations advanced by angular velocities, and these by torques.
 //!
 //! A body has four columns. Its `orientation` is a unit quaternion q (x, y, z | w), which turns components along its principal
 //! axes into space, v = R(q) vᵇ. Its `angular_velocity` ω \[1 / time\] and `torque` τ \[mass length² / time²\] are in space, so
@@ -30,8 +30,13 @@ use crate::kernel::{Column, Host, Kernel, Kind, Name, Pass, Problem, Reference, 
 #[must_use]
 pub fn columns() -> Vec<Column> {
     vec![
-        Column::new("orientation", Kind::Quaternion, "", "how its principal axes lie in space, a unit quaternion")
-            .turning("angular_velocity", "inertia"),
+        Column::new(
+            "orientation",
+            Kind::Quaternion,
+            "",
+            "its orientation, a unit quaternion from its principal axes to space",
+        )
+        .turning("angular_velocity", "inertia"),
         Column::new("angular_velocity", Kind::Vector, "1 / time", "how it turns, in space").with_rate("torque"),
         Column::new("torque", Kind::Vector, "mass length² / time²", "what turns it, in space").summed(),
         Column::new("inertia", Kind::Vector, "mass length²", "its principal moments of inertia, along its own axes")

@@ -1,4 +1,4 @@
-//! `checkpoint_*.npz`: all that a run needs to go on, in one file.
+//! `checkpoint_*.npz`: all that a run needs to continue, in one file.
 //!
 //! It is the archive of the state, which `numpy.load` and `--from` read, with entries `run/…` beside the arrays: the scene with every
 //! value, the files that it reads, the lengths of tables, and what the host knows. Every entry has its checksum, and `run/run.toml` is

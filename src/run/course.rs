@@ -38,7 +38,7 @@ impl Course {
         let clock = clock.map(|clock| (clock, done, 0.0));
         Ok(Self { dt: scene.dt, until: scene.until, steps: scene.steps, done, clock })
     }
-    /// The same of a run that goes on after so many steps of dt: the clock alone may be a rounding off from them.
+    /// The same of a run that continues after so many steps of dt: the clock alone may be a rounding off from them.
     pub(super) fn go_on(&mut self, done: u64) {
         self.done = done;
     }

@@ -1,4 +1,4 @@
-//! `--from`: a run that goes on from a state of an earlier one.
+//! `--from`: a run that continues from a state of an earlier one.
 
 use std::path::Path;
 
@@ -20,7 +20,7 @@ pub fn go_on(setup: &mut Setup, scene: &Scene, path: &Path) -> Result<(), Error>
         && let Some(step) = numbered(path)
     {
         if scene.adaptive_step.is_some() {
-            return refuse("is a table, which holds no clock, and steps are adaptive: give the NPZ file".to_owned());
+            return refuse("is a table without the clock of adaptive steps: give the NPZ file".to_owned());
         }
         if let Some(given) = scene.given_dt {
             return refuse(format!(

@@ -1,4 +1,4 @@
-//! Runs: a scene steps to its end, is written down at its outputs, and goes on after it was stopped or killed.
+//! Runs: a scene steps to its end, is written down at its outputs, and continues after it was stopped or killed.
 //!
 //! ```no_run
 //! use motes::run::{Options, Run};
@@ -153,9 +153,9 @@ pub struct Run {
     stream: Stream,
     /// The folder, held until this is dropped.
     folder: Option<Arc<Folder>>,
-    /// Where it goes on, until it does.
+    /// Where it continues, until it does.
     resumed: Option<Checkpoint>,
-    /// Steps of dt that were done when it went on.
+    /// Steps of dt that were done when it continued.
     goes_on: Option<u64>,
     schedule: Schedule,
     /// The energies.
@@ -186,9 +186,9 @@ pub struct Run {
 /// How a run ended.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct End {
-    /// Whether it was stopped before its last step; it can go on from the checkpoint that was written then.
+    /// Whether it was stopped before its last step; it can continue from the checkpoint that was written then.
     pub stopped: bool,
-    /// Steps that were made since it began, or went on.
+    /// Steps that were made since it began, or continued.
     pub steps: u64,
     /// How long these took, without measurements and files.
     pub stepping: Duration,

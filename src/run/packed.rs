@@ -41,7 +41,7 @@ impl Packed {
             return Some(format!("`{here}` here, `{there}` there"));
         }
         if here != there {
-            return Some("one of them says more".to_owned());
+            return Some("one of them has more keys".to_owned());
         }
         let mut files = self.files.iter().zip(&other.files);
         let file =

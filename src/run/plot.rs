@@ -1,4 +1,4 @@
-//! `energy.svg`: energies over time, and how well they are kept.
+//! `energy.svg`: energies over time, and their errors.
 
 use std::io::Write;
 use std::path::Path;
@@ -13,7 +13,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 /// Width and height, as a viewer shows it.
 const SIZE: (u32, u32) = (960, 720);
-/// The backend rounds to whole numbers: so many of them for each pixel make smooth lines.
+/// The backend rounds to integers: so many of them for each pixel make smooth lines.
 const FINE: u32 = 8;
 /// Of axes and words.
 pub const INK: RGBColor = RGBColor(38, 42, 51);

@@ -1,4 +1,4 @@
-//! `population.csv`: how many particles are pending, active and removed, where that changes.
+//! `population.csv`: counts of pending, active and removed particles.
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! What a run says while it goes on.
+//! Progress of a run.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! How a run is kept and goes on: checkpoints are written, the newest whole one is found, and results are cut back to it.
+//! How a run is kept and continues: checkpoints are written, the newest whole one is found, and results are cut back to it.
 
 use std::io::Write as _;
 use std::path::PathBuf;
@@ -23,7 +23,7 @@ use crate::state::State;
 /// What the resolved scene says behind all else, once its run is complete.
 const COMPLETE: &str = "# Complete at step ";
 
-/// What a run that goes on finds in its folder.
+/// What a run that continues finds in its folder.
 #[derive(Debug)]
 pub enum Found {
     /// No results.
@@ -75,7 +75,7 @@ fn complete(text: &str) -> Option<u64> {
     lines.next()?.starts_with(Folder::SIGNATURE).then_some(step)
 }
 
-/// The scene that a run which goes on has signed when it began.
+/// The scene that a run which continues has signed when it began.
 fn signed(folder: &Folder) -> Option<String> {
     let text = std::fs::read_to_string(folder.path().join("scene.toml")).ok()?;
     let (scene, signature) = text.rsplit_once(&format!("\n{}", Folder::SIGNATURE))?;
@@ -110,7 +110,7 @@ impl Checkpoint {
 }
 
 impl Run {
-    /// A run that goes on from a checkpoint in the folder, which is held; `setup` gets its state. Scene and options must be those
+    /// A run that continues from a checkpoint in the folder, which is fixed; `setup` gets its state. Scene and options must be those
     /// with which it was begun, as [`Checkpoint::source`] and [`Checkpoint::options`] give them.
     ///
     /// # Errors
@@ -152,7 +152,7 @@ impl Run {
         };
         if (state.step, state.time.to_bits()) != (step, time.to_bits()) {
             return refuse(format!(
-                "it says step {step} and time {time}, and its state {} and {}",
+                "it has step {step} and time {time}, and its state {} and {}",
                 state.step, state.time
             ));
         }
@@ -192,7 +192,7 @@ impl Run {
         (!words.is_empty())
             .then(|| format!("{}: bits may be others than those of a run that was never stopped", words.join("; ")))
     }
-    /// Opens folder and tables. Where the run goes on, it is cut back to what was there at the checkpoint.
+    /// Opens folder and tables. Where the run continues, it is cut back to what was there at the checkpoint.
     pub(super) fn open(&mut self, progress: &mut dyn Progress) -> Result<Arc<Folder>, Error> {
         let folder = if let Some(folder) = self.folder.take() {
             folder

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use web_time::{Duration, Instant};
 
-/// What ends a run early: it finishes its batch of steps, writes a checkpoint and its last state, and can go on later. Clones share
+/// What ends a run early: it finishes its batch of steps, writes a checkpoint and its last state, and can continue later. Clones share
 /// the request, so that a signal handler or another thread can ask.
 #[derive(Debug, Clone)]
 pub struct Stop {

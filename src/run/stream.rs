@@ -89,7 +89,7 @@ impl Shared {
 
 /// Writes a file. Gives what went wrong, and with which.
 fn written(Job { file, write, .. }: Job) -> Option<(PathBuf, String)> {
-    // A panic that ended the thread would leave the run waiting for ever.
+    // A panic that ended the thread would leave the run waiting forever.
     match catch_unwind(AssertUnwindSafe(write)) {
         Ok(Ok(())) => None,
         Ok(Err(Error::Output { file, message })) => Some((file, message)),

@@ -1,5 +1,5 @@
-//! A table of numbers that grows while a run goes on: every row is with the system when it is written, and on the
-//! disk with the next state. A run that goes on cuts it back to where its checkpoint was, and reads the rows that are left.
+//! A table of numbers that grows while a run continues: every row is with the system when it is written, and on the
+//! disk with the next state. A run that continues cuts it back to where its checkpoint was, and reads the rows that are left.
 
 use std::collections::BTreeMap;
 use std::fs::{self, File, OpenOptions};
@@ -89,7 +89,7 @@ impl Table {
     }
 }
 
-/// The rows that a table had when a run went on.
+/// The rows that a table had when a run continued.
 #[derive(Debug, Default)]
 pub struct Rows(String);
 
@@ -98,7 +98,7 @@ impl Rows {
     pub fn iter(&self) -> impl Iterator<Item = Vec<&str>> {
         self.0.lines().skip(1).map(|line| line.split(',').collect())
     }
-    /// The numbers of each row; what is no number is NaN.
+    /// The numbers of each row; what is NaN is NaN.
     pub fn numbers(&self) -> impl Iterator<Item = (u64, Vec<f64>)> {
         self.iter().map(|words| {
             let step = words.first().and_then(|word| word.parse().ok()).unwrap_or(0);

@@ -1,4 +1,4 @@
-//! What takes the states of a run.
+//! Writers, which receive the states of a run.
 
 use std::sync::Arc;
 
@@ -25,7 +25,7 @@ pub struct Moment<'a> {
 
 /// Takes the state of every output of a run: writes a table, a file of particles, a picture, or shows it elsewhere.
 pub trait Writer: Send + Sync {
-    /// Opens its files in the folder of the run. Where the run goes on, `past` has the lengths of its tables.
+    /// Opens its files in the folder of the run. Where the run continues, `past` has the lengths of its tables.
     ///
     /// # Errors
     /// [`Error::Output`] when a file cannot be made.

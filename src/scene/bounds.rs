@@ -14,7 +14,7 @@ use super::tree::Data;
 use super::value;
 use super::walk::{self, Table};
 
-/// What the section may say.
+/// The keys of the section.
 pub const BOX_KEYS: &[Key] = &[
     Key::required("size", Kind::Vector, "the lengths of its sides [length]; the third may be 0: a flat box"),
     Key::new("low", Kind::Vector, Value::Vector(DVec3::ZERO), "its lowest corner [length]"),
@@ -87,7 +87,7 @@ fn sizes(table: &Table<'_>, size: DVec3, sides: [Side; 3], report: &mut Report) 
             Fault::at(place(axis), format!("the box is {length} long along {name}, where it is {}", side.name()));
         report.push(match side {
             Side::Open => fault.label("a length is zero or above"),
-            _ => fault.label(format!("a length above zero; or say {name} = \"open\"")),
+            _ => fault.label(format!("a length above zero; or set {name} = \"open\"")),
         });
     }
 }

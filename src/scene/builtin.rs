@@ -1,9 +1,9 @@
-//! The scenes that come with the program: `motes run galaxy`.
+//! The built-in scenes: `motes run galaxy`.
 
-/// A scene in the program.
+/// A built-in scene.
 #[derive(Debug)]
 pub struct Builtin {
-    /// What `motes run` calls it.
+    /// Its name for `motes run`.
     pub name: &'static str,
     /// The scene.
     pub text: &'static str,
@@ -12,7 +12,7 @@ pub struct Builtin {
 }
 
 impl Builtin {
-    /// Its first comment: what one should see.
+    /// Its first comment: what the run shows.
     #[must_use]
     pub fn about(&self) -> String {
         super::source::about(self.text)

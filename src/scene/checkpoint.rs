@@ -1,4 +1,4 @@
-//! `[checkpoint]`: how often a run keeps all that it needs to go on.
+//! `[checkpoint]`: intervals of checkpoints.
 
 use crate::settings::{Key, Kind, Settings, Value};
 
@@ -7,7 +7,7 @@ use super::resolved::Writer;
 use super::tree::Data;
 use super::walk::Table;
 
-/// What the section may say, beside `every`.
+/// The keys of the section, beside `every`.
 pub(super) const KEYS: &[Key] =
     &[Key::new("keep", Kind::Count, Value::Number(2.0), "how many checkpoints are kept, the newest ones")];
 pub(super) const OWN: &[&str] = &["every"];
@@ -82,8 +82,10 @@ pub(super) fn read(table: Option<&Table<'_>>, dt: f64, report: &mut Report) -> C
             }
             Some(given) => every = given,
             None => {
-                report
-                    .push(Fault::at(&entry.node.place, "`every` is no interval").label(format!("it must be {FORMS}")));
+                report.push(
+                    Fault::at(&entry.node.place, "`every` is not a valid interval")
+                        .label(format!("it must be {FORMS}")),
+                );
             }
         }
     }

@@ -50,7 +50,7 @@ pub(super) fn read(node: &Node, key: &str, report: &mut Report) -> Option<[u8; 3
     hex
 }
 
-/// The colour that a text names, if it names one.
+/// The colour of this name, if there is one.
 pub(super) fn known(text: &str) -> Option<[u8; 3]> {
     let named = NAMED.iter().find(|(name, _)| *name == text).map(|(_, rgb)| *rgb);
     named.or_else(|| text.strip_prefix('#').and_then(digits))

@@ -19,13 +19,13 @@ pub const COLUMN_KEYS: &[Key] = &[
         "kind",
         settings::Kind::Choice(&["scalar", "vector", "whole", "quaternion"]),
         Value::Text(std::borrow::Cow::Borrowed("scalar")),
-        "what one value is: a number, three, a whole number from 0 on, or a unit quaternion x, y, z, w",
+        "the type of a value: a number, three numbers, a whole number from 0 on, or a unit quaternion x, y, z, w",
     ),
     Key::new(
         "role",
         settings::Kind::Choice(&["state", "derived", "sum"]),
         Value::Text(std::borrow::Cow::Borrowed("state")),
-        "state: kept, written and restored; derived: computed by one law in each evaluation; sum: zero at its start, and laws add",
+        "state: saved, written and restored; derived: computed by one law in each evaluation; sum: zeroed at the start of an evaluation, and laws add to it",
     ),
 ];
 

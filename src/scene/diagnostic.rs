@@ -1,4 +1,4 @@
-//! What is wrong with a scene, as a reader sees it: file, line, caret, and the way out.
+//! Errors of a scene as text: file, line, caret and advice.
 
 use std::fmt;
 

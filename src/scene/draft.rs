@@ -1,4 +1,4 @@
-//! What is known of a scene before its particles are made: how much there will be, and faults that need none.
+//! A first pass over a scene before its particles are created: sizes, and errors that do not depend on particles.
 
 use crate::render;
 use crate::shapes::Amount;
@@ -9,15 +9,15 @@ use super::resolved::Writer;
 use super::walk::Table;
 use super::{bounds, column, fluid, force, motion, output, particles, simulation, solver};
 
-/// Above so many particles and ties a scene is looked through first: to make them takes seconds, and more memory than text does.
+/// Above so many particles and links a scene is checked first: creating them takes seconds and memory.
 const LARGE: f64 = 300_000.0;
 
-/// Whether a scene is large. If so, takes in its faults as far as they are found without its particles, and want of memory; more
-/// than `most` particles are refused where they are asked for.
+/// Whether a scene is large. If so, reports errors that do not depend on its particles, and lack of memory; more
+/// than `most` particles are refused at their entry.
 pub(super) fn read(sections: &[(&'static str, Table<'_>)], files: &Files, most: u32, report: &mut Report) -> bool {
     let all = |name: &'static str| sections.iter().filter(move |(n, _)| *n == name).map(|(_, table)| table);
     let said = fluid::said(all("force"));
-    // Faults are taken in once it is known that the scene is large; keys of columns are then known, too.
+    // Errors are reported once it is known that the scene is large; keys of columns are then known, too.
     let amounts: Vec<_> =
         all("particles").map(|table| (table, particles::amount(table, &said, &[], &mut Report::default()))).collect();
     let mut whole = Amount::default();
@@ -37,7 +37,7 @@ pub(super) fn read(sections: &[(&'static str, Table<'_>)], files: &Files, most: 
     let faults = report.len();
     let chosen: Vec<_> = all("force").filter_map(|table| force::read(table, (files, &motions), report)).collect();
     let declared = column::read(all("column"), &mut out, report);
-    // A force that is at fault may declare what others name.
+    // An invalid force may declare columns that others name.
     if report.len() == faults {
         let forces: Vec<_> = chosen.into_iter().map(force::Chosen::build).collect();
         let known = column::all(&forces, &declared, report);
@@ -50,7 +50,7 @@ pub(super) fn read(sections: &[(&'static str, Table<'_>)], files: &Files, most: 
         table.settings(render::KEYS, &[], report);
     }
     let largest = amounts.iter().max_by(|a, b| a.1.bytes().total_cmp(&b.1.bytes()));
-    // Memory is not asked for on behalf of what is refused by its number.
+    // No memory is reserved for what is refused by its number.
     if whole.particles <= f64::from(most)
         && let (Some((table, _)), Err(why)) = (largest, whole.fits())
     {

@@ -12,7 +12,7 @@ use super::report::{Fault, Report};
 use super::resolved::Writer;
 use super::walk::Table;
 
-/// What the section may say.
+/// The keys of the section.
 pub const DRAIN_KEYS: &[Key] = &[
     Key::new(
         "shape",
@@ -20,7 +20,7 @@ pub const DRAIN_KEYS: &[Key] = &[
         Value::Text(Cow::Borrowed("sphere")),
         "what it is; a plane is the half space behind it",
     ),
-    Key::new("position", Kind::Vector, Value::Vector(DVec3::ZERO), "its middle, or a point on the plane [length]"),
+    Key::new("position", Kind::Vector, Value::Vector(DVec3::ZERO), "its centre, or a point on the plane [length]"),
     Key::new("radius", Kind::Positive, Value::Number(0.5), "sphere and capsule: the radius [length]"),
     Key::new("size", Kind::Vector, Value::Vector(DVec3::ONE), "box: its sides [length]"),
     Key::new("normal", Kind::Direction, Value::Vector(DVec3::Z), "plane: the direction away from the drain"),
@@ -35,7 +35,7 @@ pub const DRAIN_KEYS: &[Key] = &[
         "species",
         Kind::Species,
         Value::Text(Cow::Borrowed("all")),
-        "which particles it removes: a species, or \"all\" that are not held",
+        "the species that it removes, or \"all\" that are not fixed",
     ),
 ];
 

@@ -1,4 +1,4 @@
-//! `[[emitter]]`: particles that wait to be born.
+//! `[[emitter]]`: pending particles, spawned by a schedule.
 
 use crate::error::Error;
 use crate::kernel::Columns;
@@ -16,10 +16,10 @@ use super::tree::Entry;
 use super::walk::Table;
 
 pub(super) const OWN: &[&str] = &["color", "species", "first"];
-/// What every emitter may say beside what the library's may.
-const SPECIES: Key = Key::new("species", Kind::Whole, Value::Number(0.0), "of which kind its particles are");
+/// The key of every emitter in addition to those of the library.
+const SPECIES: Key = Key::new("species", Kind::Whole, Value::Number(0.0), "the species of its particles");
 
-/// What a scene may say of an emitter.
+/// The keys of an emitter in a scene.
 pub use crate::shapes::emitter::KEYS as EMITTER_KEYS;
 
 /// One entry, read: how many particles, and their colour.
@@ -28,8 +28,8 @@ pub(super) struct Emitted {
     pub(super) color: Option<[u8; 3]>,
 }
 
-/// Reads an entry, and adds its particles to those that are there; or only their births, where the particles of a file wait
-/// already from the id `first` on. A run that has gone on for a time t goes on from a state of it with `start` less t, `first`
+/// Reads an entry, and adds its particles to the existing ones; or only their births, if a file holds these particles as pending,
+/// from the id `first` on. A run of duration t continues from its state with `start` reduced by t, `first`
 /// and a `count`: particles that are spawned already are not spawned again.
 pub(super) fn read(
     table: &Table<'_>,
@@ -87,14 +87,16 @@ pub(super) fn read(
     let keys = columns.iter().filter(|column| EMITTER_KEYS.iter().all(|key| key.name != column.name));
     for given in keys.filter_map(|column| table.get(&column.name)) {
         let fault =
-            Fault::at(&given.place, format!("`{}` is that of the file where an emitter has `first`", given.key));
+            Fault::at(&given.place, format!("`{}` comes from the file where an emitter has `first`", given.key));
         report.push(fault.label("remove it"));
     }
     let have = particles.len() as u64;
     if first + u64::from(count) > have {
-        let fault =
-            Fault::at(&entry.node.place, format!("{count} births from particle {first} on need more than there are"));
-        report.push(fault.label(format!("there are {have}: those of the file's own emitters are to be in it")));
+        let fault = Fault::at(
+            &entry.node.place,
+            format!("{count} particles to spawn from id {first} on are more than there are"),
+        );
+        report.push(fault.label(format!("there are {have}; the file must hold the pending particles of its emitters")));
         return None;
     }
     let mut births = State::default();

@@ -45,7 +45,7 @@ impl Files {
         let path = folder.join(name);
         if !self.allow_outside && !is_inside(&path, folder) {
             return Err(Fault::at(place, format!("`{key}` leads outside of the scene's folder"))
-                .note("help: move the file beside the scene, or say --allow-outside if you trust the scene"));
+                .note("help: move the file beside the scene, or use --allow-outside if you trust the scene"));
         }
         let meta = fs::metadata(&path).map_err(|why| {
             let absent = why.kind() == std::io::ErrorKind::NotFound;

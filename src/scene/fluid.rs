@@ -1,4 +1,4 @@
-//! What the force of a fluid says for the shapes and emitters that make it: one lattice for all.
+//! Settings that the force `fluid` shares with the shapes and emitters of its particles: one lattice for all.
 
 use crate::error::Error;
 use crate::forces::{self, Component};
@@ -21,7 +21,7 @@ fn kind<'a>(table: &Table<'_>, key: &str, of: impl Fn(&str) -> Option<&'a [Key]>
     keys.filter(|keys| shared(keys).next().is_some())
 }
 
-/// What shapes and the force of a fluid share.
+/// The keys that shapes and the force of a fluid share.
 fn shared(keys: &[Key]) -> impl Iterator<Item = &'static str> {
     keys.iter().filter(|key| key.of_fluid).map(|key| key.name)
 }
@@ -30,19 +30,19 @@ fn force_keys(table: &Table<'_>) -> Option<&'static [Key]> {
     kind(table, "kind", |kind| forces::entry(kind).map(|force| force.keys))
 }
 
-/// What the first force that makes a fluid says of it.
+/// The settings of the first force `fluid`.
 pub(super) fn said<'a>(mut tables: impl Iterator<Item = &'a Table<'a>>) -> Vec<Entry> {
     let Some((table, keys)) = tables.find_map(|table| Some((table, force_keys(table)?))) else { return Vec::new() };
     shared(keys).filter_map(|key| table.get(key).cloned()).collect()
 }
 
-/// The entries of the table of a shape or of an emitter of these keys, and what it leaves to the force.
+/// The entries of a shape or an emitter for these keys, completed by those of the force.
 pub(super) fn completed(table: &Table<'_>, keys: &[Key], said: &[Entry]) -> Vec<Entry> {
     let left_out = |entry: &&Entry| shared(keys).any(|key| key == entry.key) && table.get(&entry.key).is_none();
     table.entries.iter().chain(said.iter().filter(left_out)).cloned().collect()
 }
 
-/// Where shapes and emitters say something else than the first force that makes a fluid.
+/// Where shapes and emitters contradict the first force `fluid`.
 pub(super) fn contradictions<'a>(sections: &'a [(&'static str, Table<'a>)]) -> Vec<String> {
     let all = |name: &'static str| sections.iter().filter(move |(n, _)| *n == name).map(|(_, table)| table);
     let Some((force, keys)) = all("force").find_map(|table| Some((table, force_keys(table)?))) else {
@@ -57,7 +57,7 @@ pub(super) fn contradictions<'a>(sections: &'a [(&'static str, Table<'a>)]) -> V
             let theirs = theirs.or_else(|| keys.iter().find(|key| key.name == name)?.default.clone());
             let Some(theirs) = theirs.filter(|theirs| *theirs != mine) else { continue };
             remarks.push(format!(
-                "{} has {name} = {}, and its fluid {name} = {}: leave it out, and it is that of the force",
+                "{} has {name} = {}, and its fluid has {name} = {}: leave it out to take the value of the force",
                 table.name,
                 super::resolved::value(&mine),
                 super::resolved::value(&theirs)
@@ -67,7 +67,7 @@ pub(super) fn contradictions<'a>(sections: &'a [(&'static str, Table<'a>)]) -> V
     remarks
 }
 
-/// What a table itself says by a key; what is wrong with it is reported where it is read.
+/// The value of a key in a table; errors are reported where it is read.
 fn given(table: &Table<'_>, keys: &[Key], name: &str) -> Option<Value> {
     let key = keys.iter().find(|key| key.name == name)?;
     value::read(&table.get(name)?.node, key.name, key.kind, &mut Report::default())
@@ -88,9 +88,7 @@ pub(super) fn check(
         }
         Err(why) => Fault::at(table.place, why.to_string()),
         Ok(()) if !force.properties().makes_fluid => return false,
-        Ok(()) if earlier => {
-            Fault::at(table.place, "there are two forces that make a fluid of all particles: leave one of them")
-        }
+        Ok(()) if earlier => Fault::at(table.place, "there are two fluids of all particles: remove one of them"),
         Ok(()) if !particles.is_empty() && particles.held.len() == particles.len() => Fault::at(
             table.place,
             "there is a fluid and nothing of it: all particles are held, and held particles are its walls; add a [[particles]] of \

@@ -253,13 +253,13 @@ impl Chosen {
     }
 }
 
-/// Refuses adaptive steps that no force limits, or that one does not bear.
+/// Refuses adaptive steps that no force limits, or that a force does not allow.
 pub(super) fn adapted(forces: &[Box<dyn Component>], place: &Place, report: &mut Report) {
     if let Some(why) = forces.iter().find_map(|force| force.properties().fixed_step) {
         report.push(Fault::at(place, "steps cannot be adaptive").label(format!("{why}: leave this out")));
     }
     if !forces.iter().any(|force| force.properties().limits_steps) {
-        let fault = Fault::at(place, "no force says how long a step may be, so that its length cannot be adaptive");
+        let fault = Fault::at(place, "no force limits the time step, so it cannot be adaptive");
         report.push(fault.label("leave this out, or add a fluid"));
     }
 }

@@ -29,8 +29,10 @@ pub(super) fn read(
     let names: Vec<_> = motions.iter().map(|motion| motion.name.as_str()).collect();
     let Some(name) = motion(table, &names, report) else { return };
     if particles.held.is_empty() && report.len() == faults {
-        let fault =
-            Fault::at(&entry.node.place, format!("no particle in {} is held, so the motion moves nothing", table.name));
+        let fault = Fault::at(
+            &entry.node.place,
+            format!("no particle in {} is fixed, so the motion moves nothing", table.name),
+        );
         report.push(fault.label("name some: fixed = [0]"));
     }
     let number = names.iter().position(|known| *known == name).and_then(|n| u32::try_from(n).ok()).unwrap_or(0);
@@ -75,7 +77,7 @@ fn fixed(table: &Table<'_>, particles: &mut State, out: &mut Writer, report: &mu
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "whole, and below the count")]
         let id = id as u32;
         if !known.insert(id) {
-            report.push(Fault::at(&node.place, format!("particle {id} is held already")).label("name it once"));
+            report.push(Fault::at(&node.place, format!("particle {id} is fixed already")).label("name it once"));
         }
         ids.push(id.to_string());
         particles.held.push(Held { id, by: Hold::Fixed });

@@ -17,13 +17,13 @@ use super::tree::{Data, Entry, Node};
 use super::value;
 use super::walk::Table;
 
-/// What the section may say.
+/// The keys of the section.
 pub const LINKS_KEYS: &[Key] = &[
     Key::new(
         "tie",
         Kind::Choice(Tie::NAMES),
         Value::Text(Cow::Borrowed("spring")),
-        "what ties them; a file's own column counts before this, as for the others",
+        "the kind of link; a file's own column takes precedence, as for the other keys",
     ),
     Key::new("rest", Kind::NotNegative, Value::Number(1.0), "the length at rest, as a part of the distance of the two"),
     Key::new("stiffness", Kind::NotNegative, Value::Number(1000.0), "Hooke's constant [mass / time²]"),
@@ -79,7 +79,7 @@ fn from_file(
             Ok(links) => Ok((links, name.clone())),
             Err(why) => Err(Fault::at(place, why.to_string()).in_input()),
         },
-        Located::Embedded { name, .. } => Err(Fault::at(place, format!("{name} holds no links"))),
+        Located::Embedded { name, .. } => Err(Fault::at(place, format!("{name} has no links"))),
     });
     match read {
         Ok((links, path)) => {

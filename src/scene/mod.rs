@@ -78,11 +78,11 @@ use walk::Table;
 pub struct Scene {
     /// The file's name without its extension, or the name of the built-in scene.
     pub name: String,
-    /// The first comment of the file: what one should see.
+    /// The first comment of the file: what the run shows.
     pub about: String,
     /// The length of a step \[time\]; positive.
     pub dt: f64,
-    /// The step that the scene gives, where `dt` is made smaller so that a whole number of steps ends at `until` \[time\].
+    /// The step that the scene gives, where `dt` is made smaller so that an integer of steps ends at `until` \[time\].
     pub given_dt: Option<f64>,
     /// How many steps; at least one. Where they are adaptive, of the longest: others come in between.
     pub steps: u64,
@@ -107,7 +107,7 @@ pub struct Scene {
     pub forces: Vec<Box<dyn Component>>,
     /// What is written.
     pub output: Output,
-    /// When a run keeps what it needs to go on.
+    /// When a run keeps what it needs to continue.
     pub checkpoint: Checkpoints,
     /// How pictures are made: the values of [`render::KEYS`].
     pub picture: Settings,

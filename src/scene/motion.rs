@@ -1,4 +1,4 @@
-//! `[[motion]]`: what leads held particles and solids, by keyframes.
+//! `[[motion]]`: what leads fixed particles and solids, by keyframes.
 
 use std::fmt::Write as _;
 
@@ -14,7 +14,7 @@ use super::tree::{Data, Node};
 use super::value;
 use super::walk::Table;
 
-/// What the section may say, beside its name and its keys.
+/// The keys of the section, beside its name and its keys.
 pub const MOTION_KEYS: &[Key] = &[
     Key::new("about", Kind::Vector, Value::Vector(DVec3::ZERO), "the centre of turning [length]"),
     Key::new("smooth", Kind::Flag, Value::Flag(false), "whether it sets off gently from each key, and arrives gently"),
@@ -41,7 +41,7 @@ pub(super) fn read(
     let name = if let Some(entry) = table.get("name") {
         value::text(&entry.node, "name", "a name", report).map(|name| (name, &entry.node.place))
     } else {
-        report.push(table.lacks("name", "a text", "what particles and solids call it"));
+        report.push(table.lacks("name", "a text", "the name by which particles and obstacles refer to it"));
         None
     };
     if let Some((name, place)) = name.filter(|(name, _)| earlier.iter().any(|motion| motion.name == *name)) {

@@ -1,4 +1,4 @@
-//! `[output]`: how often the run is written down, and in which formats.
+//! `[output]`: intervals and formats of written states.
 
 use crate::formats::{FORMATS, Format};
 use crate::kernel::Columns;
@@ -38,7 +38,7 @@ fn interval(entry: &Entry, dt: f64, report: &mut Report) -> Option<u64> {
     let Some(time) = time else {
         let hint = "; the time that work takes is for [checkpoint], for it gives other outputs each time";
         let label = format!("it must be {FORMS}{}", if number.is_none() { hint } else { "" });
-        report.push(Fault::at(&entry.node.place, "`every` is no interval of outputs").label(label));
+        report.push(Fault::at(&entry.node.place, "`every` is not a valid interval of outputs").label(label));
         return None;
     };
     let (steps, whole) = (time / dt, (time / dt).round());
@@ -48,11 +48,11 @@ fn interval(entry: &Entry, dt: f64, report: &mut Report) -> Option<u64> {
         return Some(whole as u64);
     }
     let label = format!("{time:?} is {} steps of dt = {dt:?}: choose a multiple of dt", plain(steps));
-    report.push(Fault::at(&entry.node.place, "`every` is no whole number of steps").label(label));
+    report.push(Fault::at(&entry.node.place, "`every` is not a whole number of steps").label(label));
     None
 }
 
-/// Whole numbers up to here are exact.
+/// Integers up to here are exact.
 const EXACT: f64 = 9_007_199_254_740_992.0;
 
 /// A number in a few digits.

@@ -1,4 +1,4 @@
-//! What the keys mean that a section's own file reads: lists, tables and names, for which [`Key`](crate::settings::Key) has no kind.
+//! Descriptions of keys that a section's own file reads: lists, tables and names, for which [`Key`](crate::settings::Key) has no kind.
 
 /// A key that a section reads by itself.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -20,32 +20,32 @@ pub(super) const SIMULATION: &[Own] = &[
     own(
         "until",
         "or steps",
-        "when it ends; where that is no whole number of steps, dt is made smaller, and a note says so [time]",
+        "the time at which the run ends; if it is not a multiple of dt, dt is reduced, and a note says so [time]",
     ),
-    own("integrator", "\"leapfrog\"", "what makes a step: an integrator of the README's list"),
+    own("integrator", "\"leapfrog\"", "the integrator, by its name"),
 ];
 pub(super) const BOX: &[Own] = &[
-    own("x", "as boundary", "what is at the two sides across x"),
-    own("y", "as boundary", "what is at the two sides across y"),
-    own("z", "as boundary", "what is at the two sides across z"),
+    own("x", "as boundary", "the boundary at the two sides across x"),
+    own("y", "as boundary", "the boundary at the two sides across y"),
+    own("z", "as boundary", "the boundary at the two sides across z"),
     own("dimensions", "3; flat: 2", "2 or 3: in 2 all particles stay in one plane"),
 ];
 pub(super) const MOTION: &[Own] = &[
-    own("name", "must be given", "what particles and solids call it"),
+    own("name", "must be given", "the name by which particles and obstacles refer to it"),
     own(
         "keys",
         "must be given",
-        "where it is when: [{ time = 0 }, { time = 2, shift = [1, 0, 0], turn = [0, 0, 90] }] [time, length, degrees]",
+        "poses by time: [{ time = 0 }, { time = 2, shift = [1, 0, 0], turn = [0, 0, 90] }] [time, length, degrees]",
     ),
 ];
 pub(super) const COLUMN: &[Own] = &[
-    own("name", "must be given", "what it is called in WGSL, in scenes and in files"),
+    own("name", "must be given", "its name in WGSL, in scenes and in files"),
     own("unit", "none", "its unit, such as \"length / time\""),
-    own("initial", "must be given by all", "the value of particles that are given none"),
+    own("initial", "must be given by all", "the value of particles for which none is given"),
     own("rate", "none", "the column that is its rate of change, by which integrators advance it"),
 ];
 pub(super) const PARTICLES: &[Own] = &[
-    own("shape", "or file, bodies", "a generator: a shape of the README's list, with its keys"),
+    own("shape", "or file, bodies", "a shape by its name, with its keys"),
     own("file", "or shape, bodies", "a CSV, NPZ or Tipsy file in the scene's folder"),
     own(
         "bodies",
@@ -53,20 +53,20 @@ pub(super) const PARTICLES: &[Own] = &[
         "written out: [{ position = [1, 0, 0], velocity = [0, 1, 0], mass = 1, size = 0 }]",
     ),
     own("color", "by the palette", "a colour by name, or as \"#ffcc88\""),
-    own("fixed", "none", "those that forces do not move: a list of ids, counted from 0 in this entry"),
-    own("motion", "none", "the name of the motion that leads those"),
+    own("fixed", "none", "fixed particles, which forces do not move: a list of ids, counted from 0 in this entry"),
+    own("motion", "none", "the name of the motion that moves the fixed particles"),
 ];
 pub(super) const EMITTER: &[Own] = &[
     own("color", "by the palette", "a colour by name, or as \"#ffcc88\""),
-    own("species", "0", "of which kind its particles are"),
-    own("first", "behind all others", "the first id of its particles, where those of a file wait already"),
+    own("species", "0", "the species of its particles"),
+    own("first", "behind all others", "the first id of its particles, where a file has them as pending particles"),
 ];
 pub(super) const LINKS: &[Own] = &[
     own("file", "or pairs", "a CSV file with the columns a, b and any of rest, stiffness, damping, tie"),
     own("pairs", "or file", "ids of the two: [[0, 1], [1, 2]]"),
 ];
 pub(super) const FORCE: &[Own] = &[
-    own("kind", "or wgsl", "a force of the README's list, with its keys"),
+    own("kind", "or wgsl", "a force by its name, with its keys"),
     own("wgsl", "or kind", "a file of your own law in WGSL"),
     own(
         "over",
@@ -74,9 +74,9 @@ pub(super) const FORCE: &[Own] = &[
         "wgsl: each, pairs, within, near, list, nearest, tree, auto, links, joints or triangles",
     ),
     own("range", "must be given", "wgsl over within, near and list: the cut-off radius [length]"),
-    own("skin", "a fifth of the range", "wgsl over list: how much farther than the range its list reaches [length]"),
-    own("slots", "0", "wgsl over list: numbers that each pair keeps from step to step"),
-    own("neighbors", "must be given", "wgsl over nearest: how many neighbours"),
+    own("skin", "a fifth of the range", "wgsl over list: the skin of its list beyond the range [length]"),
+    own("slots", "0", "wgsl over list: history variables of each pair, which persist from step to step"),
+    own("neighbors", "must be given", "wgsl over nearest: the number k of neighbours"),
     own("theta", "must be given", "wgsl over tree and auto: the opening angle, at most 1"),
     own("params", "{}", "wgsl: the members of its Params, as in { strength = 2.0, axis = [0, 0, 1] }"),
     own("pairs", "none", "wgsl: parameters of pairs of species"),
@@ -84,22 +84,22 @@ pub(super) const FORCE: &[Own] = &[
     own("into", "[\"acceleration\"]", "wgsl: the columns that it writes"),
 ];
 pub(super) const OUTPUT: &[Own] = &[
-    own("every", "a tenth of steps", "so many steps from one written state to the next"),
+    own("every", "a tenth of steps", "the number of steps between written states"),
     own(
         "formats",
         "[\"csv\", \"png\"]",
-        "of states: any of npz, xyz, csv, and png for pictures; [] leaves energy.csv alone",
+        "formats of states: any of npz, xyz, csv, …, and png for pictures; []: only energy.csv",
     ),
     own(
         "columns",
         "[]",
-        "columns that states have beside those that are kept: what laws compute, as in [\"acceleration\"]",
+        "additional columns of written states: quantities that laws compute, as in [\"acceleration\"]",
     ),
     own("frames", "0", "pictures of a film, evenly spaced over the run; 0 for none"),
 ];
 pub(super) const CHECKPOINT: &[Own] = &[own(
     "every",
     "\"10 min\"",
-    "from one checkpoint to the next: \"10 min\" (or s, h) of work, \"5000 steps\", \"0.5 time\" of the scene, or \"never\"; a \
+    "the interval between checkpoints: \"10 min\" (or s, h) of work, \"5000 steps\", \"0.5 time\" of the scene, or \"never\"; a \
      run that is stopped writes one in any case",
 )];

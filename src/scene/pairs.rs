@@ -59,7 +59,7 @@ fn rows<T>(
         let [a, b] = species;
         if !given.insert([a.min(b), a.max(b)]) {
             let fault = Fault::at(&node.place, format!("the pair of species {a} and {b} is given twice"));
-            report.push(fault.label("remove one of them: their order says nothing"));
+            report.push(fault.label("remove one of them: the order of the two is irrelevant"));
         }
         rows.push(Row { species, values });
     }
@@ -88,7 +88,7 @@ pub(super) fn complete(table: &Table<'_>, force: &dyn Component, species: &[u32]
     let place = table.get("pairs").map_or(table.place, |entry| &entry.place);
     for pairs in force.laws().into_iter().filter_map(|law| law.pairs) {
         for [a, b] in pairs.missing(species) {
-            let message = format!("`pairs` has nothing for particles of species {a} and {b}");
+            let message = format!("`pairs` has no entry for species {a} and {b}");
             report.push(Fault::at(place, message).label(format!("add {{ species = [{a}, {b}], … }}")));
         }
     }

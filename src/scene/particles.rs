@@ -35,11 +35,11 @@ pub const EVERY: &[Key] = &[Key::new(
     "species",
     Kind::Whole,
     Value::Number(0.0),
-    "of which kind they are, as a number that forces may tell apart; a file's own column counts when this is left out",
+    "the species, a number by which forces distinguish particles; left out: the file's own column",
 )];
 const BODY: &[Key] = &[
     Key::required("position", Kind::Vector, "where it is [length]"),
-    Key::new("velocity", Kind::Vector, Value::Vector(DVec3::ZERO), "how it moves [length / time]"),
+    Key::new("velocity", Kind::Vector, Value::Vector(DVec3::ZERO), "its velocity [length / time]"),
     Key::new("mass", Kind::NotNegative, Value::Number(1.0), "how heavy it is [mass]"),
     Key::new("size", Kind::NotNegative, Value::Number(0.0), "the radius that is drawn [length]"),
     Key::new("fixed", Kind::Flag, Value::Flag(false), "whether it stays where it is"),
@@ -140,7 +140,7 @@ fn from_file(
             Ok(particles) => Ok((particles, name.clone())),
             Err(why) => Err(Fault::at(place, why.to_string()).in_input()),
         },
-        Located::Embedded { name, .. } => Err(Fault::at(place, format!("{name} holds no particles"))),
+        Located::Embedded { name, .. } => Err(Fault::at(place, format!("{name} has no particles"))),
     });
     match located {
         Ok((particles, path)) => {

@@ -14,13 +14,13 @@ use super::{bounds, checkpoint, column, drain, emitter, links, motion, particles
 pub struct Section {
     /// Its name.
     pub name: &'static str,
-    /// What it is about, in one line.
+    /// A one-line description.
     pub about: &'static str,
     /// Whether it is written `[[name]]` and may come several times.
     pub many: bool,
-    /// Keys that the walker reads by itself.
+    /// Keys that the generic reader handles.
     pub keys: &'static [Key],
-    /// What the keys mean that the section's own file reads.
+    /// Descriptions of the keys that the section's own file reads.
     pub own: &'static [Own],
     /// More keys, of the kinds that an entry may be of.
     pub(super) kinds: fn() -> Vec<&'static [Key]>,
@@ -29,27 +29,23 @@ pub struct Section {
 /// All sections, in the order in which the resolved scene writes them.
 pub const SECTIONS: &[Section] = &[
     Section {
-        about: "the step, how many of them, and by which integrator",
+        about: "the time step, the number of steps and the integrator",
         own: own::SIMULATION,
         kinds: || INTEGRATORS.iter().map(|i| i.keys).collect(),
         ..Section::new("simulation", false, simulation::KEYS)
     },
     Section {
-        about: "how well implicit integrators solve their equations",
+        about: "tolerances of the solver of implicit integrators",
         ..Section::new("solver", false, solver::SOLVER_KEYS)
     },
+    Section { about: "the domain and its boundaries", own: own::BOX, ..Section::new("box", false, bounds::BOX_KEYS) },
     Section {
-        about: "where particles may be, and what is at its sides",
-        own: own::BOX,
-        ..Section::new("box", false, bounds::BOX_KEYS)
-    },
-    Section {
-        about: "what leads held particles and solids, by keyframes",
+        about: "prescribed motions of fixed particles and obstacles, by keyframes",
         own: own::MOTION,
         ..Section::new("motion", true, motion::MOTION_KEYS)
     },
     Section {
-        about: "a quantity of particles beside those that all have: laws read and write it, files hold it",
+        about: "an additional quantity of particles, which laws read and write and files hold",
         own: own::COLUMN,
         ..Section::new("column", true, column::COLUMN_KEYS)
     },
@@ -60,33 +56,33 @@ pub const SECTIONS: &[Section] = &[
         ..Section::new("particles", true, particles::EVERY)
     },
     Section {
-        about: "particles that come in while the run goes on",
+        about: "a source that spawns particles during the run",
         own: own::EMITTER,
         ..Section::new("emitter", true, emitter::EMITTER_KEYS)
     },
-    Section { about: "a place where particles are removed", ..Section::new("drain", true, drain::DRAIN_KEYS) },
+    Section { about: "a region where particles are removed", ..Section::new("drain", true, drain::DRAIN_KEYS) },
     Section {
-        about: "what ties particles: a file, or pairs of ids",
+        about: "springs, rods and ropes between particles: from a file, or as pairs of ids",
         own: own::LINKS,
         ..Section::new("links", true, links::LINKS_KEYS)
     },
     Section {
-        about: "what moves particles: a force by its kind, or a law of your own",
+        about: "what acts on particles: a force by its kind, or a law of your own",
         own: own::FORCE,
         kinds: || forces::entries().map(|f| f.keys).collect(),
         ..Section::new("force", true, &[])
     },
     Section {
-        about: "how often the run is written down, and in which formats",
+        about: "how often states are written, and in which formats",
         own: own::OUTPUT,
         ..Section::new("output", false, &[])
     },
     Section {
-        about: "how often a run keeps all that it needs to go on",
+        about: "how often a checkpoint is written",
         own: own::CHECKPOINT,
         ..Section::new("checkpoint", false, checkpoint::KEYS)
     },
-    Section { about: "how pictures are made", ..Section::new("picture", false, render::KEYS) },
+    Section { about: "pictures: camera, style and colours", ..Section::new("picture", false, render::KEYS) },
 ];
 
 impl Section {

@@ -1,4 +1,4 @@
-//! `[simulation]`: the step, how many of them, and by which integrator.
+//! `[simulation]`: the time step, the number of steps and the integrator.
 
 use crate::integrators::{self, INTEGRATORS, Integrator};
 use crate::kernel::AdaptiveStep;
@@ -18,7 +18,7 @@ pub(super) const KEYS: &[Key] = &[
         "adaptive",
         Kind::Flag,
         Value::Flag(false),
-        "whether steps are as short as forces ask for; steps and every then count longest ones",
+        "whether the time step adapts to the limits of the forces; `steps` and `every` then count longest steps",
     ),
     Key::new(
         "dt_min",
@@ -30,7 +30,7 @@ pub(super) const KEYS: &[Key] = &[
         "dt_before",
         Kind::NotNegative,
         Value::Number(0.0),
-        "the adaptive step before the first, after which steps grow by a fifth; 0 for none [time]",
+        "the adaptive step before the first one, from which steps grow by a fifth at most; 0: none [time]",
     ),
     Key::new("cfl", Kind::Fraction, Value::Number(0.25), "the Courant number of adaptive steps, a part of every limit"),
 ];
@@ -47,7 +47,7 @@ pub(super) struct Simulation {
     pub(super) adaptive_step: Option<(AdaptiveStep, Place)>,
     /// When it ends.
     pub(super) until: f64,
-    /// The step that the scene gives, where it is made smaller so that a whole number of them ends at `until`.
+    /// The step that the scene gives, where it is made smaller so that an integer of them ends at `until`.
     pub(super) given_dt: Option<f64>,
     /// What the user may want to know.
     pub(super) remark: Option<String>,
@@ -111,7 +111,7 @@ pub(super) fn read(table: Option<&Table<'_>>, report: &mut Report) -> Simulation
                         }
                     }
                 }
-                None => report.push(Fault::at(&entry.node.place, "`until` is too far").label(format!(
+                None => report.push(Fault::at(&entry.node.place, "`until` is too large").label(format!(
                     "{:.3e} steps of dt = {:?}, at most {MOST_STEPS}",
                     until / simulation.dt,
                     simulation.dt
@@ -142,9 +142,8 @@ fn adaptive_step(
     let entry = table.get("adaptive").filter(|_| settings.flag("adaptive"));
     let Some(entry) = entry else {
         for entry in ADAPTIVE.iter().filter_map(|key| table.get(key)) {
-            let fault =
-                Fault::at(&entry.place, format!("`{}` is for adaptive steps, and these are all alike", entry.key));
-            report.push(fault.label("remove it, or say adaptive = true"));
+            let fault = Fault::at(&entry.place, format!("`{}` is for adaptive steps, and dt is fixed", entry.key));
+            report.push(fault.label("remove it, or set adaptive = true"));
         }
         return None;
     };
@@ -155,7 +154,7 @@ fn adaptive_step(
         before: some("dt_before"),
     };
     if let Err(error) = adaptive_step.check(of.dt) {
-        report.push(Fault::at(&entry.place, "steps cannot be adaptive like that").label(error.to_string()));
+        report.push(Fault::at(&entry.place, "steps cannot be adaptive with this integrator").label(error.to_string()));
     }
     if let Some(why) = of.made().fixed_step() {
         let fault = format!("steps cannot be adaptive: {why}");

@@ -1,4 +1,4 @@
-//! `[solver]`: how well implicit integrators solve their equations.
+//! `[solver]`: tolerances of implicit integrators.
 
 use crate::kernel::{LEAST_TOLERANCE, MOST_ITERATIONS, MOST_SOLVES, Solver};
 use crate::settings::{Key, Kind, Value};
@@ -7,13 +7,13 @@ use super::report::{Fault, Report};
 use super::resolved::Writer;
 use super::walk::Table;
 
-/// What the section may say.
+/// The keys of the section.
 pub const SOLVER_KEYS: &[Key] = &[
     Key::new(
         "tolerance",
         Kind::Positive,
         Value::Number(1e-3),
-        "what may be left of the residual of an implicit step, as a part of the first one",
+        "the tolerance of an implicit step: the residual over the initial one",
     ),
     Key::new("iterations", Kind::Count, Value::Number(100.0), "iterations of one linear solve, at most"),
     Key::new("solves", Kind::Count, Value::Number(8.0), "linear solves of one step by Newton's method, at most"),
@@ -31,14 +31,14 @@ pub(super) fn read(table: Option<&Table<'_>>, out: &mut Writer, report: &mut Rep
     if let Some(table) = table {
         let range = |good: bool, key: &str, label: String, report: &mut Report| {
             if let Some(entry) = table.get(key).filter(|_| !good) {
-                report.push(Fault::at(&entry.node.place, format!("`{key}` is out of reach")).label(label));
+                report.push(Fault::at(&entry.node.place, format!("`{key}` is out of range")).label(label));
             }
         };
         let tolerance = (LEAST_TOLERANCE..1.0).contains(&solver.tolerance);
         range(
             tolerance,
             "tolerance",
-            format!("from {LEAST_TOLERANCE:e}, which single precision reaches, to below 1"),
+            format!("it must be at least {LEAST_TOLERANCE:e}, the limit of single precision, and below 1"),
             report,
         );
         range(solver.iterations <= MOST_ITERATIONS, "iterations", format!("at most {MOST_ITERATIONS}"), report);

@@ -10,23 +10,23 @@ use super::report::{listed, nearest, shorten};
 
 /// The longest scene that is read \[bytes\]. Many particles belong in a file of their own.
 pub(super) const LONGEST: u64 = 16 << 20;
-/// What a scene that is written back says of itself, behind its own first comment.
+/// The comment of a scene that is written back, after its own first comment.
 pub(super) const RESOLVED: &str = "Every value of the run, defaults included.";
 
 /// Where a scene comes from.
 #[derive(Debug, Clone)]
 pub enum Source {
-    /// A file. The files it names are sought in its folder.
+    /// A file. The files that it names are searched in its folder.
     File(PathBuf),
-    /// A scene that comes with the program.
+    /// A built-in scene.
     Builtin(&'static Builtin),
-    /// A text at hand.
+    /// A text in memory.
     Text {
-        /// What messages call it.
+        /// Its name in messages.
         name: String,
         /// The scene.
         text: String,
-        /// Where the files it names are sought.
+        /// The folder of the files that it names.
         folder: PathBuf,
     },
 }
@@ -35,20 +35,20 @@ pub enum Source {
 pub(super) struct Opened {
     /// The scene's name.
     pub(super) name: String,
-    /// What messages call its file.
+    /// The name of its file in messages.
     pub(super) file: String,
     pub(super) text: String,
-    /// Where the files it names are sought; `None`: among those of the built-in.
+    /// The folder of the files that it names; `None`: those of the built-in scene.
     pub(super) folder: Option<PathBuf>,
     pub(super) embedded: &'static [(&'static str, &'static str)],
 }
 
 impl Source {
-    /// What the command line means: the name of a built-in scene, or else a file. (A file that is called like a built-in
+    /// The argument of the command line: the name of a built-in scene, or else a file. (A file with the name of a built-in
     /// scene is reached by `./name`.)
     ///
     /// # Errors
-    /// There is neither; the message says which built-in scene has a similar name.
+    /// There is neither; the message names a built-in scene with a similar name.
     pub fn find(word: &str) -> Result<Self, Diagnostics> {
         if let Some(builtin) = SCENES.iter().find(|s| s.name == word) {
             return Ok(Self::Builtin(builtin));
@@ -79,7 +79,7 @@ impl Source {
             Self::File(path) => {
                 let file = shorten_path(path);
                 let name = path.file_stem().map_or_else(|| file.clone(), |s| shorten(&s.to_string_lossy()));
-                // Results go into a folder of that name, which must be none that every folder has.
+                // Results go into a folder of that name, which must not exist in every folder.
                 let name = if matches!(name.as_str(), "." | "..") { "scene".to_owned() } else { name };
                 let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new(".")).to_owned();
                 let text = read(path).map_err(|why| Diagnostics::alone(&file, why, Vec::new()))?;
@@ -107,7 +107,7 @@ pub(super) fn shorten_path(path: &Path) -> String {
     path.display().to_string().chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect()
 }
 
-/// A pipe that has a name, and so may wait for ever for a program that fills it. One without, as a shell makes of
+/// A pipe that has a name, and so may wait forever for a program that fills it. One without, as a shell makes of
 /// `<(command)`, leads nowhere in the tree of files.
 #[cfg(unix)]
 fn is_named_pipe(path: &Path) -> bool {
@@ -126,7 +126,7 @@ fn read(path: &Path) -> Result<String, String> {
     }
     let mut bytes = Vec::new();
     let file = File::open(path).map_err(|e| format!("cannot read the scene: {e}"))?;
-    // One byte more than is allowed tells that there is more; the file's own size says nothing for a pipe.
+    // One byte more than allowed shows that the limit is exceeded; a pipe has no size.
     file.take(LONGEST + 1).read_to_end(&mut bytes).map_err(|e| format!("cannot read the scene: {e}"))?;
     if bytes.len() as u64 > LONGEST {
         return Err(too_long());
@@ -148,12 +148,12 @@ fn too_long() -> String {
     )
 }
 
-/// The first block of comments: what one should see.
+/// The first block of comments: what the run shows.
 pub(super) fn about(text: &str) -> String {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let lines = text.lines().map(str::trim).skip_while(|l| l.is_empty());
     let comments = lines.map_while(|l| l.strip_prefix('#')).map(|l| l.strip_prefix(' ').unwrap_or(l));
     let about = comments.collect::<Vec<_>>().join("\n").trim_end().to_owned();
-    // What says nothing about itself would say this of itself, once it has been written back.
+    // A scene without a comment would have this comment once it has been written back.
     if about == RESOLVED { String::new() } else { about }
 }

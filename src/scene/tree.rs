@@ -101,7 +101,7 @@ fn report_syntax(text: usize, body: &str, faults: Vec<toml::de::Error>, report: 
                 ("the value is missing".to_owned(), "")
             }
             m if m.starts_with("string values must be quoted") => {
-                (format!("text must stand in quotes: \"{}\"", super::report::shorten(words)), "")
+                (format!("text must be in quotes: \"{}\"", super::report::shorten(words)), "")
             }
             "invalid basic string, expected `\"`" | "invalid literal string, expected `'`" => {
                 ("this text has no closing quote".to_owned(), "")

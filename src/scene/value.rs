@@ -10,7 +10,7 @@ use super::report::{Fault, Report, listed, nearest};
 use super::tree::{Data, Node};
 use super::{color, pairs};
 
-/// Reads a value of this kind; what is wrong goes into the report.
+/// Reads a value of this kind; errors go into the report.
 pub(super) fn read(node: &Node, key: &str, kind: Kind, report: &mut Report) -> Option<Value> {
     match kind {
         Kind::Number | Kind::Positive | Kind::NotNegative | Kind::Fraction | Kind::Count | Kind::Whole => {
@@ -32,7 +32,7 @@ pub(super) fn read(node: &Node, key: &str, kind: Kind, report: &mut Report) -> O
             }
             _ => refuse(node, key, &kind.wanted(), report),
         },
-        // Whether there is a motion or a file of that name, the section says that knows them.
+        // Whether there is a motion or a file of that name is checked by its section.
         Kind::Motion | Kind::File => match &node.data {
             Data::Text(name) => Some(Value::Text(Cow::Owned(name.clone()))),
             _ => refuse(node, key, &kind.wanted(), report),
@@ -68,7 +68,7 @@ pub(super) fn number(node: &Node, key: &str, kind: Kind, wanted: &str, report: &
     };
     let fault = match kind.outside(value) {
         None => return Some(value),
-        // What is written with digits and too large is no infinity.
+        // A number with digits that is too large is reported as such, not as infinity.
         Some(Outside::NotFinite) if !report.quote(&node.place).chars().any(|c| c.is_ascii_digit()) => {
             Fault::at(&node.place, format!("`{key}` must be finite, not {}", node.describe(report)))
         }
@@ -109,7 +109,7 @@ fn vector(node: &Node, key: &str, kind: Kind, report: &mut Report) -> Option<DVe
     Some(v)
 }
 
-/// One of some words; `noun` is what they name.
+/// One of several words; `noun` describes them.
 pub(super) fn choice<'a>(
     node: &Node,
     key: &str,
@@ -139,7 +139,7 @@ pub(super) fn text<'a>(node: &'a Node, key: &str, wanted: &str, report: &mut Rep
     }
 }
 
-/// Reports that a value is not what is wanted.
+/// Reports a value of the wrong kind.
 pub(super) fn refuse<T>(node: &Node, key: &str, wanted: &str, report: &mut Report) -> Option<T> {
     let mut fault = Fault::at(&node.place, format!("`{key}` must be {wanted}, not {}", node.describe(report)));
     if let Data::Text(text) = &node.data {

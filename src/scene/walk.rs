@@ -30,7 +30,7 @@ impl<'a> Table<'a> {
         Self { name, ..self.clone() }
     }
     /// Reads the table: every key is one of `keys`, or one of `own`, which the caller reads. Values that are left out or
-    /// wrong get their defaults, so that the reading goes on; the report knows.
+    /// wrong get their defaults, so that the reading continues; the report knows.
     pub(super) fn settings(&self, keys: &[Key], own: &[&str], report: &mut Report) -> Settings {
         let mut settings = Settings::defaults(keys);
         for entry in self.entries {
@@ -117,14 +117,14 @@ pub(super) fn sections<'a>(root: &'a [Entry], report: &mut Report) -> Vec<(&'sta
             (Data::Table(_), true) => report.push(
                 Fault::at(
                     &entry.node.place,
-                    format!("there can be several [[{0}]], so it stands in double brackets", section.name),
+                    format!("there can be several [[{0}]], so it is written in double brackets", section.name),
                 )
                 .label(format!("write {}", section.header())),
             ),
             (Data::List(_), false) => report.push(
                 Fault::at(
                     &entry.node.place,
-                    format!("there is only one [{}], so it stands in single brackets", section.name),
+                    format!("there is only one [{}], so it is written in single brackets", section.name),
                 )
                 .label(format!("write {}", section.header())),
             ),
@@ -149,7 +149,7 @@ fn unknown_section(entry: &Entry) -> Fault {
     };
     let headers: Vec<_> = SECTIONS.iter().map(super::sections::Section::header).collect();
     if !is_section {
-        let fault = Fault::at(&entry.place, format!("the key `{name}` stands outside of every section"));
+        let fault = Fault::at(&entry.place, format!("the key `{name}` is outside of every section"));
         let home = SECTIONS.iter().find(|s| s.knows(&entry.key));
         return match home {
             Some(home) => fault.label(format!("it belongs below {}", home.header())),
@@ -173,7 +173,7 @@ pub(super) fn choice<'a>(entry: &Entry, noun: &str, known: &[&'a str], report: &
     value::choice(&entry.node, &entry.key, noun, known, report)
 }
 
-/// A whole number from one to 2⁵³.
+/// An integer from one to 2⁵³.
 pub(super) fn whole_from_one(entry: &Entry, report: &mut Report) -> Option<u64> {
     let value = value::number(&entry.node, &entry.key, Kind::Whole, "a whole number, one or above", report)?;
     if value < 1.0 {

@@ -1,4 +1,4 @@
-//! What values keys accept.
+//! Kinds of keys: the values that they accept.
 
 use super::{Key, SIDES, Value, listed, nearest};
 
@@ -13,11 +13,11 @@ pub enum Kind {
     NotNegative,
     /// A number above zero, one at most.
     Fraction,
-    /// A whole number, one or above, that fits 32 bits.
+    /// An integer, one or above, that fits 32 bits.
     Count,
-    /// A whole number, zero or above, that fits 53 bits (a seed).
+    /// An integer, zero or above, that fits 53 bits (a seed).
     Whole,
-    /// A species: a whole number below 2³² − 1, or the word `all`.
+    /// A species: an integer below 2³² − 1, or the word `all`.
     Species,
     /// Three finite numbers.
     Vector,
@@ -79,7 +79,7 @@ impl Kind {
             }
         }
     }
-    /// Whether it takes whole numbers alone.
+    /// Whether it takes integers alone.
     #[must_use]
     pub fn is_whole(self) -> bool {
         matches!(self, Self::Count | Self::Whole | Self::Species)
@@ -172,7 +172,7 @@ impl Outside {
     }
 }
 
-/// Above this whole numbers are no longer exact in f64.
+/// Above this integers are no longer exact in f64.
 const LARGEST_WHOLE: f64 = 9_007_199_254_740_992.0;
 
 /// Whether a number that is not zero becomes zero in single precision, subnormal numbers being flushed as GPUs may do.

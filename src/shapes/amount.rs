@@ -5,7 +5,7 @@ use std::ops::AddAssign;
 
 use crate::settings::Settings;
 
-/// Numbers of what there will be: particles and what ties them. They are sizes of memory, so that fractions do not matter, nor
+/// Numbers of what there will be: particles and their links. They are sizes of memory, so that fractions do not matter, nor
 /// numbers that fit no integer.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Amount {
@@ -35,7 +35,7 @@ const TRIANGLE: f64 = 120.0;
 const SMALL: f64 = 6.7e7;
 
 impl Amount {
-    /// So many particles, tied to nothing.
+    /// So many particles, without links.
     #[must_use]
     pub fn of(particles: f64) -> Self {
         Self { particles, ..Self::default() }
@@ -45,7 +45,7 @@ impl Amount {
     pub fn counted(settings: &Settings) -> Self {
         Self::of(settings.number("count"))
     }
-    /// Particles and ties together.
+    /// Particles and links together.
     #[must_use]
     pub fn elements(&self) -> f64 {
         self.particles + self.springs + self.rods + self.joints + self.triangles

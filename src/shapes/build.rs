@@ -1,4 +1,4 @@
-//! What all generators share: the keys that mean the same everywhere, and the checks before and after.
+//! Keys and checks that all shapes share.
 
 use glam::DVec3;
 
@@ -13,9 +13,9 @@ pub(super) const SEED: Key = Key::new("seed", Kind::Whole, Value::Number(1.0), "
 pub(super) const G: Key =
     Key::new("g", Kind::Positive, Value::Number(1.0), "constant of gravity [length³ / mass / time²]; as in the force");
 pub(super) const CENTER: Key =
-    Key::new("center", Kind::Vector, Value::Vector(DVec3::ZERO), "where the centre is put [length]");
+    Key::new("center", Kind::Vector, Value::Vector(DVec3::ZERO), "the position of the centre [length]");
 pub(super) const VELOCITY: Key =
-    Key::new("velocity", Kind::Vector, Value::Vector(DVec3::ZERO), "how it moves as a whole [length / time]");
+    Key::new("velocity", Kind::Vector, Value::Vector(DVec3::ZERO), "the velocity of the whole [length / time]");
 pub(super) const MASS: Key = Key::new("mass", Kind::Positive, Value::Number(1.0), "mass of each particle [mass]");
 pub(super) const TOTAL_MASS: Key =
     Key::new("mass", Kind::Positive, Value::Number(1.0), "mass of all particles together [mass]");
@@ -23,7 +23,7 @@ pub(super) const PARTICLE_SIZE: Key = Key::new(
     "particle_size",
     Kind::NotNegative,
     Value::Number(0.0),
-    "how large each particle is drawn [length]; 0 lets the picture choose",
+    "the radius at which particles are drawn [length]; 0: chosen by the picture",
 );
 
 /// The most particles of what is sampled by a spacing, where a slip makes many.

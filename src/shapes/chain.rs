@@ -14,7 +14,7 @@ use crate::state::State;
 /// The shape `chain`.
 pub const CHAIN: Shape = Shape {
     name: "chain",
-    about: "particles in a row, tied one to the next by springs, ropes or rods: pendulums, strings, beams",
+    about: "particles in a row, each connected to the next by springs, ropes or rods: pendulums, strings, beams",
     keys: KEYS,
     build,
     amount,
@@ -26,7 +26,7 @@ const KEYS: &[Key] = &[
     Key::new("from", Kind::Vector, Value::Vector(DVec3::ZERO), "where the first is [length]"),
     Key::new("to", Kind::Vector, Value::Vector(DVec3::X), "where the last is [length]"),
     MASS,
-    Key::new("tie", Kind::Choice(&["spring", "rope", "rod"]), Value::Text(Cow::Borrowed("spring")), "what ties them"),
+    Key::new("tie", Kind::Choice(&["spring", "rope", "rod"]), Value::Text(Cow::Borrowed("spring")), "the kind of link"),
     Key::new(
         "stiffness",
         Kind::NotNegative,
@@ -37,25 +37,25 @@ const KEYS: &[Key] = &[
         "damping",
         Kind::NotNegative,
         Value::Number(0.0),
-        "springs, ropes: the damping of each, along itself [mass / time]",
+        "springs, ropes: the damping of each, along its axis [mass / time]",
     ),
     Key::new(
         "rest",
         Kind::NotNegative,
         Value::Number(1.0),
-        "springs, ropes: the length at rest, as a part of the distance; 0 pulls alike in all directions",
+        "springs, ropes: the rest length, relative to the distance; 0: equally stiff in all directions",
     ),
     Key::new(
         "bending",
         Kind::NotNegative,
         Value::Number(0.0),
-        "what the joints between three resist bending with, EI / ds [mass length² / time²]",
+        "the bending stiffness of joints, EI / ds [mass length² / time²]",
     ),
     Key::new(
         "pins",
         Kind::Choice(&["none", "first", "ends"]),
         Value::Text(Cow::Borrowed("none")),
-        "which of them forces do not move",
+        "which of the particles are fixed",
     ),
     VELOCITY,
     PARTICLE_SIZE,
@@ -86,7 +86,7 @@ fn build(settings: &Settings) -> Result<State, Error> {
     let last = u32::try_from(count - 1).unwrap_or(u32::MAX);
     let distance = from.distance(to) / f64::from(last);
     if distance == 0.0 {
-        return Err(reader.error("from and to are one place"));
+        return Err(reader.error("from and to are the same position: give two different ones"));
     }
     for i in 0..=last {
         particles.push(from.lerp(to, f64::from(i) / f64::from(last)), velocity, mass, radius);

@@ -57,13 +57,13 @@ const KEYS: &[Key] = &[
         "rest",
         Kind::NotNegative,
         Value::Number(1.0),
-        "lengths at rest, as a part of the distances; 0 pulls alike in all directions",
+        "rest lengths, relative to the distances; 0: equally stiff in all directions",
     ),
     Key::new(
         "pins",
         Kind::Choice(PINS),
         Value::Text(Cow::Borrowed("none")),
-        "which particles forces do not move: of the first row its two corners or all; the first column; all around",
+        "which particles are fixed: two corners of the first row, the first row, the first column, or the whole edge",
     ),
     Key::new(
         "jitter",
@@ -104,7 +104,7 @@ fn build(settings: &Settings) -> Result<State, Error> {
     let spacing = reader.positive("spacing")?;
     let (right, down) = (reader.direction("right")?, reader.direction("down")?);
     if right.cross(down).length() < 1e-6 {
-        return Err(reader.error("right and down point along one line; a sheet has two directions"));
+        return Err(reader.error("right and down are parallel: give two different directions"));
     }
     let mass = reader.positive("mass")?;
     let jitter = reader.not_negative("jitter")?;
@@ -150,7 +150,9 @@ impl Threads {
         let number = |key| reader.not_negative(key);
         let (stretch, shear, bend) = (number("stretch")?, number("shear")?, number("bend")?);
         if stretch == 0.0 && number("damping")? > 0.0 {
-            return Err(reader.error("there is damping, and no stretch that it could go by"));
+            return Err(reader.error(
+                "damping is set and stretch is 0, to which damping is proportional: set stretch, or leave damping out",
+            ));
         }
         Ok(Self { stretch, shear, bend, damping: number("damping")?, rest: number("rest")? })
     }

@@ -59,13 +59,13 @@ const KEYS: &[Key] = &[
         "toomre_q",
         Kind::NotNegative,
         Value::Number(1.2),
-        "Toomre's Q at every radius: how warm the disk is; below 1 it breaks into clumps, above 2 it hardly makes arms",
+        "Toomre's Q at every radius: below 1 the disk breaks into clumps, above 2 it forms hardly any arms",
     ),
     Key::new(
         "softening",
         Kind::NotNegative,
         Value::Number(0.0),
-        "softening of the force that the galaxy will run with [length], so that its centre is balanced too",
+        "the softening of the force `gravity` [length], so that the centre is in equilibrium too",
     ),
     Key::new("normal", Kind::Direction, Value::Vector(DVec3::Z), "the axis about which it turns, counter-clockwise"),
     G,
@@ -119,7 +119,7 @@ fn build(settings: &Settings) -> Result<State, Error> {
     reader.finished(particles)
 }
 
-/// How many particles are disk, halo and bulge.
+/// The numbers of particles of disk, halo and bulge.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -159,7 +159,7 @@ fn parts(settings: &Settings) -> Vec<(&'static str, u32)> {
     vec![("halo_color", halo), ("bulge_color", bulge)]
 }
 
-/// One star of the disk, turning about z.
+/// One star of the disk, which rotates about z.
 fn star(galaxy: &Galaxy, rotation: &Rotation, random: &mut Random) -> (DVec3, DVec3) {
     // R exp(-R) is the distribution of the sum of two exponential numbers.
     let radius = -galaxy.disk_scale * libm::log(random.uniform() * random.uniform());

@@ -12,7 +12,7 @@ use crate::state::State;
 /// The shape `drop`.
 pub const DROP: Shape = Shape {
     name: "drop",
-    about: "a drop of fluid: a ball, an ellipsoid or a disk out of a cubic lattice",
+    about: "a drop of fluid: a ball, an ellipsoid or a disk cut from a cubic lattice",
     keys: KEYS,
     build,
     amount,

@@ -1,4 +1,4 @@
-//! Emitters: particles that wait in a mouth to be born, row by row or one by one.
+//! Emitters: pending particles at a nozzle, spawned layer by layer or one by one.
 
 use std::borrow::Cow;
 
@@ -20,42 +20,42 @@ pub const KEYS: &[Key] = &[
         "shape",
         Kind::Choice(&["disk", "rectangle", "point"]),
         Value::Text(Cow::Borrowed("disk")),
-        "its mouth; in 2 dimensions a disk and a rectangle are lines",
+        "the shape of the nozzle; in 2 dimensions a disk and a rectangle are lines",
     ),
     CENTER,
-    Key::new("direction", Kind::Direction, Value::Vector(DVec3::X), "where to it emits, straight out of its mouth"),
-    Key::new("radius", Kind::Positive, Value::Number(0.5), "disk: the radius of the mouth [length]"),
+    Key::new("direction", Kind::Direction, Value::Vector(DVec3::X), "the direction of emission, normal to the nozzle"),
+    Key::new("radius", Kind::Positive, Value::Number(0.5), "disk: the radius of the nozzle [length]"),
     Key::new(
         "size",
         Kind::Vector,
         Value::Vector(DVec3::ONE),
-        "rectangle: the sides of the mouth, along `across` and square to it; its third number is nothing [length]",
+        "rectangle: the sides of the nozzle, along `across` and perpendicular to it; the third number is ignored [length]",
     ),
     Key::new(
         "across",
         Kind::Vector,
         Value::Vector(DVec3::ZERO),
-        "rectangle: where its first side points; zero: wherever",
+        "rectangle: the direction of its first side; zero: any",
     ),
-    Key::required("speed", Kind::Positive, "how fast they leave the mouth [length / time]"),
+    Key::required("speed", Kind::Positive, "the speed of emitted particles [length / time]"),
     Key::new(
         "spacing",
         Kind::NotNegative,
         Value::Number(0.0),
-        "for a fluid: rows of a cubic lattice so far apart follow each other at spacing / speed [length]",
+        "for a fluid: the spacing of the cubic lattice, of which a layer is emitted every spacing / speed [length]",
     )
     .of_fluid(),
     Key::new(
         SPRAY,
         Kind::NotNegative,
         Value::Number(0.0),
-        "for a spray: so many leave one by one, at random places of the mouth [1 / time]",
+        "for a spray: the number of particles per unit of time, at random positions in the nozzle [1 / time]",
     ),
     Key::new(
         "guide",
         Kind::NotNegative,
         Value::Number(3.0),
-        "of a fluid: for so many rows the newest go straight on, whatever forces say, so that the jet has something behind it",
+        "of a fluid: the number of newest layers that move at constant velocity without forces, so that the jet has pressure behind it",
     ),
     Key::new(
         "density",
@@ -68,16 +68,16 @@ pub const KEYS: &[Key] = &[
         "mass",
         Kind::NotNegative,
         Value::Number(1.0),
-        "of each particle of a spray; one of a fluid has that of its share of the lattice [mass]",
+        "the mass of each particle of a spray; particles of a fluid have density times lattice cell [mass]",
     ),
     Key::new("start", Kind::Number, Value::Number(0.0), "when the first ones leave [time]"),
     Key::new("stop", Kind::Number, Value::Number(FOREVER), "when it ends [time]; left out: at the end of the run"),
-    Key::new("count", Kind::Whole, Value::Number(0.0), "how many it has, at most; 0: as many as leave until it stops"),
+    Key::new("count", Kind::Whole, Value::Number(0.0), "the maximum number of its particles; 0: no limit"),
     Key::new(
         "spread",
         Kind::NotNegative,
         Value::Number(0.0),
-        "the largest angle between their ways and the direction, evenly in the cone [degrees], up to 90",
+        "the largest angle between velocities and the direction, uniform in the cone [degrees], up to 90",
     ),
     SEED,
     PARTICLE_SIZE,
@@ -89,7 +89,7 @@ const FOREVER: f64 = 3.402_823_466_385_288_6e38;
 const ROUNDING: f64 = 1e-9;
 
 /// The particles of an emitter in so many dimensions, in the order of their births. They stand in its mouth; they have no mass
-/// and no velocity before they are born. Those that would leave after `end` are left out, and there are `room` at most.
+/// and no velocity before they are spawned. Those that would leave after `end` are left out, and there are `room` at most.
 ///
 /// # Errors
 /// [`Error::Scene`] when a setting makes no sense, or no particle would leave; [`Error::Limit`] when there would be more than `room`.
@@ -98,11 +98,11 @@ pub fn build(settings: &Settings, dimensions: u32, end: f64, room: u32) -> Resul
     let refuse = |text: String| Err(Error::Scene(format!("an emitter {text}")));
     let (spacing, rate) = (reader.not_negative("spacing")?, reader.not_negative("rate")?);
     if (spacing > 0.0) == (rate > 0.0) {
-        return refuse("wants either a `spacing`, for a fluid, or a `rate`, for a spray".to_owned());
+        return refuse("requires either a `spacing`, for a fluid, or a `rate`, for a spray".to_owned());
     }
     let direction = reader.direction("direction")?;
     if dimensions == 2 && direction.z != 0.0 {
-        return refuse(format!("emits along {direction}, out of the plane: in 2 dimensions give it no z"));
+        return refuse(format!("emits along {direction}, out of the plane: in 2 dimensions the z component must be 0"));
     }
     let speed = reader.positive("speed")?;
     let spread = reader.number("spread", "between 0 and 90", |x| (0.0..=90.0).contains(&x))?;
@@ -117,7 +117,7 @@ pub fn build(settings: &Settings, dimensions: u32, end: f64, room: u32) -> Resul
     let most = if wanted > 0 { wanted as f64 } else { f64::INFINITY };
     let number = (rows * sites.len() as f64).min(most);
     if number < 1.0 {
-        return refuse(format!("starts at {start}, and ends at {last}: no particle would leave it"));
+        return refuse(format!("starts at {start} and ends at {last}: no particle would be spawned"));
     }
     if number > f64::from(room) {
         return Err(Error::Limit(format!(
@@ -167,7 +167,7 @@ impl Mouth {
             None if across == DVec3::ZERO => direction.any_orthonormal_vector(),
             None => {
                 return Err(Error::Scene(format!(
-                    "an emitter has `across` along its direction, {direction}: turn one"
+                    "`across` of an emitter is parallel to its direction, {direction}: change one of them"
                 )));
             }
         };
@@ -176,7 +176,10 @@ impl Mouth {
             "rectangle" => {
                 let size = reader.vector("size")?;
                 if size.x <= 0.0 || size.y <= 0.0 {
-                    let text = format!("an emitter has a mouth of {} by {}: its sides must be above 0", size.x, size.y);
+                    let text = format!(
+                        "the nozzle of an emitter has the sides {} by {}: both must be above 0",
+                        size.x, size.y
+                    );
                     return Err(Error::Scene(text));
                 }
                 [0.5 * size.x, 0.5 * size.y]
@@ -233,7 +236,7 @@ impl Mouth {
     }
 }
 
-/// 0, 1, … below a whole number that fits 32 bits.
+/// 0, 1, … below an integer that fits 32 bits.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked to be at most `room`")]
 fn steps(number: f64) -> impl Iterator<Item = f64> {
     (0..number as u32).map(f64::from)

@@ -28,7 +28,7 @@ const KEYS: &[Key] = &[
         "spread",
         Kind::NotNegative,
         Value::Number(0.1),
-        "how much lengths differ, as a part of the length; below 1",
+        "the variation of lengths, relative to the length; below 1",
     ),
     Key::new("head", Kind::Positive, Value::Number(0.1), "the radius of the head [length]"),
     Key::new(

@@ -3,7 +3,7 @@
 //!
 //! The second moment of the velocities solves the isotropic Jeans equation (Hernquist 1993), the disk counted as if it
 //! were spherical. Their shape is that of a polytrope,  `p(v) ∝ v² (1 - v²/v_esc²)^n`, with n chosen at every radius for that
-//! moment: Gaussian deep inside, and never an escaper. (For Plummer's sphere it is exact, with n = 7/2.)
+//! moment: Gaussian deep inside, and always below the escape speed. (For Plummer's sphere it is exact, with n = 7/2.)
 
 use glam::DVec3;
 

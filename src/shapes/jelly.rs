@@ -25,7 +25,7 @@ const KEYS: &[Key] = &[
     Key::new("spacing", Kind::Positive, Value::Number(0.1), "distance between neighbours along an edge [length]"),
     MASS,
     Key::new("stiffness", Kind::Positive, Value::Number(1000.0), "k, of edges and face diagonals alike [mass / time²]"),
-    Key::new("damping", Kind::NotNegative, Value::Number(0.0), "damping of each spring, along itself [mass / time]"),
+    Key::new("damping", Kind::NotNegative, Value::Number(0.0), "damping of each spring, along its axis [mass / time]"),
     CENTER,
     VELOCITY,
     PARTICLE_SIZE,
@@ -42,7 +42,7 @@ fn amount(settings: &Settings) -> Amount {
 
 /// `size.x * size.y * size.z` particles, the middle of the block at `center`; x runs fastest. Springs in the surface belong to
 /// one cell less than those inside: they have half of the stiffness, edges of the block a quarter, so that the block is
-/// the same stuff throughout; so have the masses.
+/// a homogeneous material; likewise the masses.
 fn build(settings: &Settings) -> Result<State, Error> {
     let reader = Reader { shape: "jelly", settings };
     let size = reader.vector("size")?;
@@ -83,7 +83,7 @@ fn build(settings: &Settings) -> Result<State, Error> {
     reader.finished(particles)
 }
 
-/// Half of the neighbours along edges and face diagonals: the others see them from there.
+/// Half of the neighbours along edges and face diagonals: each pair once.
 const WAYS: [[i32; 3]; 9] =
     [[1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 0], [1, -1, 0], [1, 0, 1], [1, 0, -1], [0, 1, 1], [0, 1, -1]];
 
@@ -106,12 +106,12 @@ impl Block {
         }
         Some(place)
     }
-    /// What part of the cells around two places are inside of the block: a half for each of its sides that they share.
+    /// The fraction of the cells around two lattice sites that are inside of the block: a half for each of its sides that they share.
     fn share(&self, a: [u32; 3], b: [u32; 3]) -> f64 {
         let outer = |axis: usize| a[axis] == b[axis] && (a[axis] == 0 || a[axis] + 1 == self.cells[axis]);
         (0..3).filter(|axis| outer(*axis)).map(|_| 0.5).product()
     }
-    /// The triangles of its surface, seen anticlockwise from outside.
+    /// The triangles of its surface, anticlockwise as seen from outside.
     fn skin(&self, links: &mut Links) {
         for axis in 0..3 {
             let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);

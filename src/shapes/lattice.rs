@@ -108,7 +108,7 @@ fn build(settings: &Settings) -> Result<State, Error> {
     reader.finished(particles)
 }
 
-/// 0, 1, … below a whole number that `room_for` has found to fit 32 bits.
+/// 0, 1, … below an integer that `room_for` has found to fit 32 bits.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a factor of a product that fits 32 bits")]
 fn steps(size: f64) -> impl Iterator<Item = f64> {
     (0..size as u32).map(f64::from)

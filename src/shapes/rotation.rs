@@ -1,4 +1,4 @@
-//! How fast an exponential disk with a halo turns, and how warm it is, over radius: Toomre's criterion, the epicyclic
+//! Rotation curve and velocity dispersion of an exponential disk with a halo: Toomre's criterion, the epicyclic
 //! frequency of the whole galaxy, and the asymmetric drift of the radial Jeans equation (Hernquist 1993).
 
 use std::f64::consts::PI;

@@ -1,4 +1,4 @@
-//! What all walls of a fluid have in common, and where their layers stand.
+//! Keys that all walls of a fluid share, and the positions of their layers.
 
 use std::borrow::Cow;
 
@@ -10,12 +10,9 @@ use crate::settings::{Key, Kind, Value};
 use crate::sph::{Smoothing, gap};
 use crate::state::State;
 
-pub(super) const SPACING: Key = Key::required(
-    "spacing",
-    Kind::Positive,
-    "how far apart particles are, as in the force `fluid`, which says it for its shapes where they do not [length]",
-)
-.of_fluid();
+pub(super) const SPACING: Key =
+    Key::required("spacing", Kind::Positive, "the particle spacing; left out: that of the force `fluid` [length]")
+        .of_fluid();
 pub(super) const DENSITY: Key = Key::new(
     "density",
     Kind::Positive,
@@ -27,27 +24,27 @@ pub(super) const SUPPORT: Key = Key::new(
     "support",
     Kind::Positive,
     Value::Number(2.0),
-    "how far the fluid's kernel reaches, as in the force [spacings]",
+    "the support radius of the fluid's kernel, as in the force [spacings]",
 )
 .of_fluid();
 pub(super) const KERNEL: Key = Key::new(
     "kernel",
     Kind::Choice(Smoothing::NAMES),
     Value::Text(Cow::Borrowed("cubic")),
-    "what smooths the fluid, as in the force",
+    "the smoothing kernel of the fluid, as in the force",
 )
 .of_fluid();
 pub(super) const WALL_MASS: Key = Key::new(
     "wall_mass",
     Kind::Choice(&["sampled", "lattice"]),
     Value::Text(Cow::Borrowed("sampled")),
-    "what the force lets walls weigh: sampled ones keep the gap that leaves the fluid at rest, those of a lattice go on with its own",
+    "the mass of wall particles, as in the force: sampled walls stand at the gap that keeps the fluid at rest, lattice walls continue its lattice",
 ).of_fluid();
 pub(super) const LAYERS: Key = Key::new(
     "layers",
     Kind::Whole,
     Value::Number(0.0),
-    "how many particles a wall is thick; 0: one where it is sampled, on a lattice as many as the support has spacings",
+    "the layers of particles in a wall; 0: one where it is sampled, on a lattice as many as the support has spacings",
 );
 /// The same for all walls.
 pub(super) const RADIUS: Key = PARTICLE_SIZE;
@@ -108,7 +105,7 @@ pub(super) fn cells(reader: &Reader<'_>, size: DVec3, spacing: f64) -> Result<DV
     Ok((size / spacing).round().max(DVec3::ONE))
 }
 
-/// 0, 1, … below a whole number that `room_for` has found to fit 32 bits.
+/// 0, 1, … below an integer that `room_for` has found to fit 32 bits.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a factor of a product that fits 32 bits")]
 pub(super) fn steps(size: f64) -> impl Iterator<Item = f64> {
     (0..size as u32).map(f64::from)

@@ -12,7 +12,7 @@ use crate::state::State;
 /// The shape `spray`.
 pub const SPRAY: Shape = Shape {
     name: "spray",
-    about: "thrown from a nozzle into a cone: sparks, drops, a fountain",
+    about: "particles thrown from a nozzle into a cone: sparks, drops, a fountain",
     keys: KEYS,
     build,
     amount: Amount::counted,

@@ -1,4 +1,4 @@
-//! A tank: what a fluid stands in.
+//! A tank: walls around a fluid.
 //!
 //! Walls of particles, those of [`TANK`] and of the shape `wall`, are part of the fluid's sums: it is as dense beside them as
 //! elsewhere, leans on them with its pressure, and rubs. They are what a fluid should stand in. The force `solid` is no part of
@@ -21,7 +21,7 @@ use crate::state::State;
 /// The shape `tank`.
 pub const TANK: Shape = Shape {
     name: "tank",
-    about: "a box, or a rectangle, of walls around a fluid, held; where they meet they do so without a gap (Akinci et al. 2012)",
+    about: "a box, or a rectangle, of walls around a fluid, as fixed particles, without gaps at the edges (Akinci et al. 2012)",
     keys: KEYS,
     build,
     amount: |_| Amount::default(),
@@ -29,7 +29,7 @@ pub const TANK: Shape = Shape {
 };
 
 const KEYS: &[Key] = &[
-    Key::required("size", Kind::Vector, "the sides of the room within; 0 along z for a rectangle [length]"),
+    Key::required("size", Kind::Vector, "the sides of the space inside; 0 along z for a rectangle [length]"),
     SPACING,
     Key::new(
         "open",

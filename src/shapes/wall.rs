@@ -16,7 +16,7 @@ use crate::state::State;
 /// The shape `wall`.
 pub const WALL: Shape = Shape {
     name: "wall",
-    about: "a plane, a box, a sphere or a mesh as a wall of a fluid, held, or led by a motion (Akinci et al. 2012)",
+    about: "a plane, a box, a sphere or a mesh as a wall of a fluid, of fixed particles or with a prescribed motion (Akinci et al. 2012)",
     keys: KEYS,
     build,
     amount: |_| Amount::default(),
@@ -29,7 +29,7 @@ const MOST_TRIES: f64 = 2e8;
 const SURFACES: &[&str] = &["plane", "box", "sphere", "mesh"];
 
 const KEYS: &[Key] = &[
-    Key::new("surface", Kind::Choice(SURFACES), Value::Text(Cow::Borrowed("plane")), "what it is the surface of"),
+    Key::new("surface", Kind::Choice(SURFACES), Value::Text(Cow::Borrowed("plane")), "the shape whose surface it is"),
     Key::new(
         "size",
         Kind::Vector,
@@ -42,7 +42,7 @@ const KEYS: &[Key] = &[
         "mesh",
         Kind::File,
         Value::Text(Cow::Borrowed("")),
-        "mesh: a file in Wavefront's OBJ; its faces look to the fluid",
+        "mesh: a file in Wavefront's OBJ; its faces point towards the fluid",
     ),
     Key::new("scale", Kind::Positive, Value::Number(1.0), "mesh: by how much it is made larger"),
     Key::new("inside", Kind::Flag, Value::Flag(false), "box, sphere and mesh: whether the fluid is within"),
@@ -174,7 +174,7 @@ fn sphere(reader: &Reader<'_>, skin: &Skin, side: f64, size: DVec3) -> Result<Ve
 fn mesh(reader: &Reader<'_>, skin: &Skin, side: f64) -> Result<Vec<DVec3>, Error> {
     let text = reader.settings.text("mesh");
     if text.is_empty() {
-        return Err(reader.error("surface is \"mesh\"; say of which file, as in mesh = \"hull.obj\""));
+        return Err(reader.error("surface is \"mesh\"; name the file, as in mesh = \"hull.obj\""));
     }
     let mut mesh = Mesh::read(text).map_err(|why| reader.error(&format!("mesh: {why}")))?;
     let scale = reader.positive("scale")?;

@@ -18,7 +18,7 @@ struct Wave {
 }
 
 impl Wave {
-    /// Adds another one, turned by an angle of this cosine and sine.
+    /// Adds another one, rotated by the angle with this cosine and sine.
     fn add(&mut self, other: Self, (cos, sin): (f64, f64)) {
         self.re += other.re * cos - other.im * sin;
         self.im += other.re * sin + other.im * cos;
@@ -29,7 +29,7 @@ impl Wave {
 /// one as their root mean square along each axis, and none where no wave fits.
 pub(super) fn displacements(size: [usize; 3], slope: f64, random: &mut Random) -> Vec<DVec3> {
     let longest = size.into_iter().max().unwrap_or(1);
-    // No more than a wave for four particles: shorter ones the lattice does not hold well.
+    // No more than a wave for four particles: the lattice does not resolve shorter ones well.
     let most = WAVES.min(i32::try_from(longest / 4).unwrap_or(WAVES));
     let lengths = size.map(|n| n as f64);
     let mut field = waves(lengths, most, slope, random);
@@ -53,7 +53,7 @@ fn waves(lengths: [f64; 3], most: i32, slope: f64, random: &mut Random) -> Vec<W
             for i in -most..=most {
                 let k = DVec3::new(f64::from(i), f64::from(j), f64::from(l)) / DVec3::from_array(lengths);
                 let length = k.length();
-                // The same numbers are drawn whatever fits.
+                // The same random numbers are drawn for any lattice.
                 let (re, im) = (random.normal(), random.normal());
                 let fits = length > 0.0 && length * longest < f64::from(most) + 0.5;
                 let along = if fits { k * libm::pow(length, 0.5 * slope - 2.0) } else { DVec3::ZERO };

@@ -21,7 +21,7 @@ pub struct Clock {
     pub between: [f64; 2],
     /// How many steps had each reason, in the order of [`Reason::ALL`].
     pub reasons: [u32; Reason::ALL.len()],
-    /// The length of a step that goes on from here, if it is given to [`AdaptiveStep::before`](crate::kernel::AdaptiveStep::before) \[time\].
+    /// The length of a step that continues from here, if it is given to [`AdaptiveStep::before`](crate::kernel::AdaptiveStep::before) \[time\].
     pub free: f64,
 }
 
@@ -76,7 +76,7 @@ impl<B: Backend> Simulation<B> {
     /// What the clock has counted; nothing where steps are all alike.
     ///
     /// # Errors
-    /// What reading says.
+    /// Errors of reading.
     pub async fn clock(&mut self) -> Result<Option<Clock>, Error> {
         self.settle().await?;
         self.clock_now().await
@@ -90,7 +90,7 @@ impl<B: Backend> Simulation<B> {
         Ok(Some(clock))
     }
     /// Where the run stops: the last step before is shortened, and steps after it move no particle until it stops elsewhere (forces
-    /// are evaluated anew in them, and what depends on velocities is another with those at rest: to leave no trace, run none). It is met
+    /// are evaluated again in them, and what depends on velocities is another with those at rest: to leave no trace, run none). It is met
     /// to 2⁻²⁵ of the longest step; this is the time that it gives.
     ///
     /// # Errors
@@ -119,7 +119,7 @@ impl<B: Backend> Simulation<B> {
         let Array::Uint(words) = words else { return Ok(None) };
         Ok(words.try_into().ok())
     }
-    /// Lets the run go on for ever, where its steps are adaptive.
+    /// Lets the run continue forever, where its steps are adaptive.
     pub(super) fn unstop(&mut self) -> Result<(), Error> {
         if self.adaptive_step.is_none() {
             return Ok(());

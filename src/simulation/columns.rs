@@ -13,7 +13,7 @@ use crate::kernel::{
 use crate::motion::{Held, Hold};
 use crate::state::State;
 
-/// The columns that held particles have: where they are led to.
+/// The columns that fixed particles have: their target positions.
 pub(super) fn of_held(held: &[Held]) -> Vec<Column> {
     let any = |of: fn(&Hold) -> bool| held.iter().any(|one| of(&one.by));
     let mut columns = Vec::new();
@@ -54,7 +54,7 @@ impl Store {
     fn lies_on_device(&self, column: &Column) -> bool {
         self.bound.contains(&column.place.buffer)
     }
-    /// Fills the buffers of the device; where a run goes on, velocities are those of its last step.
+    /// Fills the buffers of the device; where a run continues, velocities are those of its last step.
     pub fn write<B: Backend>(&self, backend: &mut B, setup: &Setup, goes_on: bool) -> Result<(), Error> {
         let (state, count) = (&setup.state, setup.state.len());
         for buffer in &self.bound {
@@ -70,7 +70,7 @@ impl Store {
         }
         backend.write(ACCELERATION.name, &Array::Vec4(vec![DVec4::ZERO; count]))
     }
-    /// Fills the places of held particles at time 0, in their order, where a plan asks for them, and says how many they are.
+    /// Fills the places of fixed particles at time 0, in their order, where a plan asks for them, and says how many they are.
     pub fn anchor<B: Backend>(backend: &mut B, setup: &Setup) -> Result<usize, Error> {
         let homes: Vec<_> = setup.homes().into_iter().map(|home| home.extend(0.0)).collect();
         let count = homes.len();
@@ -136,7 +136,7 @@ impl<B: Backend> Simulation<B> {
             return Err(Error::Scene(text.to_owned()));
         }
         if name == LIFE.name {
-            let text = "the field `life` says which particles take part: spawn and remove them";
+            let text = "the field `life` cannot be written: use spawn and remove";
             return Err(Error::Scene(text.to_owned()));
         }
         if name == ID.name {
@@ -259,7 +259,7 @@ impl<B: Backend> Simulation<B> {
                 state.put(column, values);
             }
         }
-        // Declarations go on, so that a setup of this state has the same columns.
+        // Declarations continue, so that a setup of this state has the same columns.
         let base = Columns::default();
         let others = self.store.columns.iter().filter(|column| !wanted(column) && base.get(&column.name).is_none());
         others.cloned().collect::<Vec<_>>().iter().try_for_each(|column| state.declare(column))?;

@@ -1,4 +1,4 @@
-//! What a caller may read and write: the fields that plans name, by what their elements are.
+//! Fields that a caller may read and write, by the type of their elements.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::mem::discriminant;
@@ -53,7 +53,7 @@ impl Fields {
         if !known.kinds.iter().any(|kind| discriminant(kind) == discriminant(like)) {
             let has = known.kinds.first().map_or("no elements", element);
             return Err(Error::Scene(format!(
-                "the field `{name}` has elements of {has}, and {} is asked of it: take a Field of the other type",
+                "the field `{name}` has elements of {has}, and {} is requested: use a Field of the other type",
                 element(like)
             )));
         }

@@ -1,4 +1,4 @@
-//! What goes together with births and deaths, and what does not.
+//! Which components are compatible with spawning and removal.
 
 use crate::error::Error;
 use crate::forces::{Component, Over};
@@ -6,7 +6,7 @@ use crate::integrators::Integrator;
 use crate::state::State;
 
 /// Whether forces and an integrator serve inactive particles. Such a particle is in no cell list, has no mass, and is put to rest after
-/// every evaluation: that serves searches of a grid, what acts on each alone, and attraction by mass. It does not serve ties.
+/// every evaluation: that serves searches of a grid, what acts on each alone, and attraction by mass. It does not apply to links.
 ///
 /// # Errors
 /// [`Error::Scene`] that names what does not.
@@ -30,12 +30,12 @@ pub fn serves(particles: &State, forces: &[Box<dyn Component>], integrator: &dyn
     let mut tied = springs.chain(corners);
     if !particles.drains.is_empty() && tied.next().is_some() {
         return refuse(
-            "a drain takes particles, and here some are tied: links cannot lose an end. Take away one of them"
+            "a drain removes particles, and some are linked: links cannot lose an end. Remove the drain or the links"
                 .to_owned(),
         );
     }
     match tied.find(idle) {
-        Some(id) => refuse(format!("particle {id} is tied, and does not live from the start: tie others")),
+        Some(id) => refuse(format!("particle {id} is linked, and is not active from the start: link other particles")),
         None => Ok(()),
     }
 }

@@ -1,4 +1,4 @@
-//! The list of neighbours: how much room it has, and more of it where that is too little.
+//! The capacity of the neighbour list, and its growth.
 
 use std::collections::BTreeSet;
 
@@ -31,7 +31,7 @@ pub(super) fn counted(setup: &Setup, problem: Problem) -> Result<Problem, Error>
     let most = if problem.has_inactive { most.max(visit::UNCOUNTED) } else { most };
     let count = problem.capacity;
     let shape = shape.with_room(most, count);
-    // A run that goes on, or has got more rows, keeps the room that it had.
+    // A run that continues, or has got more rows, keeps the room that it had.
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
     let room = setup.state.kept.get(KEPT_ROOM).and_then(|list| list.first()).map_or(0, |room| *room as u32);
     let kept = room.min(count).max(u32::try_from(pair_history::longest(&setup.state)).unwrap_or(u32::MAX));
@@ -39,7 +39,7 @@ pub(super) fn counted(setup: &Setup, problem: Problem) -> Result<Problem, Error>
     Ok(problem.listed(Some(ListShape { capacity, ..shape })))
 }
 
-/// How many neighbours particles have within the ranges of laws that choose their search by it. A run that goes on knows what it was at
+/// How many neighbours particles have within the ranges of laws that choose their search by it. A run that continues knows what it was at
 /// its start, and keeps its search.
 fn neighbors(setup: &Setup, laws: &[Law], places: &dyn Fn() -> Vec<DVec3>) -> Result<Vec<Neighbors>, Error> {
     let mut all: Vec<Neighbors> = Vec::new();
@@ -97,7 +97,7 @@ impl Repeat {
         let mut fields: BTreeSet<String> = kernels().flat_map(Kernel::writes).collect();
         // A backend copies the clock by itself.
         fields.remove("world");
-        // A list without history is built anew where there is more room.
+        // A list without history is rebuilt where there is more room.
         if list.is_none_or(|list| list.words == 0) {
             fields.remove(LIST);
         }
@@ -118,7 +118,7 @@ impl<B: Backend> Simulation<B> {
         if self.repeat.from.is_none() {
             match self.backend.save(&self.repeat.fields) {
                 Ok(()) => self.repeat.from = Some(Origin { steps: self.steps, begun: self.begun, since: None }),
-                // The run goes on without a copy; where the list is too short then, it ends.
+                // The run continues without a copy; where the list is too short then, it ends.
                 Err(Error::OutOfMemory(_)) => {}
                 Err(why) => return Err(why),
             }

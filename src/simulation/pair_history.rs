@@ -1,4 +1,4 @@
-//! History of pairs in a state: what is read of it, and how a simulation takes it up.
+//! History of pairs in a state: reading and restoring it.
 //!
 //! A state holds the pairs that remember something, by the rows of both. A simulation that begins with them gets a list of neighbours
 //! that holds no other pairs and is out of date: the first evaluation builds it anew, and gives history to its pairs, as it does in
@@ -21,7 +21,7 @@ const ELSEWHERE: DVec4 = DVec4::new(1e30, 1e30, 1e30, 1.0);
 /// The words of each pair of rows.
 pub(super) type Pairs = BTreeMap<[u32; 2], Vec<f64>>;
 
-/// Refuses a law with history of pairs where a step evaluates it more than once: what a pair remembers goes on by one step each time
+/// Refuses a law with history of pairs where a step evaluates it more than once: what a pair remembers continues by one step each time
 /// that it is evaluated, and only the last of these evaluations would count.
 ///
 /// # Errors

@@ -14,7 +14,7 @@ impl<B: Backend> Simulation<B> {
     /// How many are pending, active and removed; those whose rows are free count no more. Particles due at the start are spawned when the first step begins.
     ///
     /// # Errors
-    /// What reading says.
+    /// Errors of reading.
     pub async fn population(&mut self) -> Result<Population, Error> {
         let free = |row: &usize| self.rows.is_free(u32::try_from(*row).unwrap_or(u32::MAX));
         let rows: Vec<usize> = (0..self.count() as usize).filter(|row| !free(row)).collect();

@@ -1,4 +1,4 @@
-//! What became of the solves for pressure of a run.
+//! Statistics of the pressure solves of a run.
 
 use super::Simulation;
 use crate::error::Error;
@@ -29,7 +29,7 @@ impl<B: Backend> Simulation<B> {
     /// solved for.
     ///
     /// # Errors
-    /// What reading says.
+    /// Errors of reading.
     pub async fn pressure_solves(&mut self) -> Result<Option<[PressureSolves; 2]>, Error> {
         if !self.reports[1] {
             return Ok(None);

@@ -1,4 +1,4 @@
-//! Values on their way to the host.
+//! Asynchronous readback of values to the host.
 
 use std::future::Future;
 use std::marker::PhantomData;
@@ -8,11 +8,11 @@ use std::task::{Context, Poll};
 use crate::error::Error;
 use crate::kernel::{Arrival, Element};
 
-/// The values of a field that [`Simulation::request`](super::Simulation::request) asked for. [`Readback::look`] gives them once they are
-/// there; `.await` waits for them, while the simulation and its device go on. It may go to another thread.
+/// The values of a field that [`Simulation::request`](super::Simulation::request) asked for. [`Readback::look`] returns them once they
+/// have arrived; `.await` waits for them, while the simulation and its device continue. It may move to another thread.
 #[must_use = "the values are in it"]
 pub struct Readback<T> {
-    /// Until it has given its values.
+    /// `None` once its values have been returned.
     arrival: Option<Box<dyn Arrival>>,
     element: PhantomData<fn() -> T>,
 }
@@ -21,16 +21,14 @@ impl<T: Element> Readback<T> {
     pub(super) fn new(arrival: Box<dyn Arrival>) -> Self {
         Self { arrival: Some(arrival), element: PhantomData }
     }
-    /// The values, once they are there; `None` before. Returns at once.
+    /// The values, once they have arrived; `None` before. Returns immediately.
     ///
     /// # Errors
-    /// [`Error::Lost`] when the device is gone, [`Error::Timeout`] when it does not answer in time, and [`Error::Scene`] when the values
-    /// were given already.
+    /// [`Error::Lost`] when the device is lost, [`Error::Timeout`] when it does not respond in time, and [`Error::Scene`] when the values
+    /// were returned already.
     pub fn look(&mut self) -> Option<Result<Vec<T>, Error>> {
         let Some(arrival) = &mut self.arrival else {
-            return Some(Err(Error::Scene(
-                "these values were given already: request the field again for those of now".to_owned(),
-            )));
+            return Some(Err(Error::Scene("these values were returned already: request the field again".to_owned())));
         };
         let answer = arrival.look()?;
         self.arrival = None;

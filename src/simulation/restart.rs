@@ -1,10 +1,10 @@
-//! How a simulation goes on from a state of another one, as if it had never stopped.
+//! How a simulation continues from a state of another one, as if it had never stopped.
 //!
 //! Columns hold what particles are. Beside them a step keeps for the next: the accelerations of its first kick, which are those of
-//! half-kicked velocities and cannot be evaluated anew; rates of other columns; an adaptive clock, and what forces asked of it; where
-//! held particles began; springs that broke; speeds of the last steps, by which an alarm knows that they run away. A state carries
+//! half-kicked velocities and cannot be evaluated again; rates of other columns; an adaptive clock, and what forces asked of it; where
+//! fixed particles began; springs that broke; speeds of the last steps, by which an alarm knows that they run away. A state carries
 //! these. They hold for the step that made them: under other forces, in steps of another length or of another integrator, on another
-//! kind of device, accelerations are evaluated anew.
+//! kind of device, accelerations are evaluated again.
 
 use glam::{DVec3, DVec4};
 
@@ -28,7 +28,7 @@ use crate::state::{
 /// How far time and step may disagree, as a part of a step: 2³² steps of a time in double precision.
 const AGREEMENT: f64 = 1e-6;
 
-/// A field of the device that goes on from one step to the next.
+/// A field of the device that continues from one step to the next.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Carried {
     field: String,
@@ -172,7 +172,7 @@ fn mark(step: u64, state: &State) -> Vec<f64> {
     [print.0 >> 32, print.0 & 0xffff_ffff].map(|word| word as f64).to_vec()
 }
 
-/// A number that tells the columns of a state from others, in whatever order they stand, by the values that a device holds. What
+/// A hash of the columns of a state, in whatever order they stand, by the values that a device holds. What
 /// files leave out counts for nothing: sizes and species that are all 0, and life where all are active.
 fn of_columns(state: &State) -> u64 {
     let counts = |column: &Column| match column.name.as_ref() {
@@ -249,7 +249,7 @@ impl Setup {
             words
         }))
     }
-    /// Where held particles were at time 0, in their order.
+    /// Where fixed particles were at time 0, in their order.
     pub(super) fn homes(&self) -> Vec<DVec3> {
         let places = self.state.position();
         let kept = self.state.kept.get(KEPT_HOME).unwrap_or_default().chunks_exact(7);
@@ -266,14 +266,14 @@ impl Setup {
 }
 
 impl<B: Backend> Simulation<B> {
-    /// Whether the state that it was made of went on with all that its last step had kept, so that bits are those of a run that was
-    /// never stopped. Else accelerations were evaluated anew there: the state is of step 0, or of a run of other forces, integrator,
+    /// Whether the state that it was made of continued with all that its last step had kept, so that bits are those of a run that was
+    /// never stopped. Else accelerations were evaluated again there: the state is of step 0, or of a run of other forces, integrator,
     /// step length or device, or its positions, velocities or other columns were changed.
     #[must_use]
     pub fn goes_on(&self) -> bool {
         self.goes_on
     }
-    /// Fills what a step keeps for the next one.
+    /// Fills the restart data of a step.
     pub(super) fn resume(&mut self, setup: &Setup, whole: bool) -> Result<(), Error> {
         let state = &setup.state;
         let mut arrays = Vec::new();

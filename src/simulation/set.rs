@@ -1,4 +1,4 @@
-//! Settings that change between two steps. Plans are written anew with them, and their programs are made of the pipelines that there are:
+//! Settings that change between two steps. Plans are rewritten with them, and their programs use the existing pipelines:
 //! only numbers differ, and nothing is compiled.
 
 use std::collections::BTreeSet;
@@ -19,7 +19,7 @@ const ANEW: &str = "make another simulation of it: a setup with the state of `sn
 impl<B: Backend> Simulation<B> {
     /// Changes a setting of a force, an obstacle or a solid, a parameter of a user's law, or one of its tables, from the next step on.
     /// `force` is its name as `motes explain` has it: `"gravity"`, and `"solid 2"` for the second of its kind. Settings are checked as
-    /// they are at the start, nothing is compiled, and states that are saved later go on under [`Simulation::setup`] as it is then.
+    /// they are at the start, nothing is compiled, and states that are saved later continue under [`Simulation::setup`] as it is then.
     ///
     /// Where it changes accelerations at the present state, the next step begins with these. Steps that a caller has encoded before
     /// keep what they were encoded with.
@@ -39,7 +39,7 @@ impl<B: Backend> Simulation<B> {
         let setup = Setup { forces, ..self.setup.clone() };
         self.exchange(setup, (*self.problem).clone(), &format!("`{setting}` of `{force}`"))
     }
-    /// Puts a motion in place of the one of its name, from the next step on: what is led by it goes to where it is then. Keys are at
+    /// Puts a motion in place of the one of its name, from the next step on: particles and obstacles with it move to their new poses. Keys are at
     /// times of the run, as at its start.
     ///
     /// # Errors

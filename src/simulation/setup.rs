@@ -1,4 +1,4 @@
-//! What a simulation is made of, checked, and the plans that come of it.
+//! The setup of a simulation, its validation, and the plans made from it.
 
 use std::collections::BTreeMap;
 
@@ -42,7 +42,7 @@ pub struct Plans {
     pub measure: (Plan, Plan),
     /// Where all is carried over to other buffers: what a step is going to use is kept.
     pub keep: Plan,
-    /// Where a run goes on: what time it is.
+    /// Where a run continues: what time it is.
     pub time: Plan,
     /// The list of neighbours that they share, if any.
     pub list: Option<ListShape>,
@@ -53,7 +53,7 @@ impl Plans {
     pub fn all(&self) -> impl Iterator<Item = &Plan> + Clone {
         [&self.start, &self.step, &self.measure.0, &self.measure.1].into_iter()
     }
-    /// What is done once where a run goes on; with what the last step kept, that is put back too.
+    /// What is done once where a run continues; with what the last step kept, that is put back too.
     #[must_use]
     pub fn wake(&self, keeps: bool) -> Plan {
         let mut plan = self.time.clone();

@@ -1,4 +1,4 @@
-//! What became of the implicit solves of a run.
+//! Statistics of the implicit solves of a run.
 
 use super::Simulation;
 use crate::error::Error;
@@ -39,7 +39,7 @@ impl<B: Backend> Simulation<B> {
     /// What became of the implicit solves so far; none where nothing is solved by iterations.
     ///
     /// # Errors
-    /// What reading says.
+    /// Errors of reading.
     pub async fn solves(&mut self) -> Result<Option<Solves>, Error> {
         if !self.reports[0] {
             return Ok(None);

@@ -1,4 +1,4 @@
-//! Particles come and go: new ones are put into free rows, which the plan covers already, and removed ones leave theirs free.
+//! Spawning and removing particles: new ones are put into free rows, which the plan covers already, and removed ones leave theirs free.
 
 use std::collections::BTreeSet;
 
@@ -18,11 +18,11 @@ impl<B: Backend> Simulation<B> {
     /// others begin with their initial values. Ids are never given twice, and rows of removed particles are used again.
     ///
     /// Within [`Simulation::capacity`] nothing is compiled. Beyond it the simulation makes room for half as many rows more: its plan is
-    /// compiled anew and buffers of the device are others, which [`Simulation::generation`] tells. The next step begins with the
+    /// recompiled and buffers of the device are others, as [`Simulation::generation`] shows. The next step begins with the
     /// accelerations of all particles that there are then.
     ///
     /// # Errors
-    /// [`Error::Scene`] when particles are tied, fixed or yet to be spawned, lack a column without an initial value, have one that is
+    /// [`Error::Scene`] when particles are linked, fixed or yet to be spawned, lack a column without an initial value, have one that is
     /// unknown, or a number that is none; when a law does not serve removed particles. [`Error::Limit`] when a device does not hold so
     /// many rows. Nothing has changed then.
     pub async fn spawn(&mut self, new: &State) -> Result<Vec<u32>, Error> {
@@ -61,7 +61,7 @@ impl<B: Backend> Simulation<B> {
     /// Takes particles away, between two steps. Their ids are not given again, and their rows are free.
     ///
     /// # Errors
-    /// [`Error::Scene`] when an id is unknown, named twice, or that of a particle that has been removed or is tied, fixed or kinematic;
+    /// [`Error::Scene`] when an id is unknown, named twice, or that of a particle that has been removed or is linked, fixed or kinematic;
     /// when a law does not serve removed particles. Nothing has changed then.
     pub async fn remove(&mut self, ids: &[u32]) -> Result<(), Error> {
         let refuse = |text: String| Err(Error::Scene(text));
@@ -78,7 +78,7 @@ impl<B: Backend> Simulation<B> {
             match self.rows.row(*id).filter(|row| !gone(row)) {
                 Some(row) if bound.contains(&row) => {
                     return refuse(format!(
-                        "particle {id} is tied, fixed or kinematic, and cannot be removed: choose others"
+                        "particle {id} is linked, fixed or kinematic, and cannot be removed: choose others"
                     ));
                 }
                 Some(row) => rows.push(row),
@@ -116,7 +116,9 @@ impl<B: Backend> Simulation<B> {
             && links.joints.is_empty()
             && links.triangles.is_empty());
         if tied || !new.held.is_empty() || !new.motions.is_empty() {
-            return refuse("particles that are spawned cannot be tied, fixed or kinematic: spawn free ones".to_owned());
+            return refuse(
+                "particles that are spawned cannot be linked, fixed or kinematic: spawn free ones".to_owned(),
+            );
         }
         if !new.births.is_empty() || !new.drains.is_empty() || (0..new.len()).any(|place| !new.is_active(place)) {
             return refuse(
@@ -211,7 +213,7 @@ impl<B: Backend> Simulation<B> {
         Ok(())
     }
     /// Says to the list of neighbours that rows have got other particles: no pair of theirs is one that was there before, and the list is
-    /// built anew. Rows from `before` on have never been in it.
+    /// rebuilt. Rows from `before` on have never been in it.
     fn changed_hands(&mut self, rows: &[u32], before: u32) -> Result<(), Error> {
         if self.list.is_none() {
             return Ok(());

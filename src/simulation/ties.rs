@@ -1,4 +1,4 @@
-//! What ties, moves, spawns and removes the particles of a simulation.
+//! Links, motions, births and drains of the particles of a simulation.
 
 use std::collections::BTreeSet;
 
@@ -35,7 +35,7 @@ impl Ties {
     pub fn drains(&self) -> &[Drain] {
         &self.drains
     }
-    /// The rows of particles that are tied, fixed or kinematic.
+    /// The rows of particles that are linked, fixed or kinematic.
     pub fn bound(&self) -> BTreeSet<u32> {
         let springs = self.links.springs.iter().flat_map(|link| link.ends);
         let rods = self.links.rods.iter().flat_map(|rod| rod.ends);
@@ -63,7 +63,7 @@ impl<B: Backend> Simulation<B> {
         if self.breaks { self.links().await.map(Some) } else { Ok(None) }
     }
     /// The links as they are now: those of the setup, without the springs that broke. They may go into another setup,
-    /// which goes on from here.
+    /// which continues from here.
     ///
     /// # Errors
     /// When the device is lost, or does not answer in time.

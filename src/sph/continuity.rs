@@ -21,14 +21,9 @@ pub struct Continuity {
 #[must_use]
 pub fn columns(rest: f64) -> Vec<Column> {
     vec![
-        Column::new(
-            "density",
-            Kind::Scalar,
-            "mass / length³",
-            "how dense the fluid is there; of walls it says nothing",
-        )
-        .carried("density_rate")
-        .starting([rest, 0.0, 0.0, 0.0]),
+        Column::new("density", Kind::Scalar, "mass / length³", "the density of the fluid; undefined for walls")
+            .carried("density_rate")
+            .starting([rest, 0.0, 0.0, 0.0]),
         Column::new("density_rate", Kind::Scalar, "mass / (length³ time)", "how fast that changes").derived(),
     ]
 }

@@ -1,4 +1,4 @@
-//! What cannot be a fluid, and where one cannot be.
+//! Validation of fluids and of the boxes that hold them.
 
 use super::Medium;
 use crate::error::Error;
@@ -38,7 +38,7 @@ impl Medium {
             None => Ok(()),
         }
     }
-    /// Refuses a periodic box in which one would meet two images of another: the nearest is met alone.
+    /// Refuses a periodic box in which a particle would be within range of two images of another: only the nearest is evaluated.
     ///
     /// # Errors
     /// [`Error::Setting`] with the period.

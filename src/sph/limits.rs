@@ -39,7 +39,7 @@ struct Shares {
     speed: f64,
 }
 
-/// How many steps viscosity asks for in a longest one; nothing where steps are all alike.
+/// How many steps viscosity requires in a longest one; nothing where steps are all alike.
 #[must_use]
 pub fn viscous_steps(medium: &Medium, viscosity: f64, problem: &Problem) -> Option<f64> {
     let length = 0.5 * medium.range();

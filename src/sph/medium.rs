@@ -1,4 +1,4 @@
-//! A fluid at rest, and how it is smoothed.
+//! A fluid at rest, and its smoothing kernel.
 
 use glam::DVec3;
 
@@ -21,7 +21,7 @@ pub struct Medium {
     pub smoothing: Smoothing,
     /// The speed of sound at rest \[length / time\].
     pub sound: f64,
-    /// γ of Tait's equation, a whole number.
+    /// γ of Tait's equation, an integer.
     pub exponent: u32,
     /// Whether pressure may be below 0: where there is no free surface.
     pub negative: bool,

@@ -1,4 +1,4 @@
-//! Fluids: smoothed particle hydrodynamics. What is smoothed and how, and the searches that a step of it takes; which of them,
+//! Fluids: smoothed particle hydrodynamics. The quantities, kernels and searches of a step; which of them,
 //! and in which order, is for the forces to say.
 
 mod continuity;
@@ -44,8 +44,8 @@ pub const DENSITY: Field<f32> = Field::new("density");
 pub(crate) const DENSITY_RATE: Field<f32> = Field::new("density_rate");
 /// The pressure, where it is solved for \[mass / (length time²), or mass / time² in two dimensions\]; of walls it is 0.
 pub const PRESSURE: Field<f32> = Field::new("pressure");
-/// What a neighbour is asked for, in the order of the grid: density, which is 0 for walls; pressure over its square; internal
+/// What a neighbour is asked for, in the order of the cell list: density, which is 0 for walls; pressure over its square; internal
 /// energy per unit mass.
 pub(crate) const FLOW: &str = "flow";
-/// Which way the surface is, in the order of the grid.
+/// Which way the surface is, in the order of the cell list.
 pub(crate) const NORMAL: &str = "normal";

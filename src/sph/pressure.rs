@@ -1,4 +1,4 @@
-//! What pressure and friction do.
+//! Accelerations by pressure and viscosity.
 
 use glam::DVec3;
 

@@ -1,5 +1,5 @@
 //! How fast a fluid at rest swings and creeps, at most: waves on its cubic lattice (von Neumann's analysis; for smoothed
-//! particles Morris 1996). That is what explicit steps must bear.
+//! particles Morris 1996). These are the stability limits of explicit steps.
 
 use glam::DVec3;
 

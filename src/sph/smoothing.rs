@@ -81,7 +81,7 @@ impl Smoothing {
     }
 }
 
-/// The whole numbers from −most to most.
+/// The integers from −most to most.
 fn steps(most: f64) -> impl Iterator<Item = f64> {
     std::iter::successors(Some(-most), move |x| (*x < most).then_some(x + 1.0))
 }

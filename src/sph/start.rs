@@ -1,4 +1,4 @@
-//! How a fluid starts: how dense it is before the first step, and whether that would blow it apart.
+//! The start of a fluid: its density before the first step, and whether it is over-dense.
 
 use std::f64::consts::SQRT_2;
 
@@ -15,10 +15,10 @@ use crate::kernel::Bounds;
 /// c = 10 √(2 g H) it leaps four times as high as it is deep.
 const MACH: f64 = 0.2;
 /// Two that are nearer than this \[spacings\] have hardly any pressure between them, whose gradient is none at no distance: they
-/// stay together for ever.
+/// stay together forever.
 const SAME_PLACE: f64 = 0.1;
 
-/// What a force makes of all particles that are not held.
+/// What a force makes of all particles that are not fixed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Continuum {
     /// What flows.
@@ -36,7 +36,7 @@ pub struct Continuum {
 pub struct Still<'a> {
     /// Where they are.
     pub position: &'a [DVec3],
-    /// How heavy they are; what walls weigh is found here.
+    /// Mass; what walls weigh is found here.
     pub mass: &'a [f64],
     /// Which are of a wall, by id.
     pub walls: &'a [bool],
@@ -72,7 +72,7 @@ pub struct Start {
     /// How far the fastest particle must move in the first step, at least, where pressure is solved for: that takes away at once all that is too
     /// dense; else 0 \[spacings\].
     pub thrust: f64,
-    /// What makes the densest so dense.
+    /// The cause of the maximum density.
     cause: String,
 }
 
@@ -271,6 +271,9 @@ fn cause(fluid: &Continuum, still: &Still<'_>, nearby: &Nearby<'_>, mass: &[f64]
              of {} spacings): move it away, or let the shapes tank and wall place it",
             medium.support
         ),
-        _ => format!("{:.0} % of that are walls, the rest is fluid around it: give it more room", 100.0 * walls),
+        _ => format!(
+            "{:.0} % of that is from walls, the rest from fluid around it: increase the distance",
+            100.0 * walls
+        ),
     }
 }

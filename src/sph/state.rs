@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::kernel::{Host, Kernel, Pass, Problem, Shader};
 use crate::neighbors::{SORTED_ID, STARTS};
 
-/// The kernel that writes density, pressure and energy down in the order of the grid.
+/// The kernel that writes density, pressure and energy down in the order of the cell list.
 ///
 /// # Errors
 /// When the range is none, or a shader does not compile.

@@ -11,12 +11,12 @@ use crate::error::Error;
 use crate::kernel::{Host, Kernel, Pass, Problem, Scalar, Shader, World};
 use crate::visit::{Law, Outcome, Particle, Search};
 
-/// The pressure that walls find, over ρ₀², in the order of the grid.
+/// The pressure that walls find, over ρ₀², in the order of the cell list.
 const WALL_PRESSURE: &str = "wall_pressure";
 
 /// The kernels that find the pressure of walls (Adami, Hu & Adams 2012, eq. 27), and write it down beside that of the fluid. That
 /// equation has g − a of the wall's own acceleration a, where this has g: a step knows a place and a velocity of a moving wall, and no
-/// more. What is left out is ρ a times the half of a support, at a wall that is led and speeds up.
+/// more. What is left out is ρ a times the half of a support, at a wall whose motion accelerates.
 ///
 /// # Errors
 /// When the range is none, or a shader does not compile.

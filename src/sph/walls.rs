@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::kernel::{Kernel, POSITION, Problem, Scalar, World};
 use crate::visit::{Candidate, Law, Outcome, Particle, Search};
 
-/// What the particles of walls weigh.
+/// The mass of wall particles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum WallMass {
     /// The fluid whose place they take, where they are a layer (Akinci et al. 2012): ρ₀ / Σ W, over the walls.

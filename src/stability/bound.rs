@@ -23,7 +23,7 @@ pub struct Bound {
 }
 
 impl Bound {
-    /// Of springs between particles of these masses; held particles are infinitely heavy ([`f64::INFINITY`]), and so has no row.
+    /// Of springs between particles of these masses; fixed particles are infinitely heavy ([`f64::INFINITY`]), and so has no row.
     /// Springs with an end that is not in the list of masses count for nothing.
     #[must_use]
     pub fn of(springs: &[Link], masses: &[f64]) -> Self {

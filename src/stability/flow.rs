@@ -1,4 +1,4 @@
-//! What a step is to a fluid: what its sound, its viscosities and XSPH ask of an integrator.
+//! Stability limits of a fluid: by its speed of sound, its viscosities and XSPH.
 
 use super::mode::Mode;
 use super::oscillator::Oscillator;
@@ -9,12 +9,12 @@ use crate::kernel::Machine;
 use crate::simulation::Setup;
 
 /// Above so many times the largest step that is safe a fluid is lost. In a dam that breaks (25 by 16 particles, 160 steps) sound, α,
-/// ν and ε above it made energies of 10⁴ to 10⁶ times the first; between, a surface that is no lattice may bear it.
+/// ν and ε above it made energies of 10⁴ to 10⁶ times the first; between, a surface that is not a lattice may be stable.
 const LOST: f64 = 1.25;
 /// How long nothing may grow tenfold, in times of the quickest.
 const PERIODS: f64 = 1e4;
 
-/// What asks for the shortest step.
+/// What limits the step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Asks {
     /// The speed of sound.
@@ -34,7 +34,7 @@ pub struct Flow {
     pub excess: f64,
     /// What asks for that.
     pub asks: Asks,
-    /// Whether the integrator bears swings at all, so that what is far too long is lost for certain.
+    /// Whether the integrator is stable for undamped oscillations, so that steps that are far too long certainly fail.
     pub sure: bool,
 }
 

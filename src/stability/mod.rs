@@ -1,4 +1,4 @@
-//! What steps bear: the largest dt of an integrator, measured from its own steps, and the frequencies of a network of
+//! Stability limits: the largest dt of an integrator, measured from its own steps, and the frequencies of a network of
 //! springs, bounded from above and from below; and those of a fluid on its lattice.
 
 mod bound;

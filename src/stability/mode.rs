@@ -9,7 +9,7 @@ use crate::links::Link;
 /// A network at some places: its springs' directions, and how much they resist across.
 pub struct Network<'a> {
     springs: &'a [Link],
-    /// 1 / √m; 0 for held particles.
+    /// 1 / √m; 0 for fixed particles.
     light: Vec<f64>,
     /// The direction of a spring, and max(0, 1 − L / l): its resistance across, in parts of that along it. The exact one
     /// is negative where a spring is pressed: it buckles, and does not swing.
@@ -29,7 +29,7 @@ pub struct Mode {
 const ITERATIONS: usize = 40;
 
 impl<'a> Network<'a> {
-    /// Of springs between particles of these masses (infinite for held ones) and places.
+    /// Of springs between particles of these masses (infinite for fixed ones) and places.
     #[must_use]
     pub fn new(springs: &'a [Link], masses: &[f64], positions: &[DVec3], bounds: &Bounds) -> Self {
         let light = masses.iter().map(|m| 1.0 / m.sqrt()).collect();

@@ -1,6 +1,6 @@
-//! One particle on a damped spring under an integrator: x″ = −ω² x − c x′. What a step makes of it is a matrix, and the
-//! matrix says all (Hairer, Lubich & Wanner 2006, chapter I). It is measured from the step itself, so that an integrator
-//! needs no formula to be asked how far it goes.
+//! One particle on a damped spring under an integrator: x″ = −ω² x − c x′. A step is a matrix, and the
+//! matrix determines stability (Hairer, Lubich & Wanner 2006, chapter I). It is measured from the step itself, so that an integrator
+//! needs no formula for its stability limit.
 
 use std::borrow::Cow;
 
@@ -17,7 +17,7 @@ use crate::state::State;
 
 /// A run in which nothing grows by more than this is called stable.
 const MOST: f64 = 10.0;
-/// The first dt that is tried, as a part of 1 / (ω + c): every method of use bears it.
+/// The first dt that is tried, as a part of 1 / (ω + c): every useful method is stable at it.
 const FIRST: f64 = 0.05;
 /// From one dt that is tried to the next: a gap of stability narrower than this may be missed.
 const STRIDE: f64 = 1.05;
@@ -90,7 +90,7 @@ impl<B: Backend> Oscillator<B> {
         Ok(self.growth(dt).await?.ln() * (duration / dt) < MOST.ln())
     }
     /// The largest dt under which a run over so long a time stays bounded: nothing grows tenfold. Infinite for a method
-    /// that bears any dt, and 0 for one that bears none.
+    /// that is stable at any dt, and 0 for one that is stable at none.
     ///
     /// # Errors
     /// When the device is lost.

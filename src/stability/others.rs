@@ -1,4 +1,4 @@
-//! What acts beside springs, and asks for short steps as well: joints, and laws of each particle that offer their Jacobian.
+//! Other limits of the step besides springs: joints, and laws of single particles with a Jacobian.
 
 use glam::DVec3;
 

@@ -1,4 +1,4 @@
-//! What a step is to a network of springs: safe, too long by the bound, or too long for certain.
+//! The verdict on a time step for a network of springs: stable, possibly unstable by the bound, or certainly unstable.
 
 use super::bound::Bound;
 use super::mode::{Mode, Network};
@@ -26,7 +26,7 @@ pub struct Verdict {
     /// The dt from which on modes that the network has at the start grow tenfold in the run; above `safe`, but for
     /// rounding. Infinite where dt is safe: modes were not looked at.
     pub lost: f64,
-    /// Whether the springs' damping asks for the shorter step, and not their stiffness.
+    /// Whether the springs' damping limits the step, and not their stiffness.
     pub by_damping: bool,
 }
 
@@ -98,8 +98,8 @@ pub(super) async fn limit(build: Build<'_>, mode: Mode, duration: f64) -> Result
     Oscillator::new(build(), mode.stiffness.sqrt(), mode.damping)?.largest_step(duration).await
 }
 
-/// What all modes up to the highest bear: its own, half as stiff and as damped, damped alone, and swinging alone. The last
-/// counts only for methods that bear swinging at all: with others, as with Euler's, damping is what springs live by.
+/// The stability limit of all modes up to the highest: its own, half as stiff and as damped, damped only, and undamped. The last
+/// counts only for methods that are stable for undamped oscillations: others, such as Euler's, require damping.
 async fn safe(build: Build<'_>, highest: Mode, duration: f64) -> Result<f64, Error> {
     let Mode { stiffness, damping } = highest;
     let mut least = combined(build, highest, duration).await?;
@@ -114,7 +114,7 @@ async fn safe(build: Build<'_>, highest: Mode, duration: f64) -> Result<f64, Err
     Ok(least)
 }
 
-/// What the highest mode bears, and one half as stiff and as damped.
+/// The stability limit of the highest mode, and of one half as stiff and as damped.
 pub(super) async fn combined(build: Build<'_>, highest: Mode, duration: f64) -> Result<f64, Error> {
     let least = limit(build, highest, duration).await?;
     if highest.damping == 0.0 || highest.stiffness == 0.0 {

@@ -88,7 +88,7 @@ impl State {
     /// [`Error::Scene`] where the state has no such column: it was not taken from a simulation.
     pub fn energies(&self) -> Result<Vec<f64>, Error> {
         let potential = self.scalar("potential").ok_or_else(|| {
-            Error::Scene("the state has no column `potential`: measure one that a simulation gives".to_owned())
+            Error::Scene("the state has no column `potential`: use a state that a simulation returned".to_owned())
         })?;
         Ok(self.mass().iter().zip(potential).map(|(m, w)| m * w).collect())
     }

@@ -1,4 +1,4 @@
-//! What a step leaves for the next one beside columns, so that a run goes on from a state with the bits of one that was never
+//! Restart data that a step saves for the next one beside columns, so that a run continues from a state with the bits of one that was never
 //! stopped: accelerations that the next kick uses, an adaptive clock, where kinematic particles began, springs that broke.
 
 use std::borrow::Cow;
@@ -17,10 +17,10 @@ pub(crate) const KEPT: &str = "kept_";
 /// The lowest and the highest corner of where particles were at the start of the run: cells are chosen by it, and so the order of sums.
 pub(crate) const EXTENT: &str = "kept_extent";
 
-/// A number that tells the step which made a state from others, in two words.
+/// A hash of the step that made a state, in two words.
 pub(crate) const STEP: &str = "kept_step";
 
-/// What goes on where positions and velocities are changed by a caller: it says nothing of them.
+/// What continues where positions and velocities are changed by a caller: it says nothing of them.
 const LASTING: [&str; 5] = [HOME, BROKEN, PAIRS, PAIR_WORDS, "kept_step_clock"];
 
 /// How many rows were in use when the plan was written, by which cells are chosen too.
@@ -39,7 +39,7 @@ pub(crate) const PAIRS: &str = "kept_pairs";
 /// How many words each of these has.
 pub(crate) const PAIR_WORDS: &str = "kept_pair_words";
 
-/// Where held particles were at time 0, in groups of seven numbers: the id, that place, and where they are.
+/// Where fixed particles were at time 0, in groups of seven numbers: the id, that place, and where they are.
 pub(crate) const HOME: &str = "kept_home";
 /// Springs that have broken, in groups of three numbers: the ids of the two, and the rest length, negative for a rope.
 pub(crate) const BROKEN: &str = "kept_broken";
@@ -77,7 +77,7 @@ impl Kept {
 }
 
 impl State {
-    /// The same particles at time 0 and step 0, from which a simulation begins anew: kinematic particles, births, random numbers and
+    /// The same particles at time 0 and step 0, from which a simulation starts over: kinematic particles, births, random numbers and
     /// forces that depend on time begin again, and nothing is left of what the last step kept for the next one. Columns stay as they are,
     /// those of an integrator or a solver too.
     #[must_use]
@@ -86,14 +86,14 @@ impl State {
         self.kept.clear();
         self
     }
-    /// Whether it holds what a step keeps for the next one, as states do that simulations give, until they are changed, and as NPZ
+    /// Whether it holds the restart data of a step, as states do that simulations give, until they are changed, and as NPZ
     /// archives hold them; tables do not.
     #[must_use]
     pub fn keeps(&self) -> bool {
         self.kept.get(STEP).is_some()
     }
     /// Goes on from where another state of the same particles is: its columns, its clock, and what the last step kept. What this
-    /// state alone has, stays: links, but for springs that have broken, held particles, motions, births, drains, and columns that the
+    /// state alone has, stays: links, but for springs that have broken, fixed particles, motions, births, drains, and columns that the
     /// other does not give.
     ///
     /// # Errors
@@ -127,7 +127,7 @@ impl State {
         self.links.springs.retain(|link| !broken.contains(&named(link)));
         Ok(())
     }
-    /// Keeps where particles are and held ones began, for a run that goes on from another state of theirs, if they are at its start.
+    /// Keeps where particles are and fixed ones began, for a run that continues from another state of theirs, if they are at its start.
     fn origin(&mut self, other: &Self) {
         if self.step > 0 || self.time > 0.0 || self.kept.get(EXTENT).is_some() {
             return;

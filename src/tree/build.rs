@@ -10,25 +10,25 @@ use crate::error::Error;
 use crate::kernel::{Field, Host, Kernel, Name, POSITION, Pass, Problem, Scalar, Shader, Source};
 use crate::primitives::{Items, Operation, radix_sort, rows};
 
-/// What is not needed any more when a tree is built: all trees share it. First the corners of the box of all.
+/// Temporary fields of the construction, shared by all trees. First the corners of the bounding box.
 pub(super) const LEAST: Field<glam::Vec4> = Field::new("tree_least");
 pub(super) const GREATEST: Field<glam::Vec4> = Field::new("tree_greatest");
 /// Its lowest corner, and cells per length.
 pub(super) const CUBE: Field<glam::Vec4> = Field::new("tree_cube");
-/// The word that is sorted by next, in the order that there is; and the upper words by id.
+/// The key word of the next sort, in the present order; and the upper words by id.
 pub(super) const KEY: Field<u32> = Field::new("tree_key");
 pub(super) const UPPER: Field<u32> = Field::new("tree_upper");
 
-/// Below the root, the level whose nodes tell how large all pulls are together.
+/// The level below the root whose nodes give the sum of the magnitudes of attractions.
 pub(super) const PULLS: u32 = 6;
-/// The part of them that counts as a force where they cancel.
+/// The fraction of that sum that counts as a force where attractions cancel.
 pub(super) const PART: f64 = 1.0 / 32.0;
 
-/// What a reference of a tree is.
+/// The type of a reference of a tree kernel.
 type Rule = fn(&Tree, &Host) -> Result<(), Error>;
 
 impl Tree {
-    /// The kernels that build it from where particles are now, and, where the opening is relative, from their
+    /// The kernels that build it from the current positions and, with the relative opening criterion, from the
     /// last accelerations.
     ///
     /// # Errors
@@ -74,7 +74,7 @@ impl Tree {
         all
     }
 
-    /// The fields of this tree in place of the names that shaders give them.
+    /// The fields of this tree, by the names that shaders use.
     #[must_use]
     pub fn fields(&self) -> [(&'static str, Name); 8] {
         [TREE_ID, TREE_BODY, TREE_CENTER, TREE_MASS, TREE_SHAPE, TREE_LOW, TREE_HIGH, TREE_DEMAND]

@@ -3,7 +3,7 @@
 //!
 //! Particles are sorted along a Hilbert curve and cut into leaves of [`LEAF`]; a node is what two nodes below it hold. Its
 //! place in the fields is a heap's: 1 is the root, 2 n and 2 n + 1 are the children of n, and all leaves stand
-//! [`height`](Tree::height) levels below the root. What stands behind the last leaf does not exist, and is not visited.
+//! [`height`](Tree::height) levels below the root. Nodes after the last leaf do not exist, and are not visited.
 
 mod build;
 mod curve;
@@ -129,6 +129,6 @@ pub(crate) const TREE_SHAPE: &str = "tree_shape";
 pub(crate) const TREE_LOW: &str = "tree_low";
 /// Of each node: the highest corner of its tight box, and 0.
 pub(crate) const TREE_HIGH: &str = "tree_high";
-/// Of each group of targets: G / (α a) with the least last acceleration a of any of them, or a part of the sizes of
+/// Of each group of targets: G / (α a) with the smallest last acceleration a in them, or a part of the sizes of
 /// all pulls where that is more; 0 where one of them has none. Where the opening is relative.
 pub(crate) const TREE_DEMAND: &str = "tree_demand";

@@ -1,4 +1,4 @@
-//! A tree as the host holds it, to be read.
+//! Read access to a tree on the host.
 
 use std::ops::Range;
 
@@ -8,7 +8,7 @@ use super::{TREE_BODY, TREE_CENTER, TREE_DEMAND, TREE_ID, TREE_MASS, TREE_SHAPE,
 use crate::error::Error;
 use crate::kernel::{Host, Reading};
 
-/// What the fields of a tree hold. Nodes are named by their places in a heap, from 1 on.
+/// The fields of a tree. Nodes are numbered as in a heap, from 1 on.
 pub struct Nodes<'a> {
     tree: Tree,
     ids: Reading<'a, u32>,
@@ -23,7 +23,7 @@ impl<'a> Nodes<'a> {
     /// Opens the fields of a tree.
     ///
     /// # Errors
-    /// When the host has not all of them, or one is being written; it may do without what groups demand.
+    /// When the host has not all of them, or one is being written; the opening criteria of groups are optional.
     pub fn of(tree: &Tree, host: &'a Host) -> Result<Self, Error> {
         let vectors = |name| host.reading::<Vec4>(&tree.field(name).1);
         Ok(Self {
@@ -88,14 +88,14 @@ impl<'a> Nodes<'a> {
     pub fn length(&self, n: u32) -> f64 {
         element(&self.shape, n).w
     }
-    /// What a group of targets demands: G / (α a), or 0 where a body has no acceleration yet, or the opening is geometric.
+    /// The relative opening criterion of a group of targets: G / (α a), or 0 if a body has no acceleration yet, or the criterion is geometric.
     #[must_use]
     pub fn demand(&self, group: usize) -> f64 {
         self.demand.as_ref().and_then(|demand| demand.get(group)).copied().unwrap_or(0.0)
     }
 }
 
-/// Of a node that is not there, nothing.
+/// `None` for a node that does not exist.
 fn element(field: &[DVec4], n: u32) -> DVec4 {
     field.get(n as usize).copied().unwrap_or(DVec4::ZERO)
 }

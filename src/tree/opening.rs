@@ -1,6 +1,6 @@
-//! When a node is too near to be taken as one.
+//! Opening criteria of the tree.
 
-/// The opening criteria. `d` is the least distance from the box of a group of targets to a node's centre of mass, and from the
+/// The opening criteria. `d` is the minimum distance from the box of a group of targets to a node's centre of mass, and from the
 /// targets themselves where the box is four times as wide as the node reaches; `l` is the longest side of the node's tight box,
 /// `s` the distance of its centre of mass from the middle of that box.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -11,9 +11,9 @@ pub enum Opening {
         /// θ, between 0 and 1: the smaller, the more exact.
         theta: f64,
     },
-    /// A node of mass M is opened where G M l² / d⁴ > α a, with a the least last acceleration of any of the group
-    /// (Springel 2005), or d ≤ l + s. Where one of them has none yet the criterion is the geometric one. Where pulls
-    /// cancel, a is a thirty-second of the sum of their sizes.
+    /// A node of mass M is opened where G M l² / d⁴ > α a, with a the smallest of the last accelerations of the group
+    /// (Springel 2005), or d ≤ l + s. If one of them has none yet the criterion is the geometric one. Where attractions
+    /// cancel, a is 1/32 of the sum of their magnitudes.
     Relative {
         /// α: about the relative error of a force.
         alpha: f64,

@@ -9,20 +9,20 @@ use crate::settings::Settings;
 
 typed! {
     force;
-    /// The least and the greatest speed of a species.
+    /// The minimum and the maximum speed of a species.
     SpeedLimit "speed_limit" speed_limit(max: f64) {
         /// The minimum speed; a particle at rest sets off along x \[length / time\].
         min: f64,
         /// The maximum speed \[length / time\].
         max: f64,
-        /// What it acts on: a species, or "all".
+        /// The species that it acts on, or "all".
         species: Option<u32>,
     }
-    /// A sphere, a box, a plane or a capsule that lets no particle in, or out: bounces and friction.
+    /// An obstacle or a container: a sphere, a box, a plane or a capsule, with restitution and friction.
     Solid "solid" solid() {
         /// What it is: sphere, box, plane, capsule.
         shape: Cow<'static, str>,
-        /// Its middle, or a point on the plane \[length\].
+        /// Its centre, or a point on the plane \[length\].
         position: DVec3,
         /// Sphere and capsule: the radius \[length\].
         radius: f64,
@@ -32,29 +32,29 @@ typed! {
         normal: DVec3,
         /// Capsule: from the centre of one end to the other's \[length\].
         axis: DVec3,
-        /// How far off centres of particles keep \[length\].
+        /// The minimum distance of particle centres from the surface \[length\].
         thickness: f64,
-        /// The part of the speed that bounces back, 0 to 1.
+        /// The coefficient of restitution, 0 to 1.
         restitution: f64,
         /// Coulomb's coefficient of friction.
         friction: f64,
-        /// Whether it is a container, and keeps particles in.
+        /// Whether it is a container that keeps particles inside.
         inside: bool,
-        /// The motion that it goes along with, if any.
+        /// The motion that moves it, if any.
         motion: Cow<'static, str>,
-        /// What it acts on: a species, or "all".
+        /// The species that it acts on, or "all".
         species: Option<u32>,
-        /// What is evaluated: each particle alone.
+        /// What is evaluated: single particles.
         over: Cow<'static, str>,
     }
     /// Rigid rods in chains keep their lengths, whatever the other forces do (RATTLE: Andersen 1983).
     Rod "rod" rod() {
     }
-    /// Springs that are not stretched farther than so much (Provot 1995).
+    /// An upper limit of the strain of springs (Provot 1995).
     StrainLimit "strain_limit" strain_limit() {
-        /// How much longer than at rest a spring may get, as a part of that.
+        /// The largest strain of a spring: its extension over its rest length.
         strain: f64,
-        /// How often all springs are looked at after a drift: more bring long rows nearer to the limit.
+        /// Iterations over all springs after a drift: more bring long chains closer to the limit.
         sweeps: u32,
         /// What is limited: springs and ropes.
         over: Cow<'static, str>,

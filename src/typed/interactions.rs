@@ -15,27 +15,27 @@ typed! {
         g: f64,
         /// The Plummer softening ε; the spline ends at 2.8 ε, so for PKDGRAV's own ε (which ends at 2 ε) say 2/2.8 of it \[length\].
         softening: f64,
-        /// How close encounters are softened: plummer, spline.
+        /// The softening kernel: plummer, spline.
         kernel: Cow<'static, str>,
-        /// Which pairs are evaluated: all of them, or far groups as one, through a tree; "auto": whichever is faster: pairs, tree, auto.
+        /// Which pairs are evaluated: all (direct summation), or far groups approximated by a tree; "auto": whichever is faster: pairs, tree, auto.
         over: Cow<'static, str>,
         /// The opening angle θ of the tree, at most 1: a group of size l is approximated from the distance l / θ on.
         theta: f64,
-        /// Above 0: the tree opens by relative force (GADGET): a group is approximated where its quadrupole is below α of the last acceleration.
+        /// Above 0: the relative opening criterion (GADGET): a group is approximated where its quadrupole term is below α of the last acceleration.
         alpha: f64,
-        /// In a periodic box: nearest images alone, or all images in a uniform background, in a cube (Ewald 1921): nearest, ewald.
+        /// In a periodic box: nearest images only, or Ewald sums over all images on a neutralizing background, in a cube (Ewald 1921): nearest, ewald.
         images: Cow<'static, str>,
-        /// What the tree knows of a far group: quadrupole, monopole.
+        /// The multipole order of far groups: quadrupole, monopole.
         multipoles: Cow<'static, str>,
     }
-    /// The same acceleration everywhere: weight.
+    /// A uniform acceleration field, such as weight.
     Uniform "uniform" uniform() {
         /// The acceleration \[length / time²\].
         acceleration: DVec3,
-        /// What is evaluated: each particle alone.
+        /// What is evaluated: single particles.
         over: Cow<'static, str>,
     }
-    /// Linear and quadratic resistance of a medium that may move (Stokes 1851, Newton 1687).
+    /// Linear and quadratic drag in a medium that may move (Stokes 1851, Newton 1687).
     Drag "drag" drag() {
         /// The rate of linear (Stokes) drag \[1 / time\].
         linear: f64,
@@ -43,52 +43,52 @@ typed! {
         quadratic: f64,
         /// The velocity of the medium \[length / time\].
         wind: DVec3,
-        /// What is evaluated: each particle alone.
+        /// What is evaluated: single particles.
         over: Cow<'static, str>,
     }
     /// A wind that blows in gusts and carries particles along.
     Wind "wind" wind() {
         /// The mean velocity of the air \[length / time\].
         velocity: DVec3,
-        /// How fast particles take the air's velocity \[1 / time\].
+        /// The rate at which particles adopt the velocity of the air \[1 / time\].
         rate: f64,
-        /// The strength of gusts, as a part of the mean.
+        /// The amplitude of gusts, relative to the mean velocity.
         gust: f64,
         /// The time from gust to gust \[time\].
         period: f64,
-        /// The way from gust to gust, along the wind \[length\].
+        /// The distance from gust to gust, along the wind \[length\].
         wavelength: f64,
-        /// What is evaluated: each particle alone.
+        /// What is evaluated: single particles.
         over: Cow<'static, str>,
     }
-    /// A whirl about an axis that carries particles along (Kaufmann 1962).
+    /// A vortex about an axis that carries particles along (Kaufmann 1962).
     Vortex "vortex" vortex() {
         /// A point on the axis \[length\].
         center: DVec3,
-        /// The axis; the whirl turns about it by the right hand.
+        /// The axis of rotation, by the right-hand rule.
         axis: DVec3,
         /// The circulation Γ far outside \[length² / time\].
         circulation: f64,
-        /// The radius of the fastest flow \[length\].
+        /// The core radius, where the flow is fastest \[length\].
         core: f64,
-        /// How fast particles take the flow's velocity \[1 / time\].
+        /// The rate at which particles adopt the velocity of the flow \[1 / time\].
         rate: f64,
-        /// What is evaluated: each particle alone.
+        /// What is evaluated: single particles.
         over: Cow<'static, str>,
     }
     /// A fixed or moving centre: point mass, spring or logarithmic halo.
     Attractor "attractor" attractor() {
         /// Where the centre is at time 0 \[length\].
         position: DVec3,
-        /// How it moves \[length / time\]; energy is kept only if it rests.
+        /// Its velocity \[length / time\]; energy is conserved only if it is at rest.
         velocity: DVec3,
-        /// How the pull falls off: point, harmonic, logarithmic.
+        /// The profile of the attraction: point, harmonic, logarithmic.
         profile: Cow<'static, str>,
         /// Point: G M \[length³ / time²\]; harmonic: ω² \[1 / time²\]; logarithmic: v₀² \[length² / time²\].
         strength: f64,
         /// Point, logarithmic: the core radius ε \[length\].
         softening: f64,
-        /// What is evaluated: each particle alone.
+        /// What is evaluated: single particles.
         over: Cow<'static, str>,
     }
     /// A flock: separation, alignment and cohesion within a field of view (Reynolds 1987, 1999).
@@ -103,28 +103,28 @@ typed! {
         alignment: f64,
         /// The weight of cohesion.
         cohesion: f64,
-        /// Half of the angle of view; 180 and more is all round, and so is the view of a bird at rest \[degrees\].
+        /// Half of the angle of view; 180 and more is all round; a bird at rest sees all round \[degrees\].
         vision: f64,
-        /// The speed of the wishes, and the maximum speed \[length / time\].
+        /// The desired speed, and the maximum speed \[length / time\].
         max_speed: f64,
         /// The minimum speed; a bird at rest sets off along x \[length / time\].
         min_speed: f64,
         /// The maximum acceleration of each rule, and of all together \[length / time²\].
         max_force: f64,
-        /// What it acts on: a species, or "all".
+        /// The species that it acts on, or "all".
         species: Option<u32>,
-        /// Which neighbours: all in range, by a cell list, by a list that is kept over steps, by the faster of both, or by brute force; or the nearest, of all species, however far (Ballerini et al. 2008): near, list, auto, within, nearest.
+        /// How neighbours in range are found: by a cell list, by a neighbour list that is reused over steps, by the faster of both, or by brute force; or the k nearest neighbours, of all species, at any distance (Ballerini et al. 2008): near, list, auto, within, nearest.
         over: Cow<'static, str>,
-        /// Over = "list" or "auto": how much farther than the range the list reaches; 0: a fifth of the range \[length\].
+        /// Over = "list" or "auto": the skin of the neighbour list beyond the range; 0: a fifth of the range \[length\].
         skin: f64,
-        /// How many are nearest.
+        /// Over = "nearest": the number k of neighbours.
         neighbors: u32,
     }
-    /// A sphere, a box or a plane that is seen ahead and avoided (after Reynolds 1999).
+    /// A sphere, a box or a plane that particles avoid by looking ahead (after Reynolds 1999).
     Obstacle "obstacle" obstacle() {
         /// What it is: sphere, box, plane.
         shape: Cow<'static, str>,
-        /// Its middle, or a point on the plane \[length\].
+        /// Its centre, or a point on the plane \[length\].
         position: DVec3,
         /// Sphere: its radius \[length\].
         radius: f64,
@@ -132,109 +132,109 @@ typed! {
         size: DVec3,
         /// Plane: the direction to the free side.
         normal: DVec3,
-        /// How far ahead it is seen \[time\].
+        /// How far ahead particles look \[time\].
         look_ahead: f64,
-        /// The distance kept from it: the radius of a bird \[length\].
+        /// The minimum distance from it: the radius of a bird \[length\].
         clearance: f64,
         /// The acceleration of particles that touch it \[length / time²\].
         max_force: f64,
-        /// What it acts on: a species, or "all".
+        /// The species that it acts on, or "all".
         species: Option<u32>,
-        /// What is evaluated: each particle alone.
+        /// What is evaluated: single particles.
         over: Cow<'static, str>,
     }
     /// Prey flee from predators.
     Flee "flee" flee() {
         /// How far a predator is seen \[length\].
         range: f64,
-        /// What a predator does at no distance \[length / time²\].
+        /// The acceleration away from a predator at distance 0 \[length / time²\].
         strength: f64,
         /// The species that flees.
         species: Option<u32>,
         /// The species that it flees.
         predators: Option<u32>,
-        /// Which neighbours: all in range, by a cell list, by a list that is kept over steps, by the faster of both, or by brute force: near, list, auto, within.
+        /// How neighbours in range are found: by a cell list, by a neighbour list that is reused over steps, by the faster of both, or by brute force: near, list, auto, within.
         over: Cow<'static, str>,
-        /// Over = "list" or "auto": how much farther than the range the list reaches; 0: a fifth of the range \[length\].
+        /// Over = "list" or "auto": the skin of the neighbour list beyond the range; 0: a fifth of the range \[length\].
         skin: f64,
     }
     /// Predators chase prey.
     Chase "chase" chase() {
         /// How far prey is seen \[length\].
         range: f64,
-        /// The speed of the wish; for a limit see speed_limit \[length / time\].
+        /// The desired speed; for a limit see speed_limit \[length / time\].
         max_speed: f64,
-        /// The most that steering does \[length / time²\].
+        /// The maximum acceleration by steering \[length / time²\].
         max_force: f64,
         /// The species that chases.
         species: Option<u32>,
         /// The species that is chased.
         prey: Option<u32>,
-        /// Which neighbours: all in range, by a cell list, by a list that is kept over steps, by the faster of both, or by brute force: near, list, auto, within.
+        /// How neighbours in range are found: by a cell list, by a neighbour list that is reused over steps, by the faster of both, or by brute force: near, list, auto, within.
         over: Cow<'static, str>,
-        /// Over = "list" or "auto": how much farther than the range the list reaches; 0: a fifth of the range \[length\].
+        /// Over = "list" or "auto": the skin of the neighbour list beyond the range; 0: a fifth of the range \[length\].
         skin: f64,
     }
-    /// A place to steer to and arrive at, or a roost to keep to (Reynolds 1999).
+    /// A target to steer to and arrive at, or a roost to stay near (Reynolds 1999).
     Goal "goal" goal() {
         /// Where it is at time 0 \[length\].
         position: DVec3,
-        /// How it moves \[length / time\].
+        /// Its velocity \[length / time\].
         velocity: DVec3,
-        /// The speed of the wish \[length / time\].
+        /// The desired speed \[length / time\].
         max_speed: f64,
-        /// The most that steering does \[length / time²\].
+        /// The maximum acceleration by steering \[length / time²\].
         max_force: f64,
-        /// Within it particles slow down, to rest at the goal \[length\].
+        /// The radius within which particles slow down, to rest at the goal \[length\].
         slow_radius: f64,
-        /// Within it particles are free: a roost, steered to from outside alone \[length\].
+        /// The radius within which particles are not steered: a roost \[length\].
         free_radius: f64,
-        /// What it acts on: a species, or "all".
+        /// The species that it acts on, or "all".
         species: Option<u32>,
-        /// What is evaluated: each particle alone.
+        /// What is evaluated: single particles.
         over: Cow<'static, str>,
     }
-    /// A random walk of velocities, the same numbers on every device.
+    /// A random walk of velocities, with the same random numbers on every device.
     Wander "wander" wander() {
-        /// σ: after the time t a velocity has walked σ √t, whatever dt \[length / time^(3/2)\].
+        /// σ: after the time t a velocity has changed by σ √t (rms), for any dt \[length / time^(3/2)\].
         strength: f64,
         /// Seed of the random numbers, counted by id and step.
         seed: u64,
-        /// What it acts on: a species, or "all".
+        /// The species that it acts on, or "all".
         species: Option<u32>,
-        /// What is evaluated: each particle alone.
+        /// What is evaluated: single particles.
         over: Cow<'static, str>,
     }
-    /// A box with soft walls that turn back.
+    /// A box whose soft walls turn particles back.
     SoftTurn "soft_turn" soft_turn() {
         /// The lowest corner of the box \[length\].
         low: DVec3,
         /// The highest corner \[length\].
         high: DVec3,
-        /// How deep the wall is, inside of the box; outside it has no end \[length\].
+        /// The depth of the wall inside of the box; outside it is unlimited \[length\].
         margin: f64,
-        /// How strong it is, for every side by itself \[length / time²\].
+        /// The acceleration of each side's wall \[length / time²\].
         acceleration: f64,
-        /// What it acts on: a species, or "all".
+        /// The species that it acts on, or "all".
         species: Option<u32>,
-        /// What is evaluated: each particle alone.
+        /// What is evaluated: single particles.
         over: Cow<'static, str>,
     }
-    /// Each particle takes the mean heading around it, with noise, in the plane (Vicsek et al. 1995).
+    /// Each particle takes the mean heading of its neighbours, with noise, in the plane (Vicsek et al. 1995).
     Vicsek "vicsek" vicsek() {
-        /// The range of view, in which a particle sees itself too \[length\].
+        /// The radius of the neighbourhood, which includes the particle itself \[length\].
         range: f64,
         /// The speed of all particles; v₀ of the paper is this times dt \[length / time\].
         speed: f64,
-        /// η: angular, the width of the random turn \[0 to 2π\]; vectorial, the length of the random arrow \[0 to 1\].
+        /// η: angular, the width of the random angle \[0 to 2π\]; vectorial, the length of the random vector \[0 to 1\].
         noise: f64,
         /// Whether the noise turns the mean heading, or adds to the headings: angular, vectorial.
         noise_kind: Cow<'static, str>,
         /// Seed of the random numbers, counted by id and step.
         seed: u64,
-        /// Which neighbours: all in range, by a cell list, by a list that is kept over steps, by the faster of both, or by brute force: near, list, auto, within.
+        /// How neighbours in range are found: by a cell list, by a neighbour list that is reused over steps, by the faster of both, or by brute force: near, list, auto, within.
         over: Cow<'static, str>,
-        /// Over = "list" or "auto": how much farther than the range the list reaches; 0: a fifth of the range \[length\].
+        /// Over = "list" or "auto": the skin of the neighbour list beyond the range; 0: a fifth of the range \[length\].
         skin: f64,
     }
     /// Ions: repulsion and dispersion by pair of species, and damped Coulomb forces of their charges (Born & Mayer 1932).
@@ -245,49 +245,49 @@ typed! {
         range: f64,
         /// Coulomb's constant, 1 / 4π ε₀ \[energy length / charge²\].
         coulomb: f64,
-        /// α: Coulomb's energy is erfc(α r) / r; 0: it is only shifted \[1 / length\].
+        /// α: the Coulomb energy is erfc(α r) / r; 0: shifted only \[1 / length\].
         damping: f64,
-        /// Which neighbours: all in range, by a cell list, by a list that is kept over steps, by the faster of both, or by brute force: near, list, auto, within.
+        /// How neighbours in range are found: by a cell list, by a neighbour list that is reused over steps, by the faster of both, or by brute force: near, list, auto, within.
         over: Cow<'static, str>,
-        /// Over = "list" or "auto": how much farther than the range the list reaches; 0: a fifth of the range \[length\].
+        /// Over = "list" or "auto": the skin of the neighbour list beyond the range; 0: a fifth of the range \[length\].
         skin: f64,
     }
-    /// Spheres that touch: normal springs and dashpots, friction with history, torques (Cundall & Strack 1979).
+    /// Granular contacts of spheres: normal springs and dashpots, friction with history, torques (Cundall & Strack 1979).
     Contact "contact" contact(range: f64) {
         /// The largest sum of two radii; larger ones are refused \[length\].
         range: f64,
         /// K, the normal force per overlap \[mass / time²\].
         stiffness: f64,
-        /// The speed after a head-on impact, as a part of that before.
+        /// The coefficient of restitution: the speed after a head-on impact over that before.
         restitution: f64,
-        /// μ: spheres slide where the tangential force would be above μ times the normal one.
+        /// The friction coefficient μ: spheres slide where the tangential force would exceed μ times the normal force.
         friction: f64,
-        /// The stiffness across the contact, as a part of the normal one.
+        /// The tangential stiffness, relative to the normal one.
         tangential_stiffness: f64,
-        /// The damping across the contact, as a part of the normal one.
+        /// The tangential damping, relative to the normal one.
         tangential_damping: f64,
-        /// How much farther than the range the list of neighbours reaches; 0: a fifth of the range \[length\].
+        /// The skin of the neighbour list beyond the range; 0: a fifth of the range \[length\].
         skin: f64,
     }
-    /// Springs and ropes, damped along themselves (Hooke 1678).
+    /// Springs and ropes, damped along their axis (Hooke 1678).
     Spring "spring" spring() {
-        /// Which pairs are evaluated: those that a spring or a rope ties; its length, stiffness and damping come with it.
+        /// Which pairs are evaluated: those connected by a spring or a rope, which has its own length, stiffness and damping.
         over: Cow<'static, str>,
     }
     /// Joints that resist bending: elastic rods, hair (Euler 1744).
     Joint "joint" joint() {
-        /// What is evaluated: the three particles of a joint; its stiffness comes with it.
+        /// What is evaluated: the three particles of a joint, which has its own stiffness.
         over: Cow<'static, str>,
     }
-    /// A fluid by smoothed particle hydrodynamics, weakly compressible (Monaghan 1994); held particles are its walls.
+    /// A fluid by smoothed particle hydrodynamics, weakly compressible (Monaghan 1994); fixed particles are its walls.
     Fluid "fluid" fluid(spacing: f64) {
         /// The density at rest \[mass / length³, or mass / length² in two dimensions\].
         density: f64,
-        /// How far apart particles are at rest, on a cubic lattice \[length\].
+        /// The spacing of particles at rest, on a cubic lattice \[length\].
         spacing: f64,
-        /// How far the kernel reaches \[spacings\].
+        /// The support radius of the kernel \[spacings\].
         support: f64,
-        /// What smooths: the cubic spline, or Wendland's C2: cubic, wendland.
+        /// The smoothing kernel: the cubic spline, or Wendland's C2: cubic, wendland.
         kernel: Cow<'static, str>,
         /// Pressure by an equation of state, or solved for (Bender & Koschier 2015): wcsph, dfsph.
         solver: Cow<'static, str>,
@@ -301,31 +301,31 @@ typed! {
         alpha: f64,
         /// The kinematic viscosity ν (Morris, Fox & Zhu 1997) \[length² / time\].
         viscosity: f64,
-        /// ε of XSPH: how much of the mean velocity around is taken on in each step (Schechter & Bridson 2012).
+        /// ε of XSPH: how far velocities are drawn to the mean of the neighbours in each step (Schechter & Bridson 2012).
         xsph: f64,
-        /// How much of both viscosities walls have; 0 lets slip.
+        /// The part of both viscosities that acts at walls; 0: free slip.
         wall_friction: f64,
         /// The pressure of walls: that of the particle at the wall (Akinci et al. 2012), or that of the fluid around them (Adami, Hu & Adams 2012, as if they were not accelerated): mirror, extrapolate.
         walls: Cow<'static, str>,
-        /// What walls weigh: by how close they are, for one layer (Akinci et al. 2012), or each a share of the lattice, for several: sampled, lattice.
+        /// The mass of wall particles: from their spacing, for one layer (Akinci et al. 2012), or that of a lattice particle, for several layers: sampled, lattice.
         wall_mass: Cow<'static, str>,
-        /// Where density comes from: masses around, or the continuity equation (Monaghan 1994), which knows of no surface: summation, continuity.
+        /// How density is computed: by summation over neighbours, or by the continuity equation (Monaghan 1994), which has no deficit at free surfaces: summation, continuity.
         density_by: Cow<'static, str>,
-        /// δ of the diffusion of density by continuity, 0.1 say (Molteni & Colagrossi 2009).
+        /// Density_by = "continuity": the density diffusion δ, for instance 0.1 (Molteni & Colagrossi 2009).
         diffusion: f64,
-        /// The acceleration of weight that a force gives, so that diffusion (Fourtakas et al. 2019) and walls leave a fluid at rest alone \[length / time²\].
+        /// The gravitational acceleration that another force applies, so that density diffusion (Fourtakas et al. 2019) and walls preserve hydrostatic equilibrium \[length / time²\].
         weight: DVec3,
-        /// Surface tension γ (Akinci, Akinci & Teschner 2013), which is not σ: with water's 1000 for density, in space, σ is about 25 000, 55 000 or 75 000 γ spacing² where support is 2, 2.5 or 3.
+        /// The surface tension coefficient γ (Akinci, Akinci & Teschner 2013), which is not the physical σ: with density 1000, in three dimensions, σ is about 25 000, 55 000 or 75 000 γ spacing² where support is 2, 2.5 or 3.
         tension: f64,
-        /// How walls pull the fluid, β (as above).
+        /// The adhesion coefficient β of walls (Akinci, Akinci & Teschner 2013).
         adhesion: f64,
-        /// Dfsph: the mean error of the density that is left \[parts of the density\].
+        /// Dfsph: the tolerance of the mean density error \[relative to the density\].
         tolerance: f64,
-        /// Dfsph: what the velocity may compress by in a step, in the mean \[parts of the density\].
+        /// Dfsph: the tolerance of the mean density change by divergence in a step \[relative to the density\].
         divergence_tolerance: f64,
-        /// Dfsph: the fewest iterations of a solve.
+        /// Dfsph: the minimum number of iterations of a solve.
         min_iterations: u32,
-        /// Dfsph: the most iterations of a solve.
+        /// Dfsph: the maximum number of iterations of a solve.
         max_iterations: u32,
     }
     /// Drag and lift on every triangle of a cloth, in gusts (Ling, Damodaran & Gay 1996).
@@ -338,11 +338,11 @@ typed! {
         drag: f64,
         /// The lift coefficient.
         lift: f64,
-        /// The strength of gusts, as a part of the mean.
+        /// The amplitude of gusts, relative to the mean velocity.
         gust: f64,
         /// The time from gust to gust \[time\].
         period: f64,
-        /// The way from gust to gust, along the wind \[length\].
+        /// The distance from gust to gust, along the wind \[length\].
         wavelength: f64,
         /// What is evaluated: the corners of each triangle of cloth.
         over: Cow<'static, str>,

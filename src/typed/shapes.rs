@@ -23,11 +23,11 @@ typed! {
         g: f64,
         /// Share of the endless model's mass that is drawn from, from the centre outwards (at most 1).
         cutoff: f64,
-        /// Where the centre is put \[length\].
+        /// The position of the centre \[length\].
         center: DVec3,
-        /// How it moves as a whole \[length / time\].
+        /// The velocity of the whole \[length / time\].
         velocity: DVec3,
-        /// How large each particle is drawn \[length\]; 0 lets the picture choose.
+        /// The radius at which particles are drawn \[length\]; 0: chosen by the picture.
         particle_size: f64,
     }
     /// Hernquist's sphere, a galaxy or halo with a cusp ρ ∝ 1/r, in equilibrium (Hernquist 1990).
@@ -44,11 +44,11 @@ typed! {
         g: f64,
         /// Share of the endless model's mass that is drawn from, from the centre outwards (below 1); 0.99 ends at 199 a.
         cutoff: f64,
-        /// Where the centre is put \[length\].
+        /// The position of the centre \[length\].
         center: DVec3,
-        /// How it moves as a whole \[length / time\].
+        /// The velocity of the whole \[length / time\].
         velocity: DVec3,
-        /// How large each particle is drawn \[length\]; 0 lets the picture choose.
+        /// The radius at which particles are drawn \[length\]; 0: chosen by the picture.
         particle_size: f64,
     }
     /// A uniform sphere, cold or with Gaussian velocities (van Albada 1982).
@@ -67,11 +67,11 @@ typed! {
         spin: DVec3,
         /// Constant of gravity \[length³ / mass / time²\]; as in the force.
         g: f64,
-        /// Where the centre is put \[length\].
+        /// The position of the centre \[length\].
         center: DVec3,
-        /// How it moves as a whole \[length / time\].
+        /// The velocity of the whole \[length / time\].
         velocity: DVec3,
-        /// How large each particle is drawn \[length\]; 0 lets the picture choose.
+        /// The radius at which particles are drawn \[length\]; 0: chosen by the picture.
         particle_size: f64,
     }
     /// A disk galaxy in a halo, with a bulge or without, near equilibrium: the disk's particles first, then the halo's, then the bulge's (Hernquist 1993).
@@ -102,19 +102,19 @@ typed! {
         bulge_fraction: f64,
         /// The bulge in pictures; left out: as the disk.
         bulge_color: Cow<'static, str>,
-        /// Toomre's Q at every radius: how warm the disk is; below 1 it breaks into clumps, above 2 it hardly makes arms.
+        /// Toomre's Q at every radius: below 1 the disk breaks into clumps, above 2 it forms hardly any arms.
         toomre_q: f64,
-        /// Softening of the force that the galaxy will run with \[length\], so that its centre is balanced too.
+        /// The softening of the force `gravity` \[length\], so that the centre is in equilibrium too.
         softening: f64,
         /// The axis about which it turns, counter-clockwise.
         normal: DVec3,
         /// Constant of gravity \[length³ / mass / time²\]; as in the force.
         g: f64,
-        /// Where the centre is put \[length\].
+        /// The position of the centre \[length\].
         center: DVec3,
-        /// How it moves as a whole \[length / time\].
+        /// The velocity of the whole \[length / time\].
         velocity: DVec3,
-        /// How large each particle is drawn \[length\]; 0 lets the picture choose.
+        /// The radius at which particles are drawn \[length\]; 0: chosen by the picture.
         particle_size: f64,
     }
     /// Clumps of clumps, a fractal, cold or with Gaussian velocities (Soneira & Peebles 1978).
@@ -133,11 +133,11 @@ typed! {
         dimension: f64,
         /// Standard deviation of each component of the velocities \[length / time\].
         dispersion: f64,
-        /// Where the centre is put \[length\].
+        /// The position of the centre \[length\].
         center: DVec3,
-        /// How it moves as a whole \[length / time\].
+        /// The velocity of the whole \[length / time\].
         velocity: DVec3,
-        /// How large each particle is drawn \[length\]; 0 lets the picture choose.
+        /// The radius at which particles are drawn \[length\]; 0: chosen by the picture.
         particle_size: f64,
     }
     /// A simple cubic lattice, straight, jittered, or displaced by random waves that grow by gravity (Zel'dovich 1970).
@@ -158,18 +158,18 @@ typed! {
         growth: f64,
         /// Seed of the random numbers.
         seed: u64,
-        /// Where the centre is put \[length\].
+        /// The position of the centre \[length\].
         center: DVec3,
-        /// How it moves as a whole \[length / time\].
+        /// The velocity of the whole \[length / time\].
         velocity: DVec3,
-        /// How large each particle is drawn \[length\]; 0 lets the picture choose.
+        /// The radius at which particles are drawn \[length\]; 0: chosen by the picture.
         particle_size: f64,
     }
     /// A block of fluid: a cubic lattice that fills a box, or a rectangle.
     Block "block" block(size: DVec3, spacing: f64) {
         /// Its sides; 0 along z for a rectangle \[length\].
         size: DVec3,
-        /// How far apart particles are, as in the force `fluid`, which says it for its shapes where they do not \[length\].
+        /// The particle spacing; left out: that of the force `fluid` \[length\].
         spacing: f64,
         /// The density at rest of the fluid, as in the force \[mass / length³, or mass / length²\].
         density: f64,
@@ -181,80 +181,80 @@ typed! {
         strain: f64,
         /// Seed of the random numbers.
         seed: u64,
-        /// Where the centre is put \[length\].
+        /// The position of the centre \[length\].
         center: DVec3,
-        /// How it moves as a whole \[length / time\].
+        /// The velocity of the whole \[length / time\].
         velocity: DVec3,
-        /// How large each particle is drawn \[length\]; 0 lets the picture choose.
+        /// The radius at which particles are drawn \[length\]; 0: chosen by the picture.
         particle_size: f64,
     }
-    /// A drop of fluid: a ball, an ellipsoid or a disk out of a cubic lattice.
+    /// A drop of fluid: a ball, an ellipsoid or a disk cut from a cubic lattice.
     Drop "drop" drop(size: DVec3, spacing: f64) {
         /// Its diameters along x, y and z; 0 along z for a disk \[length\].
         size: DVec3,
-        /// How far apart particles are, as in the force `fluid`, which says it for its shapes where they do not \[length\].
+        /// The particle spacing; left out: that of the force `fluid` \[length\].
         spacing: f64,
         /// The density at rest of the fluid, as in the force \[mass / length³, or mass / length²\].
         density: f64,
-        /// Where the centre is put \[length\].
+        /// The position of the centre \[length\].
         center: DVec3,
-        /// How it moves as a whole \[length / time\].
+        /// The velocity of the whole \[length / time\].
         velocity: DVec3,
-        /// How large each particle is drawn \[length\]; 0 lets the picture choose.
+        /// The radius at which particles are drawn \[length\]; 0: chosen by the picture.
         particle_size: f64,
     }
-    /// A box, or a rectangle, of walls around a fluid, held; where they meet they do so without a gap (Akinci et al. 2012).
+    /// A box, or a rectangle, of walls around a fluid, as fixed particles, without gaps at the edges (Akinci et al. 2012).
     Tank "tank" tank(size: DVec3, spacing: f64) {
-        /// The sides of the room within; 0 along z for a rectangle \[length\].
+        /// The sides of the space inside; 0 along z for a rectangle \[length\].
         size: DVec3,
-        /// How far apart particles are, as in the force `fluid`, which says it for its shapes where they do not \[length\].
+        /// The particle spacing; left out: that of the force `fluid` \[length\].
         spacing: f64,
         /// Which sides are left out, such as "+z" or "-x +x"; none: it is closed.
         open: Cow<'static, str>,
-        /// How far the fluid's kernel reaches, as in the force \[spacings\].
+        /// The support radius of the fluid's kernel, as in the force \[spacings\].
         support: f64,
-        /// What smooths the fluid, as in the force: cubic, wendland.
+        /// The smoothing kernel of the fluid, as in the force: cubic, wendland.
         kernel: Cow<'static, str>,
-        /// What the force lets walls weigh: sampled ones keep the gap that leaves the fluid at rest, those of a lattice go on with its own: sampled, lattice.
+        /// The mass of wall particles, as in the force: sampled walls stand at the gap that keeps the fluid at rest, lattice walls continue its lattice: sampled, lattice.
         wall_mass: Cow<'static, str>,
-        /// How many particles a wall is thick; 0: one where it is sampled, on a lattice as many as the support has spacings.
+        /// The layers of particles in a wall; 0: one where it is sampled, on a lattice as many as the support has spacings.
         layers: u64,
         /// The density at rest of the fluid, as in the force \[mass / length³, or mass / length²\].
         density: f64,
-        /// Where the centre is put \[length\].
+        /// The position of the centre \[length\].
         center: DVec3,
-        /// How large each particle is drawn \[length\]; 0 lets the picture choose.
+        /// The radius at which particles are drawn \[length\]; 0: chosen by the picture.
         particle_size: f64,
     }
-    /// A plane, a box, a sphere or a mesh as a wall of a fluid, held, or led by a motion (Akinci et al. 2012).
+    /// A plane, a box, a sphere or a mesh as a wall of a fluid, of fixed particles or with a prescribed motion (Akinci et al. 2012).
     Wall "wall" wall(spacing: f64) {
-        /// What it is the surface of: plane, box, sphere, mesh.
+        /// The shape whose surface it is: plane, box, sphere, mesh.
         surface: Cow<'static, str>,
         /// Box and sphere: the sides, or three times the diameter, 0 along z for a rectangle or a circle; plane: along the level and up, where 0 up is a line \[length\].
         size: DVec3,
         /// Plane: the direction to the fluid.
         normal: DVec3,
-        /// Mesh: a file in Wavefront's OBJ; its faces look to the fluid.
+        /// Mesh: a file in Wavefront's OBJ; its faces point towards the fluid.
         mesh: Cow<'static, str>,
         /// Mesh: by how much it is made larger.
         scale: f64,
         /// Box, sphere and mesh: whether the fluid is within.
         inside: bool,
-        /// How far apart particles are, as in the force `fluid`, which says it for its shapes where they do not \[length\].
+        /// The particle spacing; left out: that of the force `fluid` \[length\].
         spacing: f64,
-        /// How far the fluid's kernel reaches, as in the force \[spacings\].
+        /// The support radius of the fluid's kernel, as in the force \[spacings\].
         support: f64,
-        /// What smooths the fluid, as in the force: cubic, wendland.
+        /// The smoothing kernel of the fluid, as in the force: cubic, wendland.
         kernel: Cow<'static, str>,
-        /// What the force lets walls weigh: sampled ones keep the gap that leaves the fluid at rest, those of a lattice go on with its own: sampled, lattice.
+        /// The mass of wall particles, as in the force: sampled walls stand at the gap that keeps the fluid at rest, lattice walls continue its lattice: sampled, lattice.
         wall_mass: Cow<'static, str>,
-        /// How many particles a wall is thick; 0: one where it is sampled, on a lattice as many as the support has spacings.
+        /// The layers of particles in a wall; 0: one where it is sampled, on a lattice as many as the support has spacings.
         layers: u64,
         /// The density at rest of the fluid, as in the force \[mass / length³, or mass / length²\].
         density: f64,
-        /// Where the centre is put \[length\].
+        /// The position of the centre \[length\].
         center: DVec3,
-        /// How large each particle is drawn \[length\]; 0 lets the picture choose.
+        /// The radius at which particles are drawn \[length\]; 0: chosen by the picture.
         particle_size: f64,
     }
     /// A box filled uniformly at random, at rest or warm.
@@ -269,14 +269,14 @@ typed! {
         mass: f64,
         /// Thermal speed: standard deviation of each velocity component, but across a flat box \[length / time\], √(k T / m) of a gas.
         speed: f64,
-        /// Where the centre is put \[length\].
+        /// The position of the centre \[length\].
         center: DVec3,
-        /// How it moves as a whole \[length / time\].
+        /// The velocity of the whole \[length / time\].
         velocity: DVec3,
-        /// How large each particle is drawn \[length\]; 0 lets the picture choose.
+        /// The radius at which particles are drawn \[length\]; 0: chosen by the picture.
         particle_size: f64,
     }
-    /// Thrown from a nozzle into a cone: sparks, drops, a fountain.
+    /// Particles thrown from a nozzle into a cone: sparks, drops, a fountain.
     Spray "spray" spray(count: u32) {
         /// Number of particles.
         count: u32,
@@ -294,14 +294,14 @@ typed! {
         nozzle: f64,
         /// Mass of each particle \[mass\].
         mass: f64,
-        /// Where the centre is put \[length\].
+        /// The position of the centre \[length\].
         center: DVec3,
-        /// How it moves as a whole \[length / time\].
+        /// The velocity of the whole \[length / time\].
         velocity: DVec3,
-        /// How large each particle is drawn \[length\]; 0 lets the picture choose.
+        /// The radius at which particles are drawn \[length\]; 0: chosen by the picture.
         particle_size: f64,
     }
-    /// Particles in a row, tied one to the next by springs, ropes or rods: pendulums, strings, beams.
+    /// Particles in a row, each connected to the next by springs, ropes or rods: pendulums, strings, beams.
     Chain "chain" chain(count: u32) {
         /// Number of particles, 2 or above.
         count: u32,
@@ -311,21 +311,21 @@ typed! {
         to: DVec3,
         /// Mass of each particle \[mass\].
         mass: f64,
-        /// What ties them: spring, rope, rod.
+        /// The kind of link: spring, rope, rod.
         tie: Cow<'static, str>,
         /// Springs, ropes: Hooke's constant of each \[mass / time²\].
         stiffness: f64,
-        /// Springs, ropes: the damping of each, along itself \[mass / time\].
+        /// Springs, ropes: the damping of each, along its axis \[mass / time\].
         damping: f64,
-        /// Springs, ropes: the length at rest, as a part of the distance; 0 pulls alike in all directions.
+        /// Springs, ropes: the rest length, relative to the distance; 0: equally stiff in all directions.
         rest: f64,
-        /// What the joints between three resist bending with, EI / ds \[mass length² / time²\].
+        /// The bending stiffness of joints, EI / ds \[mass length² / time²\].
         bending: f64,
-        /// Which of them forces do not move: none, first, ends.
+        /// Which of the particles are fixed: none, first, ends.
         pins: Cow<'static, str>,
-        /// How it moves as a whole \[length / time\].
+        /// The velocity of the whole \[length / time\].
         velocity: DVec3,
-        /// How large each particle is drawn \[length\]; 0 lets the picture choose.
+        /// The radius at which particles are drawn \[length\]; 0: chosen by the picture.
         particle_size: f64,
     }
     /// A sheet of springs: along the threads, across the squares, and over two against bending (Provot 1995).
@@ -350,19 +350,19 @@ typed! {
         bend: f64,
         /// Damping of the springs along the threads, of others by their stiffness \[mass / time\].
         damping: f64,
-        /// Lengths at rest, as a part of the distances; 0 pulls alike in all directions.
+        /// Rest lengths, relative to the distances; 0: equally stiff in all directions.
         rest: f64,
-        /// Which particles forces do not move: of the first row its two corners or all; the first column; all around: none, corners, row, column, rim.
+        /// Which particles are fixed: two corners of the first row, the first row, the first column, or the whole edge: none, corners, row, column, rim.
         pins: Cow<'static, str>,
         /// Largest displacement of a particle across the sheet, in spacings: what is quite flat does not fold.
         jitter: f64,
         /// Seed of the random numbers.
         seed: u64,
-        /// Where the centre is put \[length\].
+        /// The position of the centre \[length\].
         center: DVec3,
-        /// How it moves as a whole \[length / time\].
+        /// The velocity of the whole \[length / time\].
         velocity: DVec3,
-        /// How large each particle is drawn \[length\]; 0 lets the picture choose.
+        /// The radius at which particles are drawn \[length\]; 0: chosen by the picture.
         particle_size: f64,
     }
     /// An elastic block: a cubic lattice of springs along edges and face diagonals, of Young's modulus 2.5 k / a and Poisson's ratio 1/4.
@@ -375,13 +375,13 @@ typed! {
         mass: f64,
         /// K, of edges and face diagonals alike \[mass / time²\].
         stiffness: f64,
-        /// Damping of each spring, along itself \[mass / time\].
+        /// Damping of each spring, along its axis \[mass / time\].
         damping: f64,
-        /// Where the centre is put \[length\].
+        /// The position of the centre \[length\].
         center: DVec3,
-        /// How it moves as a whole \[length / time\].
+        /// The velocity of the whole \[length / time\].
         velocity: DVec3,
-        /// How large each particle is drawn \[length\]; 0 lets the picture choose.
+        /// The radius at which particles are drawn \[length\]; 0: chosen by the picture.
         particle_size: f64,
     }
     /// Strands of rods and joints that stand on a head; the first two particles of each are fixed.
@@ -392,7 +392,7 @@ typed! {
         points: u32,
         /// The length of a strand \[length\].
         length: f64,
-        /// How much lengths differ, as a part of the length; below 1.
+        /// The variation of lengths, relative to the length; below 1.
         spread: f64,
         /// The radius of the head \[length\].
         head: f64,
@@ -406,9 +406,9 @@ typed! {
         up: DVec3,
         /// Seed of the random numbers.
         seed: u64,
-        /// Where the centre is put \[length\].
+        /// The position of the centre \[length\].
         center: DVec3,
-        /// How large each particle is drawn \[length\]; 0 lets the picture choose.
+        /// The radius at which particles are drawn \[length\]; 0: chosen by the picture.
         particle_size: f64,
     }
 }

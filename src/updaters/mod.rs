@@ -6,6 +6,6 @@ use crate::visit::Over;
 
 components! {
     UPDATERS, Updater;
-    nose_hoover: NoseHoover, "a thermostat: all particles at a temperature on average, by one variable of the system (Nosé 1984, Hoover 1985)";
-    tear: Tear, "springs that are stretched too far break, for ever";
+    nose_hoover: NoseHoover, "a thermostat: all particles at a given mean temperature, by one variable of the system (Nosé 1984, Hoover 1985)";
+    tear: Tear, "springs that are stretched too far break permanently";
 }

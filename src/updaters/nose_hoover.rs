@@ -12,11 +12,11 @@ use crate::kernel::{
 use crate::primitives::{Items, Operation, reduce};
 use crate::settings::{Key, Kind, Settings, Value};
 
-/// What a scene may say.
+/// The keys in a scene.
 pub const KEYS: &[Key] = &[
-    Key::required("temperature", Kind::Positive, "k T, what twice the kinetic energy of a degree of freedom is on average [energy]"),
-    Key::new("time", Kind::Positive, Value::Number(1.0), "τ, over which the temperature is regulated; some periods of the fastest motion [time]"),
-    Key::new("removed", Kind::Whole, Value::Number(0.0), "degrees of freedom that are none: 3 where forces keep the total momentum, and it is 0"),
+    Key::required("temperature", Kind::Positive, "k T, twice the mean kinetic energy of a degree of freedom [energy]"),
+    Key::new("time", Kind::Positive, Value::Number(1.0), "τ, the relaxation time of the thermostat; some periods of the fastest motion [time]"),
+    Key::new("removed", Kind::Whole, Value::Number(0.0), "constrained degrees of freedom: 3 where forces conserve the total momentum, and it is 0"),
 ];
 
 /// ξ

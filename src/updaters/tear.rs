@@ -10,13 +10,13 @@ use crate::links::{Half, WORDS};
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::visit::{self, LINK, LINK_START};
 
-/// What a scene may say.
+/// The keys in a scene.
 pub const KEYS: &[Key] = &[
-    Key::new("strain", Kind::Positive, Value::Number(0.5), "how much longer than at rest it gets before it breaks, as a part of that"),
+    Key::new("strain", Kind::Positive, Value::Number(0.5), "the strain at which a spring breaks: its extension over its rest length"),
     Key::new("over", Kind::Choice(&["links"]), Value::Text(Cow::Borrowed("links")), "what breaks: springs and ropes"),
 ];
 
-/// `tear`: at the end of a step, springs and ropes that are longer than (1 + strain) L break, for ever. Their energy is gone.
+/// `tear`: at the end of a step, springs and ropes that are longer than (1 + strain) L break, forever. Their energy is gone.
 #[derive(Clone)]
 pub struct Tear(f64);
 

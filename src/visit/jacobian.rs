@@ -1,4 +1,4 @@
-//! What a law may offer to implicit integrators: how its force changes.
+//! Jacobians of laws, for implicit integrators.
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! What happens.
+//! Laws: interactions of particles, in WGSL and as an f64 reference.
 
 use std::sync::Arc;
 
@@ -55,7 +55,7 @@ pub struct Law {
 /// What a law makes of a far group.
 #[derive(Clone, Default)]
 pub struct Distant {
-    /// Its WGSL; without it a group is met as one particle.
+    /// Its WGSL; without it a group is evaluated as one particle.
     pub wgsl: Option<Source>,
     /// The reference that walks the same tree as the device.
     pub walk: Option<Reference>,
@@ -128,7 +128,7 @@ impl Law {
     /// A law between two that depends on the box too, and that knows what a far group does: `rule(me, you, r, world)` and
     /// `far(me, group, r, world)`, with r from me to you or to the group's centre of mass, give acceleration and potential
     /// per unit mass. `distant` is the WGSL of the latter, `fn distant(me: Particle, you: Group, r: vec3f, sum:
-    /// ptr<function, Sum>)`; without it the group is met as one particle.
+    /// ptr<function, Sum>)`; without it the group is evaluated as one particle.
     pub fn attracting(
         name: &str,
         over: Over,
@@ -280,12 +280,12 @@ impl Law {
     #[must_use]
     pub fn chosen(&self, problem: &Problem) -> Over {
         match self.over {
-            // Half a box away nearest images jump, and no group can be met as one there.
+            // Half a box away nearest images jump, and no group can be evaluated as one there.
             Over::Tree { auto: true, .. } if problem.bounds.has(Side::Periodic) && !self.distant.images => Over::Pairs,
             over => over.chosen(problem).faster(self.asks_velocities(), problem),
         }
     }
-    /// Whether it asks for velocities of neighbours or its own.
+    /// Whether it reads velocities of neighbours or its own.
     pub(super) fn asks_velocities(&self) -> bool {
         self.wgsl.says(&["velocity_of", "("])
     }

@@ -1,4 +1,4 @@
-//! Each particle is evaluated with those that it is tied to: by springs, or as corners of joints and triangles.
+//! Each particle is evaluated with those that it is linked to: by springs, or as corners of joints and triangles.
 
 use std::sync::Arc;
 

@@ -11,7 +11,7 @@ use crate::error::Error;
 use crate::kernel::{Kernel, ListShape, Pass, Problem, Shader, Threads};
 use crate::neighbors::{HISTORY, LIST, List};
 
-/// Rows of one dispatch, at most. It is a whole number of workgroups.
+/// Rows of one dispatch, at most. It is an integer of workgroups.
 const ROWS: u32 = 1 << 20;
 /// The skin where none is given, as a part of the range.
 const SKIN: f64 = 0.2;
@@ -51,7 +51,7 @@ pub fn kernel(law: Law, range: f64, slots: u32, problem: &Problem) -> Result<Ker
     let asks = ["recall", "remember"].into_iter().find(|function| law.wgsl.says(&[function, "("]));
     if let Some(function) = asks.filter(|_| slots == 0) {
         return Err(Error::Scene(format!(
-            "{}: `{function}` is for a law that keeps history: say how many words each pair has, as in slots = 3",
+            "{}: `{function}` is for a law with history of pairs: set the number of variables of each pair, as in slots = 3",
             law.wgsl.file
         )));
     }
@@ -59,7 +59,7 @@ pub fn kernel(law: Law, range: f64, slots: u32, problem: &Problem) -> Result<Ker
         Some(shape) => List::new(shape, problem)?,
         None => match shared(std::slice::from_ref(&law), problem)? {
             Some(shape) => List::new(shape, problem)?,
-            None => return Err(Error::Scene(format!("`{}` is over no list", law.name))),
+            None => return Err(Error::Scene(format!("`{}` uses no neighbour list", law.name))),
         },
     };
     let mut sources = vec![

@@ -1,4 +1,4 @@
-//! Which pairs are evaluated. A law says what happens; a visit says between which particles, and joins the law's WGSL with its own.
+//! Visits: which pairs are evaluated. A law defines the interaction; a visit defines the pairs, and joins the law's WGSL with its own.
 
 mod each;
 mod jacobian;

@@ -5,7 +5,7 @@ use crate::error::Error;
 use crate::kernel::{ALARM, ALARM_WORDS, Kernel, Machine, Name, Pass, Problem, Shader, Source, Threads};
 use crate::neighbors::{Grid, SORTED_ID, SORTED_POSITION, SORTED_VELOCITY, STARTS};
 
-/// Targets of one dispatch, at most. It is a whole number of workgroups.
+/// Targets of one dispatch, at most. It is an integer of workgroups.
 const TARGETS: u32 = 1 << 20;
 
 /// Neighbours that one particle can have in a search of the nearest, at most: their list is held in registers.
@@ -20,7 +20,8 @@ pub fn grid(law: &Law, problem: &Problem) -> Result<Option<(Grid, bool)>, Error>
         Over::Near { range, of } => Ok(Some((Grid::new(range, of, problem)?, law.asks_velocities()))),
         Over::Nearest { count } => {
             if !(1..=MOST_NEAREST).contains(&count) {
-                let text = format!("`{}` is to meet its {count} nearest: it can meet 1 to {MOST_NEAREST}", law.name);
+                let text =
+                    format!("`{}` searches {count} nearest neighbours: 1 to {MOST_NEAREST} are possible", law.name);
                 return Err(Error::Scene(text));
             }
             // So many that the first cube of 27 cells holds about three times the list.
@@ -81,7 +82,7 @@ pub fn ground() -> Vec<Source> {
 pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
     law.requires_gather()?;
     let Some((grid, moving)) = grid(&law, problem)? else {
-        return Err(Error::Scene(format!("`{}` searches no grid", law.name)));
+        return Err(Error::Scene(format!("`{}` searches no cell list", law.name)));
     };
     let mut sources = ground();
     sources.push(grid.present(problem));

@@ -19,7 +19,7 @@ pub enum Over {
     Near {
         /// The range \[length\].
         range: f64,
-        /// Only particles of this species are put into the grid. The law must leave out the others by itself: this only
+        /// Only particles of this species are put into the cell list. The law must leave out the others by itself: this only
         /// says that it is no use to look at them.
         of: Option<u32>,
     },

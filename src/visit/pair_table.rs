@@ -11,7 +11,7 @@ use crate::settings::Pair;
 /// `var<uniform> pair_table: array<Pair, 64>` of 8 species. The row of species a and b stands at
 /// `a * species + b`, with `species` the number of rows on a side: `pair_index(a, b)` gives it.
 pub const PAIR_TABLE: &str = "pair_table";
-/// Species that a table may tell apart, at most.
+/// Species that a table may distinguish, at most.
 pub const MOST_SPECIES: u32 = 256;
 
 /// Parameters of pairs of species.
@@ -85,7 +85,7 @@ impl PairTable {
             let packed = binding.packed.pack(&format!("the pair of species {a} and {b} of `{law}`"), &values)?;
             let place = (a * side + b) as usize;
             if given[place] {
-                return Err(Error::Scene(format!("`{law}` is given the pair of species {a} and {b} twice: leave one")));
+                return Err(Error::Scene(format!("`{law}` has the pair of species {a} and {b} twice: remove one")));
             }
             for place in [a * side + b, b * side + a].map(|place| place as usize) {
                 given[place] = true;

@@ -1,4 +1,4 @@
-//! All pairs: which of the three files, and how pair evaluations are cut into dispatches.
+//! All pairs: the choice among three shaders, and the division of pair evaluations into dispatches.
 
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ use crate::neighbors::checked;
 
 /// Meetings in one dispatch, at most. At 10 billion a second (a small GPU) that is 0.1 s; a large one needs half a millisecond.
 const MEETINGS: u64 = 1 << 30;
-/// Sources that one invocation meets in one dispatch, at most: half of the 65 535 loop trips that lavapipe allows.
+/// Sources that one invocation evaluates in one dispatch, at most: half of the 65 535 loop iterations that lavapipe allows.
 const SOURCES: u32 = 1 << 15;
 /// Layers, at most: more cost more to add than they gain.
 const LAYERS: u32 = 64;
@@ -17,14 +17,14 @@ const LAYERS: u32 = 64;
 /// How pair evaluations of `count` particles are cut.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Cut {
-    /// Slices of the sources that are met side by side, each by invocations of its own.
+    /// Slices of the sources that are evaluated side by side, each by invocations of its own.
     pub layers: u32,
     /// Sources in one slice of one dispatch; a multiple of the block.
     pub slice: u32,
 }
 
 impl Cut {
-    /// Enough layers to keep the machine busy, then dispatches short enough; one invocation meets `sources` in one of them, at
+    /// Enough layers to keep the machine busy, then dispatches short enough; one invocation evaluates `sources` in one of them, at
     /// most.
     #[must_use]
     pub fn new(count: u32, targets: u32, block: u32, machine: &Machine, sources: u32) -> Self {
@@ -37,7 +37,7 @@ impl Cut {
         let slice = by_layers.min(by_work.max(1)).min((sources / block).max(1)) * block;
         Self { layers, slice }
     }
-    /// Sources that one dispatch meets.
+    /// Sources that one dispatch evaluates.
     #[must_use]
     pub fn sources(self) -> u64 {
         u64::from(self.layers) * u64::from(self.slice)
@@ -137,7 +137,7 @@ mod tests {
                 assert_eq!(cut.slice % 128, 0, "{cut:?}");
                 assert!((1..=LAYERS).contains(&cut.layers) && cut.slice > 0 && cut.slice <= SOURCES, "{cut:?}");
                 let met = cut.sources().min(u64::from(count)) * u64::from(count);
-                // One block for each layer is the least that a dispatch can meet.
+                // One block for each layer is the least that a dispatch can evaluate.
                 let least = u64::from(cut.layers) * 128 * u64::from(count);
                 assert!(met <= MEETINGS.max(least), "{count}: {cut:?} meets {met} at once");
             }

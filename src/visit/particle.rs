@@ -24,7 +24,7 @@ pub struct Particle<'a> {
     pub position: DVec3,
     /// How it moves \[length / time\]; 0 where the host has no velocities.
     pub velocity: DVec3,
-    /// How heavy it is \[mass\].
+    /// Mass \[mass\].
     pub mass: f64,
     species: u32,
     is_active: bool,
@@ -107,7 +107,7 @@ impl Particle<'_> {
     pub fn all(&self, field: &str) -> &[f64] {
         self.view.slice::<f32>(field)
     }
-    /// Its value of a column of whole numbers.
+    /// Its value of a column of integers.
     #[must_use]
     pub fn whole(&self, column: &str) -> Option<u32> {
         self.view.slice::<u32>(column).get(self.index).copied()

@@ -1,4 +1,4 @@
-//! What a law gives for a particle, as its reference says it: an acceleration, and values of columns.
+//! The result of a law for a particle, in its reference: an acceleration, and values of columns.
 
 use glam::DVec4;
 
@@ -13,7 +13,7 @@ pub enum Cell {
     Scalar(f64),
     /// Of a vector, whose fourth number is 0, or of a quaternion.
     Vector(DVec4),
-    /// Of whole numbers.
+    /// Of integers.
     Whole(u32),
 }
 
@@ -95,7 +95,7 @@ pub(super) fn write(
         }
         for (name, change) in outcome.changes {
             let sorted = search.and_then(|search| search.field(&name));
-            // What is not in the grid has no place there.
+            // What is not in the cell list has no place there.
             let slot = if sorted.is_some() { slots.get(index).copied().flatten() } else { Some(index) };
             let (Some(index), name) = (slot, sorted.unwrap_or(name)) else { continue };
             let place = columns.iter().position(|(known, _)| *known == name);

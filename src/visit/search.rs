@@ -1,4 +1,4 @@
-//! What a law says of its search where it is one of a method that keeps fields of its own, some of them in the order of the grid.
+//! The search of a law that belongs to a method with its own fields, some of them in the order of the cell list.
 
 use glam::DVec3;
 
@@ -14,7 +14,7 @@ pub struct Search {
     pub grid: Grid,
     /// What it loads of a neighbour.
     pub candidate: Candidate,
-    /// Fields in the order of the grid, by their names in WGSL. A law's reference reads and writes them by particle.
+    /// Fields in the order of the cell list, by their names in WGSL. A law's reference reads and writes them by particle.
     pub sorted: Vec<&'static str>,
     /// Files beside the law's own.
     pub files: Vec<Source>,
@@ -50,11 +50,11 @@ impl Law {
 }
 
 impl Search {
-    /// Particles that search: the first so many of those in the grid.
+    /// Particles that search: the first so many of those in the cell list.
     pub(super) fn targets(&self, problem: &Problem) -> u32 {
         if self.fixed { problem.capacity } else { self.grid.ahead(problem) }
     }
-    /// Binds the fields of the grid, and ends a search where particles do that are not fixed.
+    /// Binds the fields of the cell list, and ends a search where particles do that are not fixed.
     pub(super) fn bind(&self, kernel: &mut Kernel) {
         let cells = f64::from(self.grid.count());
         for pass in &mut kernel.passes {
@@ -63,11 +63,11 @@ impl Search {
             ends.for_each(|(_, end)| *end = cells);
         }
     }
-    /// The field of the grid of that name, if it is one.
+    /// The field of the cell list of that name, if it is one.
     pub(super) fn field(&self, name: &str) -> Option<Name> {
         self.sorted.iter().find(|sorted| **sorted == name).map(|sorted| self.grid.field(sorted).1)
     }
-    /// Of each particle the slot where it is in the grid.
+    /// Of each particle the slot where it is in the cell list.
     pub(super) fn slots(&self, host: &Host) -> Result<Vec<Option<usize>>, Error> {
         let mut slots = vec![None; host.world().count as usize];
         for (slot, id) in self.grid.occupants(host)?.into_iter().enumerate() {
@@ -78,7 +78,7 @@ impl Search {
         }
         Ok(slots)
     }
-    /// The fields in the order of the grid, by particle; zeros of what is not in it.
+    /// The fields in the order of the cell list, by particle; zeros of what is not in it.
     pub(super) fn by_particle(&self, host: &Host) -> Result<Vec<(&'static str, Array)>, Error> {
         let (slots, length) = (self.slots(host)?, host.reading::<u32>(&self.grid.field(SORTED_ID).1)?.len().max(1));
         let ordered = |name: &&'static str| {

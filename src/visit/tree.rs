@@ -10,18 +10,18 @@ use crate::kernel::{
 };
 use crate::tree::{GROUP, LEAF, Opening, Tree};
 
-/// Dispatches in which walks go on, beyond those that are counted: each stops a look too late.
+/// Dispatches in which walks continue, beyond those that are counted: each stops a look too late.
 const MORE: u32 = 4;
 /// Of so many nodes a walk searches the targets of its group for one, at most: others are far from all of them, or near to one that
 /// has just been found. Where more are searched, the run ends with an alarm.
 const SEARCHED: u64 = 4;
-/// Dispatches that go on with walks, at most: a plan holds them all.
+/// Dispatches that continue with walks, at most: a plan holds them all.
 const MOST: u32 = 1 << 15;
-/// Bytes of what is kept of walks that go on.
+/// Bytes of what is kept of walks that continue.
 const KEPT: u64 = 1 << 27;
-/// Targets of one dispatch, at most: a whole number of groups.
+/// Targets of one dispatch, at most: an integer of groups.
 const TARGETS: u32 = 1 << 18;
-/// What one dispatch meets, at most: about a tenth of a second on a GPU that is not fast.
+/// What one dispatch evaluates, at most: about a tenth of a second on a GPU that is not fast.
 const MEETINGS: f64 = (1 << 30) as f64;
 
 /// The θ that is none: single precision holds l / θ of what is larger.
@@ -89,15 +89,15 @@ fn variant(machine: &Machine) -> Vec<Source> {
     }
 }
 
-/// How many dispatches go on with a walk where loops may take so many turns: enough for one that opens every node, searches
-/// targets for a quarter of them, and meets every body.
+/// How many dispatches continue with a walk where loops may take so many iterations: enough for one that opens every node, searches
+/// targets for a quarter of them, and evaluates every body.
 fn rounds(tree: &Tree, machine: &Machine) -> u32 {
     if !machine.software {
         return 0;
     }
     let (leaves, group) = (u64::from(tree.leaves()), u64::from(GROUP));
-    // Turns of all loops, and of those that search among single targets. Eight lanes look at eight nodes at once, of which
-    // each holds eight of the next, and meet two leaves at once; a lane alone looks at a node, or at a body.
+    // Iterations of all loops, and of those that search among single targets. Eight lanes look at eight nodes at once, of which
+    // each holds eight of the next, and evaluate two leaves at once; a lane alone looks at a node, or at a body.
     let (walk, search) = if machine.subgroup == 8 {
         let looks = leaves / 7 + 10;
         (5 * looks + leaves / 2 + 6 * (leaves / 64 + 2) + 2 * group, 2 * group * looks)
@@ -105,7 +105,7 @@ fn rounds(tree: &Tree, machine: &Machine) -> u32 {
         let nodes = 2 * leaves + 32;
         (2 * (nodes + u64::from(LEAF) * leaves) + group, group * nodes)
     };
-    // Each dispatch begins anew, and stops a look too late.
+    // Each dispatch starts over, and stops a look too late.
     let turns = u64::from(machine.turns).saturating_sub(2 * group).max(1);
     if walk + search <= turns {
         return 0;
@@ -174,7 +174,7 @@ pub fn kernel(law: Law, tree: &Tree, problem: &Problem) -> Result<Kernel, Error>
         };
         passes.push(walk(0)?);
         if let Some(rest) = &rest {
-            // Few walks go on, if any: what all of them would take is not what they take.
+            // Few walks continue, if any: what all of them would take is not what they take.
             let again = walk(1)?;
             let again = Pass { indirect: Some(Indirect { field: GO.into(), word: 0 }), work: again.work / 4, ..again };
             let (seen, last) = (look(&walk(0)?, rest), look(&again, rest));
@@ -192,9 +192,9 @@ pub fn kernel(law: Law, tree: &Tree, problem: &Problem) -> Result<Kernel, Error>
     Ok(Kernel { name: law.name, passes, reference: law.distant.walk, sizes, scratch, tables: Vec::new() })
 }
 
-/// What targets of a dispatch have met, and where their walks stand.
+/// What targets of a dispatch have evaluated, and where their walks stand.
 const KEPT_WALKS: &str = "tree_kept";
-/// How many workgroups go on with a walk.
+/// How many workgroups continue with a walk.
 const GO: &str = "tree go";
 
 /// About how many pair evaluations a target's walk is worth: a guess of time alone.

@@ -3,7 +3,7 @@
 use super::Law;
 use crate::kernel::{ALARM, ALARM_WORDS, LAW, Machine, Name, Source};
 
-/// Turns that the loops of a visit and of its law may take in one invocation on a processor that plays a GPU.
+/// Iterations that the loops of a visit and of its law may take in one invocation on a software adapter.
 const TURNS: u32 = 60_000;
 /// Turns of a law's loops for one pair that are allowed for: more are found out as the law runs.
 const EXPECTED: u32 = 100;
@@ -15,7 +15,7 @@ impl Law {
     pub(super) fn has_loops(&self) -> bool {
         self.wgsl.law && self.wgsl.has_loops()
     }
-    /// What looks at the turns of its loops.
+    /// The check of its loop iterations.
     pub(super) fn turns(&self) -> Source {
         if self.has_loops() { crate::shader!("own/turns.wgsl") } else { crate::shader!("own/no_turns.wgsl") }
     }
@@ -43,7 +43,7 @@ impl Law {
             *machine
         }
     }
-    /// Sources that one invocation of `pairs` meets in one dispatch, at most, each by so many targets.
+    /// Sources that one invocation of `pairs` evaluates in one dispatch, at most, each by so many targets.
     pub(super) fn sources(&self, most: u32, targets: u32, software: bool) -> u32 {
         match (self.has_loops(), software) {
             (false, _) => most,

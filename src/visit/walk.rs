@@ -1,4 +1,4 @@
-//! The reference of the walk of a tree: the same nodes are opened as on the device, and what is met adds up in f64.
+//! The reference of the walk of a tree: the same nodes are opened as on the device, and interactions add up in f64.
 
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ use crate::tree::{GROUP, Nodes, Opening, Tree};
 /// A far group of particles, as a law's reference sees it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Group {
-    /// How heavy it is.
+    /// Mass.
     pub mass: f64,
     /// Its second moments Σ m y yᵀ about its centre of mass \[mass length²\].
     pub moments: DMat3,
@@ -35,12 +35,12 @@ impl Place {
         let high = targets.iter().copied().fold(Vec3::NEG_INFINITY, Vec3::max);
         Self { targets, middle: 0.5 * (low + high), half_side: 0.5 * (high - low), demand: demand as f32 }
     }
-    /// The least distance from the box of the targets to a place, squared, by the device's own arithmetic.
+    /// The minimum distance from the box of the targets to a place, squared, by the device's own arithmetic.
     fn apart(&self, x: DVec3, bounds: &Bounds) -> f32 {
         let r = bounds.shortest_single((x.as_vec3() - self.middle).as_dvec3());
         squared_size((r.abs() - self.half_side).max(Vec3::ZERO))
     }
-    /// The least distance from any of the targets to a place, squared.
+    /// The minimum distance from any of the targets to a place, squared.
     fn nearest(&self, x: DVec3, bounds: &Bounds) -> f32 {
         let away = |target: &Vec3| squared_size(bounds.shortest_single((x.as_vec3() - *target).as_dvec3()));
         self.targets.iter().map(away).fold(f32::INFINITY, f32::min)
@@ -125,7 +125,7 @@ pub fn reference(
     })
 }
 
-/// What a group meets.
+/// What a group evaluates.
 #[derive(Default)]
 struct Met {
     far: Vec<u32>,

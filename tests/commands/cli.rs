@@ -252,7 +252,7 @@ fn a_box_is_shown_and_what_it_keeps_is_claimed() {
     let (code, stdout, stderr) = output(&mut motes(&["explain", &scene, "--backend", "cpu"]));
     assert!(code == 0 && stdout.contains(shown) && stdout.contains("drift KICK=0.5 | periodic | "), "{stdout}{stderr}");
     let (code, stdout, stderr) = output(&mut motes(&["check", &scene, "--backend", "cpu"]));
-    assert!(code == 0 && stdout.contains(shown) && stdout.contains("no Ewald sum"), "{stdout}{stderr}");
+    assert!(code == 0 && stdout.contains(shown) && stdout.contains("without an Ewald sum"), "{stdout}{stderr}");
     let out = path(&folder, "out");
     let run = |set: &[&str]| {
         let csv = "output.formats=[\"csv\"]";

@@ -30,7 +30,7 @@ fn a_file_is_converted_once_and_described() {
     for line in [
         "particles  2",
         "time       0.0, step 0",
-        "box        the file tells of none",
+        "box        none in the file",
         "extent     (-1.0, 0.25, 0.0) to (1.0, 2.0, 3.0)",
         "species    2 of 0",
         "mass       2.5, momentum (2.0, 0.0, 0.0)",
@@ -41,7 +41,7 @@ fn a_file_is_converted_once_and_described() {
     }
     let before = fs::read(&stars).expect("a file");
     let (code, _, notes) = motes(&["convert", &table, &stars]);
-    assert!(code == 8 && notes.contains("say --overwrite"), "{code}: {notes}");
+    assert!(code == 8 && notes.contains("use --overwrite"), "{code}: {notes}");
     let (code, _, notes) = motes(&["convert", &stars, &stars]);
     assert!(code == 8 && notes.contains("is the file that is read"), "{code}: {notes}");
     let (code, _, notes) = motes(&["convert", &stars, &stars, "--overwrite"]);
@@ -104,7 +104,7 @@ fn a_run_lists_its_states_for_paraview() {
     // A second run into the folder knows the list for a result.
     let (code, _, notes) = motes(&[&args[..], &["--overwrite"]].concat());
     assert_eq!(code, 0, "{notes}");
-    // A run that goes on lists what was before it, and what it writes anew.
+    // A run that continues lists what was before it, and what it writes anew.
     let file = folder.path().join("out/snapshots.pvd");
     let mut again = Collection::before(&file, 2);
     for step in [2, 4] {

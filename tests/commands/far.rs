@@ -133,13 +133,9 @@ fn what_auto_chooses_is_said_below_and_above_the_crossing() {
     let found = words.split("from about ").nth(1).and_then(|rest| rest.split(' ').next()?.parse().ok());
     let from: u32 = found.unwrap_or_else(|| panic!("no crossing in: {words}"));
     assert!(crossings.contains(&from) && crossings[0] < crossings[1], "{from} is none of {crossings:?}");
-    let pairs = format!(
-        "note: `gravity` is summed directly over all pairs: a tree is faster from about {from} particles on here"
-    );
+    let pairs = format!("note: `gravity` uses direct summation: a tree is faster from about {from} particles on here");
     let tree = |more: &str| {
-        format!(
-            "note: `gravity` takes far groups as one, through a tree (θ=0.9{more}): `motes compare` says how exact that is"
-        )
+        format!("note: `gravity` approximates far groups by a tree (θ=0.9{more}): `motes compare` measures the error")
     };
     let auto = tree(&format!("; faster from about {from} particles on here"));
     for (over, count, want) in [

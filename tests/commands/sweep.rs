@@ -68,7 +68,7 @@ fn ends_converge_with_the_order_of_the_method() {
     }
 }
 
-/// Positions differ by the way to the nearest image: particles that cross a side stay near themselves.
+/// Positions differ by the displacement to the nearest image: particles that cross a side stay near themselves.
 #[test]
 fn ends_in_a_periodic_box_are_compared_with_the_nearest_image() {
     let (folder, out) = folder();
@@ -103,7 +103,7 @@ fn a_run_that_fails_stands_beside_those_that_do_not() {
         text.contains("failed: ") && words.contains("2 of 2") && words.contains("note: simulation.dt=50: "),
         "{text}{words}"
     );
-    // Results are not replaced without a word.
+    // Results are not replaced silently.
     let before = std::fs::read(Path::new(&out).join("sweep.csv")).expect("a table");
     let (code, _, words) = args("0.001,0.0005", &[]);
     assert!(code == 8 && words.contains("--overwrite"), "{code}: {words}");

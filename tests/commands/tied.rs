@@ -1,4 +1,4 @@
-//! The command and what is tied: what is remarked on, what is said to be kept, and which keys are listed.
+//! The command and links: what is remarked on, what is said to be kept, and which keys are listed.
 
 use std::path::Path;
 use std::process::Command;
@@ -32,7 +32,7 @@ fn springs_depend_on_velocity_where_they_are_damped() {
     for (set, damped) in [(&[][..], false), (&damped[..], true)] {
         let words = motes(&[&["check", &path, "--backend", "cpu"], set].concat());
         assert_eq!(words.contains("`spring` depends on velocity: leapfrog is of order 2"), damped, "{words}");
-        assert!(!words.contains("nothing comes of"), "{words}");
+        assert!(!words.contains("no force acts on"), "{words}");
         let words = motes(&[&["run", &path, "-o", &out, "--overwrite", "--backend", "cpu"], set].concat());
         assert_eq!(words.contains("not conserved"), damped, "{words}");
         assert_eq!(words.contains(", error "), !damped, "{words}");
@@ -47,8 +47,8 @@ fn springs_depend_on_velocity_where_they_are_damped() {
 #[test]
 fn what_is_tied_and_does_nothing_is_remarked_on() {
     let folder = tempfile::tempdir().expect("a folder");
-    let springs = "nothing comes of the springs (of which there are 3); add a [[force]] of kind = \"spring\"";
-    let joints = "nothing comes of the joints (of which there are 2); add a [[force]] of kind = \"joint\"";
+    let springs = "no force acts on the springs (3 of them); add a [[force]] of kind = \"spring\"";
+    let joints = "no force acts on the joints (2 of them); add a [[force]] of kind = \"joint\"";
     let bent = CHAIN.to_owned() + "\nbending = 0.3";
     let joint = "[[force]]\nkind = \"joint\"\n";
     let sheet = "shape = \"cloth\"\ncolumns = 3\nrows = 3\nstretch = 0\nshear = 0\nbend = 0";
@@ -62,7 +62,7 @@ fn what_is_tied_and_does_nothing_is_remarked_on() {
         (sheet, "", &[]),
     ] {
         let words = motes(&["check", &scene(folder.path(), particles, forces), "--backend", "cpu"]);
-        assert_eq!(words.matches("nothing comes of").count(), idle.len(), "{particles}\n{forces}\n{words}");
+        assert_eq!(words.matches("no force acts on").count(), idle.len(), "{particles}\n{forces}\n{words}");
         assert!(idle.iter().all(|remark| words.contains(remark)), "{particles}\n{forces}\n{words}");
     }
 }

@@ -1,4 +1,4 @@
-//! Errors: in which place they are mended, and with their numbers. Nothing panics, nothing waits for ever.
+//! Errors: in which place they are mended, and with their numbers. Nothing panics, nothing waits forever.
 
 use std::time::{Duration, Instant};
 
@@ -66,10 +66,10 @@ fn setups_that_make_no_sense() {
     particles.mass_mut()[4] = -1e-3;
     refused(&shared, &setup(particles, Vec::new(), 0.1), &["particle 4", "mass"]);
     assert!(matches!(Gpu::new(&shared.found.device, &shared.found.queue, 0), Err(Error::Scene(_))));
-    // A test particle is fine where nothing is tied to it.
+    // A test particle is fine where nothing is linked to it.
     let mut particles = good();
     particles.mass_mut()[4] = 0.0;
-    refused(&shared, &setup(particles.clone(), Vec::new(), 0.1), &["ties particle 4, which has no mass"]);
+    refused(&shared, &setup(particles.clone(), Vec::new(), 0.1), &["connects particle 4, which has mass 0"]);
     particles.links = motes::links::Links::default();
     assert!(on_gpu(&shared, &setup(particles, Vec::new(), 0.1)).is_ok());
 }

@@ -185,7 +185,7 @@ fn the_spline_is_newton_outside_and_smooth_inside() {
     let (middle, plummer) = (gravity("spline", softening, 1e-9), gravity("plummer", softening, 1e-9));
     assert!((middle.w + gm / softening).abs() < 1e-14 && (plummer.w + gm / softening).abs() < 1e-14);
     assert!(middle.y.abs() < 1e-7, "no force in the middle");
-    // Across the seams value and slope go on: what is left is the second derivative times the way.
+    // Across the seams value and slope continue: what is left is the second derivative times the way.
     for seam in [0.5 * h, h] {
         let way = 1e-7;
         let (below, above) = (gravity("spline", softening, seam - way), gravity("spline", softening, seam + way));

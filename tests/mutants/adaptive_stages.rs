@@ -132,7 +132,7 @@ fn wants(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
                 let mut simulation = stages_of_fluids::simulation(device, machine, &setup);
                 let mut random = Random::new(41);
                 let gpu = simulation.backend();
-                // What they make anew held other numbers; held ones keep them.
+                // What they make anew held other numbers; fixed ones keep them.
                 for field in ["closing", "step_criteria"] {
                     let some: Vec<f32> = (0..gpu.size(field) / 4).map(|_| random.narrow().abs()).collect();
                     gpu.write_bytes(field, 0, bytemuck::cast_slice(&some)).expect("a field");

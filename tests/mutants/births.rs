@@ -131,7 +131,7 @@ pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
     searches(shared, device, stages);
 }
 
-/// A birth more in the table than are born.
+/// A birth more in the table than are spawned.
 fn tabled(kernel: Kernel) -> Kernel {
     if !["spawn", "guide"].contains(&kernel.name.as_str()) {
         return kernel;

@@ -30,7 +30,7 @@ pub const TOUCHING: &str = "fn gather(me: Particle, you: Particle, r: vec3f, sum
     (*sum).potential += me.mass * near;
 }
 fn finish(me: Particle, sum: Sum) -> vec4f { return vec4f(sum.acceleration, sum.potential); }";
-/// One that meets one species, and says so itself.
+/// One that acts on one species, by its own declaration.
 pub const CHOOSY: &str = "fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
     if species[you.index] == 2u {
         let near = you.mass / (1.0 + dot(r, r));

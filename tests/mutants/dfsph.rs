@@ -18,7 +18,7 @@ use crate::support::states::{force, integrator, word};
 use crate::support::{Random, Shared};
 
 pub const SPACING: f64 = 0.06;
-/// What a stage keeps of a name: the second time that a kernel runs, an iteration has something to go on from.
+/// What a stage keeps of a name: the second time that a kernel runs, an iteration has something to continue from.
 const SECOND: u32 = 2;
 /// These are shown numbers of all kinds as well, also such as no step comes by.
 const ANY: [&str; 5] = ["begin", "collect", "predict", "divergence correct", "finish"];
@@ -52,7 +52,7 @@ fn block(flat: bool) -> (State, Bounds) {
         sides: [Side::Periodic, Side::Open, Side::Open],
         dimensions: if flat { 2 } else { 3 },
     };
-    // A particle without neighbours, and a pair of which each is at the rim of the other's range.
+    // A particle without neighbours, and a pair of which each is at the edge of the other's range.
     let off = if flat { DVec3::Y } else { DVec3::Z };
     for height in [2.0, 3.0, 3.0 + 1.995 * SPACING] {
         particles.push((height * off + 0.4 * DVec3::X).as_vec3().as_dvec3(), DVec3::ZERO, mass, 0.0);
@@ -102,7 +102,7 @@ fn simulation(device: &Device, flat: bool, walks: bool) -> (Simulation<Gpu>, Pla
     (simulation, plan, fluid)
 }
 
-/// A stage of each kernel of a step, and of how solves go on and end.
+/// A stage of each kernel of a step, and of how solves continue and end.
 pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
     for (flat, walks) in [(false, false), (true, false), (false, true)] {
         let (simulation, plan, fluid) = simulation(device, flat, walks);
@@ -217,7 +217,7 @@ fn state(simulation: &Rc<RefCell<Simulation<Gpu>>>, [first, second]: [f32; 2]) {
     words(simulation, "dfsph_state", &[4.0, first, 0.3, 5.0, second, 0.7]);
 }
 
-/// How a solve goes on, converges, is not done yet, runs out, and breaks down.
+/// How a solve continues, converges, is not done yet, runs out, and breaks down.
 fn ends(simulation: &Rc<RefCell<Simulation<Gpu>>>, decide: &Kernel, stages: &mut Vec<Stage>) {
     let field = decide.passes[0].field("errors").to_owned();
     let count = simulation.borrow().count() as usize;

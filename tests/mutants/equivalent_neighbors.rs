@@ -1,4 +1,4 @@
-//! Mutants of the grid and its searches that no test can notice, because they do the same; each with its reason.
+//! Mutants of the cell list and its searches that no test can notice, because they do the same; each with its reason.
 
 use crate::support::equivalents::{Equivalent, same};
 

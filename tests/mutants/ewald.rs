@@ -61,7 +61,7 @@ pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
         step.evaluate();
         let plan = step.finished().expect("a plan");
         let mut simulation = spread(device, FEW, machine);
-        // So close that groups are met as one, and some not at all.
+        // So close that groups are evaluated as one, and some not at all.
         let mut places = pollster::block_on(simulation.read(POSITION)).expect("places");
         let middle = (cube().low + 0.5 * SIDE).as_vec3();
         for x in &mut places {

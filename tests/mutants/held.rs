@@ -1,4 +1,4 @@
-//! Stages of held particles, of the motions that lead them, and of solids that move.
+//! Stages of fixed particles, of the motions that lead them, and of solids that move.
 
 use glam::{DVec3, Vec4};
 use motes::forces::Problem;

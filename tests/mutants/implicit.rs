@@ -19,7 +19,7 @@ use crate::support::{self};
 /// Four workgroups of 256, or sixteen of 64, the last not full: as many as a device of four in each of four rows has.
 const COUNT: usize = 1010;
 
-/// A cloud of which most are tied, some in rings; one is held, one has no mass.
+/// A cloud of which most are linked, some in rings; one is held, one has no mass.
 #[expect(clippy::cast_possible_truncation, reason = "numbers are rounded to what f32 holds")]
 fn tangle(stiffness: f64) -> State {
     let mut particles = support::cloud(COUNT, 31);
@@ -86,7 +86,7 @@ const LATER: f64 = 10.0;
 
 type Forces<'a> = &'a dyn Fn() -> Vec<Box<dyn Component>>;
 
-/// Steps that run out of iterations, that converge, that settle, and that break down; with ties and without.
+/// Steps that run out of iterations, that converge, that settle, and that break down; with links and without.
 pub fn all(device: &Device, stages: &mut Vec<Stage>) {
     let solver = |tolerance, iterations, solves| Solver { tolerance, iterations, solves };
     let loose = || forces().into_iter().filter(|force| force.laws()[0].name != "spring").collect();
@@ -124,7 +124,7 @@ pub fn all(device: &Device, stages: &mut Vec<Stage>) {
 
 type Shared = Rc<RefCell<Simulation<Gpu>>>;
 
-/// A stage for each kernel of a solve, where those before it have led.
+/// A stage for each kernel of a solve, where after those before it.
 fn amid(case: &str, simulation: Simulation<Gpu>, plan: &Plan, stages: &mut Vec<Stage>) {
     let simulation = Rc::new(RefCell::new(simulation));
     let mut begun = 0;

@@ -1,4 +1,4 @@
-//! Stages of the grid and of the searches through it: small boxes in which every seam, fold and reach is met.
+//! Stages of the cell list and of the searches through it: small boxes in which every seam, fold and reach occurs.
 
 #![allow(clippy::cast_possible_truncation, reason = "numbers are rounded to what f32 holds")]
 
@@ -58,7 +58,7 @@ impl<'a> Place<'a> {
         put(&mut simulation, ALARM, &[u32::MAX; 3]);
         fill(&mut simulation, plan);
         if plan.fields(1).contains_key(SPECIES.name) {
-            // A law that does not ask would meet others, were there any.
+            // A law that does not ask would get others, if there were any.
             let mixed = plan.kernels.iter().all(|kernel| kernel.name != "curious" || kernel.names(SPECIES.name));
             let of = |i| if mixed && i % 3 > 0 { OTHERS } else { OTHERS + 1 };
             let species: Vec<u32> = (0..count).map(of).collect();

@@ -7,7 +7,7 @@ const fn open(file: &'static str, most: usize) -> Open {
 }
 
 pub const OPEN: &[Open] = &[
-    // Walks that go on: what they keep is read again only where they stop late, and workgroups too many do nothing.
+    // Walks that continue: what they keep is read again only where they stop late, and workgroups too many do nothing.
     open("shaders/visit/tree_rest.wgsl", 14),
     open("shaders/visit/tree_subgroup.wgsl", 10),
     open("shaders/visit/tree_broadcast.wgsl", 1),

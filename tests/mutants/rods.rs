@@ -14,7 +14,7 @@ use crate::support::states::force;
 
 const PART: f64 = 0.4;
 
-/// Chains of one to three rods, some through a periodic side; held ones at ends and within.
+/// Chains of one to three rods, some through a periodic side; fixed ones at ends and within.
 fn tied(device: &Device, back: f64) -> (Simulation<Gpu>, Links, Vec<Held>) {
     let bounds = Bounds::new(DVec3::splat(-1.0), DVec3::splat(1.0), Side::Periodic);
     let mut simulation = moving(device, FEW, None);

@@ -69,7 +69,7 @@ fn pairs(device: &Device, flat: bool, stages: &mut Vec<Stage>) {
     stages.push(Stage::amid(&name, &simulation, response).slack(4.0));
 }
 
-/// A state that no particle but the first begins anew.
+/// A state that no particle but the first starts over.
 fn lone(device: &Device, stages: &mut Vec<Stage>) {
     let (simulation, plan) = resting(device, &[DVec3::ZERO], false);
     for name in ["fluid begin", "fluid collect"] {

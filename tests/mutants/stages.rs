@@ -261,7 +261,7 @@ fn integrators(device: &Device, stages: &mut Vec<Stage>) {
     }
 }
 
-/// A kernel of a method that goes on with accelerations of a step before, where some particles have none.
+/// A kernel of a method that continues with accelerations of a step before, where some particles have none.
 fn first_step(device: &Device, kernel: &Kernel) -> Stage {
     let (mut simulation, plan) = (moving(device, FEW, None), alone(kernel.clone()));
     fill(&mut simulation, &plan);

@@ -1,4 +1,4 @@
-//! Stages of what walks a tree: every walk over so many bodies that nodes of all kinds are met.
+//! Stages of what walks a tree: every walk over so many bodies that nodes of all kinds occur.
 
 #![allow(clippy::cast_possible_truncation, reason = "numbers are rounded to what f32 holds")]
 
@@ -87,7 +87,7 @@ fn gravity(words: [&'static str; 2], theta: f64, alpha: f64) -> Box<dyn Componen
     force("gravity", &settings)
 }
 
-/// A law that adds up whole numbers, so that another pair, or a pair evaluated another way, is seen whatever it weighs.
+/// A law that adds up integers, so that another pair, or a pair evaluated another way, is seen whatever it weighs.
 #[derive(Clone)]
 struct Counted(Opening);
 
@@ -144,7 +144,7 @@ impl Scene {
     fn plan(&self) -> Plan {
         alone(self.walk.clone())
     }
-    /// The walk with fewer dispatches that go on than it takes.
+    /// The walk with fewer dispatches that continue than it takes.
     fn stopped(&self, rounds: usize) -> Plan {
         let mut kernel = self.walk.clone();
         let mut gone = 0;
@@ -193,8 +193,8 @@ fn halo(count: usize) -> Vec<Vec4> {
         .collect()
 }
 
-/// Walks that stop after a few turns and go on: the agreement with the reference; sums to the bit, which tell where they
-/// stopped; and with too few dispatches the alarm, and how many workgroups would go on.
+/// Walks that stop after a few turns and continue: the agreement with the reference; sums bit for bit, which tell where they
+/// stopped; and with too few dispatches the alarm, and how many workgroups would continue.
 fn stops(device: &Device, name: &str, machine: Machine, stages: &mut Vec<Stage>) {
     for (case, bodies, law) in [
         ("many", bodies(MANY), gravity(["plummer", "quadrupole"], 0.5, 0.0)),

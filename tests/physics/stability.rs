@@ -1,4 +1,4 @@
-//! What steps bear: limits of integrators, measured from their own steps, and frequencies of networks between bounds.
+//! Stability: limits of integrators, measured from their own steps, and frequencies of networks between bounds.
 
 use crate::support::states::{force, integrator};
 use glam::DVec3;

@@ -122,7 +122,7 @@ pub struct Difference {
 
 impl Difference {
     /// What drivers may differ by. A place is known to some 1e-5 pixels, which moves a light by some hundredths of a level; the dither
-    /// makes one level of that in as many of the cases. Only where a place decides yes or no (the rim of a ball, which of two is
+    /// makes one level of that in as many of the cases. Only where a place decides yes or no (the edge of a ball, which of two is
     /// nearer, a bin of the histogram) is a colour further off. `rounding_is_within_the_tolerance` measures both.
     pub const TOLERANCE: Self = Self { far: 0.002, mean: 0.04 };
 

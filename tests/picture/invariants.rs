@@ -18,7 +18,7 @@ fn every_style_gives_the_same_bytes_twice() {
     }
 }
 
-/// The order of particles, by their ids, is no part of a picture: lights are added in whole numbers, and the nearest is in front.
+/// The order of particles, by their ids, is no part of a picture: lights are added in integers, and the nearest is in front.
 #[test]
 fn no_picture_depends_on_the_order_of_particles() {
     let shared = support::device();

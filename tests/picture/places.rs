@@ -1,6 +1,7 @@
 //! Particles where they cannot be drawn, or all at one place.
 
 use glam::{DVec3, Vec4};
+use motes::kernel::{Array, Backend};
 use motes::render::{Camera, Picture, Trail};
 use motes::settings::Value;
 use motes::*;
@@ -34,6 +35,11 @@ fn what_is_behind_the_eye_or_beside_the_picture_is_counted_and_not_drawn() {
     assert!(lit(image) < lit(clean));
 }
 
+/// What `Simulation::write` refuses.
+fn broken(values: &[Vec4]) -> Array {
+    Array::Vec4(values.iter().map(|v| v.as_dvec4()).collect())
+}
+
 #[test]
 fn broken_numbers_are_drawn_nowhere_and_counted() {
     let mut particles = support::cloud(70, 9);
@@ -51,10 +57,10 @@ fn broken_numbers_are_drawn_nowhere_and_counted() {
     position[10].w = f32::NAN;
     velocity[20].w = f32::INFINITY;
     velocity[30].y = f32::NAN;
-    gpu.write(POSITION, &position).unwrap();
-    gpu.write(VELOCITY, &velocity).unwrap();
-    cpu.write(POSITION, &position).unwrap();
-    cpu.write(VELOCITY, &velocity).unwrap();
+    gpu.backend().write(POSITION.name, &broken(&position)).unwrap();
+    gpu.backend().write(VELOCITY.name, &broken(&velocity)).unwrap();
+    cpu.backend().write(POSITION.name, &broken(&position)).unwrap();
+    cpu.backend().write(VELOCITY.name, &broken(&velocity)).unwrap();
     let (gpu, cpu) = (pollster::block_on(gpu.draw(&picture)).unwrap(), pollster::block_on(cpu.draw(&picture)).unwrap());
     assert_eq!(gpu.broken, 5);
     assert_close(&gpu, &cpu, "broken");

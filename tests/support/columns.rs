@@ -105,7 +105,7 @@ impl Component for Bodies {
     }
 }
 
-/// What has several values for each particle, and what is of the whole system; each goes on by a state.
+/// What has several values for each particle, and what is of the whole system; each continues by a state.
 #[derive(Clone)]
 pub struct Grouped;
 

@@ -80,7 +80,7 @@ pub fn alone(kernel: Kernel) -> Plan {
 }
 
 /// The same meetings in `layers` layers, cut into dispatches that see `slice` sources in each. `kernel` has one pass that
-/// meets all in one layer; `finish` is the last pass of a kernel in layers.
+/// evaluates all in one layer; `finish` is the last pass of a kernel in layers.
 pub fn cut(kernel: &Kernel, finish: &Pass, count: usize, layers: u32, slice: u32) -> Kernel {
     let count = u32::try_from(count).expect("few");
     let whole = &kernel.passes[0];

@@ -1,4 +1,4 @@
-// A column y goes on by its rate y', at a kick or a drift:  y ← y + c y' dt,  of particles that are free and active.
+// A column y is advanced by its rate y', at a kick or a drift:  y ← y + c y' dt,  of particles that are free and active.
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read_write> value: array<Value>;
 @group(1) @binding(1) var<storage, read> rate: array<Value>;

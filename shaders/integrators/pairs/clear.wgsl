@@ -1,4 +1,4 @@
-// Before the first law: a sum of nothing.
+// Before the first law: the sum is zero.
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read_write> value: array<Value>;
 

@@ -1,4 +1,4 @@
-// Around a measurement: rates that the next step is going to use are kept, and put back.
+// Before and after a measurement: rates that the next step will use are saved and restored.
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read> from_field: array<Value>;
 @group(1) @binding(1) var<storage, read_write> to_field: array<Value>;

@@ -1,4 +1,4 @@
-// A Runge–Kutta step of a column begins: keep where it starts, and start the weighted sum of its slopes.
+// A Runge–Kutta step of a column begins: save its start, and start the weighted sum of its slopes.
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read> value: array<Value>;
 @group(1) @binding(1) var<storage, read_write> start: array<Value>;

@@ -1,4 +1,4 @@
-// A column of one real number: all of its element.
+// A scalar column: its whole element.
 alias Value = f32;
 
 fn own(old: f32, next: f32) -> f32 { return next; }

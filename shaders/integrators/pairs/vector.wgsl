@@ -1,4 +1,4 @@
-// A column of the components FIRST to END of its elements; others of the same elements are other columns.
+// A column in the components FIRST to END of its elements; the other components belong to other columns.
 alias Value = vec4f;
 
 override FIRST: u32 = 0u;

@@ -1,4 +1,4 @@
-// Raises the alarm when a column that is advanced is no number any more: after how many steps that is first seen, and the
+// Raises the alarm when a column that is advanced is not finite: the first step in which that is seen, and the
 // lowest id of a particle there, as for positions.
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read> value: array<Value>;

@@ -1,4 +1,4 @@
-// The same for visits that conclude every particle: the first law of an evaluation sets what the others add to.
+// The same for visits that process every particle: the first law of an evaluation sets the sums to which the others add.
 @group(1) @binding(2) var<storage, read_write> acceleration: array<vec4f>;
 
 override FIRST: bool = false;

@@ -1,4 +1,4 @@
-// How fast the density grows by accelerations, as a part of that at rest:  Σ V (a_you − a_me) · g r.
+// The rate of change of the density by accelerations, relative to that at rest:  Σ V (a_you − a_me) · g r.
 struct Sum { change: f32 }
 
 fn meet(me: Particle, you: Particle, slope: vec3f, sum: ptr<function, Sum>) { (*sum).change += dot(you.push - me.push, slope); }

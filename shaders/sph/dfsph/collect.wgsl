@@ -1,5 +1,5 @@
-// The solve for a velocity without compression is taken: its accelerations are added to all others. Their sum is what
-// the density at the end of the step is predicted with.
+// The result of the divergence solve: its accelerations are added to all others. With their sum
+// the density at the end of the step is predicted.
 @group(1) @binding(2) var<storage, read_write> acceleration: array<vec4f>;
 @group(2) @binding(5) var<storage, read> sorted_id: array<u32>;
 @group(3) @binding(4) var<storage, read> unknowns: array<Unknown>;
@@ -15,7 +15,7 @@ fn collect(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups:
     if k >= world.count { return; }
     if k == 0u { dfsph_state[1] = State(); }
     let id = sorted_id[k];
-    // Walls move as they are led.
+    // Walls have prescribed motions.
     if unknowns[k].stiffness >= 0.0 {
         stiffness[id].divergence = unknowns[k].stiffness;
         acceleration[id] += vec4f(pushes[k].xyz, 0.0);

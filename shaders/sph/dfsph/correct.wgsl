@@ -1,6 +1,6 @@
-// An iteration of Jacobi:  κ ← max(κ − ω α / dt² (s − dt² D(a)), 0), for pressure does not pull; and on in the direction in which
-// κ goes, as Nesterov (1983) has it: what n layers of particles weigh is known after about n iterations, and not n². The error is
-// what pressure would compress by, and where there is too much of it what it would expand by: what κ changes by, as a density.
+// An iteration of Jacobi:  κ ← max(κ − ω α / dt² (s − dt² D(a)), 0), for pressure is not negative; with momentum in the direction in which
+// κ changes (Nesterov 1983): the hydrostatic pressure of n layers of particles converges in about n iterations, not n². The error is
+// the remaining compression, or expansion where pressure is too high: the change of κ, as a density.
 @group(3) @binding(4) var<storage, read_write> unknowns: array<Unknown>;
 @group(3) @binding(6) var<storage, read_write> errors: array<f32>;
 @group(3) @binding(7) var<storage, read> dfsph_state: array<State>;

@@ -1,4 +1,4 @@
-// Whether the solve goes on, by the mean error of the fluid's particles.
+// Convergence of the solve, by the mean error of the fluid's particles.
 struct Extent { unused_word: u32, elements: u32, chunk: u32 }
 
 @group(3) @binding(6) var<storage, read> errors: array<f32>;

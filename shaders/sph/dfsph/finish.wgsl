@@ -1,4 +1,4 @@
-// The solve for the density is taken. Pressure is that of both solves.
+// The result of the density solve. Pressure is that of both solves.
 @group(1) @binding(2) var<storage, read_write> acceleration: array<vec4f>;
 @group(2) @binding(5) var<storage, read> sorted_id: array<u32>;
 @group(3) @binding(4) var<storage, read> unknowns: array<Unknown>;

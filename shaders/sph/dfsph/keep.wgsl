@@ -1,4 +1,4 @@
-// A step ends: κ is kept for where the next one begins, and counted is what became of its two solves: steps, those that did not
+// A step ends: κ is saved for the warm start of the next one. Statistics of its two solves: steps, those that did not
 // converge, the first of them, the most iterations, those of this step, and those of all.
 @group(3) @binding(7) var<storage, read> dfsph_state: array<State>;
 @group(3) @binding(8) var<storage, read> stiffness: array<Stiffness>;

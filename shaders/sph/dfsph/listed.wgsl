@@ -1,4 +1,4 @@
-// Each particle meets those listed, and notes down how strongly they push each other, V g r.
+// Each particle visits its listed neighbours, and records their coefficients V g r.
 @group(3) @binding(16) var<storage, read_write> pairs: array<vec4f>;
 
 override STRIDE: u32 = 1u;

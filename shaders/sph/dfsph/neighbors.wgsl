@@ -1,4 +1,4 @@
-// Pairs in range, slot by slot: row 0 says of slot k how many are, and the n-th stands in row n, so that invocations side
+// Pairs in range, slot by slot: row 0 has the number of pairs of slot k, and the n-th is in row n, so that invocations side
 // by side read side by side.
 struct Sum { number: u32 }
 
@@ -9,7 +9,7 @@ override STRIDE: u32 = 1u;
 override ROOM: u32 = 1u;
 
 fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
-    // A whole number below 2²⁴ is exact.
+    // An integer below 2²⁴ is exact.
     (*sum).number += 1u;
     if (*sum).number <= ROOM { pairs[(*sum).number * STRIDE + me.slot].w = f32(you.slot); }
 }

@@ -1,4 +1,4 @@
-// Each particle meets those it is paired with, by pushes that are known.
+// Each particle interacts with its recorded pairs, by their coefficients.
 @group(3) @binding(16) var<storage, read> pairs: array<vec4f>;
 
 override STRIDE: u32 = 1u;

@@ -1,4 +1,4 @@
-// The solve for the density begins: accelerations by pressure may compress by  s = 1 − ρ/ρ₀ − dt D(v + dt a)  in the step.
+// The density solve begins: accelerations by pressure may compress by  s = 1 − ρ/ρ₀ − dt D(v + dt a)  in the step.
 @group(3) @binding(3) var<storage, read> responses: array<Response>;
 @group(3) @binding(4) var<storage, read_write> unknowns: array<Unknown>;
 @group(3) @binding(9) var<storage, read> warm_start: array<Stiffness>;

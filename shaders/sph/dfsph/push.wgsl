@@ -1,4 +1,4 @@
-// What pressure does, where walls have mine:  a = −Σ V (κ + κ') ∇W = Σ V (κ + κ') g r, with r from me to you and g r the gradient of W at you.
+// Acceleration by pressure, where walls have the pressure of the fluid particle:  a = −Σ V (κ + κ') ∇W = Σ V (κ + κ') g r, with r from me to you and g r the gradient of W at you.
 struct Sum { acceleration: vec3f }
 
 @group(3) @binding(5) var<storage, read_write> pushes: array<vec4f>;

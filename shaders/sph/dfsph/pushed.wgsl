@@ -1,4 +1,4 @@
-// A particle of a fluid or a wall, and how it is accelerated; walls are not. The fourth component says which it is.
+// A particle of a fluid or a wall, and its acceleration, which is 0 for walls. The fourth component distinguishes them.
 @group(2) @binding(5) var<storage, read> sorted_id: array<u32>;
 @group(2) @binding(6) var<storage, read> sorted_position: array<vec4f>;
 @group(3) @binding(5) var<storage, read> pushes: array<vec4f>;

@@ -1,4 +1,4 @@
-// What lane 0, 1, … holds, of what is asked of a neighbour; the lane of a broadcast must be a constant.
+// Broadcasts what lane 0, 1, … holds of a neighbour; the lane of a broadcast must be a constant.
 fn broadcast0(q: Particle) -> Particle { return Particle(q.index, subgroupBroadcast(q.position, 0u), subgroupBroadcast(q.mass, 0u), subgroupBroadcast(q.push, 0u), q.solved, q.slot); }
 fn broadcast1(q: Particle) -> Particle { return Particle(q.index, subgroupBroadcast(q.position, 1u), subgroupBroadcast(q.mass, 1u), subgroupBroadcast(q.push, 1u), q.solved, q.slot); }
 fn broadcast2(q: Particle) -> Particle { return Particle(q.index, subgroupBroadcast(q.position, 2u), subgroupBroadcast(q.mass, 2u), subgroupBroadcast(q.push, 2u), q.solved, q.slot); }

@@ -1,5 +1,5 @@
-// How dense it is around a particle, how fast it gets denser, and what pressure does against that (Bender & Koschier 2015, with
-// walls after Akinci et al. 2012: they have my pressure, and are not pushed). With V = m / ρ₀, r from me to you, and g r the gradient of W at you:
+// The density at a particle, its rate of change, and the response factor α of pressure (Bender & Koschier 2015, with
+// walls after Akinci et al. 2012: they have the pressure of the fluid particle, and are not accelerated). With V = m / ρ₀, r from me to you, and g r the gradient of W at you:
 //   ρ / ρ₀ = Σ V W,  D = Σ V (v_you − v_me) · g r,  1 / α = (Σ V g r + Σ V g r, of walls) · Σ V g r + Σ V V' |g r|², without walls
 struct Sum { number: f32, change: f32, gradient: vec3f, walls: vec3f, squares: f32, neighbors: f32 }
 

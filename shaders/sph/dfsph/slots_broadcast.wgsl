@@ -1,4 +1,4 @@
-// What lane 0, 1, … holds, of what is asked of a neighbour; the lane of a broadcast must be a constant.
+// Broadcasts what lane 0, 1, … holds of a neighbour; the lane of a broadcast must be a constant.
 fn broadcast0(q: Particle) -> Particle { return Particle(q.index, subgroupBroadcast(q.position, 0u), subgroupBroadcast(q.slot, 0u)); }
 fn broadcast1(q: Particle) -> Particle { return Particle(q.index, subgroupBroadcast(q.position, 1u), subgroupBroadcast(q.slot, 1u)); }
 fn broadcast2(q: Particle) -> Particle { return Particle(q.index, subgroupBroadcast(q.position, 2u), subgroupBroadcast(q.slot, 2u)); }

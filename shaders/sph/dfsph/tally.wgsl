@@ -1,4 +1,4 @@
-// Many errors become a few: each workgroup adds a run of them.
+// Partial sums of errors: each workgroup adds a block of them.
 struct Extent { unused_word: u32, elements: u32, chunk: u32 }
 
 @group(3) @binding(6) var<storage, read> errors: array<f32>;

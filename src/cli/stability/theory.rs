@@ -1,4 +1,4 @@
-//! What theory says of one step (Hairer & Wanner 1996, chapter IV; Hairer, Lubich & Wanner 2006, chapter I).
+//! The theory of one step (Hairer & Wanner 1996, chapter IV; Hairer, Lubich & Wanner 2006, chapter I).
 
 /// By how much a step multiplies the energy of x″ = −ω² x, for y = hω.
 pub fn energy(name: &str, y: f64) -> Option<f64> {

@@ -31,7 +31,7 @@ pub async fn sweep(args: &SweepArgs) -> Result<(), Failure> {
     settled(args, &varied)?;
     let count = varied.iter().fold(1_usize, |count, one| count.saturating_mul(one.values.len()));
     if count > MOST {
-        let text = format!("{count} combinations are to be run, and {MOST} are the most: give fewer values");
+        let text = format!("{count} combinations exceed the maximum of {MOST}: give fewer values");
         return Err(Error::Scene(text).into());
     }
     let (args, cases) = (&plain(args), vary::combinations(&varied));
@@ -73,7 +73,7 @@ pub async fn sweep(args: &SweepArgs) -> Result<(), Failure> {
     if ended.iter().any(|one| one.error.is_none()) {
         return Ok(());
     }
-    args.said("no run came to its end; the first failed so:");
+    args.said("no run finished; the first failed with:");
     found.into_iter().flatten().find_map(outcome::Outcome::failure).map_or(Ok(()), Err)
 }
 
@@ -100,7 +100,7 @@ fn files(output: &Path, overwrite: bool) -> Result<(PathBuf, PathBuf), Error> {
     if csv.exists() && !overwrite {
         return Err(failed(
             output,
-            "the folder holds an earlier sweep: choose another with -o, or remove it with --overwrite".to_owned(),
+            "the folder contains an earlier sweep: choose another with -o, or replace it with --overwrite".to_owned(),
         ));
     }
     for file in [&csv, &svg].into_iter().filter(|file| file.exists()) {

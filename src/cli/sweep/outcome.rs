@@ -1,4 +1,4 @@
-//! What came of a run, and how far its end is from that of another.
+//! The outcome of a run, and the difference of its final state from that of another.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -63,7 +63,7 @@ impl Outcome {
     /// In a few words.
     pub fn words(&self, folder: &Path) -> String {
         match &self.result {
-            Err(Failure::Stopped) => format!("stopped; motes resume {} goes on with it", folder.display()),
+            Err(Failure::Stopped) => format!("stopped; motes resume {} continues it", folder.display()),
             Err(failure) => format!("failed: {}", failure.words().lines().next().unwrap_or_default()),
             Ok(_) => format!("{} steps in {:.2} s", self.steps, self.took.as_secs_f64()),
         }

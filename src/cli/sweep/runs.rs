@@ -38,7 +38,7 @@ impl Engines {
     pub fn names(&self) -> Vec<String> {
         self.0.iter().map(|(_, engine)| engine.describe()).collect()
     }
-    /// What one should know of them.
+    /// Remarks on them.
     pub fn remarks(&self) -> Vec<String> {
         self.0.iter().flat_map(|(_, engine)| engine.own()).collect()
     }

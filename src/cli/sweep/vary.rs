@@ -1,4 +1,4 @@
-//! What is varied: keys of the scene, and the values that each takes.
+//! Varied keys of the scene, and their values.
 
 use motes::Error;
 

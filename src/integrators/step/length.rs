@@ -41,11 +41,10 @@ impl Step<'_> {
         match offered[..] {
             [viscous] => Ok((plan, viscous)),
             [] => Err(Error::Scene(
-                "no force says how long a step may be, so that its length cannot be adaptive: give a fixed dt, or add a fluid"
-                    .to_owned(),
+                "no force limits the time step, so it cannot be adaptive: give a fixed dt, or add a fluid".to_owned(),
             )),
             _ => Err(Error::Scene(format!(
-                "{} forces say how long a step may be, and one may: give a fixed dt, or leave one fluid",
+                "{} forces limit the time step, and only one may: give a fixed dt, or leave only one fluid",
                 offered.len()
             ))),
         }

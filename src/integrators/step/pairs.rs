@@ -1,9 +1,9 @@
-//! What each verb does to the columns that components declare with a rate.
+//! The verbs applied to columns that components declare with a rate.
 //!
-//! A column whose rate is computed by evaluations goes on with velocities, one whose rate is a state with positions. What is
+//! A column whose rate is computed by evaluations is advanced with velocities, one whose rate is a state with positions. What is
 //! carried along with positions by a rate that follows from velocities, as a density is, has its rate computed in the middle of
 //! each drift. A Runge–Kutta step gives all of them its stages. Implicit methods solve for positions and velocities alone: the
-//! columns go on explicitly, by rates computed where laws without a Jacobian are.
+//! columns continue explicitly, by rates computed where laws without a Jacobian are.
 
 use super::Step;
 use crate::component;
@@ -71,7 +71,7 @@ impl Step<'_> {
             }
         }
     }
-    /// Columns whose rates evaluations compute go on, as velocities do.
+    /// Columns whose rates evaluations compute continue, as velocities do.
     pub(super) fn kick_pairs(&mut self, factor: f64) {
         self.each_pair(|pair, columns, problem| match (&pair.way, body(pair, columns)) {
             (Way::Kick, _) => Some(advance::advance("kick", &Advanced::of(pair, columns), factor, problem)),
@@ -79,7 +79,7 @@ impl Step<'_> {
             _ => None,
         });
     }
-    /// Columns whose rates are states go on, as positions do.
+    /// Columns whose rates are states continue, as positions do.
     pub(super) fn drift_pairs(&mut self, factor: f64) {
         self.each_pair(|pair, columns, problem| match (&pair.way, body(pair, columns)) {
             (Way::Drift, _) => Some(advance::advance("drift", &Advanced::of(pair, columns), factor, problem)),
@@ -97,7 +97,7 @@ impl Step<'_> {
         let computes = |force: &dyn Component| force.laws().iter().any(|law| component::carries(law, &self.problem));
         self.forces.iter().map(|force| declares(force.as_ref()) || computes(force.as_ref())).collect()
     }
-    /// A drift with what is carried along. From its middle particles do not go on, but from its start the whole way: where they come
+    /// A drift with what is carried along. From its middle particles do not continue, but from its start the whole way: where they come
     /// to is rounded once.
     pub(super) fn drift_carrying(&mut self, factor: f64) {
         let (count, kicked) = (self.problem.capacity, self.kicked.take());
@@ -107,7 +107,7 @@ impl Step<'_> {
         self.carry(factor, self.drifted + 0.5 * factor);
         self.add(update::reach(count, factor));
     }
-    /// What is carried along goes on by `factor` of the step, in the middle of which positions are, at `middle` of it.
+    /// What is carried along continues by `factor` of the step, in the middle of which positions are, at `middle` of it.
     pub(super) fn carry(&mut self, factor: f64, middle: f64) {
         self.at(middle);
         let carrying = self.carrying();
@@ -202,7 +202,7 @@ impl Step<'_> {
             self.add(kernel(&Part::of(&rate, &columns), &self.problem));
         }
     }
-    /// Columns that are no numbers raise the alarm.
+    /// Columns that are not finite raise the alarm.
     pub(super) fn watch_pairs(&mut self) {
         self.each_pair(|pair, columns, problem| around::watch(&Part::of(&pair.column, columns), problem).transpose());
     }

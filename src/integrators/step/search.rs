@@ -1,4 +1,4 @@
-//! What forces are searched with.
+//! Searches for neighbours that forces share.
 
 use super::Step;
 use crate::error::Error;

@@ -1,4 +1,4 @@
-//! The clock of adaptive steps: how long the next one is, the limiting particle, and the time.
+//! The clock of adaptive steps: the next time step, the limiting particle, and the time.
 
 mod clock;
 

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::error::Error;
 use crate::kernel::{Kernel, Shader, World};
 
-/// What it is called in a plan, and in its shader.
+/// Its name in a plan, and in its shader.
 pub const NAME: &str = "at";
 
 /// The kernel, for a part of the step.

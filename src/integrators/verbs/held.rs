@@ -1,4 +1,4 @@
-//! Held particles: `lead` gives them the velocity that brings them where they shall be, `hold` takes what forces do to them.
+//! Fixed particles: `lead` gives them the velocity that brings them where they shall be, `hold` takes what forces do to them.
 
 use std::sync::Arc;
 
@@ -95,7 +95,7 @@ fn kernel(problem: &Problem, first: usize, end: usize, kind: &str, files: Vec<So
     })
 }
 
-/// After each evaluation: a ← 0 for held particles.
+/// After each evaluation: a ← 0 for fixed particles.
 pub fn hold(problem: &Problem) -> Result<Kernel, Error> {
     let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("motion/hold.wgsl")])?;
     let (held, count) = (problem.held.clone(), problem.held.len());

@@ -1,4 +1,4 @@
-//! What a measurement does around its own evaluation, so that it changes no bit of the run.
+//! Saving and restoring around the evaluation of a measurement, so that it changes no bit of the run.
 
 use std::sync::Arc;
 

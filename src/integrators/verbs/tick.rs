@@ -1,4 +1,4 @@
-//! A step is done, and how speeds have grown is written down now and then.
+//! Counts a finished step, and records the growth of speeds at intervals.
 
 use std::sync::Arc;
 
@@ -8,7 +8,7 @@ use crate::kernel::{ALARM, ALARM_WORDS, Kernel, Shader, World};
 /// Steps between two looks at how speeds have grown.
 const WINDOW: u32 = 16;
 
-/// What it is called in a plan, and in its shader.
+/// Its name in a plan, and in its shader.
 pub const NAME: &str = "tick";
 
 /// Writes down how speeds have grown, if it is time to.

@@ -1,4 +1,4 @@
-//! Raises the alarm when a number is no number any more, and when speeds run away.
+//! Raises the alarm when a number is not finite, and when speeds run away.
 
 use std::sync::Arc;
 

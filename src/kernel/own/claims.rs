@@ -1,4 +1,4 @@
-//! What users' laws write, among what all kernels of a simulation name.
+//! Fields that users' laws write, among those that all kernels of a simulation name.
 
 use crate::error::Error;
 use crate::kernel::{Columns, Kernel, Plan};

@@ -34,7 +34,7 @@ pub fn check(sources: &[Source]) -> Result<(), Error> {
         if let Some(at) = words.iter().position(|word| word.text == "enable").filter(|_| end(&words).is_some()) {
             let what = words.get(at + 1).map_or("", |word| word.text);
             let message = format!(
-                "{}: `enable {what}` is not to be had: motes asks devices for no optional feature, so that laws run on all of them",
+                "{}: `enable {what}` is not supported: motes requests no optional features, so that laws run on all devices",
                 source.file
             );
             return Err(Error::Shader { message });

@@ -1,10 +1,10 @@
-//! Loops in a user's law. Some drivers end the loops of an invocation after 65 535 turns, and none ends a loop that has no
+//! Loops in a user's law. Some drivers end the loops of an invocation after 65 535 iterations, and none ends a loop that has no
 //! end: a law that has loops is joined with shaders/own/turns.wgsl, which sees the one and ends the other.
 
 use super::tokens::{Token, tokens};
 use crate::kernel::Source;
 
-/// Turns of a loop that is not looked at, at most: its text says how many it has.
+/// Iterations of a loop that is not looked at, at most: its text says how many it has.
 const SHORT: u32 = 64;
 
 /// A loop of a text.
@@ -35,7 +35,7 @@ pub fn watched_sources(sources: &[Source]) -> Vec<Source> {
     sources.iter().map(watch).collect()
 }
 
-/// The text with a look at the clock of turns at the start of each loop whose turns it does not say; nothing is moved to
+/// The text with a look at the iteration counter at the start of each loop whose turns it does not say; nothing is moved to
 /// another line. `None` where every loop says its turns, or there is none.
 fn watched(text: &str) -> Option<String> {
     let loops: Vec<Loop> = loops(text).into_iter().filter(|one| one.turns.is_none()).collect();
@@ -135,7 +135,7 @@ fn changes(body: &[Token], at: usize) -> bool {
     lent || written
 }
 
-/// A whole number as WGSL writes it.
+/// An integer as WGSL writes it.
 fn number(word: &str) -> Option<u32> {
     word.strip_suffix(['u', 'i']).unwrap_or(word).parse().ok()
 }

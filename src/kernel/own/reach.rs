@@ -1,4 +1,4 @@
-//! What a user's law may name: its own memory, and what motes lets it read.
+//! Bindings that a user's law may use: its own buffers, and fields that motes lets it read.
 
 use naga::{AddressSpace, Block, Expression, Function, GlobalVariable, ResourceBinding, Statement, StorageAccess};
 
@@ -59,7 +59,7 @@ fn binding(variable: &GlobalVariable) -> Result<(), String> {
             "`{name}` is a uniform block: a law has one, `params`, which its scene fills; bind a storage buffer"
         )),
         AddressSpace::Storage { access } if access.contains(StorageAccess::STORE) && FIELDS.contains(&name) => {
-            Err(format!("`{name}` belongs to motes, which alone writes it: give what the law writes another name"))
+            Err(format!("`{name}` is a buffer that only motes writes: choose another name for what the law writes"))
         }
         AddressSpace::Uniform | AddressSpace::Storage { .. } => Ok(()),
         _ => Err(format!("`{name}` is neither a storage buffer nor `params`: a law binds nothing else")),
@@ -92,7 +92,7 @@ fn names(joined: &Joined, function: &Function) -> Result<(), Error> {
     Ok(())
 }
 
-/// Refuses what other invocations must take part in: lanes meet different particles, and some are at work alone.
+/// Refuses what other invocations must take part in: lanes evaluate different particles, and some are at work alone.
 fn waits(joined: &Joined, block: &Block) -> Result<(), Error> {
     for (statement, span) in block.span_iter() {
         let what = match statement {

@@ -19,8 +19,7 @@ pub fn mismatch(source: &Source, signature: &str) -> Option<String> {
     let found = head.get(1)?;
     let bytes = |at: usize| u32::try_from(at).unwrap_or(u32::MAX);
     let span = Span::new(bytes(found.at), bytes(found.end()));
-    let message =
-        format!("the visit calls `{signature}`, and this function has other arguments or gives something else");
+    let message = format!("motes calls `{signature}`, and this function has other arguments or another return type");
     // As it is written, whatever is put in before it is compiled.
     let plain_text = Source { ours: true, ..source.clone() };
     Some(message::with_place(&message, &[plain_text], span, "here"))

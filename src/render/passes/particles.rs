@@ -9,7 +9,7 @@ use super::super::{Color, Picture};
 use crate::error::Error;
 use crate::kernel::{Host, Kernel, Plan, Shader, Threads};
 
-/// Turns of one invocation's loops in one layer, at most: half of the 65 535 that lavapipe allows.
+/// Iterations of one invocation's loops in one layer, at most: half of the 65 535 that lavapipe allows.
 const TURNS: u32 = 1 << 15;
 /// Pixels across a diagonal, for each straight across.
 const DIAGONAL: f64 = 1.4143;

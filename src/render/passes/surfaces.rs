@@ -1,4 +1,4 @@
-//! Cloth, lines and solids, which stand among particles.
+//! Passes for cloth, lines and obstacles.
 
 use glam::Vec4;
 
@@ -9,10 +9,10 @@ use crate::error::Error;
 use crate::kernel::{Field, Kernel, Pass, Plan, Source, Threads};
 use crate::primitives::fill;
 
-/// Turns of one invocation's loops in one layer, at most: half of the 65 535 that lavapipe allows.
+/// Iterations of one invocation's loops in one layer, at most: half of the 65 535 that lavapipe allows.
 const TURNS: u32 = 1 << 15;
 
-/// Where facets come from and go to.
+/// The fields that facets are read from and written to.
 #[derive(Clone, Copy)]
 struct Fields {
     vertex: Field<Vec4>,
@@ -21,13 +21,13 @@ struct Fields {
     holder: Option<Field<u32>>,
 }
 
-/// Hides particles that a surface or a line stands for.
+/// Hides particles that a surface or a line represents.
 pub fn hide(frame: &Frame, facets: &Facets) -> Result<Kernel, Error> {
     let kernel = frame.simple("hidden", &[crate::shader!("render/hidden.wgsl")], frame.count, 1)?;
     Ok(facets.bind(kernel, frame))
 }
 
-/// Surfaces, lines and solids, before the particles that fly among them.
+/// Surfaces, lines and obstacles, drawn before particles.
 pub fn surfaces(frame: &Frame, facets: &Facets, plan: &mut Plan) -> Result<(), Error> {
     let lamp = from_lamp(frame);
     let mut add = |kernel: Kernel| plan.add(facets.bind(kernel, frame));
@@ -50,14 +50,14 @@ pub fn surfaces(frame: &Frame, facets: &Facets, plan: &mut Plan) -> Result<(), E
     Ok(())
 }
 
-/// The corners of facets as a frame sees them.
+/// The projected vertices of facets in a frame.
 fn vertices(name: &str, frame: &Frame, to: Field<Vec4>) -> Result<Kernel, Error> {
     let files = [crate::shader!("render/flat.wgsl"), crate::shader!("render/vertex.wgsl")];
     let pass = frame.pass(&files, Threads::new(frame.count), 8)?.on(&[("vertex", to.name.into())]);
     Ok(frame.kernel(name, vec![pass]))
 }
 
-/// Blank samples, the nearest of triangles and lines, and their facets.
+/// Clears samples, then finds the nearest triangles and lines, and their facets.
 fn raster(name: &str, frame: &Frame, fields: Fields) -> Result<Kernel, Error> {
     let samples = frame.samples();
     let mut passes = fill::passes(&fields.nearest.name.into(), samples, NONE)?;
@@ -69,7 +69,7 @@ fn raster(name: &str, frame: &Frame, fields: Fields) -> Result<Kernel, Error> {
     Ok(frame.kernel(name, passes))
 }
 
-/// A dispatch over triangles and one over lines, in as many layers as the largest that there may be needs.
+/// A dispatch over triangles and one over lines, in as many layers as the largest facet may need.
 fn sweep(frame: &Frame, file: Source, fields: Fields) -> Result<Vec<Pass>, Error> {
     let files = [
         crate::shader!("render/flat.wgsl"),
@@ -79,7 +79,7 @@ fn sweep(frame: &Frame, file: Source, fields: Fields) -> Result<Vec<Pass>, Error
     ];
     let (columns, rows) = (frame.width * frame.fine, frame.height * frame.fine);
     let fine = f64::from(frame.fine);
-    // Twice its width along the longest line, and a turn at the ends of each row beside one for the row.
+    // Twice its width along the longest line, and one iteration at the ends of each row besides one for the row.
     let longest = f64::from(columns).hypot(f64::from(rows)) + 2.0 * frame.thread * fine;
     let line = 2.0 * frame.thread * fine * longest + 4.0 * f64::from(rows);
     let mut passes = Vec::new();
@@ -89,7 +89,7 @@ fn sweep(frame: &Frame, file: Source, fields: Fields) -> Result<Vec<Pass>, Error
         if first == end {
             continue;
         }
-        // A turn for each row, besides one for each sample in it.
+        // One iteration for each row, besides one for each sample in it.
         let band = if turns <= f64::from(TURNS) { rows } else { (TURNS / (columns + 1)).max(1) };
         let threads = Threads { count: end - first, layers: rows.div_ceil(band) };
         let mut pass = frame.pass(&files, threads, 64)?;

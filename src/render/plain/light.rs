@@ -1,4 +1,4 @@
-//! Light on what stands in a picture, shadows, and where rays meet solids. In the picture's axes: right, up, towards the eye.
+//! Lighting of surfaces, shadows, and intersections of rays with solids. In the picture's axes: right, up, towards the eye.
 
 use glam::{DQuat, DVec2, DVec3};
 
@@ -6,7 +6,7 @@ use super::super::frame::{Frame, NEVER, whole};
 use super::super::light::{LAMP, LAMP_RIGHT, LAMP_UP};
 use super::super::solid::{Shape, Solid};
 
-/// A surface that is so near casts no shadow; and how wide a shadow's rim is \[pixels of the map\].
+/// A surface that is so near casts no shadow; and how wide a shadow's edge is \[pixels of the map\].
 const BIAS: f64 = 2.5;
 const RIM: f64 = 4.0;
 /// The lamp's own width, as seen from here.
@@ -21,7 +21,7 @@ pub struct Lamp<'a> {
     pub frame: &'a Frame,
 }
 
-/// Where a ray meets a solid.
+/// Where a ray intersects a solid.
 #[derive(Clone, Copy)]
 pub struct Meeting<'a> {
     /// How often the ray's direction it is away.

@@ -102,7 +102,7 @@ impl Canvas<'_> {
         let discs = self.discs.iter().zip(&self.position[..]);
         discs.filter_map(|(disc, x)| disc.filter(|disc| disc.radius == 0.0).map(|disc| (x.w, disc)))
     }
-    /// The pixels about a light: how near to its middle they are, from 0 at the rim to 1.
+    /// The pixels about a light: how near to its middle they are, from 0 at the edge to 1.
     pub fn about(&self, place: DVec2) -> impl Iterator<Item = (usize, f64)> + use<> {
         let glow = self.frame.glow;
         let pixels = self.pixels(place - glow, place + glow);

@@ -1,4 +1,4 @@
-//! Styles: how particles are drawn. Each is one file, with shaders of its own where it needs them, and one line in the register below.
+//! Picture styles. Each is one file, with its own shaders if it needs them, and one line in the register below.
 
 use glam::DVec3;
 
@@ -98,14 +98,14 @@ macro_rules! register {
 }
 
 register! {
-    auto: Auto, "balls where they are few or large, else lights";
+    auto: Auto, "balls where they are few or large, otherwise points of light";
     glow: Glow, "lights that add up";
     balls: Balls, "shaded balls";
     fluid: Fluid, "the surface of a fluid";
     density: Density, "the mass along the line of sight, on a logarithmic scale of colours";
 }
 
-/// Which keys of a picture say nothing in its style, though they have other values than without a word.
+/// Which keys of a picture say nothing in its style, though they have other values than the defaults.
 #[must_use]
 pub fn remark(settings: &Settings) -> Option<String> {
     let entry = of(settings);

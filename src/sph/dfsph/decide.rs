@@ -1,4 +1,4 @@
-//! Whether a solve goes on: the mean error, summed in one order.
+//! Whether a solve continues: the mean error, summed in one order.
 
 use std::sync::Arc;
 

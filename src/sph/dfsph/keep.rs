@@ -1,4 +1,4 @@
-//! What a step leaves for the next one, and what became of its solves. What is measured between steps leaves nothing.
+//! Restart data that a step saves for the next one, and statistics of its solves. Measurements between steps change nothing.
 
 use std::sync::Arc;
 

@@ -129,11 +129,11 @@ impl<'a> Dfsph<'a> {
     fn fewest(&self) -> f64 {
         if self.medium.dimensions == 2 { 7.0 } else { 20.0 }
     }
-    /// The field of the grid for a name of shaders.
+    /// The field of the cell list for a name of shaders.
     fn name(&self, field: &'static str) -> Name {
         self.grid.field(field).1
     }
-    /// The ids in the order of the grid: of the fluid, which stands before all others, where it is known how many that are. Else
+    /// The ids in the order of the cell list: of the fluid, which stands before all others, where it is known how many that are. Else
     /// wall particles stand there too, and empty slots; what is known of slots says so.
     fn slots(&self) -> impl Fn(&Host) -> Result<Vec<usize>, Error> + Send + Sync + use<> {
         let fluid = self.grid.of_those_ahead();
@@ -152,12 +152,12 @@ impl<'a> Dfsph<'a> {
         all.extend(own);
         all
     }
-    /// A search of the fluid's particles, with these fields in the order of the grid.
+    /// A search of the fluid's particles, with these fields in the order of the cell list.
     fn searching(&self, candidate: Candidate, sorted: &[&'static str]) -> Search {
         let (grid, files, constants) = (self.grid.clone(), self.files(Vec::new()), self.medium.constants());
         Search { grid, candidate, sorted: sorted.to_vec(), files, constants, fixed: false }
     }
-    /// The kernel of a law that meets all pairs before these are known, with a `gather` of where they are.
+    /// The kernel of a law that evaluates all pairs before these are known, with a `gather` of where they are.
     fn search(&self, law: Law) -> Result<Kernel, Error> {
         let kernel = match self.pairs {
             Some(pairs) => pairs.find(self, &law)?,
@@ -196,7 +196,7 @@ impl<'a> Dfsph<'a> {
         let kernel = Kernel { passes: vec![pass], ..Kernel::new(name, shader, Vec::new(), threads, reference) };
         Ok(self.bound(kernel))
     }
-    /// The same with the fields of the grid, and the sizes of what does not have one element for each particle.
+    /// The same with the fields of the cell list, and the sizes of what does not have one element for each particle.
     fn bound(&self, mut kernel: Kernel) -> Kernel {
         let sorted = [STARTS, SORTED_ID, SORTED_POSITION, SORTED_VELOCITY];
         let own = [UNKNOWNS, PUSHES, ERRORS];
@@ -243,12 +243,12 @@ impl Asked {
         let finest = self.density.min(self.divergence);
         if finest < FINEST {
             return Err(Error::Scene(format!(
-                "a fluid is to keep its density to a part of {finest:e}: single precision tells {FINEST:e}, and 1e-4 is usual"
+                "the density tolerance of a fluid is {finest:e}: single precision resolves {FINEST:e}, and 1e-4 is usual"
             )));
         }
         if self.most < self.least || self.most > 1000 {
             return Err(Error::Scene(format!(
-                "a fluid's pressure is to take {} to {} iterations: give at least as many as the fewest, and 1000 at most",
+                "a fluid's pressure solve has {} to {} iterations: max_iterations must be at least min_iterations, and 1000 at most",
                 self.least, self.most
             )));
         }

@@ -13,7 +13,7 @@ const ROOM: u32 = 2;
 const LOT: u32 = 8;
 /// Bytes of a pair.
 const PAIR: u64 = 16;
-/// Slots that single precision tells apart.
+/// Slots that single precision distinguishes.
 const SLOTS: u32 = 1 << 24;
 
 /// Rows of pairs: how many neighbours each slot has, and the n-th of them.
@@ -40,7 +40,7 @@ impl Pairs {
     fn constants(self) -> [(&'static str, f64); 2] {
         [("STRIDE", f64::from(self.stride)), ("ROOM", f64::from(self.rows))]
     }
-    /// The kernel that finds them, and in which a law meets each once.
+    /// The kernel that finds them, and in which a law evaluates each once.
     pub fn find(self, of: &Dfsph<'_>, law: &Law) -> Result<Kernel, Error> {
         let slots = Candidate {
             particle: crate::shader!("sph/dfsph/slots.wgsl"),
@@ -56,7 +56,7 @@ impl Pairs {
         kernel.scratch.push(of.name(PAIRS));
         Ok(self.bound(of, kernel))
     }
-    /// The kernel of a law that meets what a particle is paired with.
+    /// The kernel of a law that evaluates what a particle is paired with.
     pub fn sweep(self, of: &Dfsph<'_>, law: &Law) -> Result<Kernel, Error> {
         let (pass, tables) = self.pass(of, law, crate::shader!("sph/dfsph/paired.wgsl"))?;
         let (name, passes, reference) = (law.name.clone(), vec![pass], law.reference.clone());

@@ -1,4 +1,4 @@
-//! What is known of the fluid before pressure is solved for.
+//! Density, its rate and the factor α, before the pressure solves.
 
 use glam::{DVec3, DVec4};
 

@@ -12,7 +12,7 @@ const FOUND: &str = "list_found";
 /// Indirect arguments of the dispatches that build it: as they are, and as they are when it is built.
 const GO: &str = "arguments of the list";
 const ALL: &str = "list_all";
-/// The list and the history of its pairs before it is built anew, and the row of each particle.
+/// The list and the history of its pairs before it is rebuilt, and the row of each particle.
 const BEFORE: &str = "list_before";
 const ROW_BEFORE: &str = "row_before";
 const HISTORY_BEFORE: &str = "history_before";

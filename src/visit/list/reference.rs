@@ -1,4 +1,4 @@
-//! The f64 reference of laws that keep history of pairs: brute force finds the pairs in range, and the list says where history is.
+//! The f64 reference of laws with history of pairs: brute force finds the pairs in range, and the list locates their history.
 
 use std::sync::Arc;
 

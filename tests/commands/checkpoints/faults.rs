@@ -1,4 +1,4 @@
-//! What may go wrong: a disk that is full, a folder that cannot be written, files that are torn, another run, another scene.
+//! What may go wrong: a disk that is full, a folder that cannot be written, damaged files, another run, another scene.
 
 use std::path::Path;
 use std::process::Command;
@@ -60,7 +60,7 @@ fn a_run_that_is_stopped_goes_on_with_a_code_of_its_own() {
     assert_eq!(code, 0, "{words}");
     assert!(words.contains("resumes from"), "{words}");
     assert_eq!(difference(&place.at("out"), &place.at("whole")), None);
-    // There is nothing to go on with, and that is no failure.
+    // There is nothing to continue with, and that is no failure.
     for (code, words) in [place.resume("out", &[]), place.run("a.toml", "out", &[&["--resume"], &KEEP[..]].concat())] {
         assert!(code == 0 && words.contains("is complete, with step 40"), "{words}");
     }
@@ -171,7 +171,7 @@ fn torn_checkpoints_are_passed_over() {
     std::fs::write(&newer, &good[..good.len() - 1]).expect("written");
     let (code, words) = place.resume("out", &[]);
     assert_eq!(code, 0, "{words}");
-    assert!(words.contains("is not whole, and an older one is taken") && words.contains("0000000033"), "{words}");
+    assert!(words.contains("is damaged, and an older one is used") && words.contains("0000000033"), "{words}");
     assert_eq!(difference(&place.at("out"), &place.at("whole")), None);
     // Where none is whole, it is said, and nothing is lost.
     stopped(&place, "none");

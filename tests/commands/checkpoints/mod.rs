@@ -1,4 +1,4 @@
-//! Runs by the library and by the command: the same files, also where a run was stopped or killed and went on.
+//! Runs by the library and by the command: the same files, also where a run was stopped or killed and continued.
 
 mod faults;
 mod killed;

@@ -7,7 +7,7 @@ use motes::run::Checkpoint;
 use crate::checkpoints::faults::{KEEP, stopped};
 use crate::checkpoints::{Place, SCENE, all, difference, motes, said};
 
-/// A run that cannot have a checkpoint is not begun anew by a word that says that it goes on.
+/// A run that cannot have a checkpoint is not begun anew by a word that says that it continues.
 #[test]
 fn results_without_a_checkpoint_are_removed_only_with_a_word() {
     let scene = SCENE.replace("7 steps", "never");
@@ -76,7 +76,7 @@ fn a_checkpoint_that_was_passed_over_stays() {
     std::fs::write(&newer, "torn").expect("written");
     for _ in 0..2 {
         let (code, words) = place.resume("out", &["--max-hours", "1e-9"]);
-        assert!(code == 75 && words.contains("is not whole"), "{code} {words}");
+        assert!(code == 75 && words.contains("is damaged"), "{code} {words}");
         assert!(newer.exists() && place.checkpoints("out").len() == 2);
     }
     assert_eq!(place.resume("out", &[]).0, 0);

@@ -1,4 +1,4 @@
-//! A run that was ended and goes on leaves the files of one that was never stopped, byte for byte: for every built-in scene.
+//! A run that was ended and continues leaves the files of one that was never stopped, byte for byte: for every built-in scene.
 
 use std::path::Path;
 
@@ -49,7 +49,7 @@ fn load(name: &str, sets: &[String]) -> Scene {
     Scene::load(&source, sets, &scene::Options::default()).unwrap_or_else(|faults| panic!("{name}: {faults}"))
 }
 
-/// Begins a run, or goes on with it, until it ends in some way.
+/// Begins a run, or continues with it, until it ends in some way.
 fn part<B: Backend>(
     scene: Option<Scene>,
     out: &Path,

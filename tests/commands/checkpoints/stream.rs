@@ -1,4 +1,4 @@
-//! A thread writes files while the run goes on: its faults end the run, a slow disk holds it, and what comes of it are the same files.
+//! A thread writes files while the run continues: its faults end the run, a slow disk holds it, and what comes of it are the same files.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -66,7 +66,7 @@ fn a_file_that_cannot_be_written_ends_the_run_with_its_name() {
         std::fs::create_dir_all(place.at("out").join(name)).expect("a folder");
         let (code, words) = place.run("a.toml", "out", &[]);
         assert!(code == 8 && words.contains("cannot write") && words.contains(name), "{code} {words}");
-        // It ended soon, and the checkpoint before it goes on once the name is free.
+        // It ended soon, and the checkpoint before it continues once the name is free.
         let rows = std::fs::read_to_string(place.at("out/energy.csv")).expect("a table").lines().count();
         assert!((2..6).contains(&rows), "{rows} lines");
         let kept = place.checkpoints("out");
@@ -78,7 +78,7 @@ fn a_file_that_cannot_be_written_ends_the_run_with_its_name() {
     }
 }
 
-/// A pipe that is not read is a disk that does not answer: the device goes on for some outputs, and no further.
+/// A pipe that is not read is a disk that does not answer: the device continues for some outputs, and no further.
 #[cfg(unix)]
 #[test]
 fn a_slow_disk_holds_the_run_and_the_files_are_the_same() {

@@ -72,7 +72,7 @@ fn results_of_another_run_are_removed_when_that_is_asked_for() {
     assert!(place.names("out/frames").is_empty());
 }
 
-/// A run that goes on for minutes, unless it is ended.
+/// A run that continues for minutes, unless it is ended.
 fn long(place: &Place) -> Running {
     let (scene, out) = (place.at("a.toml"), place.at("out"));
     let mut command = motes(&["run", &scene, "-o", &out, "--backend", "cpu", "--steps", "200000000", "-q"]);

@@ -22,7 +22,7 @@ fn said(text: &str, args: &[&str]) -> String {
 /// One body at x = 1000 with v = 1 stays where it is on the device in steps of 1e-5: numbers there are 6.1e-5 apart.
 #[test]
 fn a_motion_below_single_precision_is_remarked_on() {
-    let words = "go less far in a step than the last place of single precision";
+    let words = "move less in a step than the last place of single precision";
     let lost = scene("1e-5", 10, &body("[1000, 0, 0]", "[1, 0, 0]"));
     for command in ["check", "run"] {
         let output = said(&lost, &[command]);
@@ -64,7 +64,7 @@ fn a_box_crossed_many_times_in_a_step_is_remarked_on() {
     };
     assert!(
         fast("[1e10, 0, 0]")
-            .contains("1 particles cross the periodic box in a step, particle 0 first of them, 100000000.0 times")
+            .contains("1 particles cross the periodic box in a step, the first is particle 0, 100000000.0 times")
     );
     assert!(!fast("[50, 0, 0]").contains("cross the periodic box"));
 }

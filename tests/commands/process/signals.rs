@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use crate::process::{Place, Running, SCENE, motes};
 
-/// Starts a run that goes on for minutes, and waits until it has begun.
+/// Starts a run that continues for minutes, and waits until it has begun.
 fn begun(mut command: Command, out: &str) -> Running {
     let child = command.stdout(Stdio::piped()).stderr(Stdio::null()).spawn().expect("the program starts");
     let child = Running(child);

@@ -45,7 +45,7 @@ fn steps_overlaps_and_precision_are_remarked_on() {
         "{remarks:?}"
     );
     assert!(
-        has(&remarks, Severity::Note, &["1 particles begin inside of a solid", "particle 0", "3.000e-1"]),
+        has(&remarks, Severity::Note, &["1 particles start inside of an obstacle", "particle 0", "3.000e-1"]),
         "{remarks:?}"
     );
     let long = remarks.iter().find(|remark| remark.id == "long-step").expect("it is too long");
@@ -59,7 +59,7 @@ fn steps_overlaps_and_precision_are_remarked_on() {
     assert!(calm.iter().all(|remark| remark.severity == Severity::Note), "{calm:?}");
     // Without a spring force nothing comes of springs.
     let idle = said(&Setup { forces: Vec::new(), ..setup }).expect("it can run");
-    assert!(has(&idle, Severity::Note, &["nothing comes of the springs (of which there are 2)"]), "{idle:?}");
+    assert!(has(&idle, Severity::Note, &["no force acts on the springs (2 of them)"]), "{idle:?}");
     let mut far = State::default();
     far.push(DVec3::X * 1e6, DVec3::X * 1e-3, 1.0, 0.0);
     let rounded = of_machine(&Setup::new(far, Vec::new(), 1e-3), Machine::HOST, true).expect("sense");

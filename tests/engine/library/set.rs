@@ -33,7 +33,7 @@ fn cases() -> Vec<Case> {
     ]
 }
 
-/// Particles that nothing ties.
+/// Particles without links.
 fn free(count: usize) -> motes::State {
     let mut state = cloud(count, 5);
     state.links = Links::default();
@@ -137,7 +137,7 @@ fn what_makes_no_sense_is_refused_and_changes_nothing() {
         ("gravity", "softening", true.into(), &["softening", "another kind"]),
         ("gravity", "over", "tre".into(), &["over", "did you mean \"tree\""]),
         ("gravity", "over", "tree".into(), &["`over` of `gravity`", "kernels", "snapshot()"]),
-        ("solid", "restitution", 1.5.into(), &["restitution 1.5", "1 is the most"]),
+        ("solid", "restitution", 1.5.into(), &["restitution 1.5", "the maximum is 1"]),
         ("contact", "range", 0.3.into(), &["radius 0.2", "0.15"]),
     ];
     pollster::block_on(async {

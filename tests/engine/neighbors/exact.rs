@@ -1,4 +1,4 @@
-//! A law of whole numbers: its sums are exact in any order, so that searches must agree to the bit.
+//! A law of integers: its sums are exact in any order, so that searches must agree bit for bit.
 
 use glam::{DVec3, DVec4, Vec4};
 use motes::forces::{Component, Law, Over};
@@ -93,7 +93,7 @@ pub fn found(shared: &Shared, machine: Option<Machine>, positions: &[DVec3], bou
     pollster::block_on(simulation.read(ACCELERATION)).expect("accelerations")
 }
 
-/// Fails at the first particle that meets others than it should.
+/// Fails at the first particle with the wrong neighbours.
 pub fn same(got: &[Vec4], want: &[Vec4], of: &str) {
     assert_eq!(got.len(), want.len());
     let wrong: Vec<_> = (0..got.len()).filter(|i| got[*i] != want[*i]).collect();

@@ -27,7 +27,7 @@ impl Component for Steps {
         let wgsl = "fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
             let steps = recall(you, 0u) + 1.0;
             remember(you, 0u, steps);
-            // A pair that has met often enough begins anew, by leaving nothing.
+            // A pair that has met often enough starts over, by leaving nothing.
             if steps < 9.0 { remember(you, 1u, recall(you, 1u) + f32(you.index % 7u)); }
             (*sum).acceleration += vec3f(steps, recall(you, 1u), 1.0);
         }
@@ -333,5 +333,5 @@ fn what_cannot_remember_is_refused() {
         }
     }
     let text = refusal(vec![Box::new(Forgetful)]);
-    assert!(text.contains("`recall` is for a law that keeps history") && text.contains("slots = 3"), "{text}");
+    assert!(text.contains("`recall` is for a law with history of pairs") && text.contains("slots = 3"), "{text}");
 }

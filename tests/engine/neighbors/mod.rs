@@ -1,4 +1,4 @@
-//! Neighbours: the grid against its reference, and searches through it against brute force.
+//! Neighbours: the cell list against its reference, and searches through it against brute force.
 #![allow(
     clippy::cast_sign_loss,
     clippy::cast_possible_truncation,
@@ -27,7 +27,7 @@ use motes::lockstep::compare;
 use motes::{Gpu, Setup, Simulation};
 use places::Place;
 
-/// A law that looks at everything that a visit passes to it, and vanishes at no edge.
+/// A law that reads all arguments of a visit, and is not 0 at the cut-off radius.
 #[derive(Clone)]
 pub struct Curious(pub Over);
 

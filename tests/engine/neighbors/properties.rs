@@ -1,4 +1,4 @@
-//! Anywhere, in any box, at any range: searches meet exactly those that brute force finds.
+//! Anywhere, in any box, at any range: searches find exactly those that brute force finds.
 
 use glam::DVec3;
 use motes::forces::Over;
@@ -40,7 +40,7 @@ impl Case {
         }
         bounds
     }
-    /// Inside of the box, where the device's arithmetic and the host's are the same to the bit.
+    /// Inside of the box, where the device's arithmetic and the host's are the same bit for bit.
     fn positions(&self) -> Vec<DVec3> {
         let mut random = Random::new(self.seed);
         let mut number = || 0.5 + 0.499_999 * random.next();

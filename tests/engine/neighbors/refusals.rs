@@ -36,7 +36,7 @@ fn ranges_that_are_none_are_refused() {
     }
     for count in [0, 17, u32::MAX] {
         let text = refusal(Over::Nearest { count });
-        assert!(text.contains(&format!("`whole` is to meet its {count} nearest: it can meet 1 to 16")), "{text}");
+        assert!(text.contains(&format!("`whole` searches {count} nearest neighbours: 1 to 16 are possible")), "{text}");
     }
 }
 
@@ -97,7 +97,7 @@ fn particles_at_nan_are_named_and_meet_none() {
                     simulation.step(0).expect("a start");
                     let error = pollster::block_on(simulation.check()).expect_err("an alarm");
                     assert!(matches!(error, Error::NotFinite { particle: 60, step: 0 }), "{name}: {error}");
-                    // All others meet what they would meet without the two.
+                    // All others have the neighbours that they would have without the two.
                     let mut others = positions.clone();
                     (others[60], others[131]) = (DVec3::NAN, DVec3::NAN);
                     let mut want = match over {

@@ -83,27 +83,35 @@ fn bindings_in_places_that_are_not_a_laws() {
 #[test]
 fn what_motes_writes_is_not_a_laws() {
     let alarm = "@group(3) @binding(5) var<storage, read_write> alarm: array<atomic<u32>>;";
-    refused(Over::Each, &each(alarm, "atomicStore(&alarm[0], 3u); return vec4f();"), &["`alarm` belongs to motes"]);
+    refused(
+        Over::Each,
+        &each(alarm, "atomicStore(&alarm[0], 3u); return vec4f();"),
+        &["`alarm` is a buffer that only motes writes"],
+    );
     for (over, inside) in [
         (Over::Pairs, "acceleration[you.index] = vec4f();"),
         (Over::Pairs, "parts[0] = Sum();"),
         (Over::Near { range: 0.5, of: None }, "atomicStore(&alarm[2], 3u);"),
     ] {
         let gather = GATHER.replace("(*sum).acceleration += r;", inside);
-        refused(over, &format!("{gather}\n{FINISH}"), &["belongs to motes", "l.wgsl:1:"]);
+        refused(over, &format!("{gather}\n{FINISH}"), &["is a buffer that only motes writes", "l.wgsl:1:"]);
     }
-    refused(Over::Each, &each("", "acceleration[0] = vec4f(); return vec4f();"), &["`acceleration` belongs to motes"]);
+    refused(
+        Over::Each,
+        &each("", "acceleration[0] = vec4f(); return vec4f();"),
+        &["`acceleration` is a buffer that only motes writes"],
+    );
     // What a plan of motes has beside: in every measurement, or under one integrator.
     let own = |name: &str| {
         let own = format!("@group(3) @binding(5) var<storage, read_write> {name}: array<vec4f>;");
         each(&own, &format!("{name}[me.index].x += 1.0; return vec4f();"))
     };
-    refused(Over::Each, &own("kept_acceleration"), &["`kept_acceleration` belongs to motes"]);
+    refused(Over::Each, &own("kept_acceleration"), &["`kept_acceleration` is a buffer that only motes writes"]);
     let shared = support::device();
     let by = |method| made(&shared, Over::Each, &own("start_position"), &[], (method, 40)).map(|_| ());
     assert!(by("leapfrog").is_ok(), "it is the law's own there");
     let said = by("rk4").expect_err("it is the method's").to_string();
-    assert!(said.contains("l.wgsl: `start_position` belongs to motes"), "{said}");
+    assert!(said.contains("l.wgsl: `start_position` is a buffer that only motes writes"), "{said}");
 }
 
 #[test]

@@ -16,7 +16,7 @@ use crate::support::mutants::mutants;
 use crate::support::states::integrator;
 use crate::support::{self, Shared};
 
-/// A law of which `n` turns add 1 each, for all that one meets.
+/// A law of which `n` turns add 1 each, for each interaction.
 fn meetings(arguments: &str) -> String {
     format!(
         "struct Params {{ n: u32 }}
@@ -99,7 +99,7 @@ fn law(shared: &Shared, over: Over, count: usize, wgsl: &str, n: Option<u32>) ->
     accelerations(shared, support::cloud(count, 3), Box::new(custom(over, wgsl, n)))
 }
 
-/// Whether this driver ends long loops without a word.
+/// Whether this driver ends long loops silently.
 fn cuts(shared: &MutexGuard<'static, Shared>) -> bool {
     let mut gpu = Gpu::new(&shared.found.device, &shared.found.queue, 1).expect("a GPU");
     let findings = pollster::block_on(examine(&mut gpu, &Questions::default())).expect("findings");
@@ -149,7 +149,7 @@ fn a_sum_that_a_driver_cuts_is_never_silent() {
     let cuts = cuts(&shared);
     let near = Over::Near { range: 100.0, of: None };
     let tree = Over::Tree { opening: Opening::Geometric { theta: 0.01 }, core: 0.0, auto: false };
-    // Far above 65 535 turns for one invocation; all of 1200 are met, or seven.
+    // Far above 65 535 iterations for one invocation; all of 1200 are evaluated, or seven.
     for (over, met, n) in [
         (Over::Pairs, 1199.0, 600),
         (near, 1199.0, 400),
@@ -169,7 +169,7 @@ fn a_sum_that_a_driver_cuts_is_never_silent() {
     assert!(said.iter().all(|x| *x == 60_000.0), "{said:?}");
 }
 
-/// A walk of a tree stops early enough for the loops of its law, and goes on.
+/// A walk of a tree stops early enough for the loops of its law, and continues.
 #[test]
 fn a_walk_goes_on_that_leaves_turns_to_its_law() {
     let shared = support::device();
@@ -232,7 +232,7 @@ fn short() -> String {
     text
 }
 
-/// What a law of so many turns comes to, with this text in place of what looks at them: why it ends, if it does, and the
+/// What a law of so many iterations comes to, with this text in place of what looks at them: why it ends, if it does, and the
 /// accelerations.
 fn with(shared: &Shared, turns: &str, n: u32) -> (Option<String>, Vec<f32>) {
     let force = Changed { law: custom(Over::Each, EACH, Some(n)), turns: turns.to_owned() };

@@ -44,7 +44,7 @@ fn it_runs_over_every_visit_and_means_the_same() {
     assert!(force.iter().zip(&few).any(|(a, b)| (a - b).abs() > 1e-4), "the nearest seven are all in range");
 }
 
-/// A law over a tree, with a sum of its own and nothing about far groups: they are met as one, at their centre of mass.
+/// A law over a tree, with a sum of its own and nothing about far groups: they are evaluated as one, at their centre of mass.
 const FAR: &str = "struct Sum { pull: vec3f }
 fn merge(total: ptr<function, Sum>, part: Sum) { (*total).pull += part.pull; }
 fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
@@ -115,7 +115,7 @@ fn a_force_across_the_plane_is_refused_in_two_dimensions() {
     };
     for force in ["kind = \"goal\"\nposition = [0, 0, 3]", "kind = \"uniform\"\nacceleration = [0, 0, -1]"] {
         let (code, said) = check(force);
-        assert!(code == Some(3) && said.contains("pushes across the plane"), "{force}: {code:?} {said}");
+        assert!(code == Some(3) && said.contains("accelerates out of the plane"), "{force}: {code:?} {said}");
     }
     assert_eq!(check("kind = \"goal\"\nposition = [0.3, 0.2, 0]").0, Some(0));
 }

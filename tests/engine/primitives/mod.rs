@@ -11,7 +11,7 @@ use motes::Gpu;
 use motes::kernel::{Backend, Kernel, Machine};
 use motes::lockstep::compare;
 
-/// The variants: for GPUs, and for processors that play one.
+/// The variants: for GPUs, and for software adapters.
 const MACHINES: [(&str, Machine); 2] = [
     ("gpu", Machine { software: false, subgroup: 0, invocations: 1 << 18, ..Machine::HOST }),
     ("software", Machine { software: true, subgroup: 0, invocations: 256, ..Machine::HOST }),

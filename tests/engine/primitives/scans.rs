@@ -57,7 +57,7 @@ fn a_scan_carries_from_tile_to_tile() {
     }
 }
 
-/// More than 2²⁴, the whole numbers of an f32, and as many as the device binds. Lavapipe binds 128 MiB, 2²⁵ words: what is
+/// More than 2²⁴, the integers of an f32, and as many as the device binds. Lavapipe binds 128 MiB, 2²⁵ words: what is
 /// past 2²⁶ can only be planned there, as below. `cargo test --test engine -- --ignored most`
 #[test]
 #[ignore = "half a gigabyte, and a minute"]

@@ -120,7 +120,7 @@ fn a_radix_sort_of_many() {
     }
 }
 
-/// More than 2²⁴, the whole numbers of an f32, and as many as the device binds; by the processor's variant, which takes
+/// More than 2²⁴, the integers of an f32, and as many as the device binds; by the variant for software adapters, which takes
 /// a tenth of the time on lavapipe. `cargo test --test engine -- --ignored most`
 #[test]
 #[ignore = "gigabytes, and minutes"]
@@ -151,7 +151,7 @@ fn plans_for_the_most_stay_within_the_limits() {
             let table = kernel.size("cells_table").expect("a table");
             let blocks = table / 256;
             let block = u64::from(elements).div_ceil(blocks);
-            // A processor's invocation goes through a block, and through its digits before; a workgroup shares its own,
+            // A software adapter's invocation goes through a block, and through its digits before; a workgroup shares its own,
             // in tiles of 1024 with about eighty turns in each.
             let turns = if machine.software { block + 256 } else { block.div_ceil(256) + block.div_ceil(1024) * 80 };
             assert!(turns < 65_535, "{name}, {elements}: {turns} turns");

@@ -1,4 +1,4 @@
-//! What takes many dispatches: folded over two dimensions, cut into slices and layers, of more than one dispatch can meet.
+//! What takes many dispatches: folded over two dimensions, cut into slices and layers, of more than one dispatch can evaluate.
 
 use motes::gpu::Gpu;
 use motes::kernel::{ACCELERATION, Backend, Machine};
@@ -38,7 +38,7 @@ fn dispatches_fold_over_two_dimensions() {
     }
 }
 
-/// Cut into many dispatches, in one layer or more, all pairs are still evaluated; in one layer even to the bit.
+/// Cut into many dispatches, in one layer or more, all pairs are still evaluated; in one layer even bit for bit.
 #[test]
 fn cuts_change_no_bit() {
     let shared = crate::support::device();
@@ -67,7 +67,7 @@ fn cuts_change_no_bit() {
     }
 }
 
-/// So many that a dispatch may not meet all of them: of 65 537 sources it meets 127 blocks.
+/// So many that a dispatch may not evaluate all of them: of 65 537 sources it evaluates 127 blocks.
 #[test]
 fn more_than_one_dispatch_can_meet() {
     let shared = crate::support::device();
@@ -92,7 +92,7 @@ fn more_than_one_dispatch_can_meet() {
     let program = simulation.backend().compile(&alone(kernel)).expect("a program");
     simulation.backend().run(&program, 1).expect("a run");
     let got = pollster::block_on(simulation.read(ACCELERATION)).expect("accelerations");
-    // The reference would meet four billion: look at some, among them those at the seams.
+    // The reference would evaluate four billion: look at some, among them those at the seams.
     let all = &setup.state;
     let change = got.iter().map(|a| f64::from(a.truncate().length_squared())).sum::<f64>() / count as f64;
     for i in [0usize, 1, 63, 64, 255, 256, 32_767, 32_768, 40_000, 65_535, 65_536] {

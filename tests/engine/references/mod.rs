@@ -142,7 +142,7 @@ fn every_integrator_whole() {
             fill(simulation.backend(), &plans.step, count);
             // Nothing is broken here, so the watch raises no alarm: it has a test of its own. And the midpoint rule's
             // first slopes weigh nothing.
-            // Where nothing is tied, and a solve settles at once, later kernels of it have nothing to do: cloth has a test.
+            // Where nothing is linked, and a solve settles at once, later kernels of it have nothing to do: cloth has a test.
             let solve = ["begin", "product", "advance", "update", "reach", "report"];
             let idle = |v: &Verdict| {
                 let weightless = v.kernel.contains(" WEIGHT=0 ") && v.field.starts_with("slope");

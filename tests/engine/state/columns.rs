@@ -46,7 +46,7 @@ fn setup(scene: Scene) -> Setup {
 }
 
 fn started(scene: Scene) -> Simulation<Gpu> {
-    // A device of its own: tests side by side would poll one from two threads, which wgpu does not bear where a wait times out.
+    // A device of its own: tests side by side would poll one from two threads, which wgpu does not support where a wait times out.
     let own = support::open();
     Simulation::new(&own.found.device, &own.found.queue, &setup(scene)).expect("a simulation")
 }

@@ -69,7 +69,7 @@ fn a_run_from_a_table_takes_the_step_from_its_name() {
         std::fs::read(&got[1]).expect("a file") == std::fs::read(&want[2]).expect("a file"),
         "gravity is of places"
     );
-    // What cannot go on says why.
+    // What cannot continue says why.
     let end = run("plummer", &third, &["--from", want[2].to_str().expect("a name")]);
     assert_eq!(end.status.code(), Some(4));
     assert!(said(&end).contains("--until"), "{}", said(&end));

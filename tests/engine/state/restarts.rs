@@ -1,4 +1,4 @@
-//! A run that goes on from a state of another one has the bits of a run that was never stopped: in memory and from files, of every
+//! A run that continues from a state of another one has the bits of a run that was never stopped: in memory and from files, of every
 //! scene and by every integrator, on the device and by the references.
 
 use std::path::Path;
@@ -51,7 +51,7 @@ fn columns(state: &State) -> Columns {
     Columns::with(own.cloned()).expect("columns")
 }
 
-/// A state as a scene's own goes on from a file that holds it.
+/// A state as a scene's own continues from a file that holds it.
 fn filed(scene: State, state: &State, precision: Precision) -> State {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("state.npz");
@@ -192,7 +192,7 @@ fn what_a_step_kept_is_not_used_for_another_step_or_state() {
         edit(&mut state);
         assert!(!goes_on(&Setup { state, ..mixed("leapfrog") }), "{what} was changed");
     }
-    // What has not gone on begins with the accelerations of its own places: to nothing is everything drawn as before.
+    // What has not continued begins with the accelerations of its own places: to nothing is everything drawn as before.
     let mut moved = state.clone();
     moved.position_mut().iter_mut().for_each(|x| *x *= 100.0);
     moved.velocity_mut().fill(DVec3::ZERO);
@@ -305,6 +305,6 @@ fn a_table_goes_on_where_forces_depend_on_places_and_time() {
     assert!(!second.goes_on(), "a table does not hold all that a step keeps");
     second.step(REST).expect("steps");
     let got = block_on(second.snapshot()).expect("a state");
-    // Accelerations that are evaluated anew are those that the last step had: of the same places, at the same time.
+    // Accelerations that are evaluated again are those that the last step had: of the same places, at the same time.
     assert_eq!((got.position(), got.velocity(), got.step), (want.position(), want.velocity(), want.step));
 }

@@ -64,7 +64,7 @@ fn errors_of_a_sphere_are_those_of_trees() {
         assert!(got.rms < 2.0 * known.rms && got.p99 < 2.0 * known.p99, "θ = {theta}: {got:?}");
     }
     // What is left out of a group of ρ = l / d ≤ θ is ρ² of its pull without the second moments, and ρ³ with them. That
-    // more groups are met as θ falls, whose errors are as likely to help as to add up, makes it a part of an order more.
+    // more groups are evaluated as θ falls, whose errors are as likely to help as to add up, makes it a part of an order more.
     for pair in [0, 1] {
         let order = |errors: &[Error; 3]| {
             (errors[pair + 1].rms / errors[pair].rms).ln() / (THETAS[pair + 1] / THETAS[pair]).ln()
@@ -150,7 +150,7 @@ fn runs_give_the_same_bits_and_walks_agree() {
         if first.is_empty() {
             first.clone_from(&got);
         }
-        // 1500 are met: √1500 roundings by half an epsilon. The worst seen is 4.5e-7.
+        // 1500 are evaluated: √1500 roundings by half an epsilon. The worst seen is 4.5e-7.
         assert!(apart(&first, &got) < 2.3e-6, "walks do not agree: {:e}", apart(&first, &got));
         // Errors of 3e-4, alike within a group of 32, add up by chance: to √(32 / 5001) of that. Seen: 1.2e-5.
         let error = 3e-4 * (32.0 / count as f64).sqrt();

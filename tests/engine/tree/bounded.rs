@@ -1,4 +1,4 @@
-//! The group of targets that meets the most on its walk meets at most ten times the average: a dispatch waits for it.
+//! The group of targets with the most interactions on its walk has at most ten times the average: a dispatch waits for it.
 //!
 //! `TREE_BODIES=1000000 TREE_SEEDS=20 cargo test --release --test engine tree::bounded -- --nocapture` looks at as many as one likes.
 
@@ -65,7 +65,7 @@ fn bodies(places: &[DVec3]) -> Vec<Vec4> {
     places.iter().map(|x| x.extend(1.0 / places.len() as f64).as_vec4()).collect()
 }
 
-/// How many times the average the target meets that meets the most, and that average.
+/// How many times the average the interactions of the target with the most, and that average.
 fn spread(walk: &mut Walk, bodies: &[Vec4], last: &[Vec4]) -> (f32, f32) {
     walk.simulation.write(POSITION, bodies).expect("bodies");
     walk.simulation.write(ACCELERATION, last).expect("their last accelerations");
@@ -74,7 +74,7 @@ fn spread(walk: &mut Walk, bodies: &[Vec4], last: &[Vec4]) -> (f32, f32) {
     (met.iter().fold(0.0_f32, |most, met| most.max(*met)) / mean as f32, mean as f32)
 }
 
-/// The walk that is fastest here; all of them meet the same.
+/// The walk that is fastest here; all of them evaluate the same.
 fn walk(shared: &Shared, bodies: &[Vec4], bounds: Bounds, opening: Opening) -> Walk {
     let machine = machines::walkers(shared).into_iter().last().expect("a walk").1;
     let gpu = machines::gpu(shared, bodies.len());

@@ -55,7 +55,7 @@ impl Sums {
         let (mut mass, mut first) = (0.0, DVec3::ZERO);
         for b in bodies {
             let x = b.truncate();
-            // From the first one on, so that those at one place are there to the bit.
+            // From the first one on, so that those at one place are there bit for bit.
             let way = b.w * (x - bodies[0].truncate());
             (low, high, mass, first) = (low.min(x), high.max(x), mass + b.w, first + way);
         }

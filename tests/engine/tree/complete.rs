@@ -1,4 +1,4 @@
-//! No particle is left out and none is met twice: a law that adds up the mass it sees, in whole numbers, which f32 holds.
+//! No particle is left out and none is evaluated twice: a law that adds up the mass it sees, in integers, which f32 holds.
 
 use glam::{DVec3, Vec4};
 use motes::forces::{Law, Over, Particle};
@@ -9,7 +9,7 @@ use crate::support::{self, Random, machines::walkers};
 use crate::tree::sets::awkward;
 use crate::tree::walks::{Alone, Walk, over};
 
-/// A law with a sum of its own, and none for far groups: they are met as one particle.
+/// A law with a sum of its own, and none for far groups: they are evaluated as one particle.
 const WGSL: &str = "struct Sum { mass: f32, met: f32 }
     fn merge(total: ptr<function, Sum>, part: Sum) {
         (*total).mass += part.mass;
@@ -17,7 +17,7 @@ const WGSL: &str = "struct Sum { mass: f32, met: f32 }
     }
     fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
         (*sum).mass += you.mass;
-        // As one: only what is met by itself has an index.
+        // As one: only single particles have an index.
         if you.index < world.count && you.mass > 0.0 { (*sum).met += 1.0; }
     }
     fn finish(me: Particle, sum: Sum) -> vec4f { return vec4f(sum.mass, sum.met, me.mass, 0.0); }";
@@ -119,7 +119,7 @@ fn so_they_do_in_a_deep_tree() {
     complete("deep", &mut walk, &bodies);
 }
 
-/// What fills a place, and a particle itself, is met by no law: one that does not multiply by mass would notice.
+/// What fills a place, and a particle itself, is passed to no law: one that does not multiply by mass would notice.
 #[test]
 fn padding_and_oneself_are_not_met() {
     let shared = support::device();

@@ -104,7 +104,7 @@ fn they_agree_in_a_periodic_cube() {
     }
 }
 
-/// In dispatches of a few groups each the walk does the same to the bit, and so it does where a device folds a dispatch
+/// In dispatches of a few groups each the walk does the same bit for bit, and so it does where a device folds a dispatch
 /// over two dimensions, of which the last row is not full.
 #[test]
 fn cuts_and_folds_change_no_bit() {

@@ -7,7 +7,7 @@ use motes::tree::{Opening, Tree};
 
 use crate::support::{Random, Shared, machines};
 
-/// The variants of the sort and of reductions: for GPUs, and for processors that play one.
+/// The variants of the sort and of reductions: for GPUs, and for software adapters.
 pub const MACHINES: [Machine; 2] = [
     Machine { software: true, subgroup: 0, invocations: 256, ..Machine::HOST },
     Machine { software: false, subgroup: 0, invocations: 1 << 18, ..Machine::HOST },

@@ -1,4 +1,4 @@
-//! Where a driver ends loops after so many turns, walks go on in other dispatches: nothing is lost, and no particle is met twice.
+//! Where a driver ends loops after so many iterations, walks continue in other dispatches: nothing is lost, and no particle is evaluated twice.
 
 use motes::Error;
 use motes::kernel::Machine;
@@ -9,7 +9,7 @@ use crate::tree::complete::{complete, counted, weighed};
 use crate::tree::sets::cloud;
 use crate::tree::walks::{Alone, Settings, USUAL, Walk, gravity, over};
 
-/// The machines that end loops, with so few turns that walks go on many times.
+/// The machines that end loops, with so few turns that walks continue many times.
 fn walkers_of(shared: &support::Shared, turns: u32) -> Vec<(&'static str, Machine)> {
     let mut all = walkers(shared);
     all.retain(|(_, machine)| machine.software);
@@ -74,7 +74,7 @@ fn a_walk_that_is_not_done_is_an_alarm() {
     }
 }
 
-/// A GPU ends no loops: there is nothing to go on with.
+/// A GPU ends no loops: there is nothing to continue with.
 #[test]
 fn a_gpu_walks_at_once() {
     let shared = support::device();

@@ -122,7 +122,7 @@ impl Walk {
         let mut passes = self.plan.kernels.iter().flat_map(|kernel| &kernel.passes);
         passes.any(|pass| pass.shader.sources().iter().any(|source| source.file.ends_with(file)))
     }
-    /// How many times a walk goes on, at most, summed over its dispatches.
+    /// How many times a walk continues, at most, summed over its dispatches.
     pub fn rounds(&mut self) -> usize {
         self.passes().iter().filter(|pass| pass.indirect.is_some()).count()
     }

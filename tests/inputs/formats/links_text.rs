@@ -102,11 +102,11 @@ fn links_that_make_no_sense_have_a_line() {
         "a,b,rest,stiffness,damping,tie\n0,1,1e300,,,spring\n1,2,,0,0,spring\n2,3,0,,,rope\n3,4,0,,,rod\n4,5,,1e-60,,spring\n",
     );
     let expected = [
-        "line 2: what ties 0 and 1 has the rest length 1e300, not a finite number, zero or above",
-        "line 3: what ties 1 and 2 has neither stiffness nor damping: it does nothing; remove it",
-        "line 4: what ties 2 and 3 is a rope of no length: it never is slack; make it a spring",
-        "line 5: what ties 3 and 4 has no length: make its two particles one",
-        "line 6: what ties 4 and 5 has the stiffness 1e-60, which single precision takes for 0: say 0, or more",
+        "line 2: the link of 0 and 1 has the rest length 1e300, not a finite number, zero or above",
+        "line 3: the link of 1 and 2 has neither stiffness nor damping, and has no effect: remove it",
+        "line 4: the link of 2 and 3 is a rope of length 0, which is never slack: make it a spring",
+        "line 5: the link of 3 and 4 has length 0: merge its two particles",
+        "line 6: the link of 4 and 5 has the stiffness 1e-60, which is 0 in single precision: give 0, or a larger number",
     ];
     assert_eq!(found, expected);
 }

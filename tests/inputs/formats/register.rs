@@ -454,7 +454,7 @@ fn a_file_is_converted_and_losses_are_reported() {
     let done = formats::convert(&csv, &path("g.ply"), Some(Precision::Single)).expect("ply");
     assert!(done.lost.join("").contains("digits of `position`"), "{:?}", done.lost);
     for (name, want) in
-        [("h.gadget", "are read, not written"), ("h.txt", "its ending says no format: give one of .npz")]
+        [("h.gadget", "are read, not written"), ("h.txt", "its extension names no format: use one of .npz")]
     {
         let said = formats::convert(&csv, &path(name), None).expect_err(want).to_string();
         assert!(said.contains(want) && !path(name).exists(), "{said}");

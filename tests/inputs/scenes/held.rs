@@ -1,4 +1,4 @@
-//! Held particles and motions in scenes: what they become, and what is wrong with them, whole as a user reads it.
+//! Fixed particles and motions in scenes: what they become, and what is wrong with them, whole as a user reads it.
 
 use motes::motion::{Held, Hold};
 
@@ -80,7 +80,7 @@ motion = \"lit\"
         "two motions are called \"lift\"",
         "a key lacks `time`",
         "the motion \"jump\" repeats, and its last key is another pose",
-        "particle 0 is held already",
+        "particle 0 is fixed already",
         "there is no particle 1 in [[particles]]",
         "`fixed` must be a list of whole numbers, zero or above, not 0.5",
     ] {
@@ -92,7 +92,7 @@ motion = \"lit\"
         faults(&format!("{HEAD}{good}motion = \"lit\"\n[[force]]\nkind = \"solid\"\nmotion = \"lft\"\n")).to_string();
     assert_eq!(said.matches("did you mean \"lift\"?").count(), 2, "{said}");
     let said = faults(&format!("{HEAD}{good}motion = \"lift\"\n")).to_string();
-    assert!(said.contains("no particle in [[particles]] is held, so the motion moves nothing"), "{said}");
+    assert!(said.contains("no particle in [[particles]] is fixed, so the motion moves nothing"), "{said}");
     let said =
         faults(&format!("{HEAD}[[particles]]\nbodies = [{{ position = [0, 0, 0] }}]\nmotion = \"lift\"\n")).to_string();
     assert!(said.contains("there is no motion \"lift\"") && said.contains("add\n\n         [[motion]]"), "{said}");

@@ -197,7 +197,7 @@ bodies = [{ position = [0, 0, 0] }]
 kind = "gravity"
 "#,
         &[],
-        "error: there can be several [[force]], so it stands in double brackets
+        "error: there can be several [[force]], so it is written in double brackets
   --> a.toml:6:1
    |
  6 | [force]
@@ -219,7 +219,7 @@ bodies = [{ position = [0, 0, 0] }]
 every = 5
 ",
         &[],
-        "error: there is only one [output], so it stands in single brackets
+        "error: there is only one [output], so it is written in single brackets
   --> a.toml:6:1
    |
  6 | [[output]]
@@ -239,7 +239,7 @@ steps = 10
 bodies = [{ position = [0, 0, 0] }]
 ",
         &[],
-        "error: the key `dt` stands outside of every section
+        "error: the key `dt` is outside of every section
   --> a.toml:1:1
    |
  1 | dt = 0.1

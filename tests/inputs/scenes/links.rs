@@ -1,4 +1,4 @@
-//! `[[links]]`: what ties particles, and all that can be wrong with it.
+//! `[[links]]`: links, and all that can be wrong with it.
 
 use motes::links::{Link, Rod};
 

@@ -87,7 +87,7 @@ zoom = 2
         "14 `softening` must be a number, zero or above, not -0.1",
         "16 unknown format \"gif\"",
         "17 unknown section `camera`",
-        "0 `every` is no interval of outputs",
+        "0 `every` is not a valid interval of outputs",
     ];
     assert_eq!(found, expected);
     assert_eq!((report.total, report.exit_code()), (9, 3));

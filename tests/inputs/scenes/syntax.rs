@@ -7,7 +7,7 @@ fn no_quotes() {
     assert_report(
         "[simulation]\ndt = 0.1\nsteps = 10\nintegrator = rk4\n[[particles]]\nbodies = [{ position = [0, 0, 0] }]\n",
         &[],
-        r#"error: text must stand in quotes: "rk4"
+        r#"error: text must be in quotes: "rk4"
   --> a.toml:4:14
    |
  4 | integrator = rk4

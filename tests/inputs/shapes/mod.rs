@@ -1,4 +1,4 @@
-//! The generators: same bits for ever, the totals they promise, and the models' published numbers within sampling error.
+//! The generators: same bits forever, the totals they promise, and the models' published numbers within sampling error.
 
 mod clustered;
 mod disk;
@@ -39,7 +39,7 @@ fn make(name: &str, values: &[(&'static str, f64)]) -> State {
     made(name, &settings(name, values))
 }
 
-/// All numbers of what is tied and held.
+/// All numbers of links and fixed particles.
 fn ties(particles: &State) -> impl Iterator<Item = f64> {
     let Links { springs, rods, joints, triangles } = &particles.links;
     let ids = |ids: &[u32]| ids.iter().map(|id| f64::from(*id)).collect::<Vec<_>>();

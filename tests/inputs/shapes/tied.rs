@@ -1,4 +1,4 @@
-//! Shapes whose particles are tied: how many ties of which lengths, which are held, and what is refused.
+//! Shapes whose particles are linked: how many links of which lengths, which are held, and what is refused.
 
 use std::borrow::Cow;
 use std::collections::BTreeSet;
@@ -112,7 +112,7 @@ fn chains() {
             ("count", number(0.0), "count is 0"),
             ("count", number(1.0), "a chain has 2 particles or more"),
             ("count", number(1e10), "ids beyond"),
-            ("to", vector(1.0, 2.0, 3.0), "from and to are one place"),
+            ("to", vector(1.0, 2.0, 3.0), "from and to are the same position"),
             ("to", Value::Vector(DVec3::INFINITY), "to is"),
             ("from", Value::Vector(DVec3::NAN), "from is"),
             ("mass", number(0.0), "mass is 0; it must be above 0"),
@@ -186,7 +186,7 @@ fn the_triangles_of_a_cloth_face_one_way() {
     for particles in [&flat, &rough] {
         let all = particles.links.triangles.iter();
         assert!(all.clone().all(|ids| area(particles, *ids).0.normalize().dot(front.normalize()) > 0.7));
-        // Each side of a triangle is run through once in each way, or is at the rim.
+        // Each side of a triangle is run through once in each way, or is at the edge.
         let sides: Vec<_> = all.flat_map(|[a, b, c]| [[*a, *b], [*b, *c], [*c, *a]]).collect();
         let known: BTreeSet<_> = sides.iter().copied().collect();
         assert_eq!(known.len(), sides.len(), "a side twice in one way");
@@ -203,10 +203,10 @@ fn cloths_that_are_none() {
             ("columns", number(1.0), "columns and rows are 1 and 5; each must be 2 or above"),
             ("rows", number(0.0), "columns and rows are 6 and 0"),
             ("rows", number(4e9), "ids beyond"),
-            ("right", vector(-0.2, 2.0, -0.6), "right and down point along one line"),
+            ("right", vector(-0.2, 2.0, -0.6), "right and down are parallel"),
             ("down", Value::Vector(DVec3::ZERO), "a direction must not be zero"),
             ("spacing", number(0.0), "spacing is 0; it must be above 0"),
-            ("stretch", number(0.0), "there is damping, and no stretch"),
+            ("stretch", number(0.0), "damping is set and stretch is 0"),
             ("shear", number(-1.0), "shear is -1"),
             ("bend", number(f64::NAN), "bend is NaN"),
             ("jitter", number(-0.1), "jitter is -0.1"),

@@ -1,4 +1,4 @@
-//! Jelly and hair: how many ties of which lengths, which way they look, and what is refused.
+//! Jelly and hair: how many links of which lengths, which way they look, and what is refused.
 
 use glam::DVec3;
 use motes::settings::Value;
@@ -115,7 +115,7 @@ fn hairs() {
     assert!(lengths.iter().any(|l| *l < 0.32) && lengths.iter().any(|l| *l > 0.48), "{lengths:?}");
     let even = made("hair", HAIR, &[("spread", number(0.0))]);
     assert!((0..40).all(|strand| (distance(&even, [5 * strand, 5 * strand + 4]) - 0.4).abs() < 1e-14));
-    // Forty belts of the cap have one root each; cos 60° is its rim.
+    // Forty belts of the cap have one root each; cos 60° is its edge.
     for (n, height) in heights.iter().enumerate() {
         assert!((height - (1.0 - 0.5 * (n as f64 + 0.5) / 40.0)).abs() < 1e-14, "{n}: {height}");
     }

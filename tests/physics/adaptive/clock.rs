@@ -1,4 +1,4 @@
-//! The time by a clock of ticks: stops are met, batches and reruns give the same bits, and methods keep their order.
+//! The time by a clock of ticks: stops are reached exactly, batches and reruns give the same bits, and methods keep their order.
 
 use glam::DVec3;
 use motes::kernel::{Backend, POSITION, Reason, VELOCITY};
@@ -31,7 +31,7 @@ fn falling() -> motes::Setup {
 #[test]
 fn a_run_ends_where_it_shall() {
     let shared = crate::support::device();
-    // At a stop forces are evaluated anew, with velocities at rest: only those that depend on velocities differ by that.
+    // At a stop forces are evaluated again, with velocities at rest: only those that depend on velocities differ by that.
     let smooth = falling_with(0.0);
     let (mut device, mut reference) = (on_gpu(&shared, &smooth), on_cpu(&smooth));
     // No whole number of anything.

@@ -70,7 +70,7 @@ fn steps_grow_by_a_fifth_at_most() {
     for _ in 0..30 {
         simulation.step(1).expect("a step");
         let now = clock(&mut simulation);
-        // A fifth of a whole number of ticks, of which there are 260000 or more.
+        // A fifth of an integer of ticks, of which there are 260000 or more.
         assert!(now.dt <= 1.2 * last && (now.dt > 1.2 * last * (1.0 - 1e-5) || now.dt >= DT), "{last} then {}", now.dt);
         grown += u32::from(now.reason == Reason::Growth);
         last = now.dt;
@@ -140,7 +140,7 @@ fn what_makes_no_sense_is_refused() {
     };
     let free = || -> Vec<Box<dyn motes::forces::Component>> { vec![Box::new(Free)] };
     let no_limit = refused(vec![force("gravity", &[])], "leapfrog", ADAPTIVE);
-    assert!(no_limit.contains("no force says how long"), "{no_limit}");
+    assert!(no_limit.contains("no force limits the time step"), "{no_limit}");
     let two = refused(vec![Box::new(Free), Box::new(Free)], "leapfrog", ADAPTIVE);
     assert!(two.contains("2 forces say"), "{two}");
     assert!(refused(free(), "backward_euler", ADAPTIVE).contains("implicit"));
@@ -160,7 +160,7 @@ fn what_makes_no_sense_is_refused() {
     }
 }
 
-/// The longest step that a viscosity allows is one that it bears: shear dies out, and at three times as long a step it does not.
+/// The longest step that a viscosity allows is stable: shear dies out, and at three times as long a step it does not.
 #[test]
 fn what_viscosity_bears_is_what_is_allowed() {
     let side = 12;

@@ -53,10 +53,10 @@ fn refusals_show_the_place() {
     let place = "--> a.toml:4:1\n";
     let dry = REST.replace("[[force]]\nkind = \"fluid\"\nspacing = 0.1\nsound_speed = 8\n", "");
     for (more, rest, says) in [
-        ("adaptive = true\n", dry.as_str(), "no force says how long a step may be"),
+        ("adaptive = true\n", dry.as_str(), "no force limits the time step"),
         ("adaptive = true\nintegrator = \"trapezoid\"\n", REST, "the integrator is implicit"),
-        ("adaptive = true\nintegrator = \"beeman\"\n", REST, "three times that are equally far apart"),
-        ("adaptive = true\ndt_min = 0.02\n", REST, "the shortest step is 2e-2, and the longest 1e-2"),
+        ("adaptive = true\nintegrator = \"beeman\"\n", REST, "three equally spaced times"),
+        ("adaptive = true\ndt_min = 0.02\n", REST, "the shortest step is 2e-2 and the longest 1e-2"),
         ("cfl = 0.3\n", REST, "`cfl` is for adaptive steps"),
         ("dt_min = 0.003\n", REST, "`dt_min` is for adaptive steps"),
     ] {
@@ -65,7 +65,7 @@ fn refusals_show_the_place() {
     }
     let walks = format!("{REST}[[force]]\nkind = \"wander\"\n");
     let said = refused("adaptive = true\n", &walks);
-    assert!(said.contains("a random walk has as many kicks") && said.contains(place), "{said}");
+    assert!(said.contains("a random walk has one kick per step") && said.contains(place), "{said}");
 }
 
 #[test]

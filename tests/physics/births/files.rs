@@ -1,4 +1,4 @@
-//! States that say which particles are active, and runs that go on from them.
+//! States that say which particles are active, and runs that continue from them.
 
 use motes::formats::{Precision, csv, npz};
 use motes::kernel::Columns;

@@ -31,7 +31,7 @@ fn the_dead_stay_dead_and_ids_are_never_reused() {
         let (now, energies) = (&snapshot, snapshot.energies().expect("energies"));
         for (id, energy) in energies.iter().enumerate().take(count) {
             let (then, is) = (last.life()[id], now.life()[id]);
-            // Life goes on, and never back.
+            // Life continues, and never back.
             assert!(then.word() <= is.word(), "{id}: {then:?} and then {is:?}");
             seen[0] += usize::from(then == Life::Pending && is != then);
             seen[1] += usize::from(is == Life::Removed && is != then);
@@ -45,7 +45,7 @@ fn the_dead_stay_dead_and_ids_are_never_reused() {
         let of = now.population();
         assert_eq!(of, pollster::block_on(simulation.population()).expect("a count"));
         assert_eq!(of.pending + of.active + of.removed, count as u64);
-        // The ledger's sums are those over the living, of their own masses.
+        // The ledger's sums are those over active particles, with their own masses.
         let own = |id: usize| {
             setup.state.births.iter().find(|b| b.id as usize == id).map_or(setup.state.mass()[id], |b| b.mass)
         };
@@ -61,7 +61,7 @@ fn the_dead_stay_dead_and_ids_are_never_reused() {
     assert!(seen[0] > 20 && seen[1] > 10, "births and deaths were seen: {seen:?}");
 }
 
-/// Particles that are not active are in no pair: the others move as if there were no others, to the bit.
+/// Particles that are not active are in no pair: the others move as if there were no others, bit for bit.
 #[test]
 fn inactive_particles_are_in_no_pair() {
     let alone = pool(Vec::new());
@@ -74,7 +74,7 @@ fn inactive_particles_are_in_no_pair() {
         pollster::block_on(simulation.read(POSITION)).expect("positions")[..n].to_vec()
     };
     let mut some = alone.state.clone();
-    // In the midst of the pool, some of them dead.
+    // In the midst of the pool, some of them removed.
     for k in n..some.len() {
         some.position_mut()[k] = some.position()[k % n] + DVec3::new(0.013, 0.021, 0.0);
         some.set_life(k, [Life::Pending, Life::Removed][k % 2]);

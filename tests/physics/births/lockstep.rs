@@ -13,7 +13,7 @@ use crate::births::{fluid_with, pool};
 use crate::support::states::{integrator, word};
 use crate::support::{self, machines};
 
-/// So many steps, and one of the plan, kernel by kernel; the clock goes on. The kernels that change something.
+/// So many steps, and one of the plan, kernel by kernel; the clock continues. The kernels that change something.
 fn agreed(simulation: &mut Simulation<Gpu>, steps: u32, plan: &Plan, name: &str) -> BTreeSet<String> {
     simulation.step(steps).expect("steps");
     let count = simulation.count();
@@ -72,7 +72,7 @@ fn states_of_density_agree_with_their_references() {
         let density = pollster::block_on(simulation.read(DENSITY)).expect("densities");
         let life = pollster::block_on(simulation.read(LIFE)).expect("lives");
         let of = |word: u32| density.iter().zip(&life).filter(move |(_, life)| **life == word).map(|(rho, _)| *rho);
-        // As at rest, until they are born; then they are pressed.
+        // As at rest, until they are spawned; then they are pressed.
         assert!(of(0).all(|rho| rho.to_bits() == 1000.0f32.to_bits()));
         assert!(of(1).any(|rho| (rho - 1000.0).abs() > 1.0));
     }

@@ -19,14 +19,14 @@ fn said(text: &str) -> String {
 #[test]
 fn faults_of_scenes_name_their_place() {
     let cases = [
-        ("[[emitter]]\nspeed = 1\n", "wants either a `spacing`", "a.toml:6:1"),
-        ("[[emitter]]\nspeed = 1\nspacing = 0.1\nrate = 3\n", "wants either a `spacing`", "a.toml:6:1"),
+        ("[[emitter]]\nspeed = 1\n", "requires either a `spacing`", "a.toml:6:1"),
+        ("[[emitter]]\nspeed = 1\nspacing = 0.1\nrate = 3\n", "requires either a `spacing`", "a.toml:6:1"),
         ("[[emitter]]\nspacing = 0.1\n", "lacks `speed`", "a.toml:6:1"),
         ("[[emitter]]\nspeed = 1\nspacing = 0.1\nspeeed = 1\n", "did you mean `speed`?", "a.toml:9:1"),
-        ("[[emitter]]\nspeed = 1\nspacing = 0.1\nstart = 7\n", "no particle would leave it", "a.toml:6:1"),
+        ("[[emitter]]\nspeed = 1\nspacing = 0.1\nstart = 7\n", "no particle would be spawned", "a.toml:6:1"),
         ("[[emitter]]\nspeed = 1\nspacing = 0.01\n", "there is room for 4999", "a.toml:6:1"),
         ("[[emitter]]\nspeed = 1\nrate = 5\nspread = 91\n", "between 0 and 90", "a.toml:6:1"),
-        ("[[emitter]]\nspeed = 1\nrate = 5\nfirst = 1\n", "need more than there are", "a.toml:9:9"),
+        ("[[emitter]]\nspeed = 1\nrate = 5\nfirst = 1\n", "are more than there are", "a.toml:9:9"),
         (
             "[box]\ndimensions = 2\n[[emitter]]\nspeed = 1\nrate = 5\ndirection = [0, 0, 1]\n",
             "out of the plane",
@@ -62,13 +62,13 @@ fn programs_get_the_same_errors() {
     assert!(check((&life, &[birth], &[drain]), &[held(0)], 2, 3).is_ok());
     let up = Birth { velocity: DVec3::Z, ..birth };
     let cases = [
-        (check((&life, &[], &[]), &[], 1, 3), "of 2 particles whether they live, and there are 1"),
-        (check((&life, &[Birth { id: 2, ..birth }], &[]), &[], 2, 3), "particle 2 is to be born, and there are 2"),
-        (check((&life, &[birth, birth], &[]), &[], 2, 3), "born twice"),
+        (check((&life, &[], &[]), &[], 1, 3), "the life of 2 particles is given, but there are 1"),
+        (check((&life, &[Birth { id: 2, ..birth }], &[]), &[], 2, 3), "particle 2 is to be spawned, but there are 2"),
+        (check((&life, &[birth, birth], &[]), &[], 2, 3), "spawned twice"),
         (check((&life, &[Birth { mass: -1.0, ..birth }], &[]), &[], 2, 3), "negative mass"),
         (check((&life, &[Birth { time: f64::NAN, ..birth }], &[]), &[], 2, 3), "NaN"),
         (check((&life, &[up], &[]), &[], 2, 2), "out of the plane"),
-        (check((&life, &[], &[]), &[held(1)], 2, 3), "particle 1 is held"),
+        (check((&life, &[], &[]), &[held(1)], 2, 3), "particle 1 is fixed"),
         (check((&life, &[], &[Drain { solid: Solid::Sphere(0.0), ..drain }]), &[], 2, 3), "drain 0 is no solid"),
         (check((&life, &[], &[drain, Drain { position: DVec3::NAN, ..drain }]), &[], 2, 3), "drain 1 is no solid"),
     ];

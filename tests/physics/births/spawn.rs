@@ -58,7 +58,7 @@ fn cases() -> Vec<Case> {
 }
 
 fn on_device(setup: &Setup) -> Simulation<Gpu> {
-    // A device of its own: tests side by side would poll one from two threads, which wgpu does not bear where a wait times out.
+    // A device of its own: tests side by side would poll one from two threads, which wgpu does not support where a wait times out.
     let own = support::open();
     Simulation::new(&own.found.device, &own.found.queue, setup).expect("a simulation")
 }
@@ -73,7 +73,7 @@ fn roomy(mut state: State, capacity: u32) -> State {
     state
 }
 
-/// Positions and velocities by id, to the bit.
+/// Positions and velocities by id, bit for bit.
 fn bits(state: &State) -> BTreeMap<u32, [u64; 6]> {
     let one = |(id, (x, v)): (&u32, (&DVec3, &DVec3))| {
         let numbers = [x.to_array(), v.to_array()].concat();
@@ -236,7 +236,7 @@ fn refusals<B: Backend>(make: impl Fn(&Setup) -> Simulation<B>) {
         (&[1, 77][..], "no particle 77"),
         (&[1, 2], "particle 2 has been removed already"),
         (&[1, 1], "particle 1 is to be removed twice"),
-        (&[1, 4], "particle 4 is tied, fixed or kinematic"),
+        (&[1, 4], "particle 4 is linked, fixed or kinematic"),
     ] {
         let why = why(ids);
         assert!(why.contains(words), "{why}");
@@ -253,7 +253,7 @@ fn refusals<B: Backend>(make: impl Fn(&Setup) -> Simulation<B>) {
         (odd, "no column `charge`"),
         (named, "get ids of their own"),
         (broken, "particle 1 has a number that is NaN"),
-        (tied, "cannot be tied"),
+        (tied, "cannot be linked"),
     ] {
         let why = wait(simulation.spawn(&new)).expect_err("a refusal").to_string();
         assert!(why.contains(words), "{why}");
@@ -307,7 +307,7 @@ fn writing_begins_at_an_offset() {
     written(by_references);
 }
 
-/// Wandering of others goes on as it would have, and where there were no free rows, it is carried over to other buffers.
+/// Wandering of others continues as it would have, and where there were no free rows, it is carried over to other buffers.
 fn walks<B: Backend>(make: impl Fn(&Setup) -> Simulation<B>) {
     for state in [roomy(some(12, 3), 12), some(12, 3)] {
         walk(&make, &state);
@@ -394,7 +394,7 @@ fn history_is_of_particles<B: Backend>(make: impl Fn(&Setup) -> Simulation<B>) {
     assert_eq!(wait(simulation.spawn(&at(&places[1..2]))).expect("spawned"), [4]);
     assert_eq!(simulation.row_of(4), Some(1));
     assert_eq!(counted(&mut simulation), [2 * (new + 8) + new, 3]);
-    // History goes on in other buffers, of more rows.
+    // History continues in other buffers, of more rows.
     assert_eq!(wait(simulation.spawn(&at(&[DVec3::splat(9.0); 1]))).expect("spawned"), [5]);
     assert_eq!((simulation.generation(), simulation.capacity()), (1, 6));
     assert_eq!(counted(&mut simulation), [2 * (new + 9) + new + 1, 3]);

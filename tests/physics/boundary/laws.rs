@@ -23,7 +23,7 @@ fn every_law_in_a_periodic_box() {
         for entry in choices::entries() {
             for variant in 0..choices::forces(entry).len() {
                 let pick = || choices::forces(entry).swap_remove(variant).1;
-                // Groups that are met as one have no nearest image.
+                // Groups that are evaluated as one have no nearest image.
                 if pick().laws().iter().any(|law| matches!(law.over, motes::forces::Over::Tree { .. })) {
                     continue;
                 }

@@ -1,4 +1,4 @@
-//! Boxes in which there is no such sum, and trees that meet nearest images.
+//! Boxes in which there is no such sum, and trees over nearest images.
 
 use glam::DVec3;
 use motes::forces::{Component, Problem, Stage};

@@ -19,9 +19,12 @@ fn check(set: &[&str]) -> (bool, String) {
 #[test]
 fn images_that_are_left_out_are_remarked_on() {
     let (good, text) = check(&["force.0.images=\"nearest\""]);
-    assert!(good && text.contains("all other images are left out") && text.contains("images = \"ewald\""), "{text}");
+    assert!(
+        good && text.contains("nearest images only, without an Ewald sum") && text.contains("images = \"ewald\""),
+        "{text}"
+    );
     let (good, text) = check(&["force.0.images=\"ewald\""]);
-    assert!(good && !text.contains("left out"), "{text}");
+    assert!(good && !text.contains("without an Ewald sum"), "{text}");
 }
 
 #[test]

@@ -143,7 +143,7 @@ fn a_tree_sums_as_exactly() {
     }
 }
 
-/// The force between two fades out before the nearest image changes, so that far groups of it are met as in open space: the
+/// The force between two fades out before the nearest image changes, so that far groups of it are evaluated as in open space: the
 /// error of a force is the same part of what a neighbour does, wherever the box ends. What the forces of all add up to is
 /// less there than in open space, where all pull towards the middle.
 #[test]

@@ -18,7 +18,7 @@ const SUPPORT: f64 = 2.5;
 const RHO: f64 = 1000.0;
 const SOUND: f64 = 10.0;
 
-/// Drops of so many spacings, one behind the other and out of each other's reach; of lattices without mirror symmetry, or
+/// Drops of so many spacings, one after the other and out of each other's reach; of lattices without mirror symmetry, or
 /// they would keep their corners. And how many are in each.
 fn drops(radii: &[f64]) -> (State, Vec<usize>) {
     let (mut particles, mut counts, mut along) = (State::default(), Vec::new(), 0.0);
@@ -41,7 +41,7 @@ fn drops(radii: &[f64]) -> (State, Vec<usize>) {
     (particles, counts)
 }
 
-/// A third of the trace of the stress that particles bear in the middle of a drop, Σ r · f / 2 of all pairs over the volume
+/// A third of the trace of the stress on particles in the middle of a drop, Σ r · f / 2 of all pairs over the volume
 /// (Clausius 1870), by pressure and by cohesion; and its radius. (The pressure of the equation of state alone is no measure: it
 /// balances cohesion too, which pulls as much where there is no surface, here by (64 / 3) γ ρ² h ∫ q³ C(q) dq = 1230. Normals are
 /// none there, so that curvature does nothing.)
@@ -117,7 +117,7 @@ fn sigmas(radii: &[f64], tension: f64) -> Vec<f64> {
     sums
 }
 
-/// Particles in a surface, as thick as a support, bear nothing of its pull: what it presses on begins below. With R − h for R the law
+/// Particles in a surface, as thick as a support, carry none of its tension: what it presses on begins below. With R − h for R the law
 /// of Laplace holds: over radii of 6 to 13 spacings, left alone for two seconds, σ was seen to be 22.7, 23.6, 22.6, 21.5 and 22.5,
 /// where with R it falls from 39 to 28. So long is too long here: after a third of a second small drops have 19, of which some 8 %
 /// go with the way in which what was a lattice has become a drop, and weaker surfaces take longer.

@@ -6,7 +6,7 @@ use motes::State;
 use crate::implicit::{hold, tie};
 use crate::support::Random;
 
-/// A cloth of n × n particles and one that is tied to nothing, a metre wide, two corners held; springs to the next, across and
+/// A cloth of n × n particles and one without links, a metre wide, two corners held; springs to the next, across and
 /// to the next but one, all as stiff.
 pub fn cloth(n: u32, stiffness: f64) -> State {
     let mut particles = State::default();

@@ -101,7 +101,7 @@ fn what_does_not_converge_says_so() {
     assert_eq!(pollster::block_on(simulation.solves()).expect("an answer"), None);
 }
 
-/// Newton's method on the cloth: more solves leave less, and held particles do not move by a bit.
+/// Newton's method on the cloth: more solves leave less, and fixed particles do not move by a bit.
 #[test]
 fn newton_converges_on_a_cloth() {
     let shared = support::device();
@@ -119,7 +119,7 @@ fn newton_converges_on_a_cloth() {
         if solves == 12 {
             assert_eq!(report.failures, 0, "{report:?}");
         }
-        // The one that is tied to nothing falls as backward Euler has it.
+        // The one without links falls as backward Euler has it.
         let (_, v) = phase(&mut simulation, particles.len() - 1);
         let want = 0.3 - 9.81 * 5.0 * H;
         assert!((v.z - want).abs() < 1e-6, "{v} should fall by {want}");

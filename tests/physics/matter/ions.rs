@@ -184,7 +184,7 @@ fn faults(pairs: &str) -> String {
 #[test]
 fn every_pair_that_is_missing_is_named_in_the_scene() {
     let some = faults("pairs = [{ species = [2, 0], repulsion = 1, decay = 0.3 }]");
-    assert!(some.contains("nothing for particles of species 0 and 0") && some.contains("species 2 and 2"), "{some}");
+    assert!(some.contains("no entry for species 0 and 0") && some.contains("species 2 and 2"), "{some}");
     assert!(!some.contains("species 0 and 2") && some.ends_with("a.toml: 2 errors"), "{some}");
     assert!(some.contains("^^^^^ add { species = [0, 0], … }"), "{some}");
     let twice =

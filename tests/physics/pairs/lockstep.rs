@@ -24,7 +24,7 @@ fn columns() -> Vec<Column> {
     forces().iter().flat_map(|force| force.columns()).collect()
 }
 
-/// Every seventh is fixed, and as many do not live, where the integrator goes on then.
+/// Every seventh is fixed, and as many do not live, where the integrator continues then.
 fn scene(count: usize, name: &str) -> Setup {
     let mut particles = crate::support::cloud(count, 11);
     particles.links = motes::links::Links::default();
@@ -139,7 +139,7 @@ fn measuring_leaves_no_trace() {
     }
 }
 
-/// What is no number is reported with its particle.
+/// What is NaN is reported with its particle.
 #[test]
 fn columns_that_are_no_numbers_are_reported() {
     let shared = crate::support::device();

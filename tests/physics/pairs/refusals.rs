@@ -42,6 +42,6 @@ fn columns_that_cannot_be_advanced_are_refused() {
     refused(bodies, &["`orientation` has its moments of inertia in `inertia`"]);
     let mut bodies = rotation::columns();
     bodies[3] = bodies[3].clone().within("angular_velocity", 0);
-    refused(bodies, &["`inertia` is of what turns, and needs a buffer of its own"]);
+    refused(bodies, &["`inertia` belongs to a rigid body, and needs its own buffer"]);
     assert!(Columns::with(rotation::columns()).is_ok());
 }

@@ -1,4 +1,4 @@
-//! Held particles: fixed ones stay to the bit, led ones are where their motions and targets say, under every integrator.
+//! Fixed particles: fixed ones stay bit for bit, kinematic ones are where their motions and targets prescribe, under every integrator.
 
 mod motions;
 

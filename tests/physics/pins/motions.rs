@@ -17,9 +17,9 @@ fn what_makes_no_sense_is_refused() {
         let error = setup(particles, "leapfrog").check().expect_err(words).to_string();
         assert!(error.contains(words), "{error} does not say `{words}`");
     };
-    refused(&|p| p.held[0].id = 12, "particle 12 is held, and there are 12");
-    refused(&|p| p.held[0].id = 0, "particle 0 is held twice");
-    refused(&|p| p.held[0].by = Hold::Motion(5), "motion 5, and there are 5");
+    refused(&|p| p.held[0].id = 12, "particle 12 is fixed, but there are 12");
+    refused(&|p| p.held[0].id = 0, "particle 0 is fixed twice");
+    refused(&|p| p.held[0].by = Hold::Motion(5), "motion 5, but there are 5");
     refused(&|p| p.motions[1].name = "pulled".to_owned(), "two motions are called \"pulled\"");
     refused(&|p| p.motions[1].keys.clear(), "has no keys");
     refused(&|p| p.motions[1].keys[1].time = -0.1, "times must grow");
@@ -33,7 +33,7 @@ fn what_makes_no_sense_is_refused() {
     flat.motions = motions();
     let bounds = Bounds { dimensions: 2, ..Bounds::default() };
     let error = Setup { bounds, ..setup(flat, "leapfrog") }.check().expect_err("out of the plane").to_string();
-    assert!(error.contains("leads out of the plane"), "{error}");
+    assert!(error.contains("leaves the plane"), "{error}");
 }
 
 #[test]

@@ -110,7 +110,7 @@ fn rods_go_through_periodic_sides() {
     }
 }
 
-/// Many copies side by side do the same to the bit: one invocation does not touch another's.
+/// Many copies side by side do the same bit for bit: one invocation does not touch another's.
 #[test]
 fn chains_side_by_side_do_the_same() {
     let shared = crate::support::device();

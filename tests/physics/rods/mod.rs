@@ -18,7 +18,7 @@ use motes::motion::{Held, Hold};
 use motes::{Bounds, Cpu, Gpu, Setup, Simulation, State, gpu};
 
 const G: f64 = 9.81;
-/// A held particle is so heavy that `Weight` leaves it alone.
+/// A fixed particle is so heavy that `Weight` leaves it alone.
 const HELD: f64 = 4096.0;
 
 /// Weight of all that is not held.

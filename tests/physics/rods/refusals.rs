@@ -33,7 +33,7 @@ fn rods_make_open_chains() {
     branch.held.push(Held { id: 1, by: Hold::Fixed });
     assert_eq!(said(&branch), "");
     branch.held.push(Held { id: 4, by: Hold::Fixed });
-    assert!(said(&branch).contains("rod 3 ties two particles that are held"), "{}", said(&branch));
+    assert!(said(&branch).contains("rod 3 connects two fixed particles"), "{}", said(&branch));
 
     let mut long = State::default();
     let line = |rods: u32| (0..=rods).map(|n| DVec3::X * (f64::from(n) - 1350.0)).collect::<Vec<_>>();

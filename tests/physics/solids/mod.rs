@@ -136,7 +136,7 @@ fn a_moving_sphere_pushes() {
         let mut particles = one(DVec3::ZERO, DVec3::ZERO);
         particles.motions = vec![slide(0.0, 1.0, 2.0)];
         let mut simulation = references(&setup(particles, vec![ball], name, 1e-3));
-        // It touches at 0.25, and goes on at 2; one that does not bounce is carried along.
+        // It touches at 0.25, and continues at 2; one that does not bounce is carried along.
         simulation.step(500).expect("steps");
         let (x, v) = phase(&mut simulation);
         assert!((v[0].x - 2.0 * (1.0 + e)).abs() < 1e-9, "{name}: it moves with {}", v[0]);
@@ -222,7 +222,7 @@ fn no_particle_is_inside_after_any_step() {
     }
 }
 
-/// In a periodic box a solid is at all its images; held particles are not pushed; other species pass.
+/// In a periodic box a solid is at all its images; fixed particles are not pushed; other species pass.
 #[test]
 fn it_meets_images_and_leaves_the_held_alone() {
     let ball = || solid("sphere", &[("position", vector(0.9, 0.0, 0.0)), ("species", number(0.0))]);

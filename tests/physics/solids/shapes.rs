@@ -71,7 +71,7 @@ fn what_makes_no_sense_is_refused() {
         let error = setup.plans(machine).err().map(|e| e.to_string()).unwrap_or_default();
         assert!(error.contains(words), "{error} does not say `{words}`");
     };
-    refused("sphere", &[("restitution", number(1.1))], "restitution 1.1: 1 is the most");
+    refused("sphere", &[("restitution", number(1.1))], "restitution 1.1: the maximum is 1");
     refused("plane", &[("motion", word("nowhere"))], "goes along with \"nowhere\"");
     refused("box", &[("size", vector(1.0, -1.0, 1.0))], "narrower than nothing");
     refused("sphere", &[("inside", Value::Flag(true)), ("thickness", number(0.6))], "narrower than nothing");

@@ -1,4 +1,4 @@
-//! Springs that break: where, when, for ever, and on both sides.
+//! Springs that break: where, when, forever, and on both sides.
 
 use glam::DVec3;
 use motes::links::Links;
@@ -15,7 +15,7 @@ fn tearing(particles: &State, strain: f64, name: &str, dt: f64) -> Setup {
     setup(particles, all, name, dt)
 }
 
-/// A row of four, of which the last is torn off.
+/// A row of four, of which the last breaks off.
 fn row() -> State {
     let mut row = at(&[[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0], [3.0, 0.0, 0.0]], 1.0);
     row.links.springs = (0..3).map(|i| spring([i, i + 1], 1.0, 100.0)).collect();
@@ -53,7 +53,7 @@ fn a_spring_breaks_in_the_step_in_which_it_is_too_long() {
     assert_eq!(before, after);
 }
 
-/// What is left goes on in another run as it would have gone on in this one.
+/// What is left continues in another run as it would have continued in this one.
 #[test]
 fn broken_stays_broken_over_a_restart() {
     let number = Value::Number;

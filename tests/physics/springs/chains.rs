@@ -1,4 +1,4 @@
-//! Chains: waves to the bit, their dispersion, and how they hang.
+//! Chains: waves bit for bit, their dispersion, and how they hang.
 
 use std::f64::consts::PI;
 
@@ -9,7 +9,7 @@ use super::{at, fix, forces, gpu, setup, spring};
 use crate::support;
 use crate::support::states::{accelerations, cpu, force, phase, vector};
 
-/// Particles in a row along x, tied one to the next.
+/// Particles in a row along x, each linked to the next.
 fn row(count: usize, spacing: f64, mass: f64, rest: f64, stiffness: f64) -> State {
     let places: Vec<[f64; 3]> = (0..count).map(|i| [spacing * i as f64, 0.0, 0.0]).collect();
     let mut particles = at(&places, mass);

@@ -1,5 +1,5 @@
 //! Limits of stability and growth factors on the device: pairs of particles on springs without rest length, which are
-//! oscillators to the bit, a pair for every y = hω, side by side.
+//! oscillators bit for bit, a pair for every y = hω, side by side.
 
 use glam::{DVec3, DVec4};
 use motes::{POSITION, State, VELOCITY};
@@ -41,7 +41,7 @@ fn run(shared: &Shared, name: &str, ys: &[f64], steps: u32) -> Vec<[DVec4; 2]> {
 const YS: [f64; 5] = [0.1, 0.3, 0.7, 1.0, 1.4];
 const STEPS: u32 = 16;
 
-/// What a step multiplies the energy by.
+/// The growth factor of the energy in a step.
 #[test]
 fn growth_factors() {
     let shared = support::device();
@@ -62,7 +62,7 @@ fn growth_factors() {
     }
 }
 
-/// What the symplectic ones keep: not the energy, but a form beside it.
+/// The invariant of symplectic integrators: not the energy, but a quadratic form close to it.
 #[test]
 fn what_is_kept() {
     let shared = support::device();
@@ -98,10 +98,10 @@ fn limits_of_stability() {
         let [below, above] = [0, 1].map(|n| ends[n][0].length_squared() + ends[n][1].length_squared());
         // Below, the ellipse of the invariant is 1 / √(1 − 0.995²) = 10 times longer than wide: 100 in energy, about.
         assert!(below < 1e3, "{name} just below its limit: {below:e}");
-        // It may be beyond all numbers by then.
+        // It may have overflowed by then.
         assert!(above.is_nan() || above > 1e6, "{name} just above its limit: {above:e}");
     }
-    // Weakly, but without an end: 1.16¹⁰⁰ is 3e6, and 1.0064²⁰⁰⁰ is 3e5.
+    // Weakly, but without bound: 1.16¹⁰⁰ is 3e6, and 1.0064²⁰⁰⁰ is 3e5.
     for (name, steps) in [("forward_euler", 100), ("midpoint", 2000), ("heun", 2000)] {
         let [x, v] = run(&shared, name, &[0.4], steps)[0];
         let grown = (x.length_squared() + v.length_squared()) / 2.09;
@@ -109,7 +109,7 @@ fn limits_of_stability() {
     }
 }
 
-/// Dampers without stiffness, far apart along x: u = v₂ − v₁ decays, u′ = −a u with a = 2 c / m. What a step makes of u.
+/// Dampers without stiffness, far apart along x: u = v₂ − v₁ decays, u′ = −a u with a = 2 c / m. The value of u after a step.
 fn decay(shared: &Shared, name: &str, zs: &[f64], steps: u32) -> Vec<f64> {
     let mut particles = State::default();
     for (n, z) in zs.iter().enumerate() {
@@ -125,7 +125,7 @@ fn decay(shared: &Shared, name: &str, zs: &[f64], steps: u32) -> Vec<f64> {
     (0..zs.len()).map(|n| f64::from(v[2 * n + 1].x) - f64::from(v[2 * n].x)).collect()
 }
 
-/// What a step multiplies by.
+/// The growth factor of a step.
 type Factor<'a> = &'a dyn Fn(f64) -> f64;
 
 /// R(z) of u′ = −a u, and where |R| leaves 1.

@@ -5,7 +5,7 @@ use motes::settings::Value;
 use super::{forces, made};
 use crate::support::states::{cpu, phase, vector, word};
 
-/// A net with its rim fixed and one load on every node: sag · k / m g.
+/// A net with its edge fixed and one load on every node: sag · k / m g.
 #[test]
 fn a_net_under_its_load() {
     // The middle, and the node next to a corner.

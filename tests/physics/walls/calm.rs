@@ -1,10 +1,10 @@
-//! Scenes that come with the program start as they are said to.
+//! Built-in scenes start as their descriptions say.
 
 use motes::{Gpu, Simulation, VELOCITY};
 
 use crate::walls::builtin;
 
-/// The fastest of the first so many particles, after each so many steps of a scene.
+/// The maximum speed of the first `first` particles of a scene, after each `every` steps.
 fn fastest(name: &str, overrides: &[&str], (first, every, times): (usize, u32, usize)) -> Vec<f32> {
     let (shared, setup) = (crate::support::device(), builtin(name, overrides));
     let gpu = Gpu::new(&shared.found.device, &shared.found.queue, setup.check().expect("a setup")).expect("room");
@@ -18,8 +18,8 @@ fn fastest(name: &str, overrides: &[&str], (first, every, times): (usize, u32, u
     speeds
 }
 
-/// Before the jet comes, which takes half a second, the pool does nothing but settle: it sinks into its pressure and layers, as
-/// slowly as a fall through half a spacing, √(2 g 0.01 m) = 0.44 m/s.
+/// Before the jet arrives, which takes half a second, the pool only settles into hydrostatic equilibrium, no
+/// faster than a fall through half a spacing, √(2 g 0.01 m) = 0.44 m/s.
 #[test]
 fn the_pool_waits_for_the_jet() {
     let speeds = fastest("fountain_pool", &[], (780, 25, 10));
@@ -27,7 +27,7 @@ fn the_pool_waits_for_the_jet() {
     assert!(speeds.iter().any(|speed| *speed > 1e-3), "{speeds:?}");
 }
 
-/// A drop at rest is drawn together by its surface, and two fly on: what a start may burst at is a fifth of the speed of
+/// A drop at rest is contracted by its surface tension, and two drops keep their velocity: the limit at the start is a fifth of the speed of
 /// sound, 2 m/s.
 #[test]
 fn drops_begin_gently() {

@@ -58,15 +58,15 @@ fn says(text: &str, sets: &[&str], code: i32, words: &[&str]) {
 #[test]
 fn steps_that_are_too_long_are_remarked_on_or_refused() {
     // 2 / ω of the lattice: 0.945 (0.1 / 40) 2, less what alpha takes.
-    says(DAM, &[], 0, &["  steps        dt = 0.001 is 0.2", "of the largest that sound bears, 0.004"]);
+    says(DAM, &[], 0, &["  steps        dt = 0.001 is 0.2", "of the stability limit by sound, 0.004"]);
     says(DAM, &["simulation.dt=0.0047"], 0, &["note: this run may explode", "the largest dt that is safe is 0.00"]);
     let lost = "this run would explode";
     says(DAM, &["simulation.dt=0.01"], 3, &[lost, "too long for leapfrog and the fluid's speed of sound"]);
     says(DAM, &["force.1.alpha=20"], 3, &[lost, "viscosity (alpha, viscosity)"]);
     says(DAM, &["force.1.viscosity=10"], 3, &[lost, "viscosity (alpha, viscosity)"]);
-    says(DAM, &["force.1.xsph=5"], 3, &[lost, "xsph is 2.", "times as strong as leapfrog bears"]);
+    says(DAM, &["force.1.xsph=5"], 3, &[lost, "xsph is 2.", "times the stability limit of leapfrog"]);
     says(DAM, &["force.1.tension=60"], 0, &["begins with an acceleration of", "is its tension too strong"]);
-    says(DAM, &["force.1.tension=1000"], 0, &["for which dt = 0.001 is too long: 3.44e-4 would do"]);
+    says(DAM, &["force.1.tension=1000"], 0, &["for which dt = 0.001 is too long: choose 3.44e-4"]);
     let (code, said) = motes("run", DAM, &["simulation.dt=0.01"]);
     assert!(code == 3 && said.contains(lost), "{said}");
     let (_, said) = motes("run", DAM, &["simulation.dt=0.0047"]);
@@ -97,7 +97,7 @@ fn faults_of_a_fluid_stand_where_they_are_mended() {
     let both = format!("{DAM}walls = \"extrapolate\"\nsolver = \"dfsph\"\n");
     says(&both, &[], 3, &["dam.toml:27:10", "^"]);
     let two = format!("{DAM}[[force]]\nkind = \"fluid\"\nspacing = 0.1\nsound_speed = 9\n");
-    says(&two, &[], 3, &["there are two forces that make a fluid", "dam.toml:26:1"]);
+    says(&two, &[], 3, &["there are two fluids of all particles", "dam.toml:26:1"]);
     let walls = DAM.replace("shape = \"block\"", "shape = \"tank\"");
     says(&walls, &[], 3, &["there is a fluid and nothing of it", "dam.toml:21:1"]);
     let (_, said) = motes("check", DAM, &["force.1.spacing=0"]);
@@ -112,10 +112,13 @@ fn a_solid_leaves_its_thickness_free() {
         &text,
         &[],
         0,
-        &["5 particles begin inside of a solid, or nearer to it than its thickness, particle 0", "1.000e-2"],
+        &[
+            "5 particles start inside of an obstacle, or closer to it than its thickness, the first is particle 0",
+            "1.000e-2",
+        ],
     );
     let (_, said) = motes("check", &text, &["force.2.thickness=0.05"]);
-    assert!(!said.contains("inside of a solid"), "{said}");
+    assert!(!said.contains("inside of an obstacle"), "{said}");
     // A container that is smaller than what it holds.
     let text = format!(
         "{DAM}{}",
@@ -148,14 +151,19 @@ fn density_that_is_hidden_by_continuity_is_remarked_on() {
 
 #[test]
 fn contradicting_parts_are_remarked_on() {
-    says(DAM, &["particles.1.spacing=0.2"], 0, &["[[particles]] has spacing = 0.2, and its fluid spacing = 0.1"]);
+    says(DAM, &["particles.1.spacing=0.2"], 0, &["[[particles]] has spacing = 0.2, and its fluid has spacing = 0.1"]);
     says(
         DAM,
         &["particles.1.wall_mass=lattice"],
         0,
-        &["has wall_mass = \"lattice\", and its fluid wall_mass = \"sampled\""],
+        &["has wall_mass = \"lattice\", and its fluid has wall_mass = \"sampled\""],
     );
-    says(DAM, &["particles.0.center=[0.25,0.7,0]"], 0, &["particles of the fluid begin out of the box, particle 35 "]);
+    says(
+        DAM,
+        &["particles.0.center=[0.25,0.7,0]"],
+        0,
+        &["particles of the fluid start outside of the box, the first is particle 35 "],
+    );
     let extrapolate = ["force.1.walls=extrapolate", "force.1.weight=[0,-1,0]"];
     says(
         DAM,
@@ -174,9 +182,9 @@ fn emitters_go_by_the_fluid() {
     let jet = format!("{DAM}{EMITTER}center = [1, 0.5, 0]\n");
     let (code, said) = motes("check", &jet, &[]);
     assert!(code == 0 && said.contains("emitter 1: ") && !said.contains("weigh "), "{said}");
-    let heavy = "particles of emitter 1 weigh 2.0000e1, and density × spacing^2 of the force is 1.0000e1";
+    let heavy = "particles of emitter 1 have mass 2.0000e1, and density × spacing^2 of the force is 1.0000e1";
     says(&jet, &["emitter.0.density=2000"], 0, &[heavy, "[[emitter]] has density = 2000"]);
-    says(&jet, &["emitter.0.center=[0.3,0.4,0]"], 0, &["emitter 1 lets particles out where others are"]);
+    says(&jet, &["emitter.0.center=[0.3,0.4,0]"], 0, &["emitter 1 spawns particles where others are"]);
 }
 
 #[test]

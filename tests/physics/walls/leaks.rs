@@ -84,7 +84,7 @@ fn splash_stays_in_the_box_of_what_we_show() {
             top = places[..fluid].iter().map(|x| x.y).fold(top, f64::max);
             time < until
         });
-        // Splash got there, or above the rim.
+        // Splash got there, or above the edge.
         assert!(top > 0.8 * high.y, "{top} of {}", high.y);
     }
 }

@@ -120,7 +120,7 @@ fn by_continuity_a_fluid_begins_at_rest() {
     let continuity = "density_by = \"continuity\"\n";
     let start = scene(false, continuity, &heavy(1100.0)).start().expect("a start").expect("a fluid");
     assert!(!start.summed && (start.densest.1 - 1.1).abs() < 1e-9, "{start:?}");
-    // What a sum would refuse stays as it is for ever, and is refused too.
+    // What a sum would refuse stays as it is forever, and is refused too.
     for by in ["density_by = \"summation\"\n", continuity] {
         assert!(refused(&scene(false, by, &heavy(2000.0))).contains("explode"));
     }

@@ -1,4 +1,4 @@
-//! What time it is by a clock that counts ticks.
+//! The time by a clock that counts ticks.
 
 use std::sync::Arc;
 

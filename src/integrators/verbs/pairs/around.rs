@@ -1,4 +1,4 @@
-//! What is done around evaluations, measurements and steps: sums begin at zero, rates are kept, numbers are watched.
+//! Kernels around evaluations, measurements and steps: sums are zeroed, rates are saved, values are checked.
 
 use super::{Part, Real, Work, kernel};
 use crate::error::Error;
@@ -71,7 +71,7 @@ impl Work for Watch {
     }
 }
 
-/// Raises the alarm when a column of particles is no number any more.
+/// Raises the alarm when a column of particles is not finite.
 pub fn watch(part: &Part, problem: &Problem) -> Result<Option<Kernel>, Error> {
     if matches!(part.shape, Shape::System(_)) {
         return Ok(None);

@@ -64,7 +64,7 @@ impl Part {
             crate::shader!("integrators/pairs/scalar.wgsl")
         }
     }
-    /// Which particles' elements go on: not those of fixed ones, nor of those that are not active.
+    /// Which particles' elements continue: not those of fixed ones, nor of those that are not active.
     fn moving(&self, problem: &Problem, host: &Host) -> Result<impl Fn(usize) -> bool + use<>, Error> {
         let (is_active, mask, slots) = (host.is_active()?, problem.mask.clone(), self.slots());
         let all = matches!(self.shape, Shape::System(_));

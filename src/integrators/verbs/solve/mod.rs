@@ -82,7 +82,7 @@ pub struct System<'a> {
 const TRIPS: u32 = 60_000;
 /// Invocations in a workgroup of the two halves of an iteration.
 const WORKGROUP: u32 = 256;
-/// Workgroups where a processor plays a GPU: a few for each of its cores, since each costs barriers.
+/// Workgroups on a software adapter: a few for each of its cores, since each costs barriers.
 const SOFTWARE: u32 = 16;
 
 impl System<'_> {

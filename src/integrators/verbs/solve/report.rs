@@ -1,4 +1,4 @@
-//! What became of the solves, kept on the device until it is read.
+//! Statistics of solves, on the device until they are read.
 
 use super::{STATE, State, System, plain, reference, with};
 use crate::error::Error;

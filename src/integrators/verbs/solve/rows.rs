@@ -10,7 +10,7 @@ use crate::kernel::{Bounds, Host, Kernel};
 use crate::links::{Half, WORDS};
 use crate::visit::{Jacobian, LINK, LINK_START, ROW, ROWS, View};
 
-/// What ties particles, as the references read it.
+/// Links, as the references read it.
 pub struct Ties<'a> {
     pub jacobian: &'a Jacobian,
     pub bodies: &'a [Particle<'a>],

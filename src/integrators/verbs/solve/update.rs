@@ -1,4 +1,4 @@
-//! What becomes of a solution.
+//! Applying a solution.
 
 use super::{DIRECTIONS, START_POSITION, START_VELOCITY, STATE, State, System, plain, reference, with};
 use crate::error::Error;
