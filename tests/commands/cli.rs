@@ -297,7 +297,7 @@ fn rules_for_whole_steps_want_their_integrators() {
         stdout + &stderr
     };
     let check = |integrator, force| output_of(&["check"], integrator, force);
-    let remark = "it wants forward_euler or symplectic_euler";
+    let remark = "it requires forward_euler or symplectic_euler";
     for (integrator, remarked) in [("leapfrog", true), ("symplectic_euler", false), ("forward_euler", false)] {
         let words = check(integrator, "\"vicsek\"");
         assert_eq!(words.contains(remark), remarked, "{words}");

@@ -19,7 +19,7 @@ pub fn check<'a>(plans: &(impl Iterator<Item = &'a Plan> + Clone), columns: &Col
             if let Some(owner) = kernels().find(|other| law(other).is_none() && other.names(name)) {
                 return Err(Error::Shader {
                     message: format!(
-                        "{file}: `{name}` belongs to motes in this simulation, where `{}` works with it: give what the law writes \
+                        "{file}: `{name}` is a buffer that only motes writes in this simulation, where `{}` works with it: give what the law writes \
                          another name",
                         owner.name
                     ),

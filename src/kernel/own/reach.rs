@@ -83,7 +83,7 @@ fn names(joined: &Joined, function: &Function) -> Result<(), Error> {
         if !theirs && is_written(variable.space) {
             let name = variable.name.as_deref().unwrap_or_default();
             let message = format!(
-                "`{name}` belongs to motes, which writes it while the law runs: a law has what its functions are given and \
+                "`{name}` is a buffer that only motes writes, while the law runs: a law has what its functions are given and \
                  the fields that it may read, and what it returns is added for it"
             );
             return Err(joined.fault(&message, function.expressions.get_span(handle), "not for a law"));

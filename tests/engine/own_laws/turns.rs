@@ -255,7 +255,7 @@ fn an_invocation_has_so_many_turns_and_no_more() {
     for n in [64, 65, 1000] {
         let (said, got) = with(&shared, &short(), n);
         let said = said.expect("above");
-        assert!(said.starts_with("`l` (l.wgsl): its loops have taken 16777216 turns"), "{n}: {said}");
+        assert!(said.starts_with("`l` (l.wgsl): its loops took 16777216 iterations"), "{n}: {said}");
         assert_eq!(got, vec![0.0; 100], "{n}: it goes on");
     }
 }

@@ -85,13 +85,13 @@ fn sizes_that_are_none() {
   --> a.toml:7:12
    |
  7 | size = [2, -3, 0]
-   |            ^^ a length above zero; or say y = \"open\"
+   |            ^^ a length above zero; or set y = \"open\"
 
 error: the box is 0 long along z, where it is reflecting
   --> a.toml:7:16
    |
  7 | size = [2, -3, 0]
-   |                ^ a length above zero; or say z = \"open\"
+   |                ^ a length above zero; or set z = \"open\"
 
 a.toml: 2 errors",
     );
@@ -148,7 +148,7 @@ fn a_plane_that_is_closed_along_z() {
     assert_report(
         &format!("{SMALL}[box]\nsize = [2, 3, 4]\ndimensions = 2\n"),
         &[],
-        "error: in 2 dimensions the box cannot be periodic along z: make it open there, or take 3
+        "error: in 2 dimensions the box cannot be periodic along z: make it open along z, or set dimensions = 3
   --> a.toml:8:14
    |
  8 | dimensions = 2

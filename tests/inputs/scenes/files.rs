@@ -79,7 +79,7 @@ fn files_outside_of_the_folder_need_trust() {
    |
  5 | file = "{name}"
    |        {carets}
-   = help: move the file beside the scene, or say --allow-outside if you trust the scene
+   = help: move the file beside the scene, or use --allow-outside if you trust the scene
 
 scene.toml: 1 error"#
         );

@@ -79,7 +79,7 @@ motion = \"lit\"
         "a key at 1 comes after one at 1",
         "two motions are called \"lift\"",
         "a key lacks `time`",
-        "the motion \"jump\" repeats, and its last key is another pose",
+        "the motion \"jump\" repeats, and its last key differs from its first",
         "particle 0 is fixed already",
         "there is no particle 1 in [[particles]]",
         "`fixed` must be a list of whole numbers, zero or above, not 0.5",

@@ -106,7 +106,7 @@ a.toml: 1 error",
 fn pairs_twice() {
     assert_faults(
         "pairs = [[0, 1], [1, 0]]\n",
-        "error: spring 1 ties particles 1 and 0, which another one ties already: make them one
+        "error: spring 1 connects particles 1 and 0, which another link connects already: merge them
   --> a.toml:10:9
    |
 10 | pairs = [[0, 1], [1, 0]]
@@ -116,7 +116,7 @@ a.toml: 1 error",
     );
     assert_faults(
         "pairs = [[0, 1]]\n[[links]]\npairs = [[0, 1]]\n",
-        "error: spring 1 ties particles 0 and 1, which another one ties already: make them one
+        "error: spring 1 connects particles 0 and 1, which another link connects already: merge them
   --> a.toml:12:9
    |
 12 | pairs = [[0, 1]]
@@ -190,7 +190,7 @@ a.toml: 4 errors"#,
     );
     assert_faults(
         "pairs = [[0, 1]]\nstiffness = 0\n",
-        "error: spring 0 has neither stiffness nor damping: it does nothing; remove it
+        "error: spring 0 has neither stiffness nor damping, and has no effect: remove it
   --> a.toml:10:9
    |
 10 | pairs = [[0, 1]]
@@ -200,7 +200,7 @@ a.toml: 1 error",
     );
     assert_faults(
         "pairs = [[0, 1]]\nrest = 0\ntie = \"rope\"\n",
-        "error: spring 0 is a rope of no length: it never is slack; make it a spring
+        "error: spring 0 is a rope of length 0, which is never slack: make it a spring
   --> a.toml:10:9
    |
 10 | pairs = [[0, 1]]

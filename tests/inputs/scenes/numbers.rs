@@ -255,7 +255,7 @@ until = 1e6
 bodies = [{ position = [0, 0, 0] }]
 ",
         &[],
-        "error: `until` is too far
+        "error: `until` is too large
   --> a.toml:3:9
    |
  3 | until = 1e6

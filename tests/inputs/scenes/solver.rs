@@ -22,19 +22,19 @@ fn values_out_of_reach() {
     assert_report(
         &(SMALL.to_owned() + "[solver]\ntolerance = 9e-7\niterations = 10001\nsolves = 101\n"),
         &[],
-        "error: `tolerance` is out of reach
+        "error: `tolerance` is out of range
   --> a.toml:7:13
    |
  7 | tolerance = 9e-7
-   |             ^^^^ from 1e-6, which single precision reaches, to below 1
+   |             ^^^^ it must be at least 1e-6, the limit of single precision, and below 1
 
-error: `iterations` is out of reach
+error: `iterations` is out of range
   --> a.toml:8:14
    |
  8 | iterations = 10001
    |              ^^^^^ at most 10000
 
-error: `solves` is out of reach
+error: `solves` is out of range
   --> a.toml:9:10
    |
  9 | solves = 101
@@ -45,11 +45,11 @@ a.toml: 3 errors",
     assert_report(
         &(SMALL.to_owned() + "[solver]\ntolerance = 1\niterations = 0\nsolves = 2.5\ntolerence = 0.1\n"),
         &[],
-        "error: `tolerance` is out of reach
+        "error: `tolerance` is out of range
   --> a.toml:7:13
    |
  7 | tolerance = 1
-   |             ^ from 1e-6, which single precision reaches, to below 1
+   |             ^ it must be at least 1e-6, the limit of single precision, and below 1
 
 error: `iterations` must be a whole number, one or above, not 0
   --> a.toml:8:14
@@ -75,11 +75,11 @@ a.toml: 4 errors",
     assert_report(
         SMALL,
         &["solver.tolerance=1"],
-        "error: `tolerance` is out of reach
+        "error: `tolerance` is out of range
   --> the command line
    |
    | --set solver.tolerance=1
-   |                        ^ from 1e-6, which single precision reaches, to below 1
+   |                        ^ it must be at least 1e-6, the limit of single precision, and below 1
 
 a.toml: 1 error",
     );
@@ -95,7 +95,7 @@ fn intervals_of_checkpoints() {
     assert_report(
         &(SMALL.to_owned() + "[checkpoint]\nevery = \"0 steps\"\n"),
         &[],
-        "error: `every` is no interval
+        "error: `every` is not a valid interval
   --> a.toml:7:9
    |
  7 | every = \"0 steps\"

@@ -142,7 +142,7 @@ fn what_makes_no_sense_is_refused() {
     let no_limit = refused(vec![force("gravity", &[])], "leapfrog", ADAPTIVE);
     assert!(no_limit.contains("no force limits the time step"), "{no_limit}");
     let two = refused(vec![Box::new(Free), Box::new(Free)], "leapfrog", ADAPTIVE);
-    assert!(two.contains("2 forces say"), "{two}");
+    assert!(two.contains("2 forces limit"), "{two}");
     assert!(refused(free(), "backward_euler", ADAPTIVE).contains("implicit"));
     let even = refused(vec![Box::new(Free), force("wander", &[])], "leapfrog", ADAPTIVE);
     assert!(even.contains("random walk"), "{even}");
