@@ -263,7 +263,7 @@ fn refusals<B: Backend>(make: impl Fn(&Setup) -> Simulation<B>) {
     let links = vec![force("gravity", &[]), force("spring", &[])];
     let mut tied = make(&setup(support::cloud(9, 2), links, Bounds::default()));
     let why = wait(tied.remove(&[0])).expect_err("a refusal").to_string();
-    assert!(why.contains("tied"), "{why}");
+    assert!(why.contains("linked"), "{why}");
     assert_eq!(wait(tied.spawn(&some(1, 2))).expect("spawned"), [9]);
 }
 

@@ -37,7 +37,7 @@ fn columns_that_cannot_be_advanced_are_refused() {
     // Bodies.
     let mut bodies = rotation::columns();
     bodies[1].rate = None;
-    refused(bodies, &["`orientation` turns by `angular_velocity`", "a torque"]);
+    refused(bodies, &["`orientation` is `angular_velocity`", "a torque"]);
     let bodies: Vec<Column> = rotation::columns().into_iter().filter(|column| column.name != "inertia").collect();
     refused(bodies, &["`orientation` has its moments of inertia in `inertia`"]);
     let mut bodies = rotation::columns();

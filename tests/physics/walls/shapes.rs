@@ -113,7 +113,7 @@ fn boxes_and_spheres_are_hollow() {
     for (surface, size, words) in [
         ("sphere", vector(1.0, 2.0, 1.0), "as large along all axes"),
         ("plane", vector(0.0, 1.0, 0.0), "a plane is above 0 along x"),
-        ("box", vector(1.0, 0.0, 1.0), "both must be above 0"),
+        ("box", vector(1.0, 0.0, 1.0), "sides must be above 0"),
         ("mesh", vector(1.0, 1.0, 1.0), "name the file"),
     ] {
         let error =
