@@ -93,27 +93,19 @@ fn systems(count: u32) -> Vec<System> {
         (entry.build)(&settings)
     };
     let system = |name, range, dt, warm, (state, bounds), force| System { name, range, dt, warm, state, bounds, force };
+    let birds =
+        |name, neighbors| system(name, range(neighbors), 0.01, 100, particles(count, 1.0, 4.0, 2.0), Box::new(boids));
+    let sparse = |name, neighbors| {
+        let law = own("density", include_str!("density.wgsl"));
+        system(name, range(neighbors), 0.02, 100, particles(count, 1.0, 0.2, 1.0), law)
+    };
     vec![
-        system("boids 7", range(7.0), 0.01, 100, particles(count, 1.0, 4.0, 2.0), Box::new(boids)),
-        system("boids 14", range(14.0), 0.01, 100, particles(count, 1.0, 4.0, 2.0), Box::new(boids)),
-        system("boids 33", range(33.0), 0.01, 100, particles(count, 1.0, 4.0, 2.0), Box::new(boids)),
+        birds("boids 7", 7.0),
+        birds("boids 14", 14.0),
+        birds("boids 33", 33.0),
         system("circles 33", 2.0, 0.01, 100, particles(count, 1.0, 4.0, 0.0), circles),
-        system(
-            "density 7",
-            range(7.0),
-            0.02,
-            100,
-            particles(count, 1.0, 0.2, 1.0),
-            own("density", include_str!("density.wgsl")),
-        ),
-        system(
-            "density 14",
-            range(14.0),
-            0.02,
-            100,
-            particles(count, 1.0, 0.2, 1.0),
-            own("density", include_str!("density.wgsl")),
-        ),
+        sparse("density 7", 7.0),
+        sparse("density 14", 14.0),
         system("density 33", 2.0, 0.02, 100, particles(count, 1.0, 0.2, 1.0), density),
         // ρ = 0.8442 and T = 0.72 when half of 1.44 has gone into melting.
         system("Lennard-Jones 55", 2.5, 0.005, 300, particles(count, 1.058, 0.02, 4.2), lennard_jones),

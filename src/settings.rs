@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 use glam::DVec3;
 
-pub use kind::{Kind, Outside, is_lost};
+pub use kind::{Kind, LARGEST_WHOLE, Outside, is_lost};
 pub use nearest::{listed, nearest, unknown};
 
 /// One value out of a scene.

@@ -119,11 +119,11 @@ impl<B: Backend> Simulation<B> {
         let padded = given.padded();
         let setup = padded.as_ref().unwrap_or(given);
         let count = setup.check()?;
-        setup.weighs()?;
         if padded.is_some() {
             backend.resize(count);
         }
         let problem = setup.problem(backend.machine())?;
+        setup.weighs(&problem)?;
         let plans = setup.plans_of(&problem)?;
         let (plan, marks, largest) = (plans.step.to_string(), alarm::marks(&plans), setup.largest(&BTreeMap::new()));
         let reports =

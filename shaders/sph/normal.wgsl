@@ -1,4 +1,4 @@
-// The surface normal, whose length grows towards the surface: n = h Σ m/ρ ∇W, over the fluid, which points inwards (Akinci, Akinci & Teschner 2013).
+// The surface normal; its length grows towards the surface: n = h Σ m/ρ ∇W, over the fluid, which points inwards (Akinci, Akinci & Teschner 2013).
 struct Sum { normal: vec3f }
 
 @group(3) @binding(4) var<storage, read_write> normal: array<vec4f>;

@@ -61,7 +61,7 @@ fn column_of<'a>(property: &'a str, columns: &Columns) -> &'a str {
 fn property_of<'a>(column: &'a Column, columns: &[&Column]) -> &'a str {
     let usual = match column.name.as_ref() {
         "position" => "pos",
- "velocity" => "velo",
+        "velocity" => "velo",
         "mass" => "masses",
         "size" => "radius",
         name => return name,

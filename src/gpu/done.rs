@@ -17,7 +17,6 @@ const SHORTEST: Duration = Duration::from_micros(20);
 const LONGEST: Duration = Duration::from_micros(500);
 
 /// Is set once all is done that was submitted before it was made.
-#[derive(Clone)]
 pub struct Done {
     event: Arc<ManualResetEvent>,
     index: wgpu::SubmissionIndex,

@@ -107,17 +107,18 @@ impl Queue {
 
     /// Waits for the oldest submission, and learns from the time it took.
     fn land(&mut self) -> Result<(), Error> {
-        let Some(Flying { done, work }) = self.flying.pop_front() else {
+        let Some(oldest) = self.flying.front() else {
             return Ok(());
         };
-        if !done.within(&self.device, self.patience)? && cfg!(not(target_arch = "wasm32")) {
+        if !oldest.done.within(&self.device, self.patience)? && cfg!(not(target_arch = "wasm32")) {
             return Err(self.timeout("a batch of steps"));
         }
-        self.learn(work);
+        self.landed();
         Ok(())
     }
-    /// From the time that a submission took.
-    fn learn(&mut self, work: u64) {
+    /// The oldest submission is done: learns from the time it took.
+    fn landed(&mut self) {
+        let Some(Flying { work, .. }) = self.flying.pop_front() else { return };
         let took = self.last_done.elapsed();
         self.last_done = Instant::now();
         // Short submissions say nothing of speed, and one slow moment should not cut the next by much.
@@ -154,7 +155,7 @@ impl Queue {
                     context.waker().wake_by_ref();
                     return Poll::Pending;
                 }
-                self.land()?;
+                self.landed();
                 deadline = Instant::now() + self.patience;
             }
             Poll::Ready(Ok(()))
@@ -166,7 +167,7 @@ impl Queue {
     pub async fn idle(&mut self) -> Result<(), Error> {
         while let Some(next) = self.flying.front() {
             next.done.awaited().await;
-            self.land()?;
+            self.landed();
         }
         Ok(())
     }

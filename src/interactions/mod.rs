@@ -24,7 +24,7 @@ components! {
     chase: Chase, "predators chase prey";
     goal: Goal, "a target to steer to and arrive at, or a roost to stay near (Reynolds 1999)";
     wander: Wander, "a random walk of velocities, with the same random numbers on every device";
-    soft_turn: SoftTurn, "a box whose soft walls turn particles back";
+    soft_turn: SoftTurn, "a box with soft walls that turn particles back";
     vicsek: Vicsek, "each particle takes the mean heading of its neighbours, with noise, in the plane (Vicsek et al. 1995)";
     born_mayer: BornMayer, "ions: repulsion and dispersion by pair of species, and damped Coulomb forces of their charges (Born & Mayer 1932)";
     contact: Contact, "granular contacts of spheres: normal springs and dashpots, friction with history, torques (Cundall & Strack 1979)";

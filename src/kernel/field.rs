@@ -102,6 +102,17 @@ impl Array {
             Self::Uint(a) => size_of_val(&**a),
         }
     }
+    /// The first element that single precision does not hold: NaN, infinite or too large.
+    #[must_use]
+    pub fn unfit(&self) -> Option<usize> {
+        let fits = |x: &f64| x.abs() <= f64::from(f32::MAX);
+        match self {
+            Self::Vec4(a) => a.iter().position(|v| !v.to_array().iter().all(fits)),
+            Self::Vec3(a) => a.iter().position(|v| !v.to_array().iter().all(fits)),
+            Self::Float(a) => a.iter().position(|x| !fits(x)),
+            Self::Uint(_) => None,
+        }
+    }
     /// Makes it as long as said; new elements hold this value.
     pub fn resize(&mut self, len: usize, [x, y, z, w]: [f64; 4]) {
         match self {

@@ -123,7 +123,7 @@ impl Columns {
         let torque = rate.rate.as_ref().and_then(|torque| self.get(torque));
         let Some(torque) = torque.filter(|torque| torque.role != Role::State && rate.role == Role::State) else {
             return Err(Error::Scene(format!(
-                "the rate of the orientation `{}` is `{}`, which must be a state whose rate is a torque that evaluations compute",
+                "the rate of the orientation `{}` is `{}`, which must be a state with a torque that evaluations compute as its rate",
                 column.name, rate.name
             )));
         };

@@ -62,12 +62,12 @@ impl Table {
     /// # Errors
     /// [`Error::Output`] when the disk fails.
     pub fn settle(&self) -> Result<(), Error> {
-        self.file.get_ref().sync_data().map_err(|error| failure(&self.path, &error.to_string()))
+        synced(self.file.get_ref(), &self.path)
     }
     /// The same behind all that a run writes until now, without waiting for it.
     pub(super) fn settle_later(&self, stream: &Stream) -> Result<(), Error> {
         let (file, path) = (self.file.get_ref().clone(), self.path.clone());
-        stream.write(&self.path, 0, move || file.sync_data().map_err(|error| failure(&path, &error.to_string())))
+        stream.write(&self.path, 0, move || synced(&file, &path))
     }
     /// Adds a row: the step, and what belongs to it.
     ///
@@ -105,6 +105,10 @@ impl Rows {
             (step, words.iter().skip(1).map(|word| word.parse().unwrap_or(f64::NAN)).collect())
         })
     }
+}
+
+fn synced(file: &File, path: &Path) -> Result<(), Error> {
+    file.sync_data().map_err(|error| failure(path, &error.to_string()))
 }
 
 fn failure(path: &Path, message: &str) -> Error {

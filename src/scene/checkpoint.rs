@@ -41,7 +41,7 @@ const FORMS: &str =
 const DEFAULT: Every = Every::Wall(600.0);
 
 impl Every {
-    fn parse(text: &str) -> Option<Self> {
+    pub(super) fn parse(text: &str) -> Option<Self> {
         if text.trim() == "never" {
             return Some(Self::Never);
         }

@@ -1,8 +1,6 @@
 //! Settings that the force `fluid` shares with the shapes and emitters of its particles: one lattice for all.
 
-use crate::error::Error;
-use crate::forces::{self, Component};
-use crate::kernel::Bounds;
+use crate::forces;
 use crate::settings::{Key, Value};
 use crate::shapes::SHAPES;
 use crate::state::State;
@@ -73,29 +71,13 @@ fn given(table: &Table<'_>, keys: &[Key], name: &str) -> Option<Value> {
     value::read(&table.get(name)?.node, key.name, key.kind, &mut Report::default())
 }
 
-/// Reports settings of a force that make no sense together, at the key that says it, or else at its table, and a fluid of nothing or
-/// beside another: `earlier` says whether there is one already. Whether it is a fluid that makes sense.
-pub(super) fn check(
-    table: &Table<'_>,
-    force: &dyn Component,
-    (bounds, particles, earlier): (&Bounds, &State, bool),
-    report: &mut Report,
-) -> bool {
-    let fault = match force.check(bounds) {
-        Err(Error::Setting { key, why }) => {
-            let place = table.get(key).map_or(table.place, |entry| &entry.node.place);
-            Fault::at(place, why)
-        }
-        Err(why) => Fault::at(table.place, why.to_string()),
-        Ok(()) if !force.properties().makes_fluid => return false,
-        Ok(()) if earlier => Fault::at(table.place, "there are two fluids of all particles: remove one of them"),
-        Ok(()) if !particles.is_empty() && particles.held.len() == particles.len() => Fault::at(
-            table.place,
-            "there is a fluid and nothing of it: all particles are held, and held particles are its walls; add a [[particles]] of \
-             shape = \"block\"",
-        ),
-        Ok(()) => return true,
-    };
-    report.push(fault);
-    true
+/// Reports, of a force that makes a fluid, a fluid of nothing or beside another: `earlier` says whether there is one already.
+pub(super) fn check(table: &Table<'_>, particles: &State, earlier: bool, report: &mut Report) {
+    if earlier {
+        report.push(Fault::at(table.place, "there are two fluids of all particles: remove one of them"));
+    } else if !particles.is_empty() && particles.held.len() == particles.len() {
+        let text = "there is a fluid and nothing of it: all particles are held, and held particles are its walls; add a [[particles]] of \
+                    shape = \"block\"";
+        report.push(Fault::at(table.place, text));
+    }
 }

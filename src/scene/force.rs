@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
+use crate::error::Error;
 use crate::forces::{self, Component, Custom, Over};
+use crate::kernel::Bounds;
 use crate::motion::Motion;
 use crate::settings::{Kind, Settings, Value};
 use crate::tree::Opening;
@@ -76,6 +78,20 @@ fn read_own(table: &Table<'_>, wgsl: &Entry, files: &Files, report: &mut Report)
             None
         }
     }
+}
+
+/// Reports settings of a force that make no sense together, or in such a box, at the key that says it, or else at its table. Whether
+/// there are none.
+pub(super) fn agrees(table: &Table<'_>, force: &dyn Component, bounds: &Bounds, report: &mut Report) -> bool {
+    let fault = match force.check(bounds) {
+        Ok(()) => return true,
+        Err(Error::Setting { key, why }) => {
+            Fault::at(table.get(key).map_or(table.place, |entry| &entry.node.place), why)
+        }
+        Err(why) => Fault::at(table.place, why.to_string()),
+    };
+    report.push(fault);
+    false
 }
 
 /// Which pairs are evaluated, with the cut-off radius or the number of neighbours that this needs.

@@ -297,7 +297,13 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
     }
     let mut flows = false;
     for (table, force) in of_forces.iter().zip(&forces) {
-        flows |= fluid::check(table, force.as_ref(), (&bounds, &particles, flows), report);
+        let agrees = force::agrees(table, force.as_ref(), &bounds, report);
+        if force.properties().makes_fluid {
+            if agrees {
+                fluid::check(table, &particles, flows, report);
+            }
+            flows = true;
+        }
     }
     out.0 += &said_of_forces.0;
 

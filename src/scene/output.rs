@@ -2,8 +2,9 @@
 
 use crate::formats::{FORMATS, Format};
 use crate::kernel::Columns;
-use crate::settings::{Key, Kind};
+use crate::settings::{Key, Kind, LARGEST_WHOLE};
 
+use super::checkpoint::Every;
 use super::report::{Fault, Report};
 use super::resolved::Writer;
 use super::tree::{Data, Entry};
@@ -33,17 +34,16 @@ const FORMS: &str = "a whole number of steps, or time of the scene as in \"0.5 t
 /// Steps from one output to the next, of a number of them or of time; the clock on the wall would write other files each time.
 fn interval(entry: &Entry, dt: f64, report: &mut Report) -> Option<u64> {
     let Data::Text(text) = &entry.node.data else { return walk::whole_from_one(entry, report) };
-    let number = text.trim().split_once(' ').filter(|(_, unit)| unit.trim() == "time");
-    let time = number.and_then(|(number, _)| number.parse().ok()).filter(|time: &f64| time.is_finite() && *time > 0.0);
-    let Some(time) = time else {
+    let Some(Every::Time(time)) = Every::parse(text) else {
+        let of_time = text.trim().split_once(' ').is_some_and(|(_, unit)| unit.trim() == "time");
         let hint = "; the time that work takes is for [checkpoint], for it gives other outputs each time";
-        let label = format!("it must be {FORMS}{}", if number.is_none() { hint } else { "" });
+        let label = format!("it must be {FORMS}{}", if of_time { "" } else { hint });
         report.push(Fault::at(&entry.node.place, "`every` is not a valid interval of outputs").label(label));
         return None;
     };
     let (steps, whole) = (time / dt, (time / dt).round());
     // A quotient of two decimal numbers is some roundings off.
-    if (1.0..=EXACT).contains(&whole) && (steps - whole).abs() <= 1e-12 * whole {
+    if (1.0..=LARGEST_WHOLE).contains(&whole) && (steps - whole).abs() <= 1e-12 * whole {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "whole, from one to 2^53")]
         return Some(whole as u64);
     }
@@ -51,9 +51,6 @@ fn interval(entry: &Entry, dt: f64, report: &mut Report) -> Option<u64> {
     report.push(Fault::at(&entry.node.place, "`every` is not a whole number of steps").label(label));
     None
 }
-
-/// Integers up to here are exact.
-const EXACT: f64 = 9_007_199_254_740_992.0;
 
 /// A number in a few digits.
 fn plain(x: f64) -> String {

@@ -173,7 +173,7 @@ impl Outside {
 }
 
 /// Above this integers are no longer exact in f64.
-const LARGEST_WHOLE: f64 = 9_007_199_254_740_992.0;
+pub const LARGEST_WHOLE: f64 = 9_007_199_254_740_992.0;
 
 /// Whether a number that is not zero becomes zero in single precision, subnormal numbers being flushed as GPUs may do.
 #[must_use]

@@ -29,7 +29,7 @@ const MOST_TRIES: f64 = 2e8;
 const SURFACES: &[&str] = &["plane", "box", "sphere", "mesh"];
 
 const KEYS: &[Key] = &[
-    Key::new("surface", Kind::Choice(SURFACES), Value::Text(Cow::Borrowed("plane")), "the shape whose surface it is"),
+    Key::new("surface", Kind::Choice(SURFACES), Value::Text(Cow::Borrowed("plane")), "the shape of the surface"),
     Key::new(
         "size",
         Kind::Vector,

@@ -146,14 +146,7 @@ impl<B: Backend> Simulation<B> {
         if self.columns().get(name).is_none() {
             return Ok(());
         }
-        let fits = |x: &f64| x.abs() <= f64::from(f32::MAX);
-        let bad = match values {
-            Array::Float(list) => list.iter().position(|x| !fits(x)),
-            Array::Vec3(list) => list.iter().position(|v| !v.to_array().iter().all(fits)),
-            Array::Vec4(list) => list.iter().position(|v| !v.to_array().iter().all(fits)),
-            Array::Uint(_) => None,
-        };
-        bad.map_or(Ok(()), |place| {
+        values.unfit().map_or(Ok(()), |place| {
             let element = first + place;
             Err(Error::Scene(format!(
                 "element {element} for the field `{name}` is NaN, infinite or beyond single precision: nothing was written"

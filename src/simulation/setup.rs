@@ -9,7 +9,7 @@ use crate::boundary;
 use crate::error::Error;
 use crate::forces::{Component, Over, Problem, Stage};
 use crate::integrators::{Integrator, Leapfrog, Step};
-use crate::kernel::{Array, Bounds, Column, Columns, ListShape, Machine, Plan, Solver, claims};
+use crate::kernel::{Bounds, Column, Columns, ListShape, Machine, Plan, Solver, claims};
 use crate::life;
 use crate::motion::{self, Hold};
 use crate::sph::{Start, Still};
@@ -259,13 +259,9 @@ impl Setup {
         Ok(())
     }
     /// Refuses particles of a fluid that weigh nothing.
-    pub(super) fn weighs(&self) -> Result<(), Error> {
-        if !self.forces.iter().any(|force| force.properties().makes_fluid) {
-            return Ok(());
-        }
-        let problem = self.problem(Machine::HOST)?;
-        for force in &self.forces {
-            if let Some(fluid) = force.resolved(&problem)?.fluid {
+    pub(super) fn weighs(&self, problem: &Problem) -> Result<(), Error> {
+        for force in self.forces.iter().filter(|force| force.properties().makes_fluid) {
+            if let Some(fluid) = force.resolved(problem)?.fluid {
                 let free = (0..self.state.len()).filter(|id| self.state.is_active(*id) && !problem.is_held(*id));
                 fluid.medium.weighs(free.map(|id| (id, self.state.mass()[id])))?;
             }
@@ -274,7 +270,6 @@ impl Setup {
     }
     /// Refuses a state that lacks a column that has no initial value, and numbers that are none.
     fn complete(&self) -> Result<(), Error> {
-        let fits = |x: f64| x.abs() <= f64::from(f32::MAX);
         for column in self.columns()?.state() {
             let name = &column.name;
             let Some(values) = self.state.get(name) else {
@@ -285,13 +280,7 @@ impl Setup {
                     "the column `{name}` has no initial value, and the state does not give it: give every particle one"
                 )));
             };
-            let bad = match values {
-                Array::Float(list) => list.iter().position(|x| !fits(*x)),
-                Array::Vec3(list) => list.iter().position(|v| !v.to_array().into_iter().all(fits)),
-                Array::Vec4(list) => list.iter().position(|v| !v.to_array().into_iter().all(fits)),
-                Array::Uint(_) => None,
-            };
-            if let Some(place) = bad {
+            if let Some(place) = values.unfit() {
                 return Err(Error::Scene(format!(
                     "particle {} has a `{name}` that is NaN, infinite or beyond single precision",
                     place / column.shape.len(1).max(1)

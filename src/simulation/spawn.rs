@@ -8,7 +8,7 @@ use super::Simulation;
 use super::grow::Room;
 use crate::boundary;
 use crate::error::Error;
-use crate::kernel::{ACCELERATION, Array, Backend, Column, ID, LIFE, POSITION, Role, Shape, VELOCITY};
+use crate::kernel::{ACCELERATION, Array, Backend, Column, ID, LIFE, Machine, POSITION, Role, Shape, VELOCITY};
 use crate::life::Life;
 use crate::neighbors::{LIST, LIST_ORIGIN};
 use crate::state::{NONE, State, parked};
@@ -149,8 +149,8 @@ impl<B: Backend> Simulation<B> {
         }
         let setup = self.setup.with_state(new.clone());
         setup.particles()?;
-        if !new.is_empty() {
-            setup.weighs()?;
+        if !new.is_empty() && setup.forces.iter().any(|force| force.properties().makes_fluid) {
+            setup.weighs(&setup.problem(Machine::HOST)?)?;
         }
         boundary::holds(&setup.bounds, new.position(), new.velocity())
     }

@@ -16,7 +16,7 @@ const WALL_PRESSURE: &str = "wall_pressure";
 
 /// The kernels that find the pressure of walls (Adami, Hu & Adams 2012, eq. 27), and write it down beside that of the fluid. That
 /// equation has g − a of the wall's own acceleration a, where this has g: a step knows a place and a velocity of a moving wall, and no
-/// more. What is left out is ρ a times the half of a support, at a wall whose motion accelerates.
+/// more. What is left out is ρ a times the half of a support, at a wall that accelerates.
 ///
 /// # Errors
 /// When the range is none, or a shader does not compile.

@@ -19,7 +19,7 @@ pub(super) const CUBE: Field<glam::Vec4> = Field::new("tree_cube");
 pub(super) const KEY: Field<u32> = Field::new("tree_key");
 pub(super) const UPPER: Field<u32> = Field::new("tree_upper");
 
-/// The level below the root whose nodes give the sum of the magnitudes of attractions.
+/// The level below the root from which the sum of the magnitudes of attractions is taken.
 pub(super) const PULLS: u32 = 6;
 /// The fraction of that sum that counts as a force where attractions cancel.
 pub(super) const PART: f64 = 1.0 / 32.0;

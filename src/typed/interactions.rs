@@ -205,7 +205,7 @@ typed! {
         /// What is evaluated: single particles.
         over: Cow<'static, str>,
     }
-    /// A box whose soft walls turn particles back.
+    /// A box with soft walls that turn particles back.
     SoftTurn "soft_turn" soft_turn() {
         /// The lowest corner of the box \[length\].
         low: DVec3,

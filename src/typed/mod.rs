@@ -26,7 +26,7 @@ use std::borrow::Cow;
 
 use glam::DVec3;
 
-use crate::settings::{Pair, Settings, Value};
+use crate::settings::{LARGEST_WHOLE, Pair, Settings, Value};
 
 /// The defaults of whatever is asked for, as in `Gravity { softening: 0.05, ..default() }`.
 #[must_use]
@@ -63,7 +63,7 @@ impl Field for u64 {
     fn value(&self) -> Value {
         // A number holds whole ones up to 2⁵³. What is above is refused, and must not be rounded to that.
         let exact = *self <= 1 << 53;
-        Value::Number(if exact { *self as f64 } else { (*self as f64).max(((1_u64 << 53) + 2) as f64) })
+        Value::Number(if exact { *self as f64 } else { (*self as f64).max(LARGEST_WHOLE.next_up()) })
     }
 }
 /// A species; none stands for all.

@@ -228,7 +228,7 @@ typed! {
     }
     /// A plane, a box, a sphere or a mesh as a wall of a fluid, of fixed particles or with a prescribed motion (Akinci et al. 2012).
     Wall "wall" wall(spacing: f64) {
-        /// The shape whose surface it is: plane, box, sphere, mesh.
+        /// The shape of the surface: plane, box, sphere, mesh.
         surface: Cow<'static, str>,
         /// Box and sphere: the sides, or three times the diameter, 0 along z for a rectangle or a circle; plane: along the level and up, where 0 up is a line \[length\].
         size: DVec3,

@@ -1,6 +1,6 @@
 //! The verbs applied to columns that components declare with a rate.
 //!
-//! A column whose rate is computed by evaluations is advanced with velocities, one whose rate is a state with positions. What is
+//! A column is advanced with velocities where evaluations compute its rate, and with positions where its rate is a state. What is
 //! carried along with positions by a rate that follows from velocities, as a density is, has its rate computed in the middle of
 //! each drift. A Runge–Kutta step gives all of them its stages. Implicit methods solve for positions and velocities alone: the
 //! columns continue explicitly, by rates computed where laws without a Jacobian are.
@@ -71,7 +71,7 @@ impl Step<'_> {
             }
         }
     }
-    /// Columns whose rates evaluations compute continue, as velocities do.
+    /// Columns with rates that evaluations compute continue, as velocities do.
     pub(super) fn kick_pairs(&mut self, factor: f64) {
         self.each_pair(|pair, columns, problem| match (&pair.way, body(pair, columns)) {
             (Way::Kick, _) => Some(advance::advance("kick", &Advanced::of(pair, columns), factor, problem)),
@@ -79,7 +79,7 @@ impl Step<'_> {
             _ => None,
         });
     }
-    /// Columns whose rates are states continue, as positions do.
+    /// Columns with rates that are states continue, as positions do.
     pub(super) fn drift_pairs(&mut self, factor: f64) {
         self.each_pair(|pair, columns, problem| match (&pair.way, body(pair, columns)) {
             (Way::Drift, _) => Some(advance::advance("drift", &Advanced::of(pair, columns), factor, problem)),

@@ -35,7 +35,7 @@ pub fn watched_sources(sources: &[Source]) -> Vec<Source> {
     sources.iter().map(watch).collect()
 }
 
-/// The text with a look at the iteration counter at the start of each loop whose turns it does not say; nothing is moved to
+/// The text with a look at the iteration counter at the start of each loop of unknown length; nothing is moved to
 /// another line. `None` where every loop says its turns, or there is none.
 fn watched(text: &str) -> Option<String> {
     let loops: Vec<Loop> = loops(text).into_iter().filter(|one| one.turns.is_none()).collect();

@@ -71,7 +71,7 @@ fn steps_that_a_caller_encoded_find_more_room_or_an_error() {
 /// Steps after which a cloud that falls in has a sixth of its size.
 pub const STEPS: u32 = 119;
 
-/// A cloud whose particles all move to its centre.
+/// A cloud of particles that all move to its centre.
 pub fn inward(count: usize, seed: u64, force: Box<dyn Component>) -> Setup {
     let mut state = support::cloud(count, seed);
     state.links = motes::links::Links::default();

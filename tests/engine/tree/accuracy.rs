@@ -64,7 +64,7 @@ fn errors_of_a_sphere_are_those_of_trees() {
         assert!(got.rms < 2.0 * known.rms && got.p99 < 2.0 * known.p99, "θ = {theta}: {got:?}");
     }
     // What is left out of a group of ρ = l / d ≤ θ is ρ² of its pull without the second moments, and ρ³ with them. That
-    // more groups are evaluated as θ falls, whose errors are as likely to help as to add up, makes it a part of an order more.
+    // more groups are evaluated as θ falls, with errors that are as likely to cancel as to add up, makes it a part of an order more.
     for pair in [0, 1] {
         let order = |errors: &[Error; 3]| {
             (errors[pair + 1].rms / errors[pair].rms).ln() / (THETAS[pair + 1] / THETAS[pair]).ln()

@@ -254,3 +254,33 @@ error: [simulation] lacks `dt`
 a.toml: 2 errors",
     );
 }
+
+/// Each at its key, and a force of another kind is no fluid beside which there could not be one.
+#[test]
+fn settings_of_a_force_that_contradict_each_other() {
+    assert_report(
+        r#"[simulation]
+dt = 0.001
+steps = 10
+[[particles]]
+bodies = [{ position = [0, 0, 0] }]
+[[force]]
+kind = "boids"
+range = 0.3
+separation_range = 0.5
+[[force]]
+kind = "fluid"
+spacing = 0.1
+density = 1
+sound_speed = 10
+"#,
+        &[],
+        "error: boids have separation_range = 0.5 and range = 0.3: no neighbour is seen beyond the range; choose a smaller separation_range, or a larger range
+  --> a.toml:9:20
+   |
+ 9 | separation_range = 0.5
+   |                    ^^^
+
+a.toml: 1 error",
+    );
+}

@@ -1,4 +1,4 @@
-//! Shapes whose particles are linked: how many links of which lengths, which are held, and what is refused.
+//! Shapes of linked particles: how many links of which lengths, which are held, and what is refused.
 
 use std::borrow::Cow;
 use std::collections::BTreeSet;

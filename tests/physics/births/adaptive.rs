@@ -19,7 +19,7 @@ const LONGEST: f64 = COURANT * 0.1 / SOUND;
 /// Of each, which single precision holds: ρ₀ d².
 const MASS: f64 = 10.0;
 
-/// A jet in the plane, four abreast, whose first row is spawned while steps are as long as they may be.
+/// A jet in the plane, four abreast; its first row is spawned while steps are as long as they may be.
 fn jet(start: f64) -> State {
     let settings = [
         ("shape", word("rectangle")),
