@@ -5,6 +5,7 @@ mod backend;
 mod bounds;
 mod column;
 mod columns;
+mod cost;
 mod field;
 mod host;
 mod list_shape;
@@ -32,6 +33,8 @@ pub use backend::{Arrival, Backend, Machine, Mobile};
 pub use bounds::{Bounds, Side};
 pub use column::{Advance, Column, Kind, Place, Role, Shape};
 pub use columns::{Columns, base};
+#[doc(hidden)]
+pub use cost::Cost;
 pub use field::{
     ACCELERATION, ALARM, ALARM_WORDS, Array, Element, Field, HOME, ID, LAW, LIFE, POSITION, QUIET, SPECIES, TARGET,
     VELOCITY,

@@ -5,6 +5,7 @@ mod small;
 #[path = "../support/mod.rs"]
 mod support;
 
+mod budget;
 mod columns;
 mod drivers;
 mod errors;
