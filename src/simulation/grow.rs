@@ -33,9 +33,11 @@ impl<B: Backend> Simulation<B> {
             state.kept.put(KEPT_ROWS, vec![f64::from(self.first_rows)]);
             (state.capacity, state.next) = (rows, self.rows.next());
         }
-        if let Room::Neighbors(neighbors) = room {
-            state.kept.put(KEPT_ROOM, vec![f64::from(neighbors)]);
-        }
+        let neighbors = match room {
+            Room::Rows(_) => self.list.map(|list| list.capacity),
+            Room::Neighbors(neighbors) => Some(neighbors),
+        };
+        state.kept.put(KEPT_ROOM, neighbors.map(f64::from).into_iter().collect());
         let setup = self.setup.with_state(state);
         let mut grown = Self::going(self.backend.alike(rows.unwrap_or(self.capacity()))?, &setup, Start::Grown)?;
         self.carry(&mut grown).await?;

@@ -31,11 +31,12 @@ pub(super) fn counted(setup: &Setup, problem: Problem) -> Result<Problem, Error>
     let most = if problem.has_inactive { most.max(visit::UNCOUNTED) } else { most };
     let count = problem.capacity;
     let shape = shape.with_room(most, count);
-    // A run that continues, or has got more rows, keeps the room that it had.
+    // A simulation that grows says how much room it makes. A state holds no room: that goes by when the list was looked at.
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
-    let room = setup.state.kept.get(KEPT_ROOM).and_then(|list| list.first()).map_or(0, |room| *room as u32);
-    let kept = room.min(count).max(u32::try_from(pair_history::longest(&setup.state)).unwrap_or(u32::MAX));
-    let capacity = if kept == 0 || kept < most { shape.capacity } else { kept.div_ceil(4).saturating_mul(4) };
+    let made = setup.state.kept.get(KEPT_ROOM).and_then(|list| list.first()).map_or(0, |room| *room as u32).min(count);
+    let made = if made == 0 || made < most { shape.capacity } else { made };
+    let remembered = u32::try_from(pair_history::longest(&setup.state)).unwrap_or(u32::MAX);
+    let capacity = made.max(remembered).div_ceil(4).saturating_mul(4);
     Ok(problem.listed(Some(ListShape { capacity, ..shape })))
 }
 

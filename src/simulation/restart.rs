@@ -21,9 +21,9 @@ use crate::links::Links;
 use crate::motion;
 use crate::sph::{DFSPH_ERRORS, DFSPH_REPORT};
 use crate::state::{
-    KEPT, KEPT_BROKEN, KEPT_EXTENT, KEPT_HOME, KEPT_NEIGHBORS, KEPT_PAIR_WORDS, KEPT_PAIRS, KEPT_ROOM, KEPT_ROWS,
-    KEPT_STEP, State,
+    KEPT, KEPT_BROKEN, KEPT_EXTENT, KEPT_HOME, KEPT_NEIGHBORS, KEPT_PAIR_WORDS, KEPT_PAIRS, KEPT_ROWS, KEPT_STEP, State,
 };
+use crate::visit;
 
 /// How far time and step may disagree, as a part of a step: 2³² steps of a time in double precision.
 const AGREEMENT: f64 = 1e-6;
@@ -133,22 +133,23 @@ impl Print {
     }
 }
 
-/// A number that two steps share only where they do the same.
+/// A number that two steps share only where they do the same: names are not counted, nor how many neighbours a list has room for, which goes
+/// by when it was looked at.
 pub(super) fn print(step: &Plan) -> u64 {
     let mut print = Print::new();
     for kernel in step.steps() {
-        print.add(kernel.name.as_bytes());
         for pass in &kernel.passes {
             print.add(pass.shader.text().as_bytes());
-            pass.constants.iter().for_each(|(name, value)| {
+            pass.constants.iter().filter(|(name, _)| *name != visit::LIST_ROOM).for_each(|(name, value)| {
                 print.add(name.as_bytes());
                 print.add(&value.to_bits().to_le_bytes());
             });
             pass.uniforms.iter().for_each(|(_, bytes)| print.add(bytes));
             pass.fields.iter().for_each(|(_, field)| print.add(field.as_bytes()));
         }
-        // Springs break: those that are left stand in the state.
-        for (_, words) in kernel.tables.iter().filter(|(name, _)| name != crate::visit::LINK) {
+        // Springs break: those that are left stand in the state. A list grows, and is as good.
+        let changes = |name: &str| [visit::LINK, visit::LIST_ALL].contains(&name);
+        for (_, words) in kernel.tables.iter().filter(|(name, _)| !changes(name)) {
             words.iter().for_each(|word| print.add(&word.to_le_bytes()));
         }
     }
@@ -332,7 +333,6 @@ impl<B: Backend> Simulation<B> {
         }
         let neighbors = self.problem.neighbors.iter().flat_map(|one| [one.range, one.mean]);
         state.kept.put(KEPT_NEIGHBORS, neighbors.collect());
-        state.kept.put(KEPT_ROOM, self.list.map(|list| f64::from(list.capacity)).into_iter().collect());
         Ok(())
     }
     /// Says of a state that this step has made it.

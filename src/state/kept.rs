@@ -27,7 +27,7 @@ const LASTING: [&str; 5] = [HOME, BROKEN, PAIRS, PAIR_WORDS, "kept_step_clock"];
 pub(crate) const ROWS: &str = "kept_rows";
 /// How many neighbours particles had at the start of the run, by which searches were chosen: ranges and means.
 pub(crate) const NEIGHBORS: &str = "kept_neighbors";
-/// How many neighbours of a particle the list had room for.
+/// How many neighbours of a particle a list shall have room for: said by a simulation that grows, and by no state that it gives.
 pub(crate) const ROOM: &str = "kept_room";
 
 /// The id from which on no particle has had one, in files.

@@ -3,7 +3,7 @@
 mod build;
 mod reference;
 
-pub use build::kernel as build;
+pub use build::{ALL, ROOM, kernel as build};
 pub use reference::{Memory, remembering};
 
 use super::{Law, Over};

@@ -11,7 +11,9 @@ use crate::visit::near::{self, Candidate};
 const FOUND: &str = "list_found";
 /// Indirect arguments of the dispatches that build it: as they are, and as they are when it is built.
 const GO: &str = "arguments of the list";
-const ALL: &str = "list_all";
+pub const ALL: &str = "list_all";
+/// The constant that says how many neighbours of each particle there is room for; it changes no bit of what a step writes.
+pub const ROOM: &str = "ROOM";
 /// The list and the history of its pairs before it is rebuilt, and the row of each particle.
 const BEFORE: &str = "list_before";
 const ROW_BEFORE: &str = "row_before";
@@ -88,7 +90,7 @@ fn search(list: &List, problem: &Problem) -> Result<Vec<Pass>, Error> {
     sources.extend([crate::shader!("own/no_turns.wgsl"), crate::shader!("neighbors/list_search.wgsl")]);
     let shader = Shader::join(&sources)?;
     let mut constants = problem.constants(&shader);
-    constants.extend([("REACH", list.shape.reach()), ("ROOM", f64::from(list.shape.capacity))]);
+    constants.extend([("REACH", list.shape.reach()), (ROOM, f64::from(list.shape.capacity))]);
     near::passes(&list.grid, &Pass { constants, ..Pass::new(shader, 0) }, problem.capacity, problem)
 }
 
@@ -142,7 +144,7 @@ fn order(list: &List, problem: &Problem) -> Result<Pass, Error> {
     ])?;
     let mut constants = problem.constants(&shader);
     constants.extend(list.grid.constants(&shader));
-    constants.push(("ROOM", f64::from(list.shape.capacity)));
+    constants.push((ROOM, f64::from(list.shape.capacity)));
     let threads = Threads { count: problem.capacity, layers: list.shape.capacity / 4 };
     let work = u64::from(problem.capacity) * u64::from(list.shape.capacity);
     let pass = Pass { constants, threads, work, ..Pass::new(shader, problem.capacity) };

@@ -123,6 +123,34 @@ fn a_list_that_grows_has_the_bits_of_one_that_was_longer() {
     }
 }
 
+/// When a list grows goes by when it is looked at, as a command does whenever a second has passed: no state may tell.
+#[test]
+fn states_are_the_same_whenever_a_list_was_looked_at() {
+    let shared = support::device();
+    let machine = variants(&shared)[0].1;
+    for seed in [8, 21] {
+        let whole = inward(300, seed, Box::new(Curious(list(0.31, 0.1))));
+        let state = |setup: &Setup, looks: &[u32]| {
+            let mut simulation = on(&shared, machine, setup);
+            for steps in looks {
+                simulation.step(*steps).expect("steps");
+                pollster::block_on(simulation.check()).expect("room for all");
+            }
+            let state = pollster::block_on(simulation.snapshot()).expect("a state");
+            (state, simulation.generation())
+        };
+        let (want, often) = state(&whole, &[1; STEPS as usize]);
+        let (got, seldom) = state(&whole, &[100, STEPS - 100]);
+        assert!(often > 0 && seldom > 0, "grown {often} and {seldom} times");
+        assert!(got == want, "seed {seed}: another state");
+        // It goes on from a state of which the list has grown, too.
+        let (half, grown) = state(&whole, &[90]);
+        assert!(grown > 0, "not grown");
+        let (got, _) = state(&Setup { state: half, ..whole.clone() }, &[STEPS - 90]);
+        assert!(got == want, "seed {seed}: another state after a stop");
+    }
+}
+
 #[test]
 fn a_list_grows_under_births_and_without_a_look() {
     let shared = support::device();
