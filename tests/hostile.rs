@@ -169,6 +169,15 @@ fn seeds(folder: &Path) -> Vec<Seed> {
         let bytes = fs::read(&path).expect("a file");
         seeds.push(Seed { name: format!("a.{}", format.name), bytes, read: particles, beside: BUFFERS });
     }
+    for format in FORMATS.iter().filter(|format| format.compresses) {
+        let (Some(write), path) = (format.write, folder.join("packed")) else { continue };
+        let options = Options { compress: true, ..Options::default() };
+        atomically(&path, |out| write(out, &state(), &options)).expect(format.name);
+        let bytes = fs::read(&path).expect("a file");
+        // What is deflated may take 1032 times its bytes.
+        let beside = BUFFERS + 1032 * 2 * bytes.len();
+        seeds.push(Seed { name: format!("packed.{}", format.name), bytes, read: particles, beside });
+    }
     let mut gadget = vec![0; 256];
     gadget[4] = 3;
     let record = |block: &[u8], all: &mut Vec<u8>| {

@@ -80,7 +80,7 @@ fn keep(last: &State, folder: &Path, formats: &[&Format], precision: Precision) 
     let mut files = Vec::new();
     for format in chosen {
         let path = folder.join(format!("last_good.{}", format.name));
-        written(&path, format, last, &Options { precision, bounds: None })?;
+        written(&path, format, last, &Options { precision, ..Options::default() })?;
         files.push(path.display().to_string());
     }
     Ok(files.join(" and "))

@@ -45,7 +45,7 @@ pub fn convert(from: &Path, to: &Path, precision: Option<Precision>) -> Result<C
     let before = contents(from)?;
     let state = read(from, &known(&before))?;
     let precision = precision.unwrap_or_else(|| if is_single(&state) { Precision::Single } else { Precision::Double });
-    let options = Options { precision, bounds: before.bounds };
+    let options = Options { precision, bounds: before.bounds, ..Options::default() };
     let (after, back) = verified(
         to,
         |out| write(out, &state, &options),

@@ -31,6 +31,8 @@ pub(super) const FORMAT: Format = Format {
     read: Some(read),
     write: Some(|out, state, options| write_csv(out, state, options.precision)),
     left_out: None,
+    compresses: false,
+    divides: false,
 };
 
 /// What else a mass is called.

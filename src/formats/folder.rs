@@ -315,10 +315,21 @@ fn is_result(name: &str, scenes: &[Option<&str>]) -> bool {
     let states = || FORMATS.iter().filter(|format| format.write.is_some()).map(|format| format.name);
     let of_scene =
         |scene: &str| !scene.is_empty() && name.strip_prefix(scene).is_some_and(|end| ENDINGS.contains(&end));
+    // A part of a set: snapshot_10.3.hdf5.
+    let of_set = || {
+        let mut divided = FORMATS.iter().filter(|format| format.divides && !framed);
+        let part =
+            |ending: &str| stem(ending)?.rsplit_once('.').filter(|(_, part)| part.bytes().all(|b| b.is_ascii_digit()));
+        divided.any(|format| {
+            part(format.name).is_some_and(|(stem, part)| {
+                !part.is_empty() && digits(&format!("{stem}.{}", format.name), (STATE, format.name)).is_some()
+            })
+        })
+    };
     let last = || states().any(|ending| stem(ending) == Some(LAST_GOOD));
     let own = || NAMES.contains(&name) || last() || scenes.iter().flatten().any(|scene| of_scene(scene));
     let kinds = NUMBERED.iter().copied().chain(states().map(|ending| (STATE, ending)));
-    kinds.into_iter().any(numbered) || !framed && own()
+    kinds.into_iter().any(numbered) || of_set() || !framed && own()
 }
 
 /// The digits between the two words of a name.

@@ -22,6 +22,8 @@ pub(super) const FORMAT: Format = Format {
     read: Some(read),
     write: None,
     left_out: None,
+    compresses: false,
+    divides: false,
 };
 
 const HEADER: usize = 256;

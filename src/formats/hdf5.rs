@@ -11,7 +11,7 @@ use std::collections::{BTreeMap, HashMap};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use hdf5_pure::{AttrValue, DType, Dataset, File, FileBuilder, FormatError, Group};
+use hdf5_pure::{AttrValue, DType, Dataset, DatasetBuilder, File, FileBuilder, FormatError, Group};
 
 use super::binary::single;
 use super::sheet::{self, Place, Sheet};
@@ -31,6 +31,8 @@ pub(super) const FORMAT: Format = Format {
     read: Some(read),
     write: Some(|out, state, options| write_hdf5(out, state, options)),
     left_out: None,
+    compresses: true,
+    divides: true,
 };
 
 /// Types of particles in a file.
@@ -58,7 +60,7 @@ const PLURALS: [(&str, &str); 5] = [
 /// The attribute of a group that says of which species all of it is.
 const SPECIES: &str = "Species";
 
-/// Writes a state.
+/// Writes a state, or the part of it that `options` name.
 ///
 /// # Errors
 /// Those of `out`; a number that does not fit single precision, where that is asked for; a column that has the name of another in GADGET.
@@ -68,19 +70,25 @@ pub fn write_hdf5(out: impl Write, state: &State, options: &Options) -> io::Resu
     titles::reserved(fields.iter().map(|field| field.name.as_str()), "HDF5", meant)?;
     let first = usize::from(state.get("density").is_none());
     let mut types: [Vec<usize>; TYPES] = Default::default();
+    let mut totals = [0_u64; TYPES];
+    let here = options.part.places(state.len());
     for row in 0..state.len() {
         let species = state.species().get(row).copied().unwrap_or(0) as usize;
-        types[species.saturating_add(first).min(TYPES - 1)].push(row);
+        let number = species.saturating_add(first).min(TYPES - 1);
+        totals[number] += 1;
+        if here.contains(&row) {
+            types[number].push(row);
+        }
     }
     let mut file = FileBuilder::new();
     let mut header = file.create_group("Header");
     let counts: Vec<u64> = types.iter().map(|rows| rows.len() as u64).collect();
-    let words = |shift: u32| counts.iter().map(|count| u32::try_from(count >> shift & 0xffff_ffff).unwrap_or(0)).collect();
-    header.set_attr("NumPart_ThisFile", AttrValue::U64Array(counts.clone()));
+    let words = |shift: u32| totals.iter().map(|count| u32::try_from(count >> shift & 0xffff_ffff).unwrap_or(0)).collect();
+    header.set_attr("NumPart_ThisFile", AttrValue::U64Array(counts));
     header.set_attr("NumPart_Total", AttrValue::U32Array(words(0)));
     header.set_attr("NumPart_Total_HighWord", AttrValue::U32Array(words(32)));
     header.set_attr("MassTable", AttrValue::F64Array(vec![0.0; TYPES]));
-    header.set_attr("NumFilesPerSnapshot", AttrValue::I32(1));
+    header.set_attr("NumFilesPerSnapshot", AttrValue::I32(i32::try_from(options.part.of).unwrap_or(i32::MAX)));
     header.set_attr("Time", AttrValue::F64(state.time));
     // Without a cosmology: where there is one of them, yt wants all, and pynbody takes the file for comoving.
     header.set_attr("Redshift", AttrValue::F64(0.0));
@@ -101,27 +109,42 @@ pub fn write_hdf5(out: impl Write, state: &State, options: &Options) -> io::Resu
         if species.iter().all(|of| *of == species[0]) {
             group.set_attr(SPECIES, AttrValue::U32(species[0]));
         } else {
-            group.create_dataset("species").with_u32_data(&species).with_shape(&[rows.len() as u64]);
+            shaped(group.create_dataset("species").with_u32_data(&species), &[rows.len() as u64], options);
         }
         for field in fields.iter().filter(|field| field.name != "species") {
             let width = field.strips.len() as u64;
             let shape = if width == 1 { vec![rows.len() as u64] } else { vec![rows.len() as u64, width] };
             let dataset = group.create_dataset(name_of(&field.name));
-            match (field.is_whole(), options.precision) {
+            let dataset = match (field.is_whole(), options.precision) {
                 (true, _) => dataset.with_u32_data(&whole(field, rows)),
                 (_, Precision::Single) => {
                     let all: io::Result<Vec<f32>> = real(field, rows).map(single).collect();
                     dataset.with_f32_data(&all?)
                 }
                 (_, Precision::Double) => dataset.with_f64_data(&real(field, rows).collect::<Vec<_>>()),
-            }
-            .with_shape(&shape);
+            };
+            shaped(dataset, &shape, options);
         }
         let ids: Vec<u32> = rows.iter().map(|row| ids[*row]).collect();
-        group.create_dataset("ParticleIDs").with_u32_data(&ids).with_shape(&[rows.len() as u64]);
+        shaped(group.create_dataset("ParticleIDs").with_u32_data(&ids), &[rows.len() as u64], options);
         file.add_group(group.finish());
     }
     file.finish_to(out).map_err(|why| io::Error::other(why.to_string()))
+}
+
+/// Rows of a chunk that is compressed by itself.
+const CHUNK: u64 = 1 << 16;
+/// The effort of deflate, from 1 to 9: more takes longer, and numbers of particles hardly shrink further.
+const EFFORT: u32 = 4;
+
+/// Gives a dataset its shape, and the filters that all readers of HDF5 have: bytes of numbers are sorted by significance, then deflated.
+fn shaped(dataset: &mut DatasetBuilder, shape: &[u64], options: &Options) {
+    dataset.with_shape(shape);
+    if options.compress {
+        let mut chunk = shape.to_vec();
+        chunk[0] = chunk[0].min(CHUNK);
+        dataset.with_chunks(&chunk).with_shuffle().with_deflate(EFFORT);
+    }
 }
 
 fn name_of(column: &str) -> &str {
@@ -160,6 +183,10 @@ struct Gathered {
     header: HashMap<String, AttrValue>,
     /// Datasets that are passed over.
     left_out: Vec<String>,
+    /// Time and step of the last file, as bits.
+    moment: Vec<u64>,
+    /// Particles of each type in all files.
+    types: [u64; TYPES],
     /// Whether a group has masses, and the first one that has none.
     massive: bool,
     massless: Option<String>,
@@ -173,11 +200,19 @@ fn sheet(path: &Path, wanted: &dyn Fn(&str) -> bool) -> Result<Sheet, Error> {
         let (before, after) = split(path).ok_or_else(|| {
             input(path, format!("is one of {parts} files, and its name has no number, as in snapshot_007.0.hdf5"))
         })?;
+        let mut of = None;
         for part in 0..parts {
             let file = PathBuf::from(format!("{before}.{part}.{after}"));
             beside(path, &file)?;
-            gathered.file(&file, wanted)?;
+            let (there, step) = (gathered.file(&file, wanted)?, gathered.moment.clone());
+            if there != parts {
+                return Err(input(&file, format!("is one of {there} files, and {} of {parts}", path.display())));
+            }
+            if *of.get_or_insert_with(|| step.clone()) != step {
+                return Err(input(&file, format!("is of another time or step than {before}.0.{after}")));
+            }
         }
+        gathered.complete().map_err(|why| input(path, why))?;
     }
     if let (true, Some(name)) = (gathered.massive, &gathered.massless) {
         let why = "has neither `Masses` nor a mass in MassTable, and others have: give it the dataset `Masses`";
@@ -223,6 +258,21 @@ fn split(path: &Path) -> Option<(String, String)> {
 }
 
 impl Gathered {
+    /// Compares the particles of all files of a set with the totals in the header, where it has them.
+    fn complete(&self) -> Result<(), String> {
+        let words = |name: &str| self.header.get(name).map(numbers).unwrap_or_default();
+        let (low, high) = (words("NumPart_Total"), words("NumPart_Total_HighWord"));
+        for (number, low) in low.iter().enumerate().take(TYPES) {
+            let total = low + high.get(number).copied().unwrap_or(0.0) * 4_294_967_296.0;
+            if total.to_bits() != (self.types[number] as f64).to_bits() {
+                return Err(format!(
+                    "the set announces {total:.0} particles of PartType{number}, and its files hold {}",
+                    self.types[number]
+                ));
+            }
+        }
+        Ok(())
+    }
     /// Adds the groups of a file; gives how many files the set has.
     fn file(&mut self, path: &Path, wanted: &dyn Fn(&str) -> bool) -> Result<u32, Error> {
         let (_, length) = super::open(path)?;
@@ -250,6 +300,7 @@ impl Gathered {
             } else {
                 0
             };
+            self.types[number] += there as u64;
             if promised.is_some_and(|promised| promised.to_bits() != (there as f64).to_bits()) {
                 return Err(input(
                     path,
@@ -257,6 +308,8 @@ impl Gathered {
                 ));
             }
         }
+        let bits = |name: &str| header.get(name).map(numbers).unwrap_or_default().into_iter().map(f64::to_bits);
+        self.moment = bits("Time").chain(bits("Step")).collect();
         if self.header.is_empty() {
             self.header = header;
         }

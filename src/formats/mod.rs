@@ -8,6 +8,8 @@ pub mod apng;
 mod archive;
 mod atomic;
 mod binary;
+mod blocks;
+mod collection;
 mod contents;
 mod convert;
 #[cfg(feature = "scene")]
@@ -52,6 +54,40 @@ pub struct Options {
     pub precision: Precision,
     /// The box, if there is one.
     pub bounds: Option<Bounds>,
+    /// Whether numbers are compressed without loss, in formats that can be.
+    pub compress: bool,
+    /// Which of the files of a set is written, in formats that are divided.
+    pub part: Part,
+}
+
+/// One of several files that hold a state together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Part {
+    /// Its number, counted from 0.
+    pub number: u32,
+    /// How many files there are; at least one.
+    pub of: u32,
+}
+
+impl Default for Part {
+    fn default() -> Self {
+        Self { number: 0, of: 1 }
+    }
+}
+
+impl Part {
+    /// The particles of this part, by their places: all parts have as many, but for one more or less.
+    #[must_use]
+    pub fn places(&self, particles: usize) -> std::ops::Range<usize> {
+        let (of, number) = (u64::from(self.of.max(1)), u64::from(self.number));
+        let from = |number: u64| (u128::from(number.min(of)) * particles as u128 / u128::from(of)) as usize;
+        from(number)..from(number + 1)
+    }
+    /// The name of its file, out of what stands before the extension: `snapshot_10.3.hdf5`, or `snapshot_10.hdf5` where there is one.
+    #[must_use]
+    pub fn name(&self, stem: &str, format: &Format) -> String {
+        if self.of > 1 { format!("{stem}.{}.{}", self.number, format.name) } else { format!("{stem}.{}", format.name) }
+    }
 }
 
 impl Options {
@@ -80,6 +116,10 @@ pub struct Format {
     pub write: Option<Writer>,
     /// Columns of a state that its files do not hold, though they say more than their initial values; `None`: they hold all.
     pub left_out: Option<fn(&State) -> Vec<String>>,
+    /// Whether its files can be compressed.
+    pub compresses: bool,
+    /// Whether a state can be divided among several of its files.
+    pub divides: bool,
 }
 
 /// Reads a state of these columns from a file.
@@ -108,6 +148,7 @@ register! {
     ply
     vtp
     gadget
+    obj
     tipsy
     xyz
     csv

@@ -28,8 +28,10 @@ pub(super) const FORMAT: Format = Format {
     begins: |start| start.starts_with(b"PK\x03\x04"),
     contents,
     read: Some(read),
-    write: Some(|out, state, options| write_npz(out, state, options.precision)),
+    write: Some(|out, state, options| write_beside(out, state, options.precision, options.compress, &[])),
     left_out: None,
+    compresses: true,
+    divides: false,
 };
 
 /// Bytes that are written at once.
@@ -152,10 +154,10 @@ fn whole(x: f64) -> u64 {
 /// # Errors
 /// Those of `out`; a number that does not fit single precision, where that is asked for.
 pub fn write_npz(out: impl Write + Seek, state: &State, precision: Precision) -> io::Result<()> {
-    write_beside(out, state, precision, &[])
+    write_beside(out, state, precision, false, &[])
 }
 
-/// The same with more entries behind the arrays, by their names.
+/// The same with more entries behind the arrays, by their names; deflated, if that is asked for.
 ///
 /// # Errors
 /// Those of `out`; a number that does not fit single precision, where that is asked for.
@@ -163,10 +165,11 @@ pub(crate) fn write_beside(
     out: impl Write + Seek,
     state: &State,
     precision: Precision,
+    compress: bool,
     more: &[(String, &[u8])],
 ) -> io::Result<()> {
     let count = state.len() as u64;
-    let mut archive = NpzWriter::new(out);
+    let mut archive = Archive { to: NpzWriter::new(out), compress };
     put(&mut archive, "time", &[], [state.time.to_le_bytes()], 0.0_f64)?;
     put(&mut archive, "step", &[], [state.step.to_le_bytes()], 0_u64)?;
     u32::try_from(count).map_err(|_| io::Error::other(format!("{count} particles; ids have 32 bits")))?;
@@ -194,15 +197,15 @@ pub(crate) fn write_beside(
         kept(&mut archive, name, numbers)?;
     }
     for (name, bytes) in more {
-        archive.zip_writer().start_file(name, stored(bytes.len() as u64 >= LARGE)).map_err(io::Error::other)?;
-        archive.zip_writer().write_all(bytes)?;
+        archive.to.zip_writer().start_file(name, entry(bytes.len() as u64 >= LARGE, compress)).map_err(io::Error::other)?;
+        archive.to.zip_writer().write_all(bytes)?;
     }
-    archive.zip_writer().finish().map(drop).map_err(io::Error::other)
+    archive.to.zip_writer().finish().map(drop).map_err(io::Error::other)
 }
 
 /// One number of each particle.
 fn numbers<W: Write + Seek>(
-    archive: &mut NpzWriter<W>,
+    archive: &mut Archive<W>,
     strip: &Strip<'_>,
     count: usize,
     precision: Precision,
@@ -219,8 +222,8 @@ fn numbers<W: Write + Seek>(
 }
 
 /// The numbers of the system, one behind another.
-fn system<W: Write + Seek>(archive: &mut NpzWriter<W>, column: &Column, values: &Array) -> io::Result<()> {
-    let real = |list: Vec<f64>, archive: &mut NpzWriter<W>| {
+fn system<W: Write + Seek>(archive: &mut Archive<W>, column: &Column, values: &Array) -> io::Result<()> {
+    let real = |list: Vec<f64>, archive: &mut Archive<W>| {
         put(archive, &column.name, &[list.len() as u64], list.iter().map(|x| x.to_le_bytes()), 0.0_f64)
     };
     match values {
@@ -234,7 +237,7 @@ fn system<W: Write + Seek>(archive: &mut NpzWriter<W>, column: &Column, values: 
 }
 
 /// What a step keeps, in single precision where no number loses a bit by that.
-fn kept<W: Write + Seek>(archive: &mut NpzWriter<W>, name: &str, numbers: &[f64]) -> io::Result<()> {
+fn kept<W: Write + Seek>(archive: &mut Archive<W>, name: &str, numbers: &[f64]) -> io::Result<()> {
     let shape = &[numbers.len() as u64];
     #[expect(clippy::cast_possible_truncation, reason = "looked at before")]
     if numbers.iter().all(|x| f64::from(*x as f32).to_bits() == x.to_bits()) {
@@ -246,25 +249,31 @@ fn kept<W: Write + Seek>(archive: &mut NpzWriter<W>, name: &str, numbers: &[f64]
 /// Beyond it a ZIP entry needs its long form \[bytes\].
 const LARGE: u64 = 1 << 31;
 
-/// An entry without compression, and without a date.
-fn stored(large: bool) -> FileOptions {
+/// An archive that is written.
+struct Archive<W: Write + Seek> {
+    to: NpzWriter<W>,
+    compress: bool,
+}
+
+/// An entry without a date.
+fn entry(large: bool, compress: bool) -> FileOptions {
     FileOptions::default()
-        .compression_method(CompressionMethod::Stored)
+        .compression_method(if compress { CompressionMethod::Deflated } else { CompressionMethod::Stored })
         .last_modified_time(DateTime::default())
         .large_file(large)
 }
 
 /// Writes one array of little-endian numbers of the type of `_like`.
 fn put<W: Write + Seek, T: Serialize + AutoSerialize, const N: usize>(
-    archive: &mut NpzWriter<W>,
+    archive: &mut Archive<W>,
     name: &str,
     shape: &[u64],
     values: impl IntoIterator<Item = [u8; N]>,
     _like: T,
 ) -> io::Result<()> {
-    let options = stored(shape.first().is_some_and(|count| *count >= LARGE / 8));
+    let options = entry(shape.first().is_some_and(|count| *count >= LARGE / 8), archive.compress);
     let dtype = T::default_dtype();
-    let entry = archive.array::<T>(name, options)?.dtype(dtype).shape(shape).write_header_only()?;
+    let entry = archive.to.array::<T>(name, options)?.dtype(dtype).shape(shape).write_header_only()?;
     let mut entry = BufWriter::with_capacity(PIECE, entry);
     for value in values {
         entry.write_all(&value)?;

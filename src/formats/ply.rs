@@ -28,6 +28,8 @@ pub(super) const FORMAT: Format = Format {
     read: Some(read),
     write: Some(|out, state, options| write_ply(out, state, options)),
     left_out: None,
+    compresses: false,
+    divides: false,
 };
 
 /// Writes a state: a vertex for each particle in the order of the ids.

@@ -25,6 +25,8 @@ pub(super) const FORMAT: Format = Format {
     read: Some(|path, _| read(path)),
     write: Some(|out, state, _| write_tipsy(out, state, 0.0).map(drop)),
     left_out: Some(left_out),
+    compresses: false,
+    divides: false,
 };
 
 /// Bytes of the header without its padding, and of the padding.

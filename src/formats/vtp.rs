@@ -2,12 +2,13 @@
 //! triangles are polygons. Format: the VTK file formats page, "XML File Formats", PolyData.
 //!
 //! Point data has one array for each column: `velocity`, `mass`, …, `id`. Field data holds `TimeValue`, `step` and `box`. What other
-//! programs write is read too: appended raw, in base 64 or as text, without compression. Lines and polygons are not read.
+//! programs write is read too: appended raw, in base 64 or as text, also compressed with zlib. Lines and polygons are not read.
 
 use std::io::{self, Write};
 use std::path::Path;
 
 use super::binary::{Type, bytes_of, single};
+use super::blocks::{Coding, ZLIB, packed};
 use super::contents::counted;
 use super::sheet::{self, ID, Place, Sheet};
 use super::tags::{Tag, base64};
@@ -16,6 +17,8 @@ use super::{Format, Options, Precision, input, shortened};
 use crate::error::Error;
 use crate::kernel::{Bounds, Columns, Side};
 use crate::state::State;
+
+pub use super::collection::Collection;
 
 /// Its line in the register.
 pub(super) const FORMAT: Format = Format {
@@ -27,6 +30,8 @@ pub(super) const FORMAT: Format = Format {
     read: Some(read),
     write: Some(|out, state, options| write_vtp(out, state, options)),
     left_out: None,
+    compresses: true,
+    divides: false,
 };
 
 /// The names of field data.
@@ -42,6 +47,12 @@ enum Data<'a> {
     Ids(&'a [u32]),
     /// Indices of points, or ends of cells.
     Places(Vec<u64>),
+}
+
+/// An array behind the XML: as it will be written, or already compressed.
+enum Appended<'a> {
+    Plain(Data<'a>),
+    Packed(Vec<u8>),
 }
 
 impl Data<'_> {
@@ -83,9 +94,10 @@ impl Data<'_> {
 /// The XML, and the arrays that follow it.
 struct Document<'a> {
     text: String,
-    arrays: Vec<Data<'a>>,
+    arrays: Vec<Appended<'a>>,
     offset: u64,
     rows: usize,
+    compress: bool,
 }
 
 impl<'a> Document<'a> {
@@ -94,25 +106,35 @@ impl<'a> Document<'a> {
         self.text.push_str(line);
         self.text.push('\n');
     }
-    fn array(&mut self, name: &str, data: Data<'a>) {
+    fn array(&mut self, name: &str, data: Data<'a>) -> io::Result<()> {
         let components = if let Data::Field(field, _) = &data { field.strips.len() } else { 1 };
         let (kind, offset) = (data.kind().0, self.offset);
         self.line(&format!(
             "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" format=\"appended\" offset=\"{offset}\"/>"
         ));
-        self.offset += 8 + data.length(self.rows);
-        self.arrays.push(data);
+        if self.compress {
+            let mut bytes = Vec::new();
+            data.write(&mut bytes, self.rows)?;
+            let bytes = packed(&bytes)?;
+            self.offset += bytes.len() as u64;
+            self.arrays.push(Appended::Packed(bytes));
+        } else {
+            self.offset += 8 + data.length(self.rows);
+            self.arrays.push(Appended::Plain(data));
+        }
+        Ok(())
     }
-    fn cells(&mut self, name: &str, cells: impl Iterator<Item = Vec<u64>>) {
+    fn cells(&mut self, name: &str, cells: impl Iterator<Item = Vec<u64>>) -> io::Result<()> {
         let (mut ends, mut all) = (Vec::new(), Vec::new());
         for cell in cells {
             all.extend(cell);
             ends.push(all.len() as u64);
         }
         self.line(&format!("<{name}>"));
-        self.array("connectivity", Data::Places(all));
-        self.array("offsets", Data::Places(ends));
+        self.array("connectivity", Data::Places(all))?;
+        self.array("offsets", Data::Places(ends))?;
         self.line(&format!("</{name}>"));
+        Ok(())
     }
     fn single(&mut self, kind: &str, name: &str, numbers: &[String]) {
         self.line(&format!(
@@ -132,9 +154,12 @@ pub fn write_vtp(mut out: impl Write, state: &State, options: &Options) -> io::R
     let fields = titles::fields(state);
     let lines: Vec<[u32; 2]> =
         links.springs.iter().map(|link| link.ends).chain(links.rods.iter().map(|rod| rod.ends)).collect();
-    let mut document = Document { text: String::new(), arrays: Vec::new(), offset: 0, rows };
+    let mut document = Document { text: String::new(), arrays: Vec::new(), offset: 0, rows, compress: options.compress };
     document.line("<?xml version=\"1.0\"?>");
-    document.line("<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">");
+    let compressor = if options.compress { format!(" compressor=\"{ZLIB}\"") } else { String::new() };
+    document.line(&format!(
+        "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\"{compressor}>"
+    ));
     document.line(&format!("<!-- motes {} -->\n<PolyData>\n<FieldData>", env!("CARGO_PKG_VERSION")));
     document.single("Float64", TIME, &[format!("{:?}", state.time)]);
     document.single("UInt64", STEP, &[state.step.to_string()]);
@@ -152,67 +177,38 @@ pub fn write_vtp(mut out: impl Write, state: &State, options: &Options) -> io::R
     ));
     let (points, data): (Vec<_>, Vec<_>) = fields.iter().partition(|field| field.name == "position");
     for field in data {
-        document.array(&field.name, Data::Field(field, options.precision));
+        document.array(&field.name, Data::Field(field, options.precision))?;
     }
-    document.array(ID, Data::Ids(&ids));
+    document.array(ID, Data::Ids(&ids))?;
     document.line("</PointData>\n<Points>");
     for field in points {
-        document.array("Points", Data::Field(field, options.precision));
+        document.array("Points", Data::Field(field, options.precision))?;
     }
     document.line("</Points>");
     // All points are one cell: it takes one index for each, and no end.
-    document.cells("Verts", std::iter::once((0..rows as u64).collect()).filter(|all: &Vec<u64>| !all.is_empty()));
-    document.cells("Lines", lines.iter().map(|ends| ends.map(u64::from).to_vec()));
-    document.cells("Polys", links.triangles.iter().map(|ends| ends.map(u64::from).to_vec()));
+    document.cells("Verts", std::iter::once((0..rows as u64).collect()).filter(|all: &Vec<u64>| !all.is_empty()))?;
+    document.cells("Lines", lines.iter().map(|ends| ends.map(u64::from).to_vec()))?;
+    document.cells("Polys", links.triangles.iter().map(|ends| ends.map(u64::from).to_vec()))?;
     document.line("</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">");
     document.text.push('_');
     out.write_all(document.text.as_bytes())?;
     for data in &document.arrays {
-        out.write_all(&data.length(rows).to_le_bytes())?;
-        data.write(&mut out, rows)?;
+        match data {
+            Appended::Plain(data) => {
+                out.write_all(&data.length(rows).to_le_bytes())?;
+                data.write(&mut out, rows)?;
+            }
+            Appended::Packed(bytes) => out.write_all(bytes)?,
+        }
     }
     out.write_all(b"\n</AppendedData>\n</VTKFile>\n")
-}
-
-/// A list of files and their times, which ParaView opens as one (`.pvd`).
-#[derive(Debug, Default)]
-pub struct Collection(Vec<(u64, String)>);
-
-impl Collection {
-    /// What a run calls it.
-    pub const NAME: &str = "snapshots.pvd";
-
-    /// What such a file lists before this step: a run that continues writes those from there on anew.
-    #[must_use]
-    pub fn before(file: &Path, step: u64) -> Self {
-        let text = std::fs::read_to_string(file).unwrap_or_default();
-        let entry = |line: &str| {
-            let of: u64 = line.split_once("<!-- step ")?.1.split_once(' ')?.0.parse().ok()?;
-            (of < step).then(|| (of, line.to_owned()))
-        };
-        Self(text.lines().filter_map(entry).collect())
-    }
-    /// Adds the file of a state, which must be in the same folder.
-    pub fn add(&mut self, state: &State, file: &Path) {
-        let name = file.file_name().unwrap_or_default().to_string_lossy();
-        let line = format!("<DataSet timestep=\"{:?}\" part=\"0\" file=\"{name}\"/><!-- step {} -->", state.time, state.step);
-        self.0.push((state.step, line));
-    }
-    /// Writes it.
-    ///
-    /// # Errors
-    /// Those of `out`.
-    pub fn write(&self, mut out: impl Write) -> io::Result<()> {
-        writeln!(out, "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n<Collection>")?;
-        self.0.iter().try_for_each(|(_, line)| writeln!(out, "{line}"))?;
-        writeln!(out, "</Collection>\n</VTKFile>")
-    }
 }
 
 /// Reads a state of these columns. Arrays for which there is no column are passed over.
 ///
 /// # Errors
-/// [`Error::Input`] with the byte of a tag that is none, of an array that is cut, or of a number that is impossible; compressed data.
+/// [`Error::Input`] with the byte of a tag that is none, of an array that is cut, or of a number that is impossible; another compression than
+/// zlib.
 pub fn read(path: &Path, columns: &Columns) -> Result<State, Error> {
     sheet::read(path, columns, sheet)
 }
@@ -223,6 +219,8 @@ struct Layout {
     big: bool,
     /// Of the counts before arrays.
     counts: Type,
+    /// Whether arrays are compressed.
+    packed: bool,
     /// The byte behind `_`, and whether what follows is in base 64.
     appended: Option<(usize, bool)>,
 }
@@ -243,7 +241,7 @@ fn sheet(path: &Path, wanted: &dyn Fn(&str) -> bool) -> Result<Sheet, Error> {
 
 fn parsed(bytes: &[u8], wanted: &dyn Fn(&str) -> bool) -> Result<Sheet, String> {
     let mut sheet = Sheet::default();
-    let mut layout = Layout { big: false, counts: Type::U32, appended: appended(bytes)? };
+    let mut layout = Layout { big: false, counts: Type::U32, packed: false, appended: appended(bytes)? };
     let (mut section, mut pieces, mut boxed, mut kind) = (Section::Other, 0, Vec::new(), false);
     let mut at = 0;
     while let Some(tag) = Tag::next(bytes, at)? {
@@ -253,9 +251,14 @@ fn parsed(bytes: &[u8], wanted: &dyn Fn(&str) -> bool) -> Result<Sheet, String> 
                 kind = tag.get("type") == Some("PolyData");
                 layout.big = tag.get("byte_order") == Some("BigEndian");
                 layout.counts = if tag.get("header_type") == Some("UInt64") { Type::U64 } else { Type::U32 };
-                if let Some(compressor) = tag.get("compressor") {
-                    return Err(format!("the data is compressed ({}): save it without compression", shortened(compressor)));
-                }
+                layout.packed = match tag.get("compressor") {
+                    None => false,
+                    Some(ZLIB) => true,
+                    Some(other) => {
+                        let why = "save it with zlib or without compression";
+                        return Err(format!("the data is compressed ({}): {why}", shortened(other)));
+                    }
+                };
             }
             "Piece" => {
                 pieces += 1;
@@ -402,7 +405,13 @@ fn data<'a>(bytes: &'a [u8], tag: &Tag<'_>, kind: Type, layout: Layout, numbers:
         if count.to_bits() == (needed as f64).to_bits() { Ok(()) } else { Err(wrong(count)) }
     };
     let text = !matches!(tag.get("format"), Some("appended" | "binary"));
-    if !text && needed > bytes.len() {
+    let coding = |encoded| Coding { counts: layout.counts, big, encoded };
+    let unpacked = |from: &[u8], encoded| {
+        let bytes = coding(encoded).unpacked(from, needed);
+        let bytes = bytes.map_err(|why| format!("byte {at}: `{}` {why}", shortened(name)))?;
+        Ok(Numbers::Decoded { bytes, first: 0, kind, big })
+    };
+    if !text && !layout.packed && needed > bytes.len() {
         return Err(wrong(bytes.len() as f64));
     }
     if tag.get("format") == Some("appended") {
@@ -410,6 +419,9 @@ fn data<'a>(bytes: &'a [u8], tag: &Tag<'_>, kind: Type, layout: Layout, numbers:
         let (start, encoded) = layout.appended.ok_or_else(|| format!("byte {at}: there is no appended data"))?;
         let first = start.checked_add(offset).filter(|first| *first <= bytes.len()).ok_or_else(|| wrong(0.0))?;
         let rest = &bytes[first..];
+        if layout.packed {
+            return unpacked(rest, encoded);
+        }
         if !encoded {
             counts(rest)?;
             let there = rest.len() - counted;
@@ -425,6 +437,9 @@ fn data<'a>(bytes: &'a [u8], tag: &Tag<'_>, kind: Type, layout: Layout, numbers:
     }
     let inner = if tag.empty { &[][..] } else { &bytes[tag.to..] };
     let inner = &inner[..inner.iter().position(|byte| *byte == b'<').unwrap_or(inner.len())];
+    if tag.get("format") == Some("binary") && layout.packed {
+        return unpacked(inner, true);
+    }
     if tag.get("format") == Some("binary") {
         return decoded(inner, at, counts, needed + counted).map(|bytes| Numbers::Decoded { bytes, first: counted, kind, big });
     }

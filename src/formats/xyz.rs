@@ -32,6 +32,8 @@ pub(super) const FORMAT: Format = Format {
     read: Some(read),
     write: Some(|out, state, options| write_xyz(out, state, options)),
     left_out: None,
+    compresses: false,
+    divides: false,
 };
 
 /// Elements by their numbers; a species beyond them has no name here.

@@ -143,7 +143,7 @@ pub(super) fn write(
             entries.push((entry(FILM), first.get_ref()));
         }
         entries.push((entry(HEAD), head.as_bytes()));
-        npz::write_beside(out, state, place.precision, &entries)
+        npz::write_beside(out, state, place.precision, false, &entries)
     })
 }
 

@@ -234,7 +234,12 @@ impl Run {
             writers: Vec::new(),
             states: States::new(
                 &scene.output.formats,
-                formats::Options { precision: options.precision, bounds: Some(scene.bounds).filter(has_sides) },
+                formats::Options {
+                    precision: options.precision,
+                    bounds: Some(scene.bounds).filter(has_sides),
+                    compress: scene.output.compress,
+                    part: formats::Part { number: 0, of: scene.output.files },
+                },
                 scene.steps,
                 stream.clone(),
             ),

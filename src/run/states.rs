@@ -8,7 +8,7 @@ use super::table::Lengths;
 use super::writer::{Moment, Writer};
 use crate::error::Error;
 use crate::formats::vtp::Collection;
-use crate::formats::{self, Folder, Format, Options, atomically};
+use crate::formats::{self, Folder, Format, Options, Part, atomically};
 use crate::state::State;
 
 /// Files of states.
@@ -52,14 +52,23 @@ impl Writer for States {
     fn take(&mut self, moment: &Moment<'_>) -> Result<(), Error> {
         let (Some(folder), state, width) = (&self.folder, moment.state, self.digits) else { return Ok(()) };
         for format in &self.formats {
-            let path = folder.file(&format!("snapshot_{:0width$}.{}", state.step, format.name))?;
+            let parts = if format.divides { self.options.part.of } else { 1 };
+            let stem = format!("snapshot_{:0width$}", state.step);
+            let parts = (0..parts).map(|number| {
+                let part = Part { number, of: parts };
+                Ok((folder.file(&part.name(&stem, format))?, part))
+            });
+            let parts = parts.collect::<Result<Vec<_>, Error>>()?;
+            let Some((path, _)) = parts.first().cloned() else { continue };
             let list = (format.name == "vtp").then(|| folder.file(Collection::NAME)).transpose()?;
             // The folder stays locked until the file is there.
             let (folder, listed) = (folder.clone(), self.listed.clone());
             let (file, format, state, options) = (path.clone(), *format, state.clone(), self.options.clone());
             self.stream.write(&path, stream::size(&state), move || {
                 let _held = folder;
-                written(&file, format, &state, &options)?;
+                for (file, part) in &parts {
+                    written(file, format, &state, &Options { part: *part, ..options.clone() })?;
+                }
                 let Some(list) = list else { return Ok(()) };
                 let mut listed = listed.lock().unwrap_or_else(PoisonError::into_inner);
                 let listed = listed.get_or_insert_with(|| Collection::before(&list, state.step));

@@ -2,7 +2,7 @@
 
 use crate::formats::{FORMATS, Format};
 use crate::kernel::Columns;
-use crate::settings::{Key, Kind, LARGEST_WHOLE};
+use crate::settings::{Key, Kind, LARGEST_WHOLE, Value};
 
 use super::checkpoint::Every;
 use super::report::{Fault, Report};
@@ -11,7 +11,24 @@ use super::tree::{Data, Entry};
 use super::value;
 use super::walk::{self, Table};
 
-pub(super) const KEYS: &[Key] = &[];
+/// The most files of a set.
+const MOST: f64 = 4096.0;
+
+/// The keys of the section, beside those that it reads by itself.
+pub(super) const KEYS: &[Key] = &[
+    Key::new(
+        "compress",
+        Kind::Flag,
+        Value::Flag(false),
+        "whether states are compressed without loss, in formats that can be: npz, hdf5 and vtp",
+    ),
+    Key::new(
+        "files",
+        Kind::Count,
+        Value::Number(1.0),
+        "into how many files a state is divided, in formats that can be: hdf5",
+    ),
+];
 pub(super) const OWN: &[&str] = &["every", "formats", "columns", "frames"];
 
 /// What a run writes.
@@ -27,6 +44,10 @@ pub struct Output {
     pub frames: u64,
     /// Columns that snapshots have beside those of the state: what laws compute.
     pub columns: Vec<String>,
+    /// Whether states are compressed, in formats that can be.
+    pub compress: bool,
+    /// Into how many files a state is divided, in formats that can be; at least one.
+    pub files: u32,
 }
 
 const FORMS: &str = "a whole number of steps, or time of the scene as in \"0.5 time\"";
@@ -79,9 +100,11 @@ pub(super) fn read(table: Option<&Table<'_>>, (steps, dt): (u64, f64), known: &C
         pictures: true,
         frames: 0,
         columns: Vec::new(),
+        compress: false,
+        files: 1,
     };
     let Some(table) = table else { return output };
-    table.settings(KEYS, OWN, report);
+    let settings = table.settings(KEYS, OWN, report);
     if let Some(every) = table.get("every").and_then(|e| interval(e, dt, report)) {
         output.every = every;
     }
@@ -115,6 +138,29 @@ pub(super) fn read(table: Option<&Table<'_>>, (steps, dt): (u64, f64), known: &C
             value::refuse::<()>(&entry.node, "columns", "a list, as in [\"acceleration\"]", report);
         }
     }
+    let files = settings.number("files");
+    if files > MOST {
+        let place = table.get("files").map_or(table.place, |entry| &entry.node.place);
+        report.push(Fault::at(place, format!("{files} `files` are too many")).label(format!("at most {MOST}")));
+    } else {
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "whole, and at most a few thousand"
+        )]
+        (output.files = files as u32);
+    }
+    output.compress = settings.flag("compress");
+    for (key, chosen, can) in [
+        ("files", output.files > 1, (|format| format.divides) as fn(&Format) -> bool),
+        ("compress", output.compress, |format| format.compresses),
+    ] {
+        if let (true, Some(entry)) = (chosen && !output.formats.iter().any(|format| can(format)), table.get(key)) {
+            let names: Vec<_> = writable().filter(|format| can(format)).map(|format| format.name).collect();
+            let fault = format!("`{key}` does nothing for these formats");
+            report.push(Fault::at(&entry.node.place, fault).label(format!("it is for {}", names.join(", "))));
+        }
+    }
     output
 }
 
@@ -129,5 +175,7 @@ impl Output {
         out.line("frames", &self.frames.to_string());
         let columns: Vec<_> = self.columns.iter().map(|name| format!("\"{name}\"")).collect();
         out.line("columns", &format!("[{}]", columns.join(", ")));
+        out.line("compress", &self.compress.to_string());
+        out.line("files", &self.files.to_string());
     }
 }

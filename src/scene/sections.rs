@@ -8,7 +8,7 @@ use crate::settings::Key;
 use crate::shapes::SHAPES;
 
 use super::own::{self, Own};
-use super::{bounds, checkpoint, column, drain, emitter, links, motion, particles, simulation, solver};
+use super::{bounds, checkpoint, column, drain, emitter, links, motion, output, particles, simulation, solver};
 
 /// A section.
 pub struct Section {
@@ -75,7 +75,7 @@ pub const SECTIONS: &[Section] = &[
     Section {
         about: "how often states are written, and in which formats",
         own: own::OUTPUT,
-        ..Section::new("output", false, &[])
+        ..Section::new("output", false, output::KEYS)
     },
     Section {
         about: "how often a checkpoint is written",
@@ -109,7 +109,8 @@ impl Section {
 #[cfg(test)]
 mod tests {
     use super::{SECTIONS, bounds, checkpoint, emitter, links, motion, simulation};
-    use crate::scene::{force, output};
+    use crate::scene::force;
+    use crate::scene::output;
 
     /// What a section reads by itself has its line in `own.rs`.
     #[test]

@@ -64,8 +64,33 @@ def columns(what, ids, position, velocity, mass):
     same(f"{what}: masses", mass, truth["mass"])
 
 
+def read_numpy():
+    packed = numpy.load(folder / "packed.npz")
+    if sorted(packed) != sorted(truth):
+        sys.exit(f"numpy: {sorted(packed)}")
+    for name, values in truth.items():
+        same(f"numpy: {name}", packed[name], values)
+
+
 def read_h5py():
-    with h5py.File(folder / "state.hdf5") as file:
+    whole("state.hdf5")
+    whole("packed.hdf5")
+    parts = [h5py.File(folder / f"set.{number}.hdf5") for number in range(3)]
+    totals = sum(part["Header"].attrs["NumPart_ThisFile"].astype("i8") for part in parts)
+    found = []
+    for part in parts:
+        header = part["Header"].attrs
+        assert header["NumFilesPerSnapshot"] == 3 and header["Time"] == TIME, dict(header)
+        assert (header["NumPart_Total"] == totals).all() and totals.sum() == len(IDS), dict(header)
+        types = sorted(name for name in part if name.startswith("PartType"))
+        join = lambda name: numpy.concatenate([part[of][name][()] for of in types])
+        found.append([join(name) for name in ("ParticleIDs", "Coordinates", "Velocities", "Masses")])
+        part.close()
+    columns("h5py: a set", *(numpy.concatenate(arrays) for arrays in zip(*found)))
+
+
+def whole(name):
+    with h5py.File(folder / name) as file:
         types = sorted(name for name in file if name.startswith("PartType"))
         join = lambda name: numpy.concatenate([file[of][name][()] for of in types])
         ids = join("ParticleIDs")
@@ -81,8 +106,13 @@ def read_h5py():
 
 
 def read_yt():
+    for name in ("state.hdf5", "packed.hdf5", "set.0.hdf5"):
+        read_by_yt(name)
+
+
+def read_by_yt(name):
     box = [[-50.0, 50.0]] * 3
-    data = yt.load(str(folder / "state.hdf5"), bounding_box=box, unit_base={"length": (1.0, "cm"), "mass": (1.0, "g"), "velocity": (1.0, "cm/s")})
+    data = yt.load(str(folder / name), bounding_box=box, unit_base={"length": (1.0, "cm"), "mass": (1.0, "g"), "velocity": (1.0, "cm/s")})
     all_of_it = data.all_data()
     types = [name for name in data.particle_types_raw]
     join = lambda name: numpy.concatenate([all_of_it[of, name].d for of in types])
@@ -91,8 +121,9 @@ def read_yt():
 
 
 def read_pynbody():
-    data = pynbody.load(str(folder / "state.hdf5"))
-    columns("pynbody", numpy.asarray(data["iord"]), data["pos"], data["vel"], data["mass"])
+    for name in ("state.hdf5", "packed.hdf5", "set"):
+        data = pynbody.load(str(folder / name))
+        columns(f"pynbody: {name}", numpy.asarray(data["iord"]), data["pos"], data["vel"], data["mass"])
     tipsy = pynbody.load(str(folder / "state.tipsy"))
     same("pynbody: Tipsy", numpy.asarray(tipsy["pos"]), POSITION)
 
@@ -109,8 +140,19 @@ def read_ase():
 
 
 def read_vtk():
+    read_by_vtk("state.vtp")
+    read_by_vtk("packed.vtp")
+    mesh = vtk.vtkOBJReader()
+    mesh.SetFileName(str(folder / "state.obj"))
+    mesh.Update()
+    found = mesh.GetOutput()
+    same("VTK: OBJ", vtk_to_numpy(found.GetPoints().GetData()), POSITION)
+    assert (found.GetNumberOfLines(), found.GetNumberOfPolys()) == (2, 1)
+
+
+def read_by_vtk(name):
     reader = vtk.vtkXMLPolyDataReader()
-    reader.SetFileName(str(folder / "state.vtp"))
+    reader.SetFileName(str(folder / name))
     reader.Update()
     found = reader.GetOutput()
     data = found.GetPointData()
@@ -142,5 +184,4 @@ def read_plyfile():
     assert data["face"].data.dtype.names == ("vertex_indices",)
 
 
-if program != "numpy":
-    globals()["read_" + program]()
+globals()["read_" + program]()

@@ -37,7 +37,9 @@ radius = 1.4
 outside = true
 [output]
 every = 15
-formats = ["csv", "npz", "png"]
+formats = ["csv", "npz", "hdf5", "png"]
+files = 2
+compress = true
 frames = 9
 [picture]
 width = 32

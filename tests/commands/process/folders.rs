@@ -218,3 +218,48 @@ fn every_format_is_written_replaced_and_read() {
         assert_eq!(code, 0, "{}: {stderr}", format.name);
     }
 }
+
+/// A state in several files, compressed: all are results, a later run reads them by any name, and nothing is left of them.
+#[test]
+fn a_state_is_divided_and_compressed() {
+    let scene = SCENE.replace("formats = [\"csv\"]", "formats = [\"hdf5\", \"npz\"]\nfiles = 3\ncompress = true");
+    let place = Place::with(&[("a.toml", &scene), ("plain.toml", &scene.replace("files = 3\ncompress = true", ""))]);
+    assert_eq!(place.run("a.toml", "out", &[]).0, 0);
+    for part in 0..3 {
+        assert!(Path::new(&place.at(&format!("out/snapshot_20.{part}.hdf5"))).exists(), "{:?}", place.names("out"));
+    }
+    assert!(!Path::new(&place.at("out/snapshot_20.hdf5")).exists());
+    // The numbers are those of one file.
+    assert_eq!(place.run("plain.toml", "plain", &[]).0, 0);
+    let state = |file: &str| {
+        let columns = motes::kernel::Columns::default();
+        let state = motes::formats::read(Path::new(&place.at(file)), &columns).expect(file);
+        state.columns().map(|(column, values)| (column.name.to_string(), values.clone())).collect::<Vec<_>>()
+    };
+    let whole = state("plain/snapshot_20.hdf5");
+    for file in ["out/snapshot_20.0.hdf5", "out/snapshot_20.2.hdf5", "out/snapshot_20.npz"] {
+        assert_eq!(state(file), whole, "{file}");
+    }
+    // Without a word they stay, with it none is left beside the new ones.
+    assert_eq!(place.run("plain.toml", "out", &[]).0, 8);
+    assert_eq!(place.run("plain.toml", "out", &["--overwrite"]).0, 0);
+    let left = place.names("out");
+    assert!(!left.iter().any(|name| name.contains(".0.hdf5")), "{left:?}");
+}
+
+#[test]
+fn what_no_format_does_is_not_asked_of_it() {
+    for (more, words) in [
+        ("files = 3", "it is for hdf5"),
+        ("compress = true", "it is for npz, hdf5, vtp"),
+        ("files = 0", "files"),
+        ("files = 5000", "at most 4096"),
+    ] {
+        let formats = if more == "files = 5000" { "hdf5" } else { "csv" };
+        let scene = SCENE.replace("formats = [\"csv\"]", &format!("formats = [\"{formats}\"]\n{more}"));
+        let place = Place::with(&[("a.toml", &scene)]);
+        let (code, _, stderr) = place.run("a.toml", "out", &[]);
+        assert!(code == 2 || code == 3, "{more}: {code} {stderr}");
+        assert!(stderr.contains(words), "{more}: {stderr}");
+    }
+}

@@ -7,9 +7,13 @@ mod csv_text;
 mod hdf5_files;
 mod links_text;
 mod npz_archives;
+mod obj_files;
+mod others;
+mod packed;
 mod readers;
 mod register;
 mod round_trips;
+mod sets;
 mod tipsy_files;
 mod whole_files;
 mod xyz_files;
@@ -94,7 +98,7 @@ fn xyz_bytes(particles: &State, precision: Precision) -> Vec<u8> {
     let mut bytes = Vec::new();
     let mut state = particles.clone();
     (state.time, state.step) = (2.5, 77);
-    xyz::write_xyz(&mut bytes, &state, &Options { precision, bounds: None }).expect("memory");
+    xyz::write_xyz(&mut bytes, &state, &Options { precision, ..Options::default() }).expect("memory");
     bytes
 }
 

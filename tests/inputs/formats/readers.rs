@@ -7,7 +7,7 @@ use std::process::Command;
 
 use glam::DVec3;
 use motes::State;
-use motes::formats::{FORMATS, Options, Precision, atomically};
+use motes::formats::{FORMATS, Options, Part, atomically};
 use motes::kernel::{Array, Bounds, Side};
 use motes::links::Link;
 
@@ -49,11 +49,20 @@ fn programs_of_the_field_find_the_same_bits() {
     let folder = folder();
     let (state, sides) = (state(), [Side::Periodic; 3]);
     let bounds = Bounds { low: DVec3::splat(-2.0), high: DVec3::splat(2.0), sides, dimensions: 3 };
-    let options = Options { precision: Precision::Single, bounds: Some(bounds) };
+    let options = Options { bounds: Some(bounds), ..Options::default() };
     for format in FORMATS {
         let Some(write) = format.write else { continue };
         let name = if format.name == "npz" { "arrays.npz".to_owned() } else { format!("state.{}", format.name) };
         atomically(&folder.path().join(name), |out| write(out, &state, &options)).expect(format.name);
+        if format.compresses {
+            let (path, options) = (format!("packed.{}", format.name), Options { compress: true, ..options.clone() });
+            atomically(&folder.path().join(path), |out| write(out, &state, &options)).expect(format.name);
+        }
+        for part in (0..3).map(|number| Part { number, of: 3 }).filter(|_| format.divides) {
+            let options = Options { part, compress: part.number == 1, ..options.clone() };
+            atomically(&folder.path().join(part.name("set", format)), |out| write(out, &state, &options))
+                .expect(format.name);
+        }
     }
     let python = std::env::var("MOTES_PYTHON").unwrap_or_else(|_| "python3".to_owned());
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/readers/readers.py");

@@ -125,6 +125,8 @@ every = 1
 formats = ["csv", "png"]
 frames = 0
 columns = []
+compress = false
+files = 1
 
 [checkpoint]
 every = "600.0 s"

@@ -41,7 +41,7 @@ formats = ["csv", "pgn"]
    |
  7 | formats = ["csv", "pgn"]
    |                   ^^^^^ did you mean "png"?
-   = known: `npz`, `hdf5`, `ply`, `vtp`, `tipsy`, `xyz`, `csv`, `png`
+   = known: `npz`, `hdf5`, `ply`, `vtp`, `obj`, `tipsy`, `xyz`, `csv`, `png`
 
 a.toml: 1 error"#,
     );
