@@ -111,7 +111,7 @@ pub use gpu::Gpu;
 pub use kernel::{
     ACCELERATION, Array, Bounds, Column, Element, Field, Kind, LIFE, POSITION, SPECIES, Side, Solver, TARGET, VELOCITY,
 };
-pub use measure::Measure;
+pub use measure::Energy;
 pub use settings::Value;
 pub use simulation::{Readback, Setup, Simulation};
 pub use state::State;

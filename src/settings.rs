@@ -2,6 +2,7 @@
 
 mod kind;
 mod nearest;
+mod number;
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -10,6 +11,7 @@ use glam::DVec3;
 
 pub use kind::{Kind, LARGEST_WHOLE, Outside, is_lost};
 pub use nearest::{listed, nearest, unknown};
+pub use number::plain;
 
 /// One value out of a scene.
 #[derive(Debug, Clone, PartialEq)]

@@ -13,8 +13,9 @@ use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 use std::time::{Duration, Instant};
 
 use glam::DVec3;
-use motes::formats::{self, FORMATS, Folder, Options, atomically};
+use motes::formats::{self, FORMATS, Options, atomically};
 use motes::kernel::{Array, Columns};
+use motes::run::Folder;
 use motes::run::{self, Found, Run};
 use motes::scene::{self, Scene, Source};
 use motes::{Cpu, Simulation, State};

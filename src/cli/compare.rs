@@ -6,7 +6,7 @@ use glam::DVec3;
 use motes::kernel::Backend;
 use motes::lockstep::{self, Verdict};
 use motes::scene::Scene;
-use motes::{Cpu, Gpu, Measure, Setup, Simulation, State, gpu};
+use motes::{Cpu, Energy, Gpu, Setup, Simulation, State, gpu};
 use serde_json::json;
 
 use super::args::{BackendChoice, CompareArgs, DeviceArgs, SceneArgs};
@@ -141,15 +141,15 @@ async fn steps(found: &gpu::Found, setup: &Setup, steps: u32) -> Result<Over, Fa
     let (x, y) = (a.position(), b.position());
     let errors: Vec<f64> = x.iter().zip(y).map(|(x, y)| apart(setup, *x, *y)).collect();
     let rms = |of: &[f64]| (of.iter().map(|e| e * e).sum::<f64>() / of.len().max(1) as f64).sqrt();
-    let center = Measure::of(&b)?.center;
+    let center = Energy::of(&b)?.center;
     let distances: Vec<f64> = y.iter().map(|y| y.distance(center)).collect();
     let travelled = travelled(&b, setup);
     let scale = rms(&distances).max(y.iter().map(|y| y.length()).fold(0.0, f64::max) * 1e-3);
     // Each step rounds a position to half a unit in the last place, and a force to some 1e-6 of the way it makes.
     let allowed = f64::from(f32::EPSILON) * rms(&y.iter().map(|y| y.length()).collect::<Vec<_>>()) * f64::from(steps)
         + 1e-5 * rms(&travelled) * f64::from(steps).sqrt();
-    let (ea, eb) = (Measure::of(&a)?.total(), Measure::of(&b)?.total());
-    let size = Measure::of(&b)?.kinetic + Measure::of(&b)?.potential.abs();
+    let (ea, eb) = (Energy::of(&a)?.total(), Energy::of(&b)?.total());
+    let size = Energy::of(&b)?.kinetic + Energy::of(&b)?.potential.abs();
     let energy = if size > 0.0 { (ea - eb).abs() / size } else { 0.0 };
     Ok(Over { position: [rms(&errors), errors.iter().copied().fold(0.0, f64::max)], scale, energy, allowed })
 }

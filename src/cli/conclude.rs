@@ -1,6 +1,7 @@
 //! The final report of a run.
 
-use motes::run::{Book, Counts, Course, End, Flocks, Run};
+use motes::measure::Flocks;
+use motes::run::{Course, End, Measured, Run};
 use serde_json::json;
 
 use super::args::{BackendChoice, DeviceArgs};
@@ -23,11 +24,11 @@ pub fn conclude(
     }
     let film = run.film.as_ref().map_or_else(Vec::new, |film| film::lines(film, &scene.name, output, progress));
     let rate = end.steps as f64 / end.stepping.as_secs_f64().max(1e-9);
-    let rows = run.energies.rows();
-    let (first, last) = (run.energies.first(), rows.last().copied().unwrap_or_default());
+    let rows = run.energies();
+    let [first, last] = [rows.first(), rows.last()].map(|row| row.copied().unwrap_or_default());
     let worst = if first.total() == 0.0 { run.looks.change } else { run.looks.change / first.total().abs() };
     let clock = run.course.as_ref().and_then(Course::clock);
-    let flock = run.flocks.as_ref().and_then(Flocks::ends);
+    let flock = run.series::<Flocks>().and_then(Flocks::ends);
     progress.event(
         "finish",
         json!({ "steps": last.step, "stopped": end.stopped, "seconds": took.as_secs_f64(),
@@ -48,18 +49,11 @@ pub fn conclude(
         say(summary::energy(rows, &run.looks, conserved));
     }
     summary::momentum(rows, conserved).into_iter().for_each(&say);
-    flock.map(|(first, last)| summary::flock_statistics(first, last)).into_iter().for_each(&say);
-    run.book.as_ref().and_then(Book::summary).into_iter().for_each(&say);
+    run.measures.iter().filter_map(|one| one.series.summary()).for_each(&say);
     let (whole, left) = run.springs;
     left.map(|left| summary::broken(whole, left)).into_iter().for_each(&say);
-    let population = Counts::last(&run.counts);
-    population.map(summary::population).into_iter().for_each(&say);
-    let more = [
-        (flock.is_some(), ", flock.csv"),
-        (run.book.is_some(), ", fluid.csv"),
-        (population.is_some(), ", population.csv"),
-    ];
-    let tables: String = more.iter().filter(|(is, _)| *is).fold("energy.csv".to_owned(), |all, (_, name)| all + name);
+    let tables: Vec<_> = run.measures.iter().map(Measured::file).collect();
+    let tables = tables.join(", ");
     let picture = if run.pictures.wanted() { format!("{}.png, ", scene.name) } else { String::new() };
     say(format!("results in {}: {picture}{tables}, energy.svg, scene.toml, {} states", output.display(), rows.len()));
     film.into_iter().for_each(&say);

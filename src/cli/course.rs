@@ -1,8 +1,8 @@
 //! How long a run is, in words.
 
 use motes::kernel::Reason;
-use motes::run::plain;
 use motes::scene::Scene;
+use motes::settings::plain;
 use motes::simulation::Clock;
 use serde_json::{Value, json};
 

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 use motes::formats::{self, Contents};
 use motes::kernel::{Array, Column, Shape};
-use motes::measure::Measure;
+use motes::measure::Energy;
 use motes::{Error, State};
 
 use super::args::InfoArgs;
@@ -119,7 +119,7 @@ fn energies(state: &State) -> Result<(), Error> {
     }
     out!("mass       {}, momentum {}", number(mass), corner(momentum));
     if state.get("potential").is_some() {
-        let energies = Measure::of(state)?;
+        let energies = Energy::of(state)?;
         out!("energy     {}, of which {} is kinetic", number(energies.total()), number(kinetic));
     } else {
         out!("energy     {} is kinetic; the file has no column `potential`", number(kinetic));

@@ -51,16 +51,20 @@ pub async fn load(args: &SceneArgs, more: &[String]) -> Result<Loaded, Failure> 
             let all = args.overrides.iter().chain(more);
             let old: Vec<String> = all.filter(|o| !o.trim_start().starts_with("simulation.until")).cloned().collect();
             // Rust's shortest digits are read back as the same number.
-            let new = [
+            let mut new = vec![
                 format!("simulation.dt={:?}", dt / parts as f64),
                 format!("simulation.steps={}", steps.saturating_mul(parts)),
                 format!("output.every={}", every.saturating_mul(parts)),
             ];
+            for (number, one) in loaded.scene.measures.iter().enumerate() {
+                let every = one.every.map(|every| every.saturating_mul(parts));
+                new.extend(every.map(|every| format!("measure.{number}.every={every}")));
+            }
             let divided = SceneArgs {
                 scene: args.scene.clone(),
                 steps: None,
                 until: None,
-                overrides: [old, new.to_vec()].concat(),
+                overrides: [old, new].concat(),
                 allow_outside: args.allow_outside,
                 auto_substeps: true,
                 device: args.device.clone(),

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
-use motes::{Measure, run};
+use motes::{Energy, run};
 use serde_json::{Value, json};
 
 use super::args::ShowArgs;
@@ -108,7 +108,7 @@ impl run::Progress for Progress {
             _ => {}
         }
     }
-    fn measured(&mut self, row: &Measure, first: &Measure) {
+    fn measured(&mut self, row: &Energy, first: &Energy) {
         self.energy(row, first);
         self.event(
             "progress",
@@ -119,7 +119,7 @@ impl run::Progress for Progress {
     fn watched(&self) -> bool {
         matches!(self.kind, Kind::Bar(_))
     }
-    fn energy(&mut self, row: &Measure, first: &Measure) {
+    fn energy(&mut self, row: &Energy, first: &Energy) {
         if let Kind::Bar(bar) = &self.kind {
             bar.set_message(format!("energy error {:.1e}", row.drift_from(first)));
         }

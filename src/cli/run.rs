@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use motes::formats::Folder;
 use motes::kernel::Backend;
+use motes::run::Folder;
 use motes::run::{Checkpoint, End, Found, Options, Progress as _, Run};
 use motes::scene::{self, Every, Scene};
 use motes::simulation::{PressureSolves, Solves};

@@ -38,12 +38,13 @@ pub fn scenes(args: &ScenesArgs) -> Result<(), Failure> {
 fn keys(wanted: Option<&str>) -> Result<(), Failure> {
     let forces = motes::forces::entries().map(|e| ("[[force]] kind", e.name, e.about, e.keys));
     let shapes = motes::shapes::SHAPES.iter().map(|e| ("[[particles]] shape", e.name, e.about, e.keys));
-    let entries = forces.chain(shapes).filter(|entry| wanted.is_none_or(|name| name == entry.1));
+    let measures = motes::measure::MEASURES.iter().map(|e| ("[[measure]] kind", e.name, e.about, e.keys));
+    let entries = forces.chain(shapes).chain(measures).filter(|entry| wanted.is_none_or(|name| name == entry.1));
     let sections = || SECTIONS.iter().filter(|section| wanted.is_none_or(|name| name == section.name));
     let all: Vec<_> = entries.collect();
     if all.is_empty() && sections().next().is_none() {
         let text = format!(
-            "no force, shape or section is called `{}`; motes scenes --keys lists all",
+            "no force, shape, measure or section is called `{}`; motes scenes --keys lists all",
             wanted.unwrap_or_default()
         );
         return Err(motes::Error::Scene(text).into());

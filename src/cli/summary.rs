@@ -2,9 +2,7 @@
 
 use std::time::Duration;
 
-use motes::Measure;
-use motes::life::Population;
-use motes::measure::Flock;
+use motes::Energy;
 use motes::run::Looks;
 
 use super::course;
@@ -13,7 +11,7 @@ use motes::diagnose::Conserved;
 
 /// How the energy went, at the end and at most in all measurements. Where the total is next to nothing, as of a pendulum that starts at its pivot's height, changes are
 /// relative to the maximum kinetic energy.
-pub fn energy(rows: &[Measure], looks: &Looks, conserved: &Conserved) -> String {
+pub fn energy(rows: &[Energy], looks: &Looks, conserved: &Conserved) -> String {
     let (first, last) = (rows.first().copied().unwrap_or_default(), rows.last().copied().unwrap_or_default());
     let word = match conserved {
         Conserved { energy: true, .. } => "error".to_owned(),
@@ -33,26 +31,12 @@ pub fn energy(rows: &[Measure], looks: &Looks, conserved: &Conserved) -> String 
 }
 
 /// How the momenta went, where they are kept.
-pub fn momentum(rows: &[Measure], conserved: &Conserved) -> Option<String> {
+pub fn momentum(rows: &[Energy], conserved: &Conserved) -> Option<String> {
     let (first, last) = (rows.first()?, rows.last()?);
     let (p, l) = (last.momentum - first.momentum, last.angular_momentum - first.angular_momentum);
     let turning = format!(", angular momentum by {:.1e}", l.length());
     let turning = if conserved.angular_momentum { &turning } else { "" };
     conserved.momentum.then(|| format!("momentum changed by {:.1e}{turning}", p.length()))
-}
-
-/// How a flock went.
-pub fn flock_statistics(first: &Flock, last: &Flock) -> String {
-    format!(
-        "order {:.3} → {:.3}, {:.1} → {:.1} neighbours each, {} → {} clusters, the largest {:.0} % of all",
-        first.order,
-        last.order,
-        first.neighbors,
-        last.neighbors,
-        first.clusters,
-        last.clusters,
-        100.0 * last.largest
-    )
 }
 
 /// How fast it was.
@@ -66,11 +50,6 @@ pub fn speed(steps: u64, count: usize, stepping: Duration, took: Duration) -> St
         large(rate),
         large(rate * count as f64)
     )
-}
-
-/// How many live, and what became of the others.
-pub fn population(of: Population) -> String {
-    format!("{} active, {} removed, {} pending", of.active, of.removed, of.pending)
 }
 
 /// How many springs broke.

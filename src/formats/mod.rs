@@ -12,8 +12,6 @@ mod blocks;
 mod collection;
 mod contents;
 mod convert;
-#[cfg(feature = "scene")]
-mod folder;
 mod line;
 pub mod links;
 mod npy;
@@ -31,8 +29,6 @@ pub use self::atomic::atomically;
 use self::atomic::verified;
 pub use self::contents::{Contents, Heading, contents, known};
 pub use self::convert::{Converted, convert};
-#[cfg(feature = "scene")]
-pub use self::folder::Folder;
 use crate::error::Error;
 use crate::kernel::{Bounds, Columns};
 use crate::state::State;

@@ -3,12 +3,35 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::series::number;
+use super::{Measure, Moment, Row, Series};
 use crate::error::Error;
+use crate::settings::Settings;
 use crate::state::State;
+
+/// `energy.csv`.
+pub const MEASURE: Measure = Measure {
+    name: "energy",
+    about: "energies and momenta of all particles",
+    keys: &[],
+    cells: &[
+        ("kinetic", "½ Σ m v² [mass length² / time²]"),
+        ("potential", "the potential energy of all forces that have one [mass length² / time²]"),
+        ("total", "both together [mass length² / time²]"),
+        ("momentum_x", "Σ m v [mass length / time]"),
+        ("momentum_y", "along y"),
+        ("momentum_z", "along z"),
+        ("angular_momentum_x", "Σ m x × v, about the origin [mass length² / time]"),
+        ("angular_momentum_y", "along y"),
+        ("angular_momentum_z", "along z"),
+    ],
+    usual: |_| Ok(Some(Settings::default())),
+    begin: |_, _| Ok(Box::new(Energies::default())),
+};
 
 /// Energies and momenta of a state: a row of `energy.csv`.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Measure {
+pub struct Energy {
     /// Steps done.
     pub step: u64,
     /// The time.
@@ -29,7 +52,7 @@ pub struct Measure {
 /// Particles in one partial sum. The partial sums are added in order, so that a sum has the same bits on any number of cores.
 const CHUNK: usize = 4096;
 
-impl Measure {
+impl Energy {
     /// Measures a state.
     ///
     /// # Errors
@@ -79,5 +102,39 @@ impl Measure {
     pub fn drift_from(&self, first: &Self) -> f64 {
         let change = self.total() - first.total();
         if first.total() == 0.0 { change } else { change / first.total().abs() }
+    }
+}
+
+/// The energies of a run.
+#[derive(Debug, Default)]
+pub struct Energies(Vec<Energy>);
+
+impl Energies {
+    /// One for each output.
+    #[must_use]
+    pub fn rows(&self) -> &[Energy] {
+        &self.0
+    }
+}
+
+impl Series for Energies {
+    fn take(&mut self, moment: &Moment<'_>) -> Result<Vec<Row>, Error> {
+        let row = Energy::of(moment.state)?;
+        self.0.push(row);
+        let (p, l) = (row.momentum, row.angular_momentum);
+        let numbers = [row.kinetic, row.potential, row.total(), p.x, p.y, p.z, l.x, l.y, l.z];
+        Ok(vec![numbers.map(Into::into).to_vec()])
+    }
+    fn recall(&mut self, step: u64, cells: &[&str]) {
+        let three = |k: usize| DVec3::new(number(cells, k), number(cells, k + 1), number(cells, k + 2));
+        self.0.push(Energy {
+            step,
+            time: number(cells, 0),
+            kinetic: number(cells, 1),
+            potential: number(cells, 2),
+            momentum: three(4),
+            angular_momentum: three(7),
+            ..Energy::default()
+        });
     }
 }

@@ -1,12 +1,49 @@
 //! How far particles move as one, and which of them are near each other.
 
+use std::borrow::Cow;
+
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::series::number;
+use super::{Measure, Moment, Row, Series};
 use crate::error::Error;
 use crate::kernel::Bounds;
 use crate::neighbors::Cells;
+use crate::settings::{Key, Kind, Settings, Value};
 use crate::state::State;
+
+/// `flock.csv`.
+pub const MEASURE: Measure = Measure {
+    name: "flock",
+    about: "order, neighbours and clusters",
+    keys: &[
+        Key::required("range", Kind::Positive, "the radius within which particles are neighbours [length]"),
+        Key::new("species", Kind::Species, Value::Text(Cow::Borrowed("all")), "the species that is measured, or \"all\""),
+    ],
+    cells: &[
+        ("order", "|Σ v / |v|| / N over all that move (Vicsek et al. 1995)"),
+        ("speed", "the mean speed [length / time]"),
+        ("neighbors", "the mean number of neighbours within range"),
+        ("most_neighbors", "the largest number"),
+        ("clusters", "sets of particles that are joined by chains of neighbours (friends of friends; Davis et al. 1985)"),
+        ("largest_cluster", "the part of all particles that is in the largest of them"),
+    ],
+    usual: |setup| {
+        let radius = setup.forces.iter().find_map(|force| force.properties().statistics_radius);
+        Ok(radius.map(|(range, species)| {
+            let settings = Settings::defaults(MEASURE.keys).with("range", Value::Number(range));
+            match species {
+                Some(species) => settings.with("species", Value::Number(species.into())),
+                None => settings,
+            }
+        }))
+    },
+    begin: |setup, settings| {
+        let (range, species) = (settings.number("range"), settings.species("species"));
+        Ok(Box::new(Flocks { range, species, bounds: setup.bounds, ends: None }))
+    },
+};
 
 /// Order and company of a state: a row of `flock.csv`.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -85,6 +122,65 @@ fn friends(cells: &Cells, i: usize) -> Vec<u32> {
     let mut friends = Vec::new();
     cells.around(i, |j| friends.push(u32::try_from(j).unwrap_or(u32::MAX)));
     friends
+}
+
+/// Order and clusters of a run.
+#[derive(Debug)]
+pub struct Flocks {
+    range: f64,
+    species: Option<u32>,
+    bounds: Bounds,
+    ends: Option<(Flock, Flock)>,
+}
+
+impl Flocks {
+    /// The first and the last row.
+    #[must_use]
+    pub fn ends(&self) -> Option<(&Flock, &Flock)> {
+        self.ends.as_ref().map(|(first, last)| (first, last))
+    }
+    fn add(&mut self, row: Flock) {
+        let first = self.ends.map_or(row, |(first, _)| first);
+        self.ends = Some((first, row));
+    }
+}
+
+impl Series for Flocks {
+    fn take(&mut self, moment: &Moment<'_>) -> Result<Vec<Row>, Error> {
+        let f = Flock::of(moment.state, self.bounds, Some(self.range), self.species)?;
+        self.add(f);
+        let counts = [f.most_neighbors, f.clusters].map(f64::from);
+        let row = [f.order, f.speed, f.neighbors, counts[0], counts[1], f.largest];
+        Ok(vec![row.map(Into::into).to_vec()])
+    }
+    fn recall(&mut self, step: u64, cells: &[&str]) {
+        let number = |k| number(cells, k);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "counts, or saturated")]
+        let whole = |k| number(k) as u32;
+        self.add(Flock {
+            step,
+            time: number(0),
+            order: number(1),
+            speed: number(2),
+            neighbors: number(3),
+            most_neighbors: whole(4),
+            clusters: whole(5),
+            largest: number(6),
+        });
+    }
+    fn summary(&self) -> Option<String> {
+        let (first, last) = self.ends()?;
+        Some(format!(
+            "order {:.3} → {:.3}, {:.1} → {:.1} neighbours each, {} → {} clusters, the largest {:.0} % of all",
+            first.order,
+            last.order,
+            first.neighbors,
+            last.neighbors,
+            first.clusters,
+            last.clusters,
+            100.0 * last.largest
+        ))
+    }
 }
 
 /// Disjoint sets (Tarjan 1975), by size, with paths halved.

@@ -2,10 +2,45 @@
 
 use glam::DVec3;
 
+use super::series::{number, whole};
+use super::{Cell, Measure, Moment, Row, Series};
 use crate::error::Error;
-use crate::kernel::Bounds;
+use crate::kernel::{Bounds, Machine, Reason};
+use crate::settings::{Settings, plain};
+use crate::simulation::Setup;
 use crate::sph::Medium;
 use crate::state::State;
+
+/// `fluid.csv`.
+pub const MEASURE: Measure = Measure {
+    name: "fluid",
+    about: "mass, momentum, energies and density errors of a fluid, without its walls",
+    keys: &[],
+    cells: &[
+        ("dt", "the time step [time]"),
+        ("dt_free", "the time step without the limits of this output [time]"),
+        ("limit", "what limits it"),
+        ("limited_by", "the particle by which it is limited"),
+        ("mass", "Σ m [mass]"),
+        ("momentum_x", "Σ m v [mass length / time]"),
+        ("momentum_y", "along y"),
+        ("momentum_z", "along z"),
+        ("kinetic", "½ Σ m v² [mass length² / time²]"),
+        ("potential", "that of weight and other forces [mass length² / time²]"),
+        ("internal", "Σ m ∫ p / ρ² dρ by the equation of state [mass length² / time²]"),
+        ("total", "the three together [mass length² / time²]"),
+        ("largest_density_error", "the largest ρ/ρ₀ − 1 above 0"),
+        ("densest_particle", "its particle"),
+        ("mean_density_error", "the mean of max(ρ/ρ₀ − 1, 0)"),
+        ("outside", "particles outside of the box; must be 0"),
+        ("broken", "particles with NaN or infinity; must be 0"),
+    ],
+    usual: |setup| Ok(Book::of(setup)?.map(|_| Settings::default())),
+    begin: |setup, _| match Book::of(setup)? {
+        Some(book) => Ok(Box::new(book)),
+        None => Err(Error::Scene("the measure `fluid` is for a scene with a fluid, and this one has none: leave it out".to_owned())),
+    },
+};
 
 /// What a fluid has at a time, without fixed particles, which are its walls. A row of `fluid.csv`.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -90,5 +125,128 @@ impl Ledger {
     #[must_use]
     pub fn total(&self) -> f64 {
         self.kinetic + self.potential + self.internal
+    }
+}
+
+/// The book, of a run that has a fluid.
+#[derive(Debug)]
+pub struct Book {
+    medium: Medium,
+    bounds: Bounds,
+    held: Vec<bool>,
+    dt: f64,
+    first: Option<Ledger>,
+    last: Ledger,
+    worst: Ledger,
+    /// The largest of the mean density errors.
+    mean: f64,
+    /// What is to be said, and was not yet.
+    warning: Option<String>,
+}
+
+impl Book {
+    /// The book of a setup; none where nothing flows.
+    fn of(setup: &Setup) -> Result<Option<Self>, Error> {
+        let problem = setup.problem(Machine::HOST)?;
+        for force in &setup.forces {
+            if let Some(fluid) = force.resolved(&problem)?.fluid {
+                let held = (0..setup.state.len()).map(|id| problem.is_held(id)).collect();
+                let (first, warning, last, worst) = (None, None, Ledger::default(), Ledger::default());
+                let (bounds, dt, mean) = (setup.bounds, setup.dt, 0.0);
+                return Ok(Some(Self {
+                    medium: fluid.medium,
+                    bounds,
+                    held,
+                    dt,
+                    first,
+                    last,
+                    worst,
+                    mean,
+                    warning,
+                }));
+            }
+        }
+        Ok(None)
+    }
+    fn add(&mut self, row: Ledger) {
+        self.warning = (row.outside > self.worst.outside || row.broken > self.worst.broken).then(|| {
+            format!(
+                "{} particles of the fluid are out of the box and {} are broken at {}: both must stay 0",
+                row.outside,
+                row.broken,
+                plain(row.time)
+            )
+        });
+        if row.worst_density > self.worst.worst_density {
+            (self.worst.worst_density, self.worst.worst_particle) = (row.worst_density, row.worst_particle);
+            self.worst.time = row.time;
+        }
+        self.mean = self.mean.max(row.mean_density);
+        self.worst.outside = self.worst.outside.max(row.outside);
+        self.worst.broken = self.worst.broken.max(row.broken);
+        self.first.get_or_insert(row);
+        self.last = row;
+    }
+}
+
+impl Series for Book {
+    fn take(&mut self, moment: &Moment<'_>) -> Result<Vec<Row>, Error> {
+        let held = |id: usize| self.held.get(id).copied().unwrap_or(false);
+        let row = Ledger::of(moment.state, moment.density, &self.medium, &self.bounds, held)?;
+        let (dt, free, reason) =
+            moment.clock.map_or((self.dt, self.dt, Reason::Longest), |clock| (clock.dt, clock.free, clock.reason));
+        let limiting = moment.clock.and_then(|clock| clock.particle).map_or(Cell::Empty, Into::into);
+        let p = row.momentum;
+        let numbers = [row.mass, p.x, p.y, p.z, row.kinetic, row.potential, row.internal, row.total(), row.worst_density];
+        let mut cells: Row = vec![dt.into(), free.into(), reason.name().into(), limiting];
+        cells.extend(numbers.map(Cell::from));
+        cells.extend([row.worst_particle.into(), row.mean_density.into(), row.outside.into(), row.broken.into()]);
+        self.add(row);
+        Ok(vec![cells])
+    }
+    fn recall(&mut self, step: u64, cells: &[&str]) {
+        let (number, whole) = (|k| number(cells, k), |k| whole(cells, k));
+        self.add(Ledger {
+            step,
+            time: number(0),
+            mass: number(5),
+            momentum: DVec3::new(number(6), number(7), number(8)),
+            kinetic: number(9),
+            potential: number(10),
+            internal: number(11),
+            worst_density: number(13),
+            worst_particle: u32::try_from(whole(14)).unwrap_or(u32::MAX),
+            mean_density: number(15),
+            outside: whole(16),
+            broken: whole(17),
+            ..Ledger::default()
+        });
+        // That was said before.
+        self.warning = None;
+    }
+    fn summary(&self) -> Option<String> {
+        let (first, last, worst) = (self.first?, self.last, self.worst);
+        let lost = last.mass - first.mass;
+        let counts = if worst.outside + worst.broken == 0 {
+            "no particle out of the box or broken".to_owned()
+        } else {
+            format!("UP TO {} OUT OF THE BOX AND {} BROKEN", worst.outside, worst.broken)
+        };
+        // Walls weigh something too, and the energy of a run counts them.
+        let which = if self.held.contains(&true) { " without walls" } else { "" };
+        Some(format!(
+            "fluid: mass {:.6e} ({lost:+.1e}), energy{which} {:.4e} → {:.4e}, too dense by {:.2} % at most (particle {} at {:.4}), {:.3} % in \
+             the mean; {counts}",
+            last.mass,
+            first.total(),
+            last.total(),
+            100.0 * worst.worst_density,
+            worst.worst_particle,
+            worst.time,
+            100.0 * self.mean
+        ))
+    }
+    fn warning(&mut self) -> Option<String> {
+        self.warning.take()
     }
 }

@@ -1,9 +1,83 @@
-//! Measurements of a state, in f64.
+//! Measures of a state, in f64: a register, a file for each. A run writes a table of each measure that it takes.
 
-mod energy;
-mod flock;
-mod fluid;
+mod series;
 
-pub use energy::Measure;
-pub use flock::Flock;
-pub use fluid::Ledger;
+use std::fmt::{self, Debug};
+
+pub use energy::{Energies, Energy};
+pub use flock::{Flock, Flocks};
+pub use fluid::{Book, Ledger};
+pub use population::Counts;
+pub use series::{Cell, Moment, Row, Series};
+pub use thermo::Thermo;
+
+use crate::error::Error;
+use crate::settings::{Key, Settings};
+use crate::simulation::Setup;
+
+/// A measure: what a scene calls it, and the table that a run writes of it, `NAME.csv`.
+pub struct Measure {
+    /// Its word in a scene, and the stem of its table.
+    pub name: &'static str,
+    /// What it measures: one line for a list.
+    pub about: &'static str,
+    /// What a scene may say of it.
+    pub keys: &'static [Key],
+    /// The cells of a row behind step and time, each with its meaning and its unit.
+    pub cells: &'static [(&'static str, &'static str)],
+    /// The settings with which a run takes it though its scene does not name it; `None` where it does not.
+    pub usual: fn(&Setup) -> Result<Option<Settings>, Error>,
+    /// Begins a series of it.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] and [`Error::Scene`] where there is nothing to measure in such a run.
+    pub begin: Begin,
+}
+
+/// What begins a series of a run with such settings.
+pub type Begin = fn(&Setup, &Settings) -> Result<Box<dyn Series>, Error>;
+
+impl Measure {
+    /// The first line of its table.
+    #[must_use]
+    pub fn header(&self) -> String {
+        self.cells.iter().fold("step,time".to_owned(), |line, (name, _)| line + "," + name)
+    }
+}
+
+impl Debug for Measure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.name)
+    }
+}
+
+impl PartialEq for Measure {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name
+    }
+}
+impl Eq for Measure {}
+
+macro_rules! register {
+    ($($module:ident)*) => {
+        $(mod $module;)*
+        /// All measures, in the order in which a run takes them.
+        pub const MEASURES: &[Measure] = &[$($module::MEASURE),*];
+    };
+}
+
+register! {
+    energy
+    flock
+    fluid
+    population
+    thermo
+    rdf
+    probe
+}
+
+/// The measure of that name.
+#[must_use]
+pub fn measure(name: &str) -> Option<&'static Measure> {
+    MEASURES.iter().find(|measure| measure.name == name)
+}

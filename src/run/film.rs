@@ -5,13 +5,13 @@ use std::sync::Arc;
 
 use glam::Vec4;
 
+use super::Folder;
 use super::checkpoint::{Checkpoint, Reel};
 use super::images;
 use super::pictures::Pictures;
 use super::progress::Progress;
 use super::stream::Stream;
 use crate::error::Error;
-use crate::formats::Folder;
 use crate::kernel::{Backend, Columns, POSITION, VELOCITY};
 use crate::render::{self, Trail};
 use crate::scene::Scene;

@@ -5,9 +5,8 @@ use std::path::Path;
 use crate::error::Error;
 use crate::formats;
 use crate::scene::Scene;
+use crate::settings::plain;
 use crate::simulation::Setup;
-
-use super::progress::plain;
 
 /// Puts the state of a file, which an earlier run of the scene has written, in the place of the scene's own.
 ///

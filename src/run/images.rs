@@ -3,10 +3,10 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use super::Folder;
 use super::stream::Stream;
 use crate::error::Error;
-use crate::formats::Folder;
-use crate::measure::Measure;
+use crate::measure::Energy;
 use crate::render::Image;
 use crate::scene::Output;
 
@@ -53,7 +53,7 @@ pub fn join(path: &Path, frames: &[PathBuf], rate: u16) -> Result<(), Error> {
 
 /// A plot of energies; a build without the feature `images` has but their table.
 #[cfg_attr(not(feature = "images"), expect(clippy::unnecessary_wraps, reason = "with that feature it may fail"))]
-pub fn energy(path: &Path, rows: &[Measure], title: &str) -> Result<(), Error> {
+pub fn energy(path: &Path, rows: &[Energy], title: &str) -> Result<(), Error> {
     #[cfg(feature = "images")]
     return super::plot::energy(path, rows, title);
     #[cfg(not(feature = "images"))]

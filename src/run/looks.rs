@@ -1,6 +1,6 @@
 //! Looks at the energy between the states that are written: what is largest in a run is seldom there.
 
-use crate::measure::Measure;
+use crate::measure::Energy;
 
 /// So many looks are taken in a run, about.
 const LOOKS: u64 = 64;
@@ -34,7 +34,7 @@ impl Looks {
         self.interval > 0 && done.is_multiple_of(self.interval)
     }
     /// Takes in a state of a run that began with `first`.
-    pub(super) fn take(&mut self, row: &Measure, first: &Measure) {
+    pub(super) fn take(&mut self, row: &Energy, first: &Energy) {
         self.kinetic = self.kinetic.max(row.kinetic);
         self.change = self.change.max((row.total() - first.total()).abs());
         self.count += 1;

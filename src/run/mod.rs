@@ -11,27 +11,25 @@
 //! let mut run = Run::new(scene, &setup, Options::into("out/kepler"))?;
 //! let mut simulation = Simulation::on(Cpu::new(setup.check()?)?, &setup)?;
 //! let end = run.drive(&mut simulation, &mut ()).await?;
-//! println!("{} steps; {} states are in out/kepler", end.steps, run.energies.rows().len());
+//! println!("{} steps; {} states are in out/kepler", end.steps, run.energies().len());
 //! # Ok(())
 //! # }
 //! ```
 
 mod checkpoint;
 mod course;
-mod energy;
 mod film;
-mod flock;
-mod fluid;
+mod folder;
 mod from;
 mod images;
 mod looks;
+mod measured;
 mod outputs;
 mod packed;
 mod pictures;
 #[doc(hidden)]
 #[cfg(feature = "images")]
 pub mod plot;
-mod population;
 mod progress;
 mod resume;
 mod schedule;
@@ -50,23 +48,17 @@ pub use checkpoint::Checkpoint;
 #[doc(hidden)]
 pub use course::{Course, begun};
 #[doc(hidden)]
-pub use energy::Energies;
-#[doc(hidden)]
 pub use film::Film;
 #[doc(hidden)]
-pub use flock::Flocks;
-#[doc(hidden)]
-pub use fluid::Book;
+pub use folder::Folder;
 pub use from::go_on;
 #[doc(hidden)]
 pub use looks::Looks;
 #[doc(hidden)]
+pub use measured::Measured;
+#[doc(hidden)]
 pub use pictures::Pictures;
-#[doc(hidden)]
-pub use population::Counts;
 pub use progress::Progress;
-#[doc(hidden)]
-pub use progress::plain;
 #[doc(hidden)]
 pub use resume::{Found, is_of};
 #[doc(hidden)]
@@ -74,12 +66,14 @@ pub use states::{States, written};
 pub use stop::Stop;
 #[doc(hidden)]
 pub use table::{Lengths, Rows, Table};
-pub use writer::{Moment, Writer};
+pub use writer::Writer;
+
+pub use crate::measure::Moment;
 
 use crate::error::Error;
-use crate::formats::{self, Folder, Precision};
+use crate::formats::{self, Precision};
 use crate::kernel::{Backend, Bounds, Columns, POSITION, Side};
-use crate::measure::Measure;
+use crate::measure::Energy;
 use crate::render::{Picture, Scenery, Trail};
 use crate::scene::Scene;
 use crate::simulation::{Setup, Simulation};
@@ -158,14 +152,8 @@ pub struct Run {
     /// Steps of dt that were done when it continued.
     goes_on: Option<u64>,
     schedule: Schedule,
-    /// The energies.
-    pub energies: Energies,
-    /// Order and clusters, where a statistics radius is set.
-    pub flocks: Option<Flocks>,
-    /// How many particles are pending, active and removed.
-    pub counts: Counts,
-    /// The ledger of a fluid, if there is one.
-    pub book: Option<Book>,
+    /// What is measured at outputs, in the order of the register.
+    pub measures: Vec<Measured>,
     /// Pictures of outputs.
     pub pictures: Pictures,
     /// The film, if one is asked for.
@@ -213,8 +201,9 @@ impl Run {
         let scenery = Scenery::of(&setup.state).within(&scene.bounds).beside(standing, &setup.state);
         images::check(&scene.output)?;
         Picture::with(&scene.picture, &setup.state, &[], Trail::new(0), &scenery)?;
-        let radius = properties().find_map(|of| of.statistics_radius);
         let (count, stream) = (setup.state.len(), Stream::default());
+        let mut measures = Measured::all(&scene.measures, setup)?;
+        measures.iter_mut().for_each(|one| one.each_step = options.ledger && one.measure.name == "fluid");
         Ok(Self {
             begun,
             count,
@@ -224,10 +213,7 @@ impl Run {
             resumed: None,
             goes_on: None,
             schedule: Schedule::new(scene.checkpoint.every, setup.state.step, setup.state.time),
-            energies: Energies::new(&scene.name),
-            flocks: radius.map(|radius| Flocks::new(radius, scene.bounds)),
-            counts: Counts::default(),
-            book: Book::of(setup)?,
+            measures,
             pictures: Pictures::new(&scene, count, scenery, stream.clone()),
             film: Film::of(&scene, begun, options.fps, &stream),
             looks: Looks::new(scene.steps, scene.adaptive_step.is_some()),
@@ -307,7 +293,7 @@ impl Run {
             // Before what only a run that is stopped here writes.
             self.save(simulation, &course, progress).await?;
         }
-        if self.energies.rows().last().is_none_or(|row| row.step != simulation.steps()) {
+        if self.energies().last().is_none_or(|row| row.step != simulation.steps()) {
             self.write(simulation, &course, progress).await?;
         }
         let steps = simulation.steps() - begun;
@@ -319,6 +305,7 @@ impl Run {
         for writer in self.all() {
             writer.finish()?;
         }
+        images::energy(&folder.file("energy.svg")?, self.energies(), &self.scene.name)?;
         if !stopped {
             self.sign(&folder, Some(simulation.steps()))?;
             folder.keep_checkpoints(0, u64::MAX)?;
@@ -343,9 +330,10 @@ impl Run {
             let frame = self.film.as_ref().and_then(Film::next).unwrap_or(steps);
             let point = self.pictures.until_point(made).unwrap_or(u64::MAX);
             let most = point.min(self.schedule.most(made, course.time(), dt));
-            let most = if self.options.ledger { 1 } else { most };
+            let most = if self.measures.iter().any(|one| one.each_step) { 1 } else { most };
             let start = Instant::now();
-            let target = next.min(frame).min(self.looks.next(done));
+            let measured = self.measures.iter().map(|one| one.next(done)).min().unwrap_or(u64::MAX);
+            let target = next.min(frame).min(measured).min(self.looks.next(done));
             let some = course.advance(simulation, target, batch.min(most)).await?;
             stepping += start.elapsed();
             let factor = (BATCH.as_secs_f64() / start.elapsed().as_secs_f64().max(1e-6)).clamp(0.5, 4.0);
@@ -366,14 +354,14 @@ impl Run {
             self.stream.check()?;
             if course.done() == next {
                 self.write(simulation, course, progress).await?;
-            } else if let (true, Some(_)) = (self.options.ledger, &self.book) {
+            } else if self.measures_between(course.done()) {
                 self.enter(simulation, course, progress).await?;
             } else if self.looks.is_due(course.done()) || progress.watched() && looked.elapsed() > LOOK.max(look * 20) {
                 // The energy between two outputs, and for a bar that is watched for a twentieth of the time at most.
                 let start = Instant::now();
                 let snapshot = simulation.snapshot().await?;
-                let row = Measure::of(&snapshot)?;
-                let first = self.energies.first();
+                let row = Energy::of(&snapshot)?;
+                let first = self.first();
                 progress.energy(&row, &first);
                 if self.looks.is_due(course.done()) {
                     self.looks.take(&row, &first);

@@ -1,15 +1,17 @@
 //! An output: the present state is measured, and handed to all writers.
 
+use std::any::Any;
 use std::sync::Arc;
 
 use super::Run;
 use super::course::Course;
-use super::fluid::Book;
+use super::measured::Measured;
 use super::progress::Progress;
 use super::table::Table;
-use super::writer::{Moment, Writer};
+use super::writer::Writer;
 use crate::error::Error;
 use crate::kernel::Backend;
+use crate::measure::{Book, Energies, Energy, Moment, Series};
 use crate::simulation::Simulation;
 use crate::sph::DENSITY;
 
@@ -26,43 +28,38 @@ impl Run {
         let mut state = Arc::new(simulation.snapshot_of(&wanted).await?);
         let (links, density) = (simulation.torn().await?, self.density(simulation).await?);
         let moment = Moment { state: &state, density: &density, clock: course.clock(), links: links.as_ref() };
-        for writer in self.all().into_iter().filter(|writer| writer.measures()) {
-            writer.take(&moment)?;
-        }
-        self.warn(progress);
+        self.measure(&moment, |one| one.is_due(course.done(), true) || one.each_step, progress)?;
         for table in self.tables() {
             table.settle_later(&self.stream)?;
         }
-        if self.energies.rows().len() == 1 {
+        if self.energies().len() == 1 {
             self.pictures.trail.push(state.position());
         }
         // The energies are in their table.
         if !wanted.contains(&"potential") {
             Arc::make_mut(&mut state).remove("potential");
         }
-        if self.energies.rows().len() == 1 {
+        if self.energies().len() == 1 {
             self.states.left_out(&state).iter().for_each(|text| progress.remark(text));
         }
         let moment = Moment { state: &state, density: &density, clock: course.clock(), links: links.as_ref() };
         for number in 0..self.all().len() {
             let writer = &mut self.all()[number];
-            if !writer.measures() {
-                writer.take(&moment)?;
-            }
+            writer.take(&moment)?;
             let Some(picture) = writer.picture(&moment)? else { continue };
             let image = simulation.draw(&picture).await?;
             self.all()[number].drawn(state.step, image)?;
         }
-        if let Some(row) = self.energies.rows().last() {
-            let first = self.energies.first();
-            self.looks.take(row, &first);
-            progress.measured(row, &first);
+        if let Some(row) = self.energies().last().copied() {
+            let first = self.first();
+            self.looks.take(&row, &first);
+            progress.measured(&row, &first);
         }
         self.springs.1 = links.map(|links| links.springs.len());
         self.last = Some(state);
         Ok(())
     }
-    /// Enters the present state into the ledger of a fluid alone.
+    /// Takes the measures that are due between two outputs, or after each step.
     pub(super) async fn enter<B: Backend>(
         &mut self,
         simulation: &mut Simulation<B>,
@@ -70,37 +67,53 @@ impl Run {
         progress: &mut dyn Progress,
     ) -> Result<(), Error> {
         let (state, density) = (Arc::new(simulation.snapshot().await?), self.density(simulation).await?);
-        if let Some(book) = &mut self.book {
-            book.take(&Moment { state: &state, density: &density, clock: course.clock(), links: None })?;
+        let moment = Moment { state: &state, density: &density, clock: course.clock(), links: None };
+        self.measure(&moment, |one| one.is_due(course.done(), false) || one.each_step, progress)
+    }
+    fn measure(
+        &mut self,
+        moment: &Moment<'_>,
+        is_due: impl Fn(&Measured) -> bool,
+        progress: &mut dyn Progress,
+    ) -> Result<(), Error> {
+        for one in self.measures.iter_mut().filter(|one| is_due(one)) {
+            one.take(moment)?;
+            if let Some(text) = one.series.warning() {
+                progress.warning(&text);
+            }
         }
-        self.warn(progress);
         Ok(())
     }
+    /// Whether measures are due that are apart from outputs.
+    pub(super) fn measures_between(&self, done: u64) -> bool {
+        self.measures.iter().any(|one| one.is_due(done, false) || one.each_step)
+    }
     async fn density<B: Backend>(&self, simulation: &mut Simulation<B>) -> Result<Vec<f32>, Error> {
-        if self.book.is_some() { simulation.read(DENSITY).await } else { Ok(Vec::new()) }
+        if self.series::<Book>().is_some() { simulation.read(DENSITY).await } else { Ok(Vec::new()) }
     }
-    fn warn(&mut self, progress: &mut dyn Progress) {
-        if let Some(loud) = self.book.as_mut().and_then(Book::warning) {
-            progress.warning(&loud);
-        }
+    /// The series of that type, if the run takes such a measure: `run.series::<Flocks>()`. Of several the first.
+    #[must_use]
+    pub fn series<S: Series>(&self) -> Option<&S> {
+        self.measures.iter().find_map(|one| (&*one.series as &dyn Any).downcast_ref())
     }
-    /// All writers; the plot of energies is the last file of a run.
+    /// The energies at outputs.
+    #[must_use]
+    pub fn energies(&self) -> &[Energy] {
+        self.series::<Energies>().map(Energies::rows).unwrap_or_default()
+    }
+    /// The energies with which the run began.
+    pub(super) fn first(&self) -> Energy {
+        self.energies().first().copied().unwrap_or_default()
+    }
+    /// All writers.
     pub(super) fn all(&mut self) -> Vec<&mut dyn Writer> {
-        let mut all: Vec<&mut dyn Writer> = Vec::new();
-        all.extend(self.book.as_mut().map(|one| one as &mut dyn Writer));
-        all.extend(self.flocks.as_mut().map(|one| one as &mut dyn Writer));
-        all.extend([&mut self.counts as &mut dyn Writer, &mut self.states, &mut self.pictures]);
+        let mut all: Vec<&mut dyn Writer> = vec![&mut self.states, &mut self.pictures];
         all.extend(self.writers.iter_mut().map(|one| one.as_mut() as &mut dyn Writer));
-        all.push(&mut self.energies);
         all
     }
     /// All tables.
     pub(super) fn tables(&self) -> Vec<&Table> {
-        let mut all: Vec<&dyn Writer> = Vec::new();
-        all.extend(self.book.as_ref().map(|one| one as &dyn Writer));
-        all.extend(self.flocks.as_ref().map(|one| one as &dyn Writer));
-        all.extend([&self.counts as &dyn Writer, &self.energies]);
-        all.extend(self.writers.iter().map(AsRef::as_ref));
-        all.into_iter().flat_map(Writer::tables).collect()
+        let measured = self.measures.iter().filter_map(Measured::table);
+        measured.chain(self.writers.iter().flat_map(|one| one.tables())).collect()
     }
 }

@@ -2,12 +2,13 @@
 
 use std::sync::Arc;
 
+use super::Folder;
 use super::images;
 use super::stream::Stream;
 use super::table::Lengths;
-use super::writer::{Moment, Writer};
+use super::writer::Writer;
 use crate::error::Error;
-use crate::formats::Folder;
+use crate::measure::Moment;
 use crate::render::{Color, Image, Picture, Scenery, Trail, framed, group_color, pack};
 use crate::scene::{Group, Scene};
 use crate::settings::Settings;

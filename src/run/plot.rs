@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::error::Error;
 use crate::formats::atomically;
-use crate::measure::Measure;
+use crate::measure::Energy;
 use plotters::coord::Shift;
 use plotters::coord::ranged1d::{Ranged, ValueFormatter};
 use plotters::prelude::*;
@@ -34,7 +34,7 @@ type Points = Vec<(f64, f64)>;
 ///
 /// # Errors
 /// [`Error::Output`] when the file cannot be written.
-pub fn energy(path: &Path, rows: &[Measure], title: &str) -> Result<(), Error> {
+pub fn energy(path: &Path, rows: &[Energy], title: &str) -> Result<(), Error> {
     write(path, SIZE, |root| panels(root, rows, title))
 }
 
@@ -59,7 +59,7 @@ fn draw(svg: &mut String, size: (u32, u32), panels: impl FnOnce(&Area) -> Result
     done
 }
 
-fn panels(root: &Area, rows: &[Measure], title: &str) -> Result<(), String> {
+fn panels(root: &Area, rows: &[Energy], title: &str) -> Result<(), String> {
     root.fill(&WHITE).map_err(|e| e.to_string())?;
     let style = text(22).pos(Pos::new(HPos::Left, VPos::Center));
     root.draw_text(title, &style, (fine(20), fine(28))).map_err(|e| e.to_string())?;
@@ -141,11 +141,11 @@ where
     mesh.draw().map_err(|e| e.to_string())
 }
 
-fn energies(area: &Area, rows: &[Measure]) -> Result<(), String> {
+fn energies(area: &Area, rows: &[Energy]) -> Result<(), String> {
     let lines = [
         (KINETIC, points(rows, |row| row.kinetic)),
         (POTENTIAL, points(rows, |row| row.potential)),
-        (INK, points(rows, Measure::total)),
+        (INK, points(rows, Energy::total)),
     ];
     let all = || lines.iter().flat_map(|(_, values)| values);
     let (times, values) = (times(rows), range(all().map(|(_, value)| *value)));
@@ -180,7 +180,7 @@ pub fn legend(area: &Area, names: &[(&str, RGBColor)], at: (i32, i32), apart: i3
     Ok(())
 }
 
-fn errors(area: &Area, rows: &[Measure]) -> Result<(), String> {
+fn errors(area: &Area, rows: &[Energy]) -> Result<(), String> {
     let (what, values) = drift(rows);
     let largest = values.iter().map(|(_, error)| *error).fold(FLOOR, f64::max);
     let smallest = values.iter().map(|(_, error)| *error).filter(|error| *error > FLOOR).fold(largest, f64::min);
@@ -216,7 +216,7 @@ fn dots<E: std::fmt::Display>(
 }
 
 /// The label of the lower panel, and the line in it.
-fn drift(rows: &[Measure]) -> (&'static str, Points) {
+fn drift(rows: &[Energy]) -> (&'static str, Points) {
     let Some(first) = rows.first() else {
         return ("|ΔE / E₀|", Points::new());
     };
@@ -229,7 +229,7 @@ fn drift(rows: &[Measure]) -> (&'static str, Points) {
     (label, points(rows, |row| (row.momentum - first.momentum).length() / scale))
 }
 
-fn points(rows: &[Measure], value: impl Fn(&Measure) -> f64) -> Points {
+fn points(rows: &[Energy], value: impl Fn(&Energy) -> f64) -> Points {
     rows.iter()
         .map(|row| (row.time, value(row)))
         .filter(|(time, value)| time.is_finite() && value.is_finite())
@@ -237,7 +237,7 @@ fn points(rows: &[Measure], value: impl Fn(&Measure) -> f64) -> Points {
 }
 
 /// From the first to the last; never empty.
-fn times(rows: &[Measure]) -> (f64, f64) {
+fn times(rows: &[Energy]) -> (f64, f64) {
     let finite = || rows.iter().map(|row| row.time).filter(|time| time.is_finite());
     let (first, last) = (finite().fold(f64::INFINITY, f64::min), finite().fold(f64::NEG_INFINITY, f64::max));
     if first < last { (first, last) } else { range(finite()) }
@@ -278,7 +278,7 @@ fn short(x: f64) -> String {
 mod tests {
     use super::*;
 
-    fn svg(rows: &[Measure]) -> String {
+    fn svg(rows: &[Energy]) -> String {
         let mut svg = String::new();
         draw(&mut svg, SIZE, |root| panels(root, rows, "a <test>")).unwrap();
         svg
@@ -286,7 +286,7 @@ mod tests {
 
     #[test]
     fn any_rows_give_a_picture_without_broken_numbers() {
-        let row = |time: f64, kinetic: f64, potential: f64| Measure { time, kinetic, potential, ..Measure::default() };
+        let row = |time: f64, kinetic: f64, potential: f64| Energy { time, kinetic, potential, ..Energy::default() };
         for rows in [
             vec![],
             vec![row(0.0, 0.0, 0.0)],

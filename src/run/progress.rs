@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::measure::Measure;
+use crate::measure::Energy;
 
 /// Hears how a run goes. Every method does nothing unless it is written; `()` hears nothing.
 pub trait Progress {
@@ -19,7 +19,7 @@ pub trait Progress {
         let _ = step;
     }
     /// An output was measured; `first` is the first of the run.
-    fn measured(&mut self, row: &Measure, first: &Measure) {
+    fn measured(&mut self, row: &Energy, first: &Energy) {
         let _ = (row, first);
     }
     /// Whether it wants to know the energy more often than outputs tell.
@@ -27,7 +27,7 @@ pub trait Progress {
         false
     }
     /// The energy between two outputs.
-    fn energy(&mut self, row: &Measure, first: &Measure) {
+    fn energy(&mut self, row: &Energy, first: &Energy) {
         let _ = (row, first);
     }
     /// A picture of the film was taken; a thread writes its file.
@@ -41,21 +41,3 @@ pub trait Progress {
 }
 
 impl Progress for () {}
-
-/// A number as one would write it: to twelve digits, for what a sum or a product has rounded is none of its own.
-#[must_use]
-pub fn plain(x: f64) -> String {
-    let x = format!("{x:.11e}").parse().unwrap_or(x);
-    if x == 0.0 || (1e-4..1e7).contains(&x.abs()) { format!("{x}") } else { format!("{x:e}") }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::plain;
-
-    #[test]
-    fn numbers_are_written_as_one_would() {
-        let written = [7.0 * 0.2, 4e-6 * 0.1, 1e20, -0.00025, 0.0, 1600.0].map(plain);
-        assert_eq!(written, ["1.4", "4e-7", "1e20", "-0.00025", "0", "1600"]);
-    }
-}

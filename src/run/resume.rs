@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use web_time::Instant;
 
+use super::Folder;
 use super::checkpoint::{self, Checkpoint, Past, Place, Unread};
 use super::course::Course;
 use super::film::Film;
@@ -13,7 +14,7 @@ use super::progress::Progress;
 use super::table::{self, Lengths};
 use super::{Options, Run};
 use crate::error::Error;
-use crate::formats::{Folder, atomically};
+use crate::formats::atomically;
 use crate::kernel::Backend;
 use crate::render::Trail;
 use crate::scene::{Scene, Source};
@@ -210,6 +211,7 @@ impl Run {
         }
         let none = Lengths::new();
         let lengths = from.as_ref().map_or(&none, |from| &from.past.lengths);
+        self.measures.iter_mut().try_for_each(|one| one.open(&folder, lengths))?;
         for writer in self.all() {
             writer.open(&folder, lengths)?;
         }

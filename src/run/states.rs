@@ -3,12 +3,14 @@
 use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
 
+use super::Folder;
 use super::stream::{self, Stream};
 use super::table::Lengths;
-use super::writer::{Moment, Writer};
+use super::writer::Writer;
 use crate::error::Error;
 use crate::formats::vtp::Collection;
-use crate::formats::{self, Folder, Format, Options, Part, atomically};
+use crate::formats::{self, Format, Options, Part, atomically};
+use crate::measure::Moment;
 use crate::state::State;
 
 /// Files of states.

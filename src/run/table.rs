@@ -7,9 +7,9 @@ use std::io::{BufWriter, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use super::Folder;
 use super::stream::Stream;
 use crate::error::Error;
-use crate::formats::Folder;
 
 /// How long the tables of a folder were at a checkpoint \[bytes\], by their names; empty where a run begins.
 pub type Lengths = BTreeMap<String, u64>;

@@ -2,26 +2,11 @@
 
 use std::sync::Arc;
 
+use super::Folder;
 use super::table::{Lengths, Table};
 use crate::error::Error;
-use crate::formats::Folder;
-use crate::links::Links;
+use crate::measure::Moment;
 use crate::render::{Image, Picture};
-use crate::simulation::Clock;
-use crate::state::State;
-
-/// The state of an output, and what is known beside it.
-#[derive(Debug, Clone, Copy)]
-pub struct Moment<'a> {
-    /// The state, which a writer that works on a thread of its own shares.
-    pub state: &'a Arc<State>,
-    /// The densities of a fluid, by id; none where nothing flows.
-    pub density: &'a [f32],
-    /// The clock, where steps are adaptive.
-    pub clock: Option<&'a Clock>,
-    /// What is left of links, where they may break.
-    pub links: Option<&'a Links>,
-}
 
 /// Takes the state of every output of a run: writes a table, a file of particles, a picture, or shows it elsewhere.
 pub trait Writer: Send + Sync {
@@ -32,10 +17,6 @@ pub trait Writer: Send + Sync {
     fn open(&mut self, folder: &Arc<Folder>, past: &Lengths) -> Result<(), Error> {
         let _ = (folder, past);
         Ok(())
-    }
-    /// Whether it needs the column `potential`, which costs an evaluation and is in no file of particles.
-    fn measures(&self) -> bool {
-        false
     }
     /// Takes a state.
     ///

@@ -26,6 +26,7 @@ mod fluid;
 mod force;
 mod held;
 mod links;
+mod measure;
 mod motion;
 mod output;
 mod overrides;
@@ -60,6 +61,8 @@ pub use checkpoint::{Checkpoints, Every};
 #[doc(hidden)]
 pub use column::COLUMN_KEYS;
 pub use diagnostic::{Diagnostic, Diagnostics, Excerpt, Mended};
+#[doc(hidden)]
+pub use measure::Chosen;
 #[doc(hidden)]
 pub use output::Output;
 #[doc(hidden)]
@@ -107,6 +110,8 @@ pub struct Scene {
     pub forces: Vec<Box<dyn Component>>,
     /// What is written.
     pub output: Output,
+    /// What is measured beside what is usual.
+    pub measures: Vec<Chosen>,
     /// When a run keeps what it needs to continue.
     pub checkpoint: Checkpoints,
     /// How pictures are made: the values of [`render::KEYS`].
@@ -320,6 +325,10 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
     particles.motions = motions;
     let output = output::read(one("output"), (simulation.steps, simulation.dt), &columns, report);
     output.write(&mut out);
+    let mut measures = Vec::new();
+    for table in all("measure") {
+        measures.extend(measure::read(table, simulation.dt, &mut out, report).map(|one| (one, table)));
+    }
     let checkpoint = checkpoint::read(one("checkpoint"), simulation.dt, report);
     checkpoint.write(&mut out);
     let picture = match one("picture") {
@@ -331,7 +340,8 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
 
     let remarks = simulation.remark.iter().cloned().chain(fluid::contradictions(sections));
     let remarks = remarks.chain(render::styles::remark(&picture)).collect();
-    Scene {
+    let (measures, of_measures): (Vec<_>, Vec<_>) = measures.into_iter().unzip();
+    let mut scene = Scene {
         name: String::new(),
         about: String::new(),
         dt: simulation.dt,
@@ -347,12 +357,17 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
         groups,
         forces,
         output,
+        measures,
         checkpoint,
         picture,
         resolved: out.0,
         files: Vec::new(),
         remarks,
+    };
+    if report.len() == 0 {
+        measure::check(&mut scene, &of_measures, report);
     }
+    scene
 }
 
 /// How many particles, as an id. `most_particles` keeps it within 32 bits.

@@ -53,7 +53,7 @@ pub struct Output {
 const FORMS: &str = "a whole number of steps, or time of the scene as in \"0.5 time\"";
 
 /// Steps from one output to the next, of a number of them or of time; the clock on the wall would write other files each time.
-fn interval(entry: &Entry, dt: f64, report: &mut Report) -> Option<u64> {
+pub(super) fn interval(entry: &Entry, dt: f64, report: &mut Report) -> Option<u64> {
     let Data::Text(text) = &entry.node.data else { return walk::whole_from_one(entry, report) };
     let Some(Every::Time(time)) = Every::parse(text) else {
         let of_time = text.trim().split_once(' ').is_some_and(|(_, unit)| unit.trim() == "time");

@@ -97,6 +97,10 @@ pub(super) const OUTPUT: &[Own] = &[
     ),
     own("frames", "0", "pictures of a film, evenly spaced over the run; 0 for none"),
 ];
+pub(super) const MEASURE: &[Own] = &[
+    own("kind", "must be given", "a measure by its name, with its keys"),
+    own("every", "as [output]", "the number of steps between rows, or \"0.5 time\" of the scene"),
+];
 pub(super) const CHECKPOINT: &[Own] = &[own(
     "every",
     "\"10 min\"",

@@ -3,6 +3,7 @@
 
 use crate::forces;
 use crate::integrators::INTEGRATORS;
+use crate::measure::MEASURES;
 use crate::render;
 use crate::settings::Key;
 use crate::shapes::SHAPES;
@@ -78,6 +79,12 @@ pub const SECTIONS: &[Section] = &[
         ..Section::new("output", false, output::KEYS)
     },
     Section {
+        about: "a table of something that is measured during the run",
+        own: own::MEASURE,
+        kinds: || MEASURES.iter().map(|m| m.keys).collect(),
+        ..Section::new("measure", true, &[])
+    },
+    Section {
         about: "how often a checkpoint is written",
         own: own::CHECKPOINT,
         ..Section::new("checkpoint", false, checkpoint::KEYS)
@@ -109,8 +116,7 @@ impl Section {
 #[cfg(test)]
 mod tests {
     use super::{SECTIONS, bounds, checkpoint, emitter, links, motion, simulation};
-    use crate::scene::force;
-    use crate::scene::output;
+    use crate::scene::{force, measure, output};
 
     /// What a section reads by itself has its line in `own.rs`.
     #[test]
@@ -126,6 +132,7 @@ mod tests {
         assert_eq!(names("links"), links::OWN);
         assert_eq!(names("force"), force::OWN);
         assert_eq!(names("output"), output::OWN);
+        assert_eq!(names("measure"), measure::OWN);
         assert_eq!(names("checkpoint"), checkpoint::OWN);
     }
 }

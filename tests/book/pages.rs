@@ -37,6 +37,29 @@ fn forces() -> String {
     page
 }
 
+fn measures() -> String {
+    let mut page = table("Measures", "measure", motes::measure::MEASURES.iter().map(|m| (m.name, m.about.to_owned())));
+    for measure in motes::measure::MEASURES {
+        let _ = write!(page, "\n## `{}`\n\n{}.\n", measure.name, measure.about);
+        if !measure.keys.is_empty() {
+            page.push_str("\n| key | default | |\n|---|---|---|\n");
+        }
+        for key in measure.keys {
+            let default = key.default.as_ref().map_or_else(|| "required".to_owned(), shown);
+            let _ = writeln!(page, "| `{}` | {default} | {} |", key.name, key.about.replace('|', "\\|"));
+        }
+        let _ = write!(
+            page,
+            "\n| column of `{}.csv` | |\n|---|---|\n| `step` | steps done |\n| `time` | the time |\n",
+            measure.name
+        );
+        for (name, about) in measure.cells {
+            let _ = writeln!(page, "| `{name}` | {} |", about.replace('|', "\\|"));
+        }
+    }
+    page
+}
+
 fn shown(value: &motes::settings::Value) -> String {
     use motes::settings::Value;
     match value {
@@ -103,6 +126,7 @@ fn generated_pages_are_those_of_the_registers() {
         ("reference/forces.md", forces()),
         ("reference/integrators.md", table("Integrators", "integrator", integrators)),
         ("reference/shapes.md", table("Shapes", "shape", shapes)),
+        ("reference/measures.md", measures()),
         ("reference/scenes.md", table("Built-in scenes", "scene", scenes)),
         ("methods/equations.md", methods()),
     ];

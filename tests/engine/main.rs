@@ -11,6 +11,7 @@ mod drivers;
 mod errors;
 mod laws;
 mod library;
+mod measures;
 mod neighbors;
 mod own_laws;
 mod primitives;

@@ -7,7 +7,7 @@ use motes::forces::Problem;
 use motes::integrators::Step;
 use motes::kernel::Machine;
 use motes::scene::{Options, Scene, Source};
-use motes::{Gpu, Measure, Simulation, State};
+use motes::{Energy, Gpu, Simulation, State};
 
 /// A scene on the device, with what is needed of it here.
 fn scene(shared: &Shared, name: &str, overrides: &[&str]) -> (Simulation<Gpu>, u64) {
@@ -28,7 +28,7 @@ fn snapshot(simulation: &mut Simulation<Gpu>) -> State {
 fn plummers_sphere_stays() {
     let shared = crate::support::device();
     let (mut simulation, steps) = scene(&shared, "plummer", &["particles.0.count=4096"]);
-    let first = Measure::of(&snapshot(&mut simulation)).expect("energies");
+    let first = Energy::of(&snapshot(&mut simulation)).expect("energies");
     for _ in 0..4 {
         simulation.step(u32::try_from(steps / 4).expect("few")).expect("steps");
         let now = snapshot(&mut simulation);
@@ -37,7 +37,7 @@ fn plummers_sphere_stays() {
             let got = crate::support::lagrangian(&now, share);
             assert!((got / want - 1.0).abs() < part, "{share} of the mass within {got}, not {want}");
         }
-        let sums = Measure::of(&now).expect("energies");
+        let sums = Energy::of(&now).expect("energies");
         assert!((-sums.kinetic / sums.potential - 0.5).abs() < 0.015, "{sums:?}");
         // Two of 4096 that pass within the softening do so in about a step; 1e-4 was seen, and 1e-5 for all of the scene's.
         assert!(sums.drift_from(&first).abs() < 5e-4, "ΔE / E = {:e}", sums.drift_from(&first));
@@ -52,13 +52,13 @@ fn a_cold_sphere_collapses_and_settles() {
     let shared = crate::support::device();
     let (mut simulation, steps) = scene(&shared, "cold_collapse", &["particles.0.count=1024"]);
     assert_eq!(steps, 1280);
-    let first = Measure::of(&snapshot(&mut simulation)).expect("energies");
+    let first = Energy::of(&snapshot(&mut simulation)).expect("energies");
     assert!((-first.kinetic / first.potential - 0.2).abs() < 0.01, "{first:?}");
     let (mut worst, mut smallest) = (0.0f64, (f64::INFINITY, 0.0));
     for _ in 0..steps / 16 {
         simulation.step(16).expect("steps");
         let now = snapshot(&mut simulation);
-        worst = worst.max(Measure::of(&now).expect("energies").drift_from(&first).abs());
+        worst = worst.max(Energy::of(&now).expect("energies").drift_from(&first).abs());
         let half = crate::support::lagrangian(&now, 0.5);
         if half < smallest.0 {
             smallest = (half, now.time);
@@ -67,7 +67,7 @@ fn a_cold_sphere_collapses_and_settles() {
     assert!((4e-4..2e-3).contains(&worst), "worst ΔE / E = {worst:e}");
     assert!((1.3..1.7).contains(&smallest.1), "it is smallest at {}", smallest.1);
     let end = snapshot(&mut simulation);
-    let sums = Measure::of(&end).expect("energies");
+    let sums = Energy::of(&end).expect("energies");
     let (virial, half) = (-sums.kinetic / sums.potential, crate::support::lagrangian(&end, 0.5));
     // Three runs ended with −K/W of 0.476 to 0.505 and a radius of 0.352 to 0.376; and as much again.
     assert!((0.46..0.52).contains(&virial) && (0.34..0.39).contains(&half), "{virial} {half}");
@@ -78,10 +78,10 @@ fn tides_draw_a_bridge_and_two_tails() {
     let shared = crate::support::device();
     let few = ["particles.0.count=3000", "particles.1.count=3000"];
     let (mut simulation, steps) = scene(&shared, "merger", &few);
-    let first = Measure::of(&snapshot(&mut simulation)).expect("energies");
+    let first = Energy::of(&snapshot(&mut simulation)).expect("energies");
     simulation.step(u32::try_from(steps).expect("few")).expect("steps");
     let end = snapshot(&mut simulation);
-    let drift = Measure::of(&end).expect("energies").drift_from(&first);
+    let drift = Energy::of(&end).expect("energies").drift_from(&first);
     assert!(drift.abs() < 1e-3, "ΔE / E = {drift:e}");
     // Disk, halo and bulge: 1500, 1200 and 300 of each. The bulge is where the core is.
     let core = |first: usize| end.position()[first..first + 300].iter().sum::<DVec3>() / 300.0;

@@ -7,7 +7,7 @@ use crate::support::{Random, Shared};
 use glam::DVec3;
 use motes::forces::Component;
 use motes::settings::Value;
-use motes::{Measure, POSITION, Setup, Simulation, State, VELOCITY};
+use motes::{Energy, POSITION, Setup, Simulation, State, VELOCITY};
 
 fn gravity(softening: f64) -> Vec<Box<dyn Component>> {
     vec![force("gravity", &[("softening", Value::Number(softening))])]
@@ -82,14 +82,14 @@ fn the_figure_eight_comes_back() {
         assert!((error / want - 1.0).abs() < 5e-3, "{name}, {steps} steps: {error:e}, not {want:e}");
 
         let mut simulation = on_gpu(&shared, &start, 0.0, name, dt);
-        let first = Measure::of(&snapshot(&mut simulation)).expect("energies");
+        let first = Energy::of(&snapshot(&mut simulation)).expect("energies");
         simulation.step(steps).expect("steps");
         let end = snapshot(&mut simulation);
         let error = (0..3).map(|i| away(i, end.position()[i])).fold(0.0, f64::max);
         // In f32 the same, and rounding: 1e-5 for Runge–Kutta in 1000 steps, which grows with the steps (seen 1.6e-5).
         let rounding = 4e-5;
         assert!((error - want).abs() < rounding, "{name}, {steps} steps in f32: {error:e}, not {want:e}");
-        let now = Measure::of(&end).expect("energies");
+        let now = Energy::of(&end).expect("energies");
         assert!((first.total() + 1.287_141_995_631_85).abs() < 1e-6, "{}", first.total());
         // A rounding of 6e-8 in each step, which walks at random: √2000 × 6e-8 = 3e-6; three times that.
         assert!(now.momentum.length() < 9e-6 && now.angular_momentum.length() < 9e-6, "{now:?}");
@@ -156,7 +156,7 @@ fn rest(particles: &mut State) {
 fn plummer_stays() {
     let shared = crate::support::device();
     let mut simulation = on_gpu(&shared, &plummer(2048, 2), 0.02, "leapfrog", 1.0 / 128.0);
-    let first = Measure::of(&snapshot(&mut simulation)).expect("energies");
+    let first = Energy::of(&snapshot(&mut simulation)).expect("energies");
     // Mass shares, their radii by the formula r = a / √(M^(−2/3) − 1), and what an N-body realisation of some thousand
     // may be off: √N noise of the inner ones, and of the outer ones what the cut takes away.
     let radii = [
@@ -173,7 +173,7 @@ fn plummer_stays() {
             let got = crate::support::lagrangian(&now, share);
             assert!((got / want - 1.0).abs() < part, "t = {time}: {share} of the mass within {got}, not {want}");
         }
-        let sums = Measure::of(&now).expect("energies");
+        let sums = Energy::of(&now).expect("energies");
         let virial = -sums.kinetic / sums.potential;
         assert!((virial - 0.5).abs() < 0.015, "t = {time}: −K / W = {virial}");
         assert!((sums.total() + 0.25).abs() < 0.01, "t = {time}: E = {}", sums.total());
@@ -210,20 +210,20 @@ fn cold_sphere(count: usize, seed: u64) -> State {
 fn a_cold_sphere_collapses() {
     let shared = crate::support::device();
     let mut simulation = on_gpu(&shared, &cold_sphere(1024, 1), 1.0 / 64.0, "leapfrog", 1.0 / 128.0);
-    let first = Measure::of(&snapshot(&mut simulation)).expect("energies");
+    let first = Energy::of(&snapshot(&mut simulation)).expect("energies");
     assert!((-first.kinetic / first.potential - 0.2).abs() < 0.01, "{first:?}");
     let mut worst = 0.0f64;
     let mut smallest = f64::INFINITY;
     for _ in 0..80 {
         simulation.step(16).expect("steps");
         let now = snapshot(&mut simulation);
-        worst = worst.max(Measure::of(&now).expect("energies").drift_from(&first).abs());
+        worst = worst.max(Energy::of(&now).expect("energies").drift_from(&first).abs());
         smallest = smallest.min(crate::support::lagrangian(&now, 0.5));
     }
     // Seeds differ by a half of it; twice the step would make 9e-3 (published), and no step at all nothing.
     assert!((4e-4..2e-3).contains(&worst), "worst ΔE / E = {worst:e}");
     let end = snapshot(&mut simulation);
-    let sums = Measure::of(&end).expect("energies");
+    let sums = Energy::of(&end).expect("energies");
     let (virial, inner, half) =
         (-sums.kinetic / sums.potential, crate::support::lagrangian(&end, 0.1), crate::support::lagrangian(&end, 0.5));
     // Three runs ended with −K/W of 0.476 to 0.505, r10 of 0.136 to 0.157, r50 of 0.352 to 0.376; and as much again.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use motes::run::{End, Run};
-use motes::{Bounds, Measure, State};
+use motes::{Bounds, Energy, State};
 use serde_json::{Value, json};
 
 use super::vary::Varied;
@@ -22,7 +22,7 @@ pub struct Outcome {
 
 /// What a run that came to its end left: its first and its last measurement, the largest change of the energy, and its last state.
 struct Left {
-    ends: [Measure; 2],
+    ends: [Energy; 2],
     change: f64,
     state: State,
     bounds: Bounds,
@@ -53,7 +53,7 @@ impl Outcome {
     pub fn of(made: Result<(Run, End), Failure>) -> Self {
         let (steps, took) = made.as_ref().map_or((0, Duration::ZERO), |(_, end)| (end.steps, end.stepping));
         let result = made.and_then(|(run, end)| {
-            let ends = [run.energies.first(), run.energies.rows().last().copied().unwrap_or_default()];
+            let ends = [run.energies().first(), run.energies().last()].map(|row| row.copied().unwrap_or_default());
             let (bounds, change) = (run.scene().bounds, run.looks.change);
             let state = Arc::unwrap_or_clone(run.last.filter(|_| !end.stopped).ok_or(Failure::Stopped)?);
             Ok(Left { ends, change, state, bounds })

@@ -68,7 +68,7 @@ fn library_and_command_write_the_same_files() {
         let mut simulation = Simulation::on(cpu, &setup).expect("a simulation");
         let end = block_on(run.drive(&mut simulation, &mut ())).expect("the end");
         assert!(!end.stopped && end.steps >= 12);
-        assert_eq!(count.load(std::sync::atomic::Ordering::Relaxed), run.energies.rows().len());
+        assert_eq!(count.load(std::sync::atomic::Ordering::Relaxed), run.energies().len());
         drop(run);
         if let Some(what) = difference(&place.at("library"), &place.at("command")) {
             panic!("{word}: {what}");

@@ -3,6 +3,7 @@
 mod faults;
 mod killed;
 mod library;
+mod measures;
 mod refused;
 mod resumed;
 mod stream;

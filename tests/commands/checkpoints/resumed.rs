@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use motes::formats::{Folder, Precision};
+use motes::formats::Precision;
 use motes::kernel::Backend;
-use motes::run::{End, Found, Moment, Options, Progress, Run, Stop, Writer};
+use motes::run::{End, Folder, Found, Moment, Options, Progress, Run, Stop, Writer};
 use motes::scene::{self, SCENES, Scene, Source};
 use motes::{Cpu, Error, Gpu, Setup, Simulation};
 use pollster::block_on;
@@ -12,11 +12,11 @@ use pollster::block_on;
 use crate::checkpoints::{Place, difference};
 use crate::small::smaller;
 
-type On<'a, B> = &'a dyn Fn(&Setup) -> Result<Simulation<B>, Error>;
+pub type On<'a, B> = &'a dyn Fn(&Setup) -> Result<Simulation<B>, Error>;
 
 /// How a run is ended.
 #[derive(Clone, Copy, PartialEq)]
-enum Way {
+pub enum Way {
     Never,
     /// In the middle of an output at this step or later, as if it was killed.
     Killed(u64),
@@ -80,7 +80,12 @@ fn part<B: Backend>(
 }
 
 /// Compares a run in one go with one in several parts.
-fn compare<B: Backend>(name: &str, sets: &[String], on: (On<'_, B>, Precision), ways: &[Way]) -> Result<(), String> {
+pub fn compare<B: Backend>(
+    name: &str,
+    sets: &[String],
+    on: (On<'_, B>, Precision),
+    ways: &[Way],
+) -> Result<(), String> {
     let place = Place::with(&[]);
     let (whole, parts) = (place.at("whole"), place.at("parts"));
     let fail = |error: Error| error.to_string();

@@ -31,7 +31,7 @@ struct Blocks {
 }
 
 impl Progress for Blocks {
-    fn measured(&mut self, row: &motes::Measure, _: &motes::Measure) {
+    fn measured(&mut self, row: &motes::Energy, _: &motes::Energy) {
         self.done.store(row.step, Ordering::Relaxed);
         if row.step >= self.step {
             self.put.take().into_iter().for_each(|put| put());

@@ -4,7 +4,7 @@ use glam::DVec3;
 use motes::life::{Drain, Life};
 use motes::settings::Value;
 use motes::solids::Solid;
-use motes::{ACCELERATION, Bounds, Cpu, LIFE, Measure, POSITION, Simulation, VELOCITY};
+use motes::{ACCELERATION, Bounds, Cpu, Energy, LIFE, POSITION, Simulation, VELOCITY};
 
 use crate::births::{jet, pool, setup, state};
 use crate::support::states::force;
@@ -52,7 +52,7 @@ fn the_dead_stay_dead_and_ids_are_never_reused() {
         let alive = || (0..count).filter(|id| now.life()[*id] == Life::Active);
         let mass: f64 = alive().map(own).sum();
         let momentum: DVec3 = alive().map(|id| own(id) * now.velocity()[id]).sum();
-        let measure = Measure::of(&snapshot).expect("energies");
+        let measure = Energy::of(&snapshot).expect("energies");
         // Masses are those that f32 holds, to 6e-8.
         assert!((now.mass().iter().sum::<f64>() / mass - 1.0).abs() < 1e-7);
         assert!((measure.momentum - momentum).length() < 1e-6 * mass);

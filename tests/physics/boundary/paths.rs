@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use motes::kernel::Backend;
-use motes::{Bounds, Cpu, Measure, POSITION, Side, Simulation, State};
+use motes::{Bounds, Cpu, Energy, POSITION, Side, Simulation, State};
 use proptest::prelude::*;
 
 use crate::boundary::{inside, odd, scattered, setup};
@@ -75,7 +75,7 @@ proptest! {
         // Each step and each side rounds a number below 30 by 2e-16 of it; 100 steps of up to 20 sides. And where f32
         // cannot tell a place from the far side, it is the near one: 4e-7 once and again, seldom.
         follows(&snapshot, &particles, &bounds, f64::from(steps) * dt, 1e-6);
-        let (first, last) = (kinetic(&particles), Measure::of(&snapshot).expect("energies").kinetic);
+        let (first, last) = (kinetic(&particles), Energy::of(&snapshot).expect("energies").kinetic);
         prop_assert!((first - last).abs() < 1e-13 * first, "{first} became {last}");
     }
 }
@@ -97,7 +97,7 @@ fn many_steps_on_the_device() {
             // Each step rounds a place below 4 by 2.4e-7 at most, and each side that is crossed does so twice more; its
             // length is wrong by 6e-8 of up to 4. 400 steps of 1.2 sides or fewer: 5e-4, if all went one way.
             follows(&snapshot, &particles, &bounds, f64::from(steps) * dt, 5e-4);
-            let last = Measure::of(&snapshot).expect("energies");
+            let last = Energy::of(&snapshot).expect("energies");
             assert!((kinetic(&particles) - last.kinetic).abs() < 1e-14 * last.kinetic, "{name}: mirrors take nothing");
         }
     }

@@ -93,7 +93,7 @@ fn energy_is_kept_without_walls_and_friction() {
     particles.velocity_mut().fill(DVec3::ZERO);
     let total = |simulation: &mut motes::Simulation<motes::Cpu>| {
         let snapshot = pollster::block_on(simulation.snapshot()).expect("a snapshot");
-        let energy = motes::Measure::of(&snapshot).expect("energies");
+        let energy = motes::Energy::of(&snapshot).expect("energies");
         (energy.total(), energy.kinetic)
     };
     let drift = |dt: f64, steps: u32| {

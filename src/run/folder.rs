@@ -5,8 +5,9 @@ use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::FORMATS;
 use crate::error::Error;
+use crate::formats::FORMATS;
+use crate::measure::MEASURES;
 
 /// The file that is locked while a run writes.
 const LOCK: &str = ".motes-lock";
@@ -16,8 +17,7 @@ const FRAMES: &str = "frames";
 const NAMED: &str = ", as ";
 
 /// Files that a run writes under one name, beside the last good state.
-const NAMES: &[&str] =
-    &["scene.toml", "energy.csv", "energy.svg", "flock.csv", "population.csv", "fluid.csv", "snapshots.pvd"];
+const NAMES: &[&str] = &["scene.toml", "energy.svg", "snapshots.pvd"];
 /// Files of which it writes many, with the number of a step or a picture between these, beside states.
 const NUMBERED: &[(&str, &str)] = &[("links_", "csv"), ("picture_", "png"), ("frame_", "png"), CHECKPOINT];
 /// What a run continues from.
@@ -327,7 +327,8 @@ fn is_result(name: &str, scenes: &[Option<&str>]) -> bool {
         })
     };
     let last = || states().any(|ending| stem(ending) == Some(LAST_GOOD));
-    let own = || NAMES.contains(&name) || last() || scenes.iter().flatten().any(|scene| of_scene(scene));
+    let own =
+        || NAMES.contains(&name) || is_table(name) || last() || scenes.iter().flatten().any(|scene| of_scene(scene));
     let kinds = NUMBERED.iter().copied().chain(states().map(|ending| (STATE, ending)));
     kinds.into_iter().any(numbered) || of_set() || !framed && own()
 }
@@ -357,4 +358,14 @@ fn failed(path: &Path, why: &io::Error) -> Error {
 
 fn refused(path: &Path, why: &str) -> Result<(), Error> {
     Err(Error::Output { file: path.to_owned(), message: why.to_owned() })
+}
+
+/// Whether it is the table of a measure: `flock.csv`, or `flock_2.csv` where a scene has two.
+fn is_table(name: &str) -> bool {
+    let of = |stem: &str, measure: &str| {
+        stem.strip_prefix(measure).is_some_and(|number| {
+            number.is_empty() || number.strip_prefix('_').is_some_and(|n| n.parse().is_ok_and(|n: u32| n > 1))
+        })
+    };
+    name.strip_suffix(".csv").is_some_and(|stem| MEASURES.iter().any(|measure| of(stem, measure.name)))
 }

@@ -1,0 +1,93 @@
+//! Density and velocity at points along a line.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::{Cell, Measure, Moment, Row, Series};
+use crate::error::Error;
+use crate::kernel::Bounds;
+use crate::neighbors::Cells;
+use crate::settings::{Key, Kind, Value};
+use crate::sph::Smoothing;
+
+/// `probe.csv`.
+pub const MEASURE: Measure = Measure {
+    name: "probe",
+    about: "density and mean velocity at a point, or at points along a line, by Wendland's C2 kernel: a row for each point",
+    keys: &[
+        Key::required("start", Kind::Vector, "the first point [length]"),
+        Key::new("end", Kind::Vector, Value::Vector(DVec3::ZERO), "the last point, where there are several [length]"),
+        Key::new("count", Kind::Count, Value::Number(1.0), "how many points there are, evenly spaced"),
+        Key::required("range", Kind::Positive, "the support radius of the kernel, beyond which particles do not count [length]"),
+    ],
+    cells: &[
+        ("x", "the point [length]"),
+        ("y", "along y"),
+        ("z", "along z"),
+        ("particles", "active particles in range, fixed ones too"),
+        ("density", "Σ m W over these [mass / length³, or mass / length² in two dimensions]"),
+        ("velocity_x", "Σ v W / Σ W over these; empty where there are none [length / time]"),
+        ("velocity_y", "along y"),
+        ("velocity_z", "along z"),
+    ],
+    usual: |_| Ok(None),
+    begin: |setup, settings| {
+        let (bounds, range, count) = (setup.bounds, settings.number("range"), settings.whole("count"));
+        if count > MOST {
+            return Err(Error::Setting { key: "count", why: format!("`probe` has count = {count}: set {MOST} at most") });
+        }
+        let [start, end] = [settings.vector("start"), settings.vector("end")];
+        let part = |k: u64| if count > 1 { k as f64 / (count - 1) as f64 } else { 0.0 };
+        let points = (0..count).map(|k| start.lerp(end, part(k))).collect();
+        Ok(Box::new(Probe { points, range, bounds }))
+    },
+};
+
+/// Points: each is a row of every output.
+const MOST: u64 = 100_000;
+
+/// Points at which states are measured.
+#[derive(Debug)]
+struct Probe {
+    points: Vec<DVec3>,
+    range: f64,
+    bounds: Bounds,
+}
+
+/// Sums at a point.
+#[derive(Default)]
+struct Sum {
+    particles: u64,
+    density: f64,
+    weight: f64,
+    velocity: DVec3,
+}
+
+impl Series for Probe {
+    fn take(&mut self, moment: &Moment<'_>) -> Result<Vec<Row>, Error> {
+        let state = moment.state;
+        let active: Vec<usize> = (0..state.len()).filter(|i| state.is_active(*i)).collect();
+        let places: Vec<DVec3> = active.iter().map(|i| state.position()[*i]).chain(self.points.iter().copied()).collect();
+        let cells = Cells::new(&places, self.bounds, self.range)?;
+        let volume = self.range.powi(if self.bounds.dimensions == 2 { 2 } else { 3 });
+        let constant = Smoothing::Wendland.constant(self.bounds.dimensions) / volume;
+        let at = |point: usize| {
+            let (here, mut sum) = (active.len() + point, Sum::default());
+            cells.around(here, |j| {
+                let Some(id) = active.get(j) else { return };
+                let r = self.bounds.shortest(places[j] - places[here]).length();
+                let weight = constant * Smoothing::Wendland.profile(r / self.range);
+                sum.particles += 1;
+                sum.density += state.mass()[*id] * weight;
+                sum.weight += weight;
+                sum.velocity += weight * state.velocity()[*id];
+            });
+            let point = self.points[point].to_array().map(Cell::from);
+            let mean = (sum.velocity / sum.weight).to_array();
+            let mean = mean.map(|v| if sum.weight > 0.0 { v.into() } else { Cell::Empty });
+            point.into_iter().chain([sum.particles.into(), sum.density.into()]).chain(mean).collect()
+        };
+        Ok((0..self.points.len()).into_par_iter().map(at).collect())
+    }
+    fn recall(&mut self, _: u64, _: &[&str]) {}
+}

@@ -1,0 +1,117 @@
+//! The radial distribution function g(r).
+
+use std::borrow::Cow;
+use std::f64::consts::PI;
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::{Measure, Moment, Row, Series};
+use crate::error::Error;
+use crate::kernel::{Bounds, Side};
+use crate::neighbors::Cells;
+use crate::settings::{Key, Kind, Value};
+use crate::state::State;
+
+/// `rdf.csv`.
+pub const MEASURE: Measure = Measure {
+    name: "rdf",
+    about: "the radial distribution function g(r) of a periodic box (Allen & Tildesley 2017, 8.2): several rows for each output",
+    keys: &[
+        Key::required("range", Kind::Positive, "the largest distance, at most half a period of the box [length]"),
+        Key::new("bins", Kind::Count, Value::Number(100.0), "how many intervals of r there are"),
+        Key::new("species", ALL.0, ALL.1, "the species at the centre, or \"all\""),
+        Key::new("others", ALL.0, ALL.1, "the species around it, or \"all\""),
+    ],
+    cells: &[
+        ("r", "the middle of an interval [length]"),
+        ("g", "the density of particles there, relative to their mean density in the box"),
+        ("within", "the mean number of particles from 0 to the end of the interval"),
+    ],
+    usual: |_| Ok(None),
+    begin: |setup, settings| {
+        let bounds = setup.bounds;
+        let axes = if bounds.dimensions == 2 { 2 } else { 3 };
+        if (0..axes).any(|axis| bounds.sides[axis] != Side::Periodic) {
+            return Err(Error::Scene(
+                "the measure `rdf` compares with the mean density of a box, and this box is not periodic along all axes: set \
+                 [box] boundary = \"periodic\", or leave it out"
+                    .to_owned(),
+            ));
+        }
+        let (range, period) = (settings.number("range"), bounds.period());
+        let half = 0.5 * (0..axes).map(|axis| period[axis]).fold(f64::INFINITY, f64::min);
+        if range > half {
+            let why = format!("`rdf` has range = {range}, more than half a period of the box, beyond which images repeat: set it to {half} at most");
+            return Err(Error::Setting { key: "range", why });
+        }
+        let bins = usize::try_from(settings.whole("bins")).unwrap_or(usize::MAX);
+        if bins > MOST {
+            return Err(Error::Setting { key: "bins", why: format!("`rdf` has bins = {bins}: set {MOST} at most") });
+        }
+        Ok(Box::new(Distances { bounds, range, bins, pair: [settings.species("species"), settings.species("others")] }))
+    },
+};
+
+const ALL: (Kind, Value) = (Kind::Species, Value::Text(Cow::Borrowed("all")));
+/// Intervals: each is a row of every output.
+const MOST: usize = 100_000;
+
+/// Counts of distances.
+#[derive(Debug)]
+struct Distances {
+    bounds: Bounds,
+    range: f64,
+    bins: usize,
+    pair: [Option<u32>; 2],
+}
+
+impl Distances {
+    /// How many ordered pairs there are in each interval, and how many particles at the centre and around it.
+    fn count(&self, state: &State) -> Result<(Vec<u64>, [usize; 2]), Error> {
+        let active: Vec<usize> = (0..state.len()).filter(|i| state.is_active(*i)).collect();
+        let places: Vec<DVec3> = active.iter().map(|i| state.position()[*i]).collect();
+        let kind = |place: usize| state.species().get(active[place]).copied().unwrap_or(0);
+        let is = |place: usize, of: Option<u32>| of.is_none_or(|species| kind(place) == species);
+        let cells = Cells::new(&places, self.bounds, self.range)?;
+        let [centre, around] = self.pair;
+        let add = |mut bins: Vec<u64>, i: usize| {
+            cells.around(i, |j| {
+                let r = self.bounds.shortest(places[j] - places[i]).length();
+                #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "below the number of bins")]
+                let bin = (r / self.range * self.bins as f64) as usize;
+                if is(j, around) && bin < self.bins {
+                    bins[bin] += 1;
+                }
+            });
+            bins
+        };
+        let both = |a: Vec<u64>, b: Vec<u64>| a.iter().zip(&b).map(|(a, b)| a + b).collect();
+        let zeros = || vec![0_u64; self.bins];
+        let chosen = (0..places.len()).into_par_iter().filter(|i| is(*i, centre));
+        let bins = chosen.fold(zeros, add).reduce(zeros, both);
+        Ok((bins, self.pair.map(|of| (0..places.len()).filter(|i| is(*i, of)).count())))
+    }
+}
+
+impl Series for Distances {
+    fn take(&mut self, moment: &Moment<'_>) -> Result<Vec<Row>, Error> {
+        let (bins, [centres, around]) = self.count(moment.state)?;
+        let (flat, period) = (self.bounds.dimensions == 2, self.bounds.period());
+        let volume = if flat { period.x * period.y } else { period.x * period.y * period.z };
+        let ball = |r: f64| if flat { PI * r * r } else { 4.0 / 3.0 * PI * r * r * r };
+        // A particle is not around itself.
+        let others = if self.pair[0] == self.pair[1] { around.saturating_sub(1) } else { around };
+        let (width, mut within) = (self.range / self.bins as f64, 0.0);
+        let rows = bins.iter().enumerate().map(|(k, count)| {
+            let (low, high) = (k as f64 * width, (k + 1) as f64 * width);
+            let mean = *count as f64 / centres.max(1) as f64;
+            within += mean;
+            let expected = others as f64 / volume * (ball(high) - ball(low));
+            let g = if expected > 0.0 { mean / expected } else { 0.0 };
+            [0.5 * (low + high), g, within].map(Into::into).to_vec()
+        });
+        Ok(rows.collect())
+    }
+    fn recall(&mut self, _: u64, _: &[&str]) {}
+}

@@ -1,0 +1,99 @@
+//! A measure in the course of a run: the state of each output gives rows of a table.
+
+use std::any::Any;
+use std::fmt::{self, Debug, Display};
+use std::sync::Arc;
+
+use crate::error::Error;
+use crate::links::Links;
+use crate::simulation::Clock;
+use crate::state::State;
+
+/// The state of an output, and what is known beside it.
+#[derive(Debug, Clone, Copy)]
+pub struct Moment<'a> {
+    /// The state, which a writer that works on a thread of its own shares. For a measure it has the column `potential`.
+    pub state: &'a Arc<State>,
+    /// The densities of a fluid, by row; none where there is no fluid.
+    pub density: &'a [f32],
+    /// The clock, where steps are adaptive.
+    pub clock: Option<&'a Clock>,
+    /// The links that are left, where they may break.
+    pub links: Option<&'a Links>,
+}
+
+/// A measure in the course of a run.
+pub trait Series: Any + Debug + Send + Sync {
+    /// Measures a state. Gives the rows of its table, without step and time; most measures have one for each state.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] where the state lacks what it reads.
+    fn take(&mut self, moment: &Moment<'_>) -> Result<Vec<Row>, Error>;
+    /// Takes in a row that it gave before the run was stopped: the cells behind the step, so the time is the first.
+    fn recall(&mut self, step: u64, cells: &[&str]);
+    /// A line for the end of a run.
+    fn summary(&self) -> Option<String> {
+        None
+    }
+    /// What the last state has shown for the first time and must not be, if anything.
+    fn warning(&mut self) -> Option<String> {
+        None
+    }
+}
+
+/// A row of a table, without step and time.
+pub type Row = Vec<Cell>;
+
+/// A cell of a table.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Cell {
+    /// A number, with the digits that read back to the same bits.
+    Number(f64),
+    /// A count, or an id.
+    Whole(u64),
+    /// A word without commas.
+    Word(&'static str),
+    /// Nothing.
+    Empty,
+}
+
+impl Display for Cell {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Number(x) => write!(f, "{x:?}"),
+            Self::Whole(n) => write!(f, "{n}"),
+            Self::Word(word) => f.write_str(word),
+            Self::Empty => Ok(()),
+        }
+    }
+}
+impl From<f64> for Cell {
+    fn from(x: f64) -> Self {
+        Self::Number(x)
+    }
+}
+impl From<u64> for Cell {
+    fn from(n: u64) -> Self {
+        Self::Whole(n)
+    }
+}
+impl From<u32> for Cell {
+    fn from(n: u32) -> Self {
+        Self::Whole(n.into())
+    }
+}
+impl From<&'static str> for Cell {
+    fn from(word: &'static str) -> Self {
+        Self::Word(word)
+    }
+}
+
+/// The number in a cell of a table; NaN where there is none.
+pub(super) fn number(cells: &[&str], k: usize) -> f64 {
+    cells.get(k).and_then(|word| word.parse().ok()).unwrap_or(f64::NAN)
+}
+
+/// The count in a cell of a table; 0 where there is none.
+pub(super) fn whole(cells: &[&str], k: usize) -> u64 {
+    cells.get(k).and_then(|word| word.parse().ok()).unwrap_or_default()
+}
