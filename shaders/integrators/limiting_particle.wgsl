@@ -7,8 +7,8 @@
 const WORKGROUP: u32 = 64u;
 
 fn limits(i: u32, reason: u32) -> bool {
-    return reason == 1u && step_criteria[i].x == largest_criterion[0].x || reason == 2u && step_criteria[i].y == largest_criterion[0].y
-        || reason == 4u && step_criteria[i].z == largest_criterion[0].z;
+    return (reason == 1u && step_criteria[i].x == largest_criterion[0].x) || (reason == 2u && step_criteria[i].y == largest_criterion[0].y)
+        || (reason == 4u && step_criteria[i].z == largest_criterion[0].z);
 }
 
 @compute @workgroup_size(WORKGROUP)

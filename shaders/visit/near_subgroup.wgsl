@@ -17,7 +17,8 @@ fn consider(k: u32, slot: u32, end: u32, shift: vec3f, me: Particle, you: Partic
 // together stands up to twice APART from each other, on both sides of the leader.
 fn beside(a: Around, lane: u32) -> bool {
     let cell = subgroupShuffle(a.cell, lane);
-    let rows = all(a.cell.yz == cell.yz) && all(a.reach == subgroupShuffle(a.reach, lane));
+    let other = subgroupShuffle(a.reach, lane);
+    let rows = all(a.cell.yz == cell.yz) && all(a.reach == other);
     let apart = max(a.cell.x, cell.x) - min(a.cell.x, cell.x);
     let most = APART * grid.fine.x;
     return rows && (apart == 0u || (apart <= most && grid.cells.x > 2u * (a.reach.x + most)));
@@ -41,7 +42,8 @@ fn near(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
         var seen = spent;
         // The first that waits, and all that can go along.
         let leader = subgroupMin(select(NONE, place, waits));
-        let with_me = waits && beside(a, leader);
+        let together = beside(a, leader);
+        let with_me = waits && together;
         let low = subgroupMin(select(NONE, a.cell.x, with_me));
         let high = subgroupMax(select(0u, a.cell.x, with_me));
         let led = Around(subgroupShuffle(a.cell, leader), subgroupShuffle(a.reach, leader), subgroupShuffle(a.span, leader));

@@ -7,7 +7,9 @@ override COUNT: u32 = 7u;
 
 const WORKGROUP: u32 = 64u;
 const NONE: u32 = 0xffffffffu;
-const INFINITE: u32 = 0x7f800000u;
+// The largest square of a distance, and a distance beyond all others: infinity is no number for every compiler.
+const LARGEST: f32 = 1e38;
+const BEYOND: f32 = 1e19;
 
 // Squares of distances, ascending, and ids; four at a time.
 struct List { d0: vec4f, d1: vec4f, d2: vec4f, d3: vec4f, i0: vec4u, i1: vec4u, i2: vec4u, i3: vec4u }
@@ -15,7 +17,7 @@ struct List { d0: vec4f, d1: vec4f, d2: vec4f, d3: vec4f, i0: vec4u, i1: vec4u, 
 struct Entry { d: f32, id: u32 }
 
 fn empty() -> List {
-    let d = vec4f(bitcast<f32>(INFINITE));
+    let d = vec4f(LARGEST);
     let i = vec4u(NONE);
     return List(d, d, d, d, i, i, i, i);
 }
@@ -73,14 +75,14 @@ fn last(list: List) -> f32 {
 // How near to me a particle outside of the cube may be; rounding moves places by a part of a cell, far away by many.
 fn outside(x: vec3f, a: Around) -> f32 {
     let slack = max(vec3f(0.00390625), abs(away(x)) * 0.000000238418579);
-    let open = select(vec3f(bitcast<f32>(INFINITE)), (vec3f(a.reach) - slack) / grid.per_cell, a.span < grid.cells);
+    let open = select(vec3f(BEYOND), (vec3f(a.reach) - slack) / grid.per_cell, a.span < grid.cells);
     return max(min(open.x, min(open.y, open.z)), 0.0);
 }
 
 fn look(me: Particle, slot: u32, s: Stretch, list: ptr<function, List>) {
     let r = shortest(sorted_position[slot].xyz - me.position);
     let id = sorted_id[slot];
-    let d = r.x * r.x + r.y * r.y + r.z * r.z;
+    let d = min(r.x * r.x + r.y * r.y + r.z * r.z, LARGEST);
     if slot < s.end && id != me.index { enter(list, d, id); }
 }
 

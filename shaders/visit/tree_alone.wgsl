@@ -45,7 +45,7 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
         var bodies = 0u;
         var more = walks;
         var spent = GROUP;
-        while bodies > 0u || more && spent <= MOST {
+        while bodies > 0u || (more && spent <= MOST) {
             if bodies > 0u {
                 let you = target_of(min(slot, last));
                 meet_body(slot, k, a, you, &near_a);
@@ -57,7 +57,7 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
             } else {
                 let real = exists(node, depth);
                 let itself = real && is_own(node, depth, own);
-                var open = itself || real && reaches_box(node, here);
+                var open = itself || (real && reaches_box(node, here));
                 if open && !itself && is_doubtful(node, here) {
                     open = reaches_target(node, here);
                     spent += GROUP;

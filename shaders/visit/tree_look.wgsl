@@ -54,7 +54,7 @@ fn look(search: ptr<function, Search>, here: Place, own: u32, place: u32) {
     let over = (above >> ((place & 4u) + 1u)) & 1u;
     let taken = (over | (above >> (place & 6u))) & 1u;
     let shut = real && taken == 0u && !holds && !open_n;
-    let far = shut || wide && (upper || over == 0u);
+    let far = shut || (wide && (upper || over == 0u));
     let others = real && taken == 0u && !shut && !itself;
     let leaf = below == tree.height;
 
@@ -62,7 +62,7 @@ fn look(search: ptr<function, Search>, here: Place, own: u32, place: u32) {
     let rest = subgroupBallot(others).x;
     let at_far = (s.listed.x + countOneBits(fars & lower)) % (2u * FAR);
     let at_near = 2u * FAR + (s.listed.y + countOneBits(rest & lower)) % (2u * NEAR);
-    if far || others && leaf { list[select(at_near, at_far, far)] = select(n, m, wide); }
+    if far || (others && leaf) { list[select(at_near, at_far, far)] = select(n, m, wide); }
     s.listed.x += countOneBits(fars);
     s.listed.y += select(0u, countOneBits(rest), leaf);
     let open = select(rest << select(0u, 1u << s.levels, s.levels < 3u), 0u, leaf);

@@ -63,7 +63,7 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
         let depth = firstLeadingBit(node);
         let real = lane < some && exists(node, depth);
         let itself = real && is_own(node, depth, own);
-        var open = itself || real && reaches_box(node, here);
+        var open = itself || (real && reaches_box(node, here));
         if open && !itself && is_doubtful(node, here) { open = reaches_target(node, here); }
         let kind = select(FAR, select(OPEN, NEAR, depth == tree.height), open);
         if real { atomicOr(&votes[kind], 1u << lane); }

@@ -214,8 +214,9 @@ pub(super) fn machine(device: &wgpu::Device) -> Machine {
     let info = device.adapter_info();
     let software = info.device_type == wgpu::DeviceType::Cpu;
     let fixed = info.subgroup_min_size == info.subgroup_max_size;
-    let subgroup =
-        if device.features().contains(wgpu::Features::SUBGROUP) && fixed { info.subgroup_min_size } else { 0 };
+    // A browser's compiler wants `enable subgroups;`, which naga does not know.
+    let usable = device.features().contains(wgpu::Features::SUBGROUP) && fixed && cfg!(not(target_arch = "wasm32"));
+    let subgroup = if usable { info.subgroup_min_size } else { 0 };
     // A large GPU holds about a quarter of a million invocations at once; a software adapter needs one workgroup per core.
     let invocations = if software { 256 } else { 1 << 18 };
     let limits = device.limits();

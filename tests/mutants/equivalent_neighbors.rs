@@ -70,6 +70,8 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("near_subgroup", "if slot >= end {", ">=", ">", EMPTY),
     same("near_subgroup", "end - 1u));", "-", "+", "what is loaded behind the end is paired with no particle"),
     same("near_walk", "slot < end; slot", "<", "<=", EMPTY),
+    same("nearest", "const LARGEST", "1e38", "1.5e38", "no square is as large"),
+    same("nearest", "const BEYOND", "1e19", "1.5e19", FURTHER),
     same("nearest", "let tied = ", "<", "<=", "no particle comes twice"),
     same("nearest", "let new_d = ", "0.0", "1.0", HIDDEN),
     same("nearest", "let new_i = ", "0u", "1u", HIDDEN),

@@ -44,6 +44,7 @@ use stages::Stage;
 use support::Shared;
 use support::equivalents::{Equivalent, Ledger};
 use support::mutants::{Mutant, mutants};
+use support::tint;
 
 /// These have mutants of their own, in `tests/picture`, `tests/physics/questions.rs` and `tests/engine/own_laws`.
 const WITHOUT_REFERENCES: [&str; 3] = ["render", "selftest", "own"];
@@ -107,6 +108,11 @@ fn work(
     ledger: &Mutex<Ledger<'_>>,
 ) {
     let mut stages = stages::all(shared);
+    if turn == 0 {
+        let kernels =
+            stages.iter().flat_map(|stage| stage.plan.kernels.iter().map(|kernel| (stage.name.clone(), kernel, true)));
+        tint::write("mutants", &tint::shaders(kernels));
+    }
     stages.retain(|stage| all.iter().any(|file| stage.uses(file)));
     agree(stages.iter().skip(turn).step_by(TURNS));
     while let Some((file, text)) = next() {

@@ -10,6 +10,7 @@ pub mod machines;
 pub mod mutants;
 pub mod scenes;
 pub mod states;
+pub mod tint;
 
 use std::sync::{Mutex, MutexGuard, OnceLock};
 

@@ -3,3 +3,4 @@
 mod bare;
 mod blocks;
 mod kernels;
+mod tint;
