@@ -1,15 +1,15 @@
-//! Errors, sorted by what mends them.
+//! Errors, grouped by their remedy.
 
 use std::path::PathBuf;
 
-/// Everything that can go wrong. Each message names the number and the way out.
+/// All errors. Each message states the numbers and a remedy.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// The scene (or the caller's setup) is invalid. Mended in the scene or by the caller.
+    /// The scene (or the caller's setup) is invalid. Remedy: in the scene, or by the caller.
     #[error("{0}")]
     Scene(String),
-    /// The same, and which key of a component says it.
+    /// The same, with the key of the component that is at fault.
     #[error("{why}")]
     Setting {
         /// The key.
@@ -17,7 +17,7 @@ pub enum Error {
         /// What is wrong, with the number and the way out.
         why: String,
     },
-    /// A file of particles cannot be read. Mended in that file.
+    /// A file of particles cannot be read. Remedy: in that file.
     #[error("{}: {message}", file.display())]
     Input {
         /// The file.
@@ -25,22 +25,22 @@ pub enum Error {
         /// What is wrong, with line or byte offset.
         message: String,
     },
-    /// A WGSL file does not compile, or does not have the functions that its visit calls. Mended in that file.
+    /// A WGSL file does not compile, or does not have the functions that its visit calls. Remedy: in that file.
     #[error("{message}")]
     Shader {
         /// The message with file, line and caret.
         message: String,
     },
-    /// No adapter fits. Mended by the choice of adapter or by installing a driver.
+    /// No suitable adapter. Remedy: another choice of adapter, or a driver.
     #[error("{0}")]
     NoAdapter(String),
-    /// A device limit is too small. Mended by another adapter, or fewer particles.
+    /// A limit of the device is exceeded. Remedy: another adapter, or fewer particles.
     #[error("{0}")]
     Limit(String),
-    /// A number stopped being a number. Mended by a smaller step or more softening.
+    /// A position, velocity or acceleration is not finite. Remedy: a smaller step, or more softening.
     #[error(
         "particle {particle} stopped being finite in step {step} (its position, velocity or acceleration is NaN, infinite or above 3.4e38): \
-         try a smaller dt, more softening where particles attract each other, or look for some that start at the same place"
+         try a smaller dt, more softening where particles attract each other, or look for particles that start at the same position"
     )]
     NotFinite {
         /// The lowest id among the particles that failed first.
@@ -48,18 +48,18 @@ pub enum Error {
         /// The step, counted from 0, in which it happened.
         step: u64,
     },
-    /// Speeds grow without end, and numbers are about to be lost. Mended by a smaller step, or by another integrator.
+    /// Speeds grow exponentially: the integration is unstable. Remedy: a smaller step, or another integrator.
     #[error(
-        "particle {particle} is running away in step {step}: for the eighth time running the largest speed of 16 steps is more \
-         than twice that of the 16 before: try a smaller dt, or an integrator that is stable for stiffer forces"
+        "particle {particle} is running away in step {step}: the maximum speed has more than doubled from 16 steps to the next 16, \
+         eight times in a row: the integration is unstable; try a smaller dt, or an integrator that is stable for stiffer forces"
     )]
     Runaway {
-        /// The lowest id among those that are so fast.
+        /// The lowest id among these particles.
         particle: u32,
         /// The step, counted from 0, in which that was seen.
         step: u64,
     },
-    /// Forces require a step that is shorter than the minimum. Mended by a softer start, or by a shorter one.
+    /// Forces require a step that is shorter than the minimum. Remedy: a start with weaker forces, or a smaller minimum.
     #[error(
         "step {step} would have to be {wanted:.3e} long, shorter than dt_min = {least:.3e}, because of the {reason} of {particle}: look \
          for particles that start too close to each other or to a wall, or set a smaller dt_min"
@@ -76,30 +76,30 @@ pub enum Error {
         /// The particle that it belongs to.
         particle: String,
     },
-    /// More particles are within reach of one than a search for neighbours or a walk of a tree can visit. Mended by a shorter
-    /// range, or by a greater opening angle.
+    /// A particle has more neighbours than a neighbour search or a tree walk can visit. Remedy: a shorter range, or a larger
+    /// opening angle.
     #[error(
-        "particle {particle} has more neighbours than can be visited at once (240000 in the cells of a search, \
-         all dispatches of a walk of a tree, and twice as many as at rest in a fluid with solver = \"dfsph\"): choose a \
-         shorter range or a greater theta, for a fluid a shorter dt or the spacing that its particles have, or look for what \
-         drives all particles to one position"
+        "particle {particle} has more neighbours than can be visited at once (240000 in a cell list, all dispatches of a tree walk, \
+         or twice as many as at rest in a fluid with solver = \"dfsph\"): choose a shorter range or a larger theta; for a \
+         fluid a smaller dt, or a spacing that agrees with its particles; or look for forces that drive particles to \
+         one position"
     )]
     TooManyNeighbors {
         /// The lowest id of such a particle.
         particle: u32,
     },
-    /// The driver has ended the loops of a user's law before they were done, so that forces are wrong. Mended in that law, or by
-    /// another driver.
+    /// The driver has ended the loops of a user's law before they were complete, so that forces are wrong. Remedy: in that law,
+    /// or another driver.
     #[error(
         "{law}: its loops and those of its visit need more iterations than this driver allows (Mesa before 25 ends the loops of an \
-         invocation after 65535 turns in all, without a word), so that its forces would be wrong: let fewer turns or a shorter range do, \
+         invocation silently after 65535 iterations in all), so that its forces would be wrong: use fewer iterations or a shorter range, \
          choose over = \"pairs\", which is cut into slices of 128 particles, or install Mesa 25 or choose another adapter"
     )]
     CutShort {
         /// The law and its file.
         law: String,
     },
-    /// A loop of a user's law does not end. Mended in that law.
+    /// A loop of a user's law does not end. Remedy: in that law.
     #[error(
         "{law}: its loops took 16777216 iterations in one invocation without ending, and were stopped: look for an \
          infinite loop, or reduce the iterations"
@@ -108,24 +108,24 @@ pub enum Error {
         /// The law and its file.
         law: String,
     },
-    /// A list of neighbours has no room for those of a particle, and cannot get more: the device binds no more, or steps were encoded by
-    /// a caller and cannot be repeated. Mended by a smaller skin, or by a search that keeps no list.
+    /// A particle has more neighbours than the capacity of the neighbour list, which cannot grow: the device binds no more, or steps were
+    /// encoded by a caller and cannot be repeated. Remedy: a smaller skin, or a cell list.
     #[error(
-        "particle {particle} has more neighbours within range + skin = {reach:.6} than its list holds: there is room for {capacity}, \
-         the most that any particle had is {longest}, and the list cannot grow here; choose a smaller skin, or over = \"near\", which has no limit, or look for what \
-         drives particles to one position"
+        "particle {particle} has more neighbours within range + skin = {reach:.6} than its neighbour list holds: the capacity is {capacity}, \
+         the largest number found is {longest}, and the list cannot grow here; choose a smaller skin, or over = \"near\", which has no limit, or look for \
+         forces that drive particles to one position"
     )]
     ListFull {
         /// The lowest id of such a particle.
         particle: u32,
         /// The most neighbours that any particle had.
         longest: u32,
-        /// How many there is room for.
+        /// The capacity of the list.
         capacity: u32,
         /// The range and the skin \[length\].
         reach: f64,
     },
-    /// The device is gone (driver reset, watchdog, unplugged). Mended by starting again, with less work per submission.
+    /// The device is lost (driver reset, watchdog, unplugged). Remedy: a new start, with less work per submission.
     #[error("the device was lost: {0}; start again, on another adapter if it happens twice")]
     Lost(String),
     /// The device has no memory left.
@@ -139,7 +139,7 @@ pub enum Error {
         /// How long.
         seconds: u64,
     },
-    /// No thread can be started on the processor. Mended in the limits of the system.
+    /// No thread can be started on the host. Remedy: the limits of the system.
     #[error(
         "the threads of the CPU backend cannot be started: {0}; allow more processes or memory (`ulimit -u`, `ulimit -v`), or \
          fewer threads (RAYON_NUM_THREADS=1)"
@@ -150,7 +150,7 @@ pub enum Error {
         "the device refused a call, which is a bug in motes or in its driver; please report it with `motes doctor`: {0}"
     )]
     Device(String),
-    /// A result cannot be written. Mended on the disk.
+    /// A result cannot be written. Remedy: the disk or its permissions.
     #[error("cannot write {}: {message}", file.display())]
     Output {
         /// The file.

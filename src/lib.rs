@@ -16,12 +16,12 @@
 //! # }).unwrap();
 //! ```
 //!
-//! | to | take |
+//! | task | interface |
 //! |---|---|
 //! | step within your own encoder, draw without a copy | [`Simulation::encode`], [`Simulation::buffer`] |
 //! | change settings, obstacles, motions, a law's parameters and tables between frames | [`Simulation::set`], [`Simulation::set_motion`] |
 //! | read back without a stall | [`Simulation::request`], [`Readback`] |
-//! | add and take away particles | [`Simulation::spawn`], [`Simulation::remove`] |
+//! | add and remove particles | [`Simulation::spawn`], [`Simulation::remove`] |
 //! | save, restore, continue bit for bit | [`Simulation::snapshot`], [`Simulation::setup`], [`State`] |
 //! | give settings as fields | [`typed`] |
 //! | write a law of your own | [`Custom`] |
@@ -33,8 +33,8 @@
 //! [`Simulation`], [`Readback`], [`State`], [`Setup`] and [`Run`](run::Run) are `Send + Sync + 'static` (but in a browser, where devices
 //! stay in their thread): a simulation may be a resource of a game's schedule, and step in whichever thread that runs.
 //!
-//! This page shows the public interface. Other modules are public for the command and for tests, are not documented here, and
-//! promise nothing.
+//! This page shows the public interface. Other modules are public for the command and for tests; they are not documented here, and
+//! not stable.
 
 #[doc(hidden)]
 pub mod boundary;
@@ -115,7 +115,7 @@ pub use measure::Energy;
 pub use settings::Value;
 pub use simulation::{Readback, Setup, Simulation};
 pub use state::State;
-/// The version of wgpu whose devices this crate takes.
+/// The version of wgpu whose devices this crate accepts.
 pub use wgpu;
 
 /// The book's page for programs: its snippets compile.

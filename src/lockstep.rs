@@ -1,4 +1,4 @@
-//! The second opinion: every kernel of a plan against its f64 reference, each given the device's own inputs, so that errors
+//! Lockstep: every kernel of a plan against its f64 reference, each given the device's own inputs, so that errors
 //! do not accumulate and one tolerance serves all.
 
 mod nudge;

@@ -110,7 +110,7 @@ async fn loops(gpu: &mut Gpu, source: &Source) -> Result<Finding, Error> {
                 Finding {
                     name,
                     outcome: Outcome::Fail,
-                    text: format!("a loop of {turns} turns is cut short: sums over particles are wrong"),
+                    text: format!("a loop of {turns} iterations is cut short: sums over particles are wrong"),
                 }
             } else {
                 let text = format!(
@@ -120,7 +120,7 @@ async fn loops(gpu: &mut Gpu, source: &Source) -> Result<Finding, Error> {
             });
         }
     }
-    Ok(Finding { name, outcome: Outcome::Pass, text: "a loop of 1 000 000 turns runs to its end".to_owned() })
+    Ok(Finding { name, outcome: Outcome::Pass, text: "a loop of 1 000 000 iterations runs to its end".to_owned() })
 }
 
 async fn arithmetic(gpu: &mut Gpu, source: &Source) -> Result<Vec<Finding>, Error> {
@@ -148,7 +148,9 @@ async fn arithmetic(gpu: &mut Gpu, source: &Source) -> Result<Vec<Finding>, Erro
         _ if word(7) != 0 => finding("NaN", Outcome::Fail, "infinity is taken for one"),
         (1, 1) => finding("NaN", Outcome::Pass, "found by its bits, and by x != x"),
         (1, _) => finding("NaN", Outcome::Warn, "found by its bits; x != x is taken for false"),
-        _ => finding("NaN", Outcome::Fail, "not found by its bits: broken particles would go unseen"),
+        _ => {
+            finding("NaN", Outcome::Fail, "not found by its bits: particles that are not finite would not be detected")
+        }
     };
     let (fused, twice) = (c.mul_add(c, c), c * c + c);
     let fma = match float(2) {

@@ -54,7 +54,7 @@ enum Start {
     Grown,
 }
 
-/// Particles that move.
+/// A simulation of particles on a backend.
 pub struct Simulation<B: Backend> {
     backend: B,
     start: B::Program,
@@ -106,7 +106,7 @@ pub struct Simulation<B: Backend> {
 }
 
 impl<B: Backend> Simulation<B> {
-    /// Puts a setup on a backend. It begins at the time and the step of its state, and continues from there: see
+    /// Creates a simulation on a backend. It starts at the time and the step of the setup's state: see
     /// [`Simulation::snapshot`] and [`State::begin_anew`].
     ///
     /// # Errors
@@ -184,12 +184,12 @@ impl<B: Backend> Simulation<B> {
         made.resume(setup, whole)?;
         Ok(made)
     }
-    /// Advances. May return before the device is done; reading waits. Two submissions of about 80 ms are under way at most: more steps
-    /// than these hold wait for the device. A program that must not wait takes few at a time, or [`Simulation::encode`].
+    /// Advances by a number of steps. It may return before the device is done; reading waits. At most two submissions of about 80 ms are in
+    /// flight: further steps wait for the device. A program that must not wait submits few steps at a time, or uses [`Simulation::encode`].
     ///
-    /// Where laws share a list of neighbours that turns out too short, [`Simulation::check`] and all that waits for a read makes room for more and
-    /// repeats the steps since the last look, with the bits of a run that had the room from the start. The more steps lie between two
-    /// looks, the more are repeated; steps behind which a caller has written fields or encoded are not, and end in
+    /// If a neighbour list overflows, [`Simulation::check`] and every call that waits for a read enlarge it and repeat the steps since the
+    /// previous check, with the bits of a run that had the capacity from the start. The more steps lie between two checks, the more are
+    /// repeated; steps after which a caller has written fields or encoded steps cannot be repeated, and end in
     /// [`Error::ListFull`].
     ///
     /// # Errors
@@ -236,22 +236,22 @@ impl<B: Backend> Simulation<B> {
         let (all, rows) = (self.fields.len(field.name, like)?, self.rows.capacity() as usize);
         Ok(if all < rows { all } else { self.rows.used() as usize })
     }
-    /// Asks for a field as it is behind all steps that were submitted, one element for each row in use, and continues: the answer is
-    /// looked at in a later frame, or awaited elsewhere. It borrows nothing, several may be under way, and one that is dropped costs
-    /// nothing. What a caller has encoded counts once it is submitted.
+    /// Requests a field as it is after all submitted steps, one element for each row in use, and returns immediately: the values are
+    /// polled in a later frame, or awaited elsewhere. A request borrows nothing, several may be in flight, and a dropped one costs
+    /// nothing. Steps that a caller has encoded count once they are submitted.
     ///
     /// # Errors
     /// When there is no such field, or the device is lost.
     ///
-    /// It looks at no list of neighbours: see [`Simulation::step`], and call [`Simulation::check`] now and then.
+    /// It does not check the neighbour list: see [`Simulation::step`], and call [`Simulation::check`] regularly.
     pub fn request<T: Element>(&mut self, field: Field<T>) -> Result<Readback<T>, Error> {
         let like = T::array(Vec::new());
         let len = self.len_of(field, &like)?;
         let arrival = self.backend.request(field.name, &like, len)?;
         Ok(Readback::new(arrival))
     }
-    /// Writes a field from its first element on: a renderer's pull, a kinematic target. Where positions or velocities
-    /// change, the next step begins with the forces there.
+    /// Writes a field from its first element on, such as a kinematic target. If positions or velocities change, the next step
+    /// starts with accelerations that are evaluated again.
     ///
     /// # Errors
     /// When there is no such field, it is shorter, or the device is lost.
@@ -272,7 +272,7 @@ impl<B: Backend> Simulation<B> {
         self.backend.write_at(field.name, first, &array)
     }
     /// The state at the end of the last step, with the column `potential` and all links, motions, births and drains. It
-    /// evaluates the forces once more, and leaves no trace of that in the run.
+    /// evaluates the forces once more, which does not change the run.
     ///
     /// A setup of it continues from there: at its time and step, with the same bits as if the run had never stopped, under the same
     /// forces, integrator and step length on the same device; [`Simulation::goes_on`] says whether it did. Where positions, velocities
@@ -343,12 +343,12 @@ impl<B: Backend> Simulation<B> {
     pub fn capacity(&self) -> u32 {
         self.rows.capacity()
     }
-    /// How often it has made room for more rows, or for more neighbours of each. Buffers of the device are others then.
+    /// The number of times that its buffers were replaced, for more rows or for more neighbours of each particle.
     #[must_use]
     pub fn generation(&self) -> u32 {
         self.generation
     }
-    /// What it is made of now, without its state: forces as they were [set](Simulation::set). With the state of
+    /// Its setup without the state, with forces as they were [set](Simulation::set). With the state of
     /// [`Simulation::snapshot`] another simulation continues from here.
     #[must_use]
     pub fn setup(&self) -> &Setup {
@@ -361,7 +361,7 @@ impl<B: Backend> Simulation<B> {
     }
 }
 
-/// The rendering app's door: its device, its queue, its encoder.
+/// The interface for rendering programs: their device, queue and encoder.
 impl Simulation<Gpu> {
     /// On a device that the caller owns and continues using. It needs no optional feature and nothing beyond WebGPU's default limits;
     /// [`wanted_features`](crate::gpu::wanted_features) and [`wanted_limits`](crate::gpu::wanted_limits) say what is worth asking
@@ -374,9 +374,9 @@ impl Simulation<Gpu> {
         Self::on(gpu, setup)
     }
     /// Encodes steps into the caller's encoder and submits nothing. The clock is on the device, so every call continues
-    /// where the one before it ended, if the caller submits them in that order. How long a submission becomes is in the
-    /// caller's hand: a system ends one of some seconds. An encoder that is dropped takes its steps with it, and the
-    /// simulation no longer knows its own time: make a new one then. Submit before anything is read: a read may make buffers anew.
+    /// where the one before it ended, if the caller submits them in that order. The caller decides how long
+    /// a submission takes: systems end those of some seconds. If an encoder is dropped, its steps are lost, and the clock of the
+    /// simulation is wrong: create a new one. Submit before anything is read: a read may replace buffers.
     ///
     /// # Errors
     /// [`Error::Scene`] when the steps no longer fit the device's count of them.

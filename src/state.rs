@@ -35,9 +35,9 @@ pub struct State {
     columns: Vec<Filled>,
     /// Links between particles.
     pub links: Links,
-    /// Those that forces do not move.
+    /// Fixed and kinematic particles.
     pub held: Vec<Held>,
-    /// What leads some of those, and solids: [`Hold::Motion`](crate::motion::Hold::Motion) counts them from 0.
+    /// The motions of kinematic particles and obstacles: [`Hold::Motion`](crate::motion::Hold::Motion) counts them from 0.
     pub motions: Vec<Motion>,
     /// When and how pending particles are spawned.
     pub births: Vec<Birth>,
@@ -47,12 +47,12 @@ pub struct State {
     pub time: f64,
     /// Steps done.
     pub step: u64,
-    /// Rows for so many particles, so that some can be spawned and removed as it runs without a new plan; `None`: one for each that
-    /// there is, and a simulation makes room when it must.
+    /// The number of rows to allocate, so that particles can be spawned without a new plan; `None`: one for each particle, and a
+    /// simulation allocates more when it needs them.
     pub capacity: Option<u32>,
-    /// How many of the last places are free rows, where these have been added.
+    /// The number of free rows at the end, where these have been added.
     pub(crate) free: Option<u32>,
-    /// No particle has had an id from here on.
+    /// The next id: it and all larger ones are unused.
     pub(crate) next: u32,
     /// Restart data of the last step.
     pub(crate) kept: Kept,
@@ -189,7 +189,7 @@ impl State {
         *old = Some(values);
         Ok(())
     }
-    /// Takes a column away, and gives its values. The basic ones stay.
+    /// Removes a column, and returns its values. Basic columns cannot be removed.
     pub fn remove(&mut self, name: &str) -> Option<Array> {
         let place = self.columns.iter().position(|filled| filled.column.name == name).filter(|n| *n >= BASIC.len())?;
         self.columns.remove(place).values

@@ -1,7 +1,7 @@
-// Rigid rods in open chains (RATTLE: Andersen 1983). A drift by h is brought back to where no length has changed, v ← v + δ and
-// x ← x + h δ, with δ along the rods as they were before it; then what rounding has made of the lengths is taken back from x
-// alone; then, as after a kick, r · v = 0 by v ← v + δ along the rods as they are. Newton's method, each time a tridiagonal
-// system for the forces in the rods (Thomas 1949). One invocation for a chain.
+// Rigid rods in open chains (RATTLE: Andersen 1983). After a drift by h the lengths are restored by v ← v + δ and x ← x + h δ,
+// with δ along the rods before the drift; then the rounding errors of the lengths are removed from x alone; then, as after a
+// kick, r · v = 0 is restored by v ← v + δ along the rods after it. Newton's method, with a tridiagonal system for the forces in
+// the rods in each iteration (Thomas 1949). One invocation for each chain.
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read_write> position: array<vec4f>; // xyz, mass
 @group(1) @binding(1) var<storage, read_write> velocity: array<vec4f>; // xyz, radius

@@ -1,6 +1,6 @@
 // A rigid obstacle: a particle closer than the margin to its surface is projected onto the margin, along n = ∇φ, and loses velocity to
 // it, in the frame of the surface:  vₙ ← −e vₙ,  |Δvₜ| ≤ μ |Δvₙ|  (restitution: Newton 1687; friction: Coulomb 1785).
-// The change applies from the contact on: x gets it times the part of the drift behind the surface, so that a particle
+// The change of velocity acts from the time of contact on: x changes by it times the rest of the drift, so that a particle
 // at rest does not creep.
 struct Params {
     unused_word: u32,

@@ -1,5 +1,5 @@
-// One sweep over springs that are longer than (1 + s) L: both ends come nearer, the lighter one more, and as much in all as
-// keeps the centre of mass:  Δxᵢ = Σ wᵢ / (wᵢ + wⱼ) (l − (1 + s) L) u / n,  w = 1 / m, n the larger number of springs of the two.
+// One sweep over springs that are longer than (1 + s) L: both ends move towards each other, weighted by inverse mass, so that
+// the centre of mass is fixed:  Δxᵢ = Σ wᵢ / (wᵢ + wⱼ) (l − (1 + s) L) u / n,  w = 1 / m, n the larger number of springs of the two.
 @group(1) @binding(2) var<storage, read_write> limited: array<vec4f>; // xyz where to, mass
 
 override STRAIN: f32 = 0.1;
@@ -25,7 +25,7 @@ fn strain_limit(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gr
         let l = length(r);
         let rest = abs(one.rest);
         let excess = l - (1.0 + STRAIN) * rest;
-        // What has no length at rest has no strain, and what is broken ties no particles.
+        // Springs of rest length 0 have no strain, and broken springs do not act.
         let tied = rest > 0.0 && (one.stiffness > 0.0 || one.damping > 0.0);
         let strained = excess > 0.0;
         if tied && strained && mine > 0.0 {

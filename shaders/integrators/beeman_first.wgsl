@@ -1,4 +1,4 @@
-// Beeman's first kick: v ← v + (4 a − a') dt / 6, a' ← a, with a' the acceleration of a step before; of none, a' = a.
+// Beeman's first kick: v ← v + (4 a − a') dt / 6, a' ← a, with a' the acceleration at the start of the previous step; in a particle's first step a' = a.
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read_write> velocity: array<vec4f>;             // xyz, radius
 @group(1) @binding(1) var<storage, read> acceleration: array<vec4f>;               // xyz, potential

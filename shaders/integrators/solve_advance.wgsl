@@ -1,4 +1,4 @@
-// The second half: every workgroup adds the same parts in the same order, so that all of them know the same step lengths
+// The second half: every workgroup adds the same parts in the same order, so that all of them compute the same step lengths
 // (Chronopoulos & Gear 1989):  β = γ / γ₋,  α = γ / (δ − β γ / α₋),  p ← z + β p,  s ← A z + β s,  y ← y + α p,  r ← r − α s,  z ← P r.
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(4) var<storage, read> rows: array<Row>;

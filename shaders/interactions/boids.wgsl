@@ -1,6 +1,6 @@
-// Boids (Reynolds 1987, 1999), with the step size in the equations. Of the n others in range and in view:
+// Boids (Reynolds 1987, 1999). Over the n neighbours in range and in view:
 //   separation  s = −Σ r / r², within a range of its own;  cohesion  c = Σ r / n;  both are directions: u = v_max unit(…)
-//   alignment   u = Σ v / n, a velocity by itself
+//   alignment   u = Σ v / n, which is not normalized
 //   a = truncate(Σ w truncate(u − v, f_max), f_max)
 struct Params {
     unused_word: u32,
@@ -11,7 +11,7 @@ struct Sum { separation: vec3f, neighbors: u32, velocity: vec3f, displacement: v
 
 @group(3) @binding(0) var<uniform> params: Params;
 
-// At the same place: there is no way from one to the other, and no parting.
+// Coincident particles have no direction of separation.
 const COINCIDENT: f32 = 1e-30;
 
 fn acts_on(me: Particle) -> bool { return is_of(me.index, params.species); }
@@ -19,7 +19,7 @@ fn acts_on(me: Particle) -> bool { return is_of(me.index, params.species); }
 fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
     let d2 = r.x * r.x + r.y * r.y + r.z * r.z;
     let v = velocity_of(me);
-    // A bird at rest looks nowhere, and sees all round; birds at its own place are seen too.
+    // A bird at rest sees in all directions, and sees coincident birds, too.
     let seen = dot(v, r) >= params.cosine * sqrt(dot(v, v) * d2);
     if seen && is_of(me.index, params.species) && is_of(you.index, params.species) {
         if d2 < params.separation_range * params.separation_range && d2 > COINCIDENT { (*sum).separation -= r / d2; }
@@ -36,7 +36,7 @@ fn merge(total: ptr<function, Sum>, part: Sum) {
     (*total).displacement += part.displacement;
 }
 
-// Going at full speed; no direction is no wish.
+// Steering to full speed along a direction; none for a zero vector.
 fn toward(way: vec3f, v: vec3f) -> vec3f {
     if dot(way, way) > 0.0 { return truncated(params.max_speed * unit(way) - v, params.max_force); }
     return vec3f();

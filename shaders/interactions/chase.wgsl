@@ -1,4 +1,4 @@
-// Chasing (seek; Reynolds 1999):  a = truncate(u − v, f_max),  u = v_max unit(Σ r), towards the middle of the prey in range.
+// Chasing (seek; Reynolds 1999):  a = truncate(u − v, f_max),  u = v_max unit(Σ r), towards the mean position of the prey in range.
 struct Params { unused_word: u32, max_speed: f32, max_force: f32, species: u32, prey: u32 }
 struct Sum { displacement: vec3f }
 

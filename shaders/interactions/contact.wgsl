@@ -1,6 +1,6 @@
-// Spheres that overlap by δ (Cundall & Strack 1979; Luding 2008), with n from me to you, and v my velocity at the contact, as you see it:
+// Spheres that overlap by δ (Cundall & Strack 1979; Luding 2008), with n from me to you, and v my velocity relative to yours at the contact:
 //   normal      F = −(k δ + γ v·n) n,  γ = 2 ζ √(k m),  m = m₁ m₂ / (m₁ + m₂),  ζ = −ln e / √(π² + ln² e)
-//   tangential  F = −kₜ ξ − γₜ vₜ,  ξ' = vₜ,  at most μ (k δ + γ v·n): there it slides, and ξ is what gives that force
+//   tangential  F = −kₜ ξ − γₜ vₜ,  ξ' = vₜ,  |F| ≤ μ (k δ + γ v·n): at the limit it slides, and ξ is set to give that force
 //   torque      (R − δ / 2) n × F
 struct Params {
     unused_word: u32, stiffness: f32, damping: f32, friction: f32, tangential_stiffness: f32, tangential_damping: f32,

@@ -1,7 +1,7 @@
-// Newton's law in a periodic cube of side L, faded out towards half a side (the short-range part): what remains of all images and of the mean
-// density is smooth, and is summed over waves (Ewald 1921). With ρ² = r² + ε² and v = 1 − (2 ρ / L)², as long as v > 0:
+// Newton's law in a periodic cube of side L, with a cut-off at half a side (the short-range part): the rest of all images and of the mean
+// density is smooth, and is summed over Fourier modes (Ewald 1921). With ρ² = r² + ε² and v = 1 − (2 ρ / L)², as long as v > 0:
 // φ = −G m [1 / ρ − (2 / L) P(v)],  a = G m [1 / ρ³ − 2 (2 / L)³ P′(v)] r.
-// P is (1 − v)^(−1/2) to second order, so that the force and its slope vanish at the end, and beyond that a polynomial that minimizes the neglected waves.
+// P is (1 − v)^(−1/2) to second order, so that the force and its slope vanish at the cut-off, plus higher orders that minimize the neglected Fourier modes.
 struct Params { unused_word: u32, g: f32, softening: f32 }
 
 @group(3) @binding(0) var<uniform> params: Params;

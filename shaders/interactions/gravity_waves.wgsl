@@ -1,4 +1,4 @@
-// The waves of a periodic cube of side L at a position: exp(2πi k·x / L), cosine and sine. Built-in functions may be wrong by
+// The Fourier modes of a periodic cube of side L at a position: exp(2πi k·x / L), cosine and sine. Built-in functions may be wrong by
 // 2^-11 here; polynomials of half the angle, within a quarter of a turn, are as good as f32 is (minimax, 5e-8).
 @group(3) @binding(0) var<storage, read> gravity_wave: array<vec4f>; // k; how much of it there is
 

@@ -1,4 +1,4 @@
-// A joint that resists bending:  E = ½ k θ²,  θ the angle by which the way a → b → c turns at b:  F = k θ / sin θ ∇cos θ.
+// A joint that resists bending:  E = ½ k θ²,  θ the angle between a → b and b → c:  F = k θ / sin θ ∇cos θ.
 struct Sum { force: vec3f, energy: f32 }
 
 fn gather(me: Particle, corner: Corner, sum: ptr<function, Sum>) {

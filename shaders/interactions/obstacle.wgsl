@@ -1,5 +1,5 @@
 // Avoiding an obstacle (containment; Reynolds 1999) by its signed distance φ:  a = f_max (1 − s / L) (−h · ∇φ) ∇φ,  with h the
-// heading, L = τ |v| the look-ahead distance, s the distance at which a bird of radius c touches, ∇φ as it is there.
+// heading, L = τ |v| the look-ahead distance, s the distance to the point where a bird of radius c touches, ∇φ evaluated there.
 // A particle that touches already, or is inside, is pushed straight out:  a = f_max ∇φ.
 struct Params {
     unused_word: u32,

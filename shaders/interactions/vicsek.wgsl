@@ -1,7 +1,7 @@
 // Vicsek's model (Vicsek et al. 1995) in the plane, as an acceleration:  a = (v' − v) / dt,  |v'| constant,  v' along
 //   angular noise:    Arg Σ e^(iθ) + η ξ, with ξ between −1/2 and 1/2
 //   vectorial noise:  Arg (Σ e^(iθ) + η n e^(2πi ξ))   (Grégoire & Chaté 2004)
-// The sum is over the n in range, including the particle itself. Headings are added up, angles never.
+// The sum is over the n in range, including the particle itself. Headings are summed as unit vectors, not as angles.
 struct Params { unused_word: u32, speed: f32, eta: f32, vectorial: u32, seed_low: u32, seed_high: u32 }
 struct Sum { heading: vec2f, neighbors: u32 }
 

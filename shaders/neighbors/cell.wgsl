@@ -8,13 +8,13 @@ struct Grid {
 
 @group(2) @binding(0) var<uniform> grid: Grid;
 
-// In how many lists of all cells particles are kept, one after the other: 2 where fixed particles stand behind all others.
+// The number of cell lists, one after the other: 2 where fixed particles come after all others.
 override LAYERS: u32 = 1u;
 
-// Beyond so many cells all are one: there, f32 holds no two places that are a cell apart.
+// Beyond this number of cells all are one: there, f32 does not resolve positions that are a cell apart.
 const FARTHEST: f32 = 536870912.0; // 2²⁹
 
-// How many cells from the cell list's corner, along each axis.
+// The distance from the corner of the cell list in cells, along each axis.
 fn away(x: vec3f) -> vec3f { return (x - grid.low) * grid.per_cell; }
 
 fn fold(c: i32, cells: u32) -> u32 {
@@ -31,7 +31,7 @@ fn wrapped(x: vec3f) -> vec3f {
     return select(y, world.low, !inside & ((y < world.low) | (y >= world.high)));
 }
 
-// The cell of a wrapped place, folded. It is some cell even where the place is NaN: the watch finds it.
+// The cell of a wrapped position, folded. A position that is NaN is in some cell, too: the watch kernel detects it.
 fn cell(x: vec3f) -> vec3u {
     let last = select(vec3f(FARTHEST), vec3f(grid.cells) - 1.0, world.period > vec3f());
     let c = vec3i(clamp(floor(away(x)), vec3f(-FARTHEST), last));

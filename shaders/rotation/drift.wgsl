@@ -2,7 +2,7 @@
 // McLachlan 1997; by quaternions Miller et al. 2002), each of which turns the body about one axis by the angle φ = dt πₖ / Iₖ:
 //   half about the first, half about the second, all about the third, half about the second, half about the first.
 // tan(φ/2) is replaced by φ/2, which is as accurate as the splitting: each turn is still that of a Hamiltonian of πₖ alone, so that
-// the whole is symplectic and reversible, and R π stays what it is.
+// the whole is symplectic and reversible, and R π is conserved.
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read_write> orientation: array<vec4f>;      // x, y, z | w
 @group(1) @binding(1) var<storage, read_write> angular_velocity: array<vec4f>; // in space

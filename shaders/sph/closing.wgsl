@@ -1,5 +1,5 @@
-// The maximum rate at which neighbours approach or separate:  |μ| = s |v·r| / (r² + 0.01 s²), with s the smoothing length (Monaghan 1992). It adds to
-// the speed of sound where steps follow from both.
+// The maximum rate at which neighbours approach or separate:  |μ| = s |v·r| / (r² + 0.01 s²), with s the smoothing length (Monaghan 1992). It is
+// added to the speed of sound in the criterion of adaptive steps.
 struct Sum { most: f32 }
 
 @group(3) @binding(2) var<storage, read_write> closing: array<f32>;

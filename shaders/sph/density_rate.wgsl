@@ -1,5 +1,5 @@
 // Continuity (Monaghan 1994), with r from me to you, v = v_you − v_me, g r the gradient of W at you:  dρ/dt = Σ m g r·v
-// Diffusion (Molteni & Colagrossi 2009) of what is not the density of a fluid at rest (Fourtakas et al. 2019), s the smoothing length:
+// Diffusion (Molteni & Colagrossi 2009) of the deviation from the hydrostatic density (Fourtakas et al. 2019), s the smoothing length:
 //   dρ/dt −= 2 δ s c Σ m/ρ' (ρ' − ρ − (1 − (γ − 2) e) ρ₀ w·r / c²) g r² / (r² + 0.01 s²),  e = (ρ + ρ') / 2 ρ₀ − 1
 // By Tait's equation sound is faster where a fluid is denser, and gravity changes its density less there: dρ = ρ w·dr / c(ρ)², to first order in e.
 struct Params { unused_word: u32, diffusion: f32, weight: vec3f }

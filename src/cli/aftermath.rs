@@ -44,8 +44,8 @@ pub fn explain(
 /// What loses the numbers of a fluid.
 fn of_a_fluid(setup: &Setup) -> Option<&'static str> {
     motes::diagnose::flows(&setup.forces).then_some(
-        "in a fluid that is a step too long for its sound or friction (`motes check` tells how far it is from that), a flow faster \
-         than sound, tension that is too strong, or particles squeezed between walls, solids and what an emitter spawns",
+        "in a fluid the cause is a time step too long for its speed of sound or viscosity (`motes check` reports the limit), a flow \
+         faster than sound, surface tension that is too strong, or particles squeezed between walls, obstacles and spawned particles",
     )
 }
 

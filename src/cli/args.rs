@@ -11,11 +11,12 @@ Exit codes:
   3   an error in the scene, or in a WGSL file that it names
   4   an error in a file of particles
   5   no suitable adapter, or a limit of the device is exceeded
-  6   NaN or infinity, a runaway, or a user's law with too many loop iterations
+  6   NaN or infinity, a runaway, too many neighbours, a step below dt_min, or a user's law with too many loop iterations
   7   the device was lost, ran out of memory or did not respond, or no thread could be started
   8   a result could not be written, or would overwrite those of another run
   9   `compare` or `doctor` found a disagreement
   75  stopped by Ctrl-C, SIGTERM, SIGHUP or --max-hours; all results up to that step and a checkpoint are written
+  130 ended immediately by a second signal
 
 Examples:
   motes run galaxy
@@ -92,7 +93,7 @@ pub struct SceneArgs {
     /// Run until this time instead
     #[arg(long, value_name = "T")]
     pub until: Option<f64>,
-    /// Set a value of the scene, such as simulation.dt=0.01 or force.0.g=2; may be given again
+    /// Set a value of the scene, such as simulation.dt=0.01 or force.0.g=2; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub overrides: Vec<String>,
     /// Let the scene name files outside of its own folder
@@ -140,7 +141,7 @@ pub struct RunArgs {
 pub struct SweepArgs {
     #[command(flatten)]
     pub scene: SceneArgs,
-    /// A key of the scene and its values, such as simulation.dt=0.1,0.05,0.025; given again, all combinations run
+    /// A key of the scene and its values, such as simulation.dt=0.1,0.05,0.025; if repeated, all combinations are run
     #[arg(long, value_name = "KEY=VALUES", required = true)]
     pub vary: Vec<String>,
     /// The folder for the table, the plot and a folder of tables for each run [default: out/NAME_sweep]; pictures and snapshots are
@@ -197,7 +198,7 @@ pub struct CompareArgs {
     /// Number of steps for which device and references are compared
     #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..))]
     pub steps: u32,
-    /// Set a value of the scene; may be given again
+    /// Set a value of the scene; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub overrides: Vec<String>,
     /// Let the scene name files outside of its own folder
@@ -296,7 +297,7 @@ pub enum Topic {
 
 #[derive(Debug, ClapArgs)]
 pub struct BenchArgs {
-    /// What to measure; all, if it is left out
+    /// The subject to measure [default: all of them]
     #[arg(value_enum)]
     pub topic: Option<Topic>,
     /// Repetitions of each measurement; the median is reported

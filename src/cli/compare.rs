@@ -170,8 +170,8 @@ fn print_kernels(verdicts: &[Verdict]) {
     out!("{:wide$}  {:long$}  {:>9}  {:>9}  {:>9}  {:>9}", "kernel", "field", "median", "99 %", "max", "of limit");
     for v in verdicts {
         let verdict = match (v.good(), v.changed) {
-            (false, _) if v.spilled => "WROTE BEHIND THE END",
-            (false, _) if v.sound() => "ok, as far as rounded inputs say",
+            (false, _) if v.spilled => "WROTE BEYOND THE END",
+            (false, _) if v.sound() => "ok, within the rounding of inputs",
             (false, _) => "WRONG",
             (true, false) => "unchanged",
             (true, true) => "ok",
@@ -186,7 +186,7 @@ fn print_kernels(verdicts: &[Verdict]) {
     }
     out!(
         "\nmedian, 99 % and max are |device − reference| / |change|, per particle. The limit is {:.0e} of the change (or of its\n\
-         rms, where that is more) and 2 units in the last place; of it the worst particle used the part in the last column.",
+         rms, where that is more) plus 2 units in the last place; the last column is the largest error as a part of it.",
         lockstep::TOLERANCE
     );
 }

@@ -91,6 +91,10 @@ fn gravity(args: &CompareArgs) -> Result<usize, Failure> {
     let has = |law: motes::forces::Law| law.distant.sample.is_some();
     let found = setup.forces.iter().position(|force| force.laws().into_iter().any(has));
     found.ok_or_else(|| {
-        motes::Error::Scene(format!("{} has no gravity: --theta compares what a tree makes of that", scene.name)).into()
+        motes::Error::Scene(format!(
+            "{} has no gravity: --theta compares the tree's gravity with direct summation",
+            scene.name
+        ))
+        .into()
     })
 }

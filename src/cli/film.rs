@@ -19,7 +19,7 @@ pub fn lines(film: &Film, name: &str, folder: &Path, progress: &Progress) -> Vec
         film.outside().filter(|(outside, count)| u64::from(*outside) * 10 > u64::from(*count))
     {
         progress.say(&format!(
-            "note: {outside} of {count} particles have left the film, which is framed at its first picture: set \
+            "note: {outside} of {count} particles have left the picture, whose camera is set by the first frame: set \
              picture.auto_frame = false with picture.center and picture.extent"
         ));
     }

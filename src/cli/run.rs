@@ -59,12 +59,12 @@ fn begins_anew(folder: Folder, loaded: &Loaded) -> Result<String, Error> {
     let count = folder.results()?.len();
     if loaded.scene.checkpoint.every != Every::Never {
         return Ok(format!(
-            "{count} results of this scene are removed, and the run begins anew: it was ended before its first checkpoint"
+            "{count} results of this scene are removed, and the run starts over: it was ended before its first checkpoint"
         ));
     }
     let message = format!(
         "the folder holds {count} results of a run of this scene, which cannot go on: `[checkpoint] every` is \"never\", and none was written; --overwrite in place of --resume removes \
-         them and begins anew"
+         them and starts over"
     );
     Err(Error::Output { file: folder.path().to_owned(), message })
 }
@@ -84,7 +84,7 @@ pub async fn resume(args: &ResumeArgs) -> Result<(), Failure> {
         }
         Found::Begun => {
             return refuse(
-                "the run was ended before its first checkpoint: `motes run SCENE -o DIR --resume` begins anew",
+                "the run was ended before its first checkpoint: `motes run SCENE -o DIR --resume` starts over",
             );
         }
         Found::Nothing => return refuse("no run has written there"),

@@ -18,16 +18,14 @@ pub fn scenes(args: &ScenesArgs) -> Result<(), Failure> {
             out!("{:wide$} {}", scene.name, first_sentence(&about));
         }
         out!(
-            "\nmotes run NAME runs one; motes scenes NAME prints it, to be saved and changed;\nmotes scenes --keys prints all that a scene may say."
+            "\nmotes run NAME runs one; motes scenes NAME prints it, to be saved and changed;\nmotes scenes --keys prints every key of a scene."
         );
         return Ok(());
     };
     match Source::find(name)? {
         Source::Builtin(scene) => out!("{}", scene.text.trim_end()),
         Source::File(path) => {
-            return Err(
-                motes::Error::Scene(format!("{} is a file of yours, not a scene of motes", path.display())).into()
-            );
+            return Err(motes::Error::Scene(format!("{} is a file, not a built-in scene", path.display())).into());
         }
         Source::Text { .. } => {}
     }

@@ -1,4 +1,4 @@
-//! A component of a simulation: what it declares, and what it adds to a step. Everything else is derived from that.
+//! A component of a simulation: its declarations and its kernels in a step. Everything else is derived from them.
 
 pub(crate) mod keys;
 pub(crate) mod kind;
@@ -20,8 +20,8 @@ use crate::solids::Standing;
 use crate::sph::{Continuum, Rates};
 use crate::visit::Law;
 
-/// A component: an interaction, a constraint or an updater. A simulation keeps a copy, with which it writes its plan anew when it
-/// makes room for more particles.
+/// A component: an interaction, a constraint or an updater. A simulation keeps a copy, from which it rewrites its plan when it
+/// allocates more rows.
 pub trait Component: Copied + Send + Sync {
     /// The columns that it reads or writes beside those of all simulations.
     fn columns(&self) -> Vec<Column> {
@@ -164,12 +164,11 @@ pub enum Stage {
 /// What a component says of itself, as its settings have it.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Properties {
-    /// The radius within which it looks at others \[length\], and of which species, if not of all: runs are measured for order
-    /// and clusters by it.
+    /// The radius \[length\] and the species, if not all, for the statistics of a flock: order, neighbours and clusters.
     pub statistics_radius: Option<(f64, Option<u32>)>,
     /// The solid that pictures show for it.
     pub pictured: Option<Standing>,
-    /// Whether particles without mass do nothing to others: then pending and removed particles may stand among its sources.
+    /// Whether massless particles exert no force: then pending and removed particles may be among its sources.
     pub ignores_massless: bool,
     /// Why it requires a fixed time step, if it does.
     pub fixed_step: Option<&'static str>,
@@ -191,13 +190,13 @@ pub struct Properties {
     pub makes_fluid: bool,
     /// Whether it can say how long a step may be, so that steps can be adaptive.
     pub limits_steps: bool,
-    /// The integrators under which it is what its paper says; none: under all.
+    /// The integrators with which it agrees with its paper; none: all of them.
     pub integrators: &'static [&'static str],
     /// The distance that a particle may go in a step at most, where its method has such a bound \[length\].
     pub largest_move: Option<f64>,
     /// Columns whose values have an upper limit: above it the component would be wrong.
     pub largest: Vec<Largest>,
-    /// What else one should know before it runs.
+    /// A remark for the user before a run.
     pub caution: Option<&'static str>,
 }
 

@@ -14,7 +14,7 @@ use crate::solids::{self, Solid as Shape, Standing};
 
 /// The keys in a scene.
 pub const KEYS: &[Key] = &[
-    Key::new("shape", Kind::Choice(solids::SHAPES), Value::Text(Cow::Borrowed("sphere")), "what it is"),
+    Key::new("shape", Kind::Choice(solids::SHAPES), Value::Text(Cow::Borrowed("sphere")), "its shape"),
     Key::new("position", Kind::Vector, Value::Vector(DVec3::ZERO), "its centre, or a point on the plane [length]"),
     Key::new("radius", Kind::Positive, Value::Number(0.5), "sphere and capsule: the radius [length]"),
     Key::new("size", Kind::Vector, Value::Vector(DVec3::ONE), "box: its sides [length]"),
@@ -76,8 +76,8 @@ impl Solid {
         };
         if narrowest < 0.0 {
             return refuse(format!(
-                "of radius {radius} or sides {size} is narrower than nothing, less its thickness of {thickness} where it is a \
-                 container: make it larger"
+                "of radius {radius} or sides {size} has no interior (a container is reduced by its thickness, {thickness}): \
+                 make it larger"
             ));
         }
         if number("restitution") > 1.0 {

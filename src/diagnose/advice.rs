@@ -155,7 +155,7 @@ fn inside(setup: &Setup) -> Result<Option<Remark>, Error> {
     let deepest = moved.iter().map(|(_, depth)| *depth).fold(0.0, f64::max);
     let text = format!(
         "{} particles start inside of an obstacle, or closer to it than its thickness, the first is particle {first}, by {depth:.3e}, and \
-         by {deepest:.3e} at most: the first step puts them out, wherever others are",
+         by {deepest:.3e} at most: the initial projection moves them out, without regard to other particles",
         moved.len()
     );
     let remark = Remark::note("inside-solid", text).with("particles", moved.len() as f64);
@@ -226,7 +226,7 @@ pub fn advice(setup: &Setup, end: Option<f64>) -> Result<Vec<Remark>, Error> {
             remarks.push(Remark::note("absent-species", text).with("species", f64::from(kind)));
         }
         if without_reference {
-            let text = format!("`{name}` has no f64 reference: nothing checks it, and it needs a device");
+            let text = format!("`{name}` has no f64 reference: it is not verified, and requires a device");
             remarks.push(Remark::note("no-reference", text));
         }
     }
@@ -235,7 +235,7 @@ pub fn advice(setup: &Setup, end: Option<f64>) -> Result<Vec<Remark>, Error> {
         if let Some(length) = properties.largest_move {
             let speed = length / setup.dt;
             let text = format!(
-                "the fluid's dt = {} is for speeds up to {speed:.3}: in a step no particle should go farther than {length:.3e}",
+                "the fluid's dt = {} is for speeds up to {speed:.3}: in one step no particle should move farther than {length:.3e}",
                 setup.dt
             );
             let remark = Remark::note("largest-speed", text).with("dt", setup.dt).with("largest_speed", speed);

@@ -51,8 +51,8 @@ pub fn warning(flow: &Flow, setup: &Setup) -> Result<Option<Remark>, Error> {
         Asks::Friction => "the fluid's viscosity (alpha, viscosity)",
         Asks::Xsph => {
             let text = format!(
-                "the fluid's xsph is {:.2} times the stability limit of {name}, at any dt: in a step no particle can take on more than \
-                 there is; 0.5 is much",
+                "the fluid's xsph is {:.2} times the stability limit of {name}, at any dt: it overcorrects \
+                 velocities; 0.5 is already large",
                 flow.excess
             );
             return said(flow, Remark::warning("strong-xsph", text).with("excess", flow.excess));

@@ -86,8 +86,8 @@ pub fn remarks(setup: &Setup, start: &Start) -> Result<(Vec<String>, Vec<Remark>
     let (light, heavy) = start.mass;
     if light < 0.99 * medium.mass() || heavy > 1.01 * medium.mass() {
         let text = format!(
-            "particles of the fluid have masses from {light:.4e} to {heavy:.4e}, and density × spacing^{} of the force is {:.4e}: is their spacing \
-             another, or their density?",
+            "particles of the fluid have masses from {light:.4e} to {heavy:.4e}, and density × spacing^{} of the force is {:.4e}: do their spacing \
+             and density agree with the force?",
             medium.dimensions,
             medium.mass()
         );
@@ -96,8 +96,8 @@ pub fn remarks(setup: &Setup, start: &Start) -> Result<(Vec<String>, Vec<Remark>
     }
     if !start.summed {
         lines.push(format!(
-            "  at the start every density is that of rest, for it comes by continuity; sums over masses are {:.4} of it (particle {}) at \
-             most, {:.4} (particle {}) at least",
+            "  at the start every density is the rest density, as density_by = \"continuity\" sets it; by summation it is at most {:.4} of \
+             that (particle {}), at least {:.4} (particle {})",
             start.densest.1, start.densest.0, start.thinnest.1, start.thinnest.0
         ));
         return Ok((lines, notes));
@@ -117,8 +117,8 @@ pub fn remarks(setup: &Setup, start: &Start) -> Result<(Vec<String>, Vec<Remark>
     let burst = start.burst();
     if !solved && burst > MACH * medium.sound {
         let text = format!(
-            "the maximum density of the fluid, at particle {dense}, is {densest:.3} times that at rest: it expands at {burst:.3e}, which is \
-             more than the fastest flow that the speed of sound is made for"
+            "the maximum density of the fluid, at particle {dense}, is {densest:.3} times that at rest: it expands at {burst:.3e}, \
+             faster than the flow for which the speed of sound is chosen"
         );
         let start = Remark::note("dense-start", text).with("particle", f64::from(dense));
         notes.push(start.with("relative_density", densest).with("speed", burst));

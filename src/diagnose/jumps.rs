@@ -24,8 +24,8 @@ pub fn remarks(setup: &Setup, end: f64) -> Vec<Remark> {
         let part = jump * setup.dt / shortest;
         (part > BEARS).then(|| {
             let text = format!(
-                "the motion \"{}\" jumps in velocity by {jump:.3e} at {time:.4}, and rods must follow at once: in a step that is {part:.2} of \
-                 the shortest rod ({shortest:.3e}), and above {BEARS} they may be lost",
+                "the motion \"{}\" jumps in velocity by {jump:.3e} at {time:.4}, and rods must follow within one step: by {part:.2} of \
+                 the shortest rod ({shortest:.3e}); above {BEARS} their constraint solve may fail",
                 motion.name
             );
             let largest = BEARS * shortest / jump;

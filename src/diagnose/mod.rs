@@ -30,27 +30,27 @@ use crate::simulation::Setup;
 use crate::sph::Start;
 use crate::stability::{Flow, Verdict};
 
-/// How much a remark weighs. What cannot run is an error, and no remark.
+/// The severity of a remark. A setup that cannot run is an error, not a remark.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Severity {
-    /// One should know it.
+    /// For information.
     Note,
-    /// The run may be lost, or is wrong.
+    /// The run may fail, or its result may be wrong.
     Warning,
 }
 
-/// What is to be said of a setup. As text it is `text; advice`.
+/// A remark on a setup. As text it is `text; advice`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Remark {
-    /// What it is about, in words with hyphens: `rounded-motion`, `long-step`. It stays when words change.
+    /// A stable identifier of its subject, such as `rounded-motion` or `long-step`.
     pub id: &'static str,
-    /// How much it weighs.
+    /// Its severity.
     pub severity: Severity,
     /// The subject, the number and the consequence.
     pub text: String,
     /// Its numbers by name, in units of the setup: `particle` (an id), `particles` (how many), `dt`, `largest_dt`, ….
     pub numbers: Vec<(&'static str, f64)>,
-    /// The way out, where there is one to be named.
+    /// A remedy, if there is one.
     pub advice: Option<String>,
 }
 
@@ -85,7 +85,7 @@ impl fmt::Display for Remark {
 /// Steps of which a run has so many where nothing is said of its length: modes that grow tenfold in these are too fast.
 const STEPS: u64 = 10_000;
 
-/// Looks at a setup before it runs: the remarks of the command `motes check`, without those of its device.
+/// Validates a setup before it runs: the remarks of the command `motes check`, without those on its device.
 ///
 /// # Errors
 /// [`Error::Scene`] when it makes no sense, or could not but be lost: forces that lead out of the plane of a flat box, a fluid in steps

@@ -60,7 +60,7 @@ fn motions(setup: &Setup) -> Option<Remark> {
             .with("moved", v * setup.dt)
             .with("last_place", place)
             .with("better_dt", better)
-            .advice(format!("move the origin closer, choose a larger dt (above {better:.1e}), or take --backend cpu")),
+            .advice(format!("move the origin closer, choose a larger dt (above {better:.1e}), or use --backend cpu")),
     )
 }
 
@@ -85,7 +85,7 @@ fn softenings(setup: &Setup) -> Vec<Remark> {
                 .with("softening", softening)
                 .with("last_place", place)
                 .with("coordinate", far)
-                .advice("move the origin closer, or take --backend cpu")
+                .advice("move the origin closer, or use --backend cpu")
         })
     };
     setup.forces.iter().flat_map(|force| force.laws()).filter_map(remark).collect()
@@ -102,8 +102,8 @@ pub fn crossings(setup: &Setup) -> Option<Remark> {
     let (first, times) = all().next()?;
     let count = all().count();
     let text = format!(
-        "{count} particles cross the periodic box in a step, the first is particle {first}, {times:.1} times: what is on their way is \
-         not met, and beyond some 10^7 times their places are rounding alone"
+        "{count} particles cross the periodic box in a step, the first is particle {first}, {times:.1} times: they do not interact \
+         with particles on their way, and beyond some 10^7 times their positions are rounding errors only"
     );
     Some(
         Remark::note("crossed-box", text)

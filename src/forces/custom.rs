@@ -1,4 +1,4 @@
-//! A user's own law: a WGSL file that is the equal of ours, with no Rust and no compiler.
+//! A user's own law: a WGSL file with the same features as built-in laws, without Rust code or compilation.
 
 use std::sync::Arc;
 
@@ -8,7 +8,7 @@ use crate::kernel::{ACCELERATION, Name, Scalar, Source, Table};
 use crate::settings::{Value, unknown};
 use crate::visit::PairTable;
 
-/// A user's law. It has no reference, so the CPU backend cannot run it and nothing checks it.
+/// A user's law. It has no reference, so the CPU backend cannot run it and it is not verified.
 #[derive(Clone)]
 pub struct Custom {
     /// Its name in the plan.

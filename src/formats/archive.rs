@@ -89,7 +89,7 @@ impl<R: Read + Seek> Arrays<R> {
 fn array<R: Read + Seek>(archive: &mut NpzArchive<R>, name: &str) -> Result<Vec<f64>, String> {
     let mut file = archive.zip_archive().by_name(&format!("{name}.npy")).map_err(|error| error.to_string())?;
     if !matches!(file.compression(), CompressionMethod::Stored | CompressionMethod::Deflated) {
-        return Err(format!("is packed with {}; stored and deflated arrays are read", file.compression()));
+        return Err(format!("is compressed with {}; only stored and deflated arrays are read", file.compression()));
     }
     let (size, packed) = (file.size(), file.compressed_size());
     let header = Header::read(&mut file)?;
@@ -113,7 +113,7 @@ fn array<R: Read + Seek>(archive: &mut NpzArchive<R>, name: &str) -> Result<Vec<
     // One byte more, so that the archive compares its checksum.
     match file.read(&mut [0]) {
         Ok(0) => Ok(values),
-        Ok(_) => Err(format!("goes on after its {count} numbers")),
+        Ok(_) => Err(format!("has more data after its {count} numbers")),
         Err(error) => Err(format!("is damaged ({error})")),
     }
 }

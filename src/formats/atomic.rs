@@ -28,7 +28,7 @@ pub(super) fn verified<T>(
     if fs::metadata(path).is_ok_and(|there| !there.is_file()) {
         return Err(failed(
             path,
-            &io::Error::other("is not a regular file, and what is written is read back: name a file"),
+            &io::Error::other("is not a regular file, and written files are read back: name a regular file"),
         ));
     }
     let mut found = None;

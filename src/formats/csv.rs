@@ -111,12 +111,12 @@ fn contents(path: &Path) -> Result<Contents, Error> {
 /// What to say of a table whose first row is numbers.
 fn unnamed(record: &ByteRecord) -> String {
     if record.len() == 1 {
-        return "begins with a line of one number, as an XYZ file does: call it so (.xyz), or make it a table whose first line \
+        return "begins with a line of one number, as an XYZ file does: rename it to .xyz, or make it a table whose first line \
                 names the columns, such as x,y,z,vx,vy,vz,mass"
             .to_owned();
     }
     format!(
-        "its first line is {} numbers, and nothing tells what they are: put a line before it that names the columns, such as \
+        "its first line is {} numbers, and the columns have no names: put a line before it that names them, such as \
          mass x y z vx vy vz, with `#` or without",
         record.len()
     )

@@ -84,7 +84,7 @@ impl Header {
         let mut left = count.saturating_mul(width as u64);
         while left > 0 {
             let part = &mut piece[..usize::try_from(left).unwrap_or(PIECE).min(PIECE)];
-            let broken = |error| format!("breaks off after {} of {count} numbers ({error})", values.len());
+            let broken = |error| format!("ends after {} of {count} numbers ({error})", values.len());
             from.read_exact(part).map_err(broken)?;
             left -= part.len() as u64;
             if self.big {

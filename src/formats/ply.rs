@@ -251,7 +251,7 @@ fn passed(bytes: &[u8], start: usize, element: &Element, body: Body) -> Result<u
     let Element { name, count, properties } = element;
     let cut = |has: u64| format!("byte {}: the file ends here; the header announces {count} of `{name}`, and {has} are there", bytes.len());
     if properties.is_empty() && *count > 0 {
-        return Err(format!("the header announces {count} of `{name}` and says nothing of what they have"));
+        return Err(format!("the header announces {count} of `{name}` and no properties of them"));
     }
     if body == Body::Text {
         let mut at = start;
@@ -348,7 +348,7 @@ fn header(bytes: &[u8]) -> Result<Header, String> {
                 element.properties.push(property);
             }
             ["end_header"] if format => break,
-            _ => return Err(format!("line {number}: `{}` is nothing that a PLY header says", shortened(&line))),
+            _ => return Err(format!("line {number}: `{}` is not a line of a PLY header", shortened(&line))),
         }
     }
     found.end = at;

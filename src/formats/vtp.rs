@@ -263,7 +263,7 @@ fn parsed(bytes: &[u8], wanted: &dyn Fn(&str) -> bool) -> Result<Sheet, String> 
             "Piece" => {
                 pieces += 1;
                 let count = tag.get("NumberOfPoints").and_then(|count| count.parse::<u64>().ok());
-                let count = count.ok_or_else(|| format!("byte {}: a piece says no NumberOfPoints", tag.from))?;
+                let count = count.ok_or_else(|| format!("byte {}: a piece has no NumberOfPoints", tag.from))?;
                 if pieces > 1 {
                     return Err(format!("byte {}: a second piece; files of one are read: merge them", tag.from));
                 }
@@ -286,7 +286,7 @@ fn parsed(bytes: &[u8], wanted: &dyn Fn(&str) -> bool) -> Result<Sheet, String> 
         return Err("is no VTK file of polygons: it has no PolyData with a piece".to_owned());
     }
     if layout.appended.is_some() && !bytes.trim_ascii_end().ends_with(b"</VTKFile>") {
-        return Err(format!("byte {}: the file ends here, without </VTKFile>: it is cut", bytes.len()));
+        return Err(format!("byte {}: the file ends here, without </VTKFile>: it is truncated", bytes.len()));
     }
     if let [a, b, c, d, e, f, x, y, z] = boxed[..] {
         let sides = [x, y, z].map(|side| match side {

@@ -267,7 +267,7 @@ fn divide(given: &mut [Option<Vec<f64>>], known: &[titles::Title<'_>], problems:
     for list in given[velocity..velocity + 3].iter_mut().flatten() {
         for (row, (number, mass)) in list.iter_mut().zip(&mass).enumerate() {
             if *mass == 0.0 && *number != 0.0 {
-                problems.note(|| format!("line {}, momenta: {number} of a particle without mass: no velocity has that", row + 3));
+                problems.note(|| format!("line {}, momenta: {number} of a particle of mass 0: its velocity is undefined", row + 3));
             }
             *number = if *mass == 0.0 { 0.0 } else { *number / mass };
         }

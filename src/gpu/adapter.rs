@@ -1,16 +1,16 @@
-//! Adapters: what there is, which one to take, and what a device opened on it may do.
+//! Adapters: their list, the choice of one, and the features and limits of its device.
 
 use super::{Faults, driver};
 use crate::error::Error;
 use crate::kernel::Machine;
 
-/// Which adapter to take.
+/// The choice of an adapter.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub enum Choice {
     /// The fastest kind there is: discrete, integrated, virtual, software.
     #[default]
     Best,
-    /// By its place in [`adapters`], or by a part of its name, upper or lower case.
+    /// By its index in [`adapters`], or by a part of its name in upper or lower case.
     Named(String),
 }
 
@@ -22,7 +22,7 @@ pub struct Found {
     pub device: wgpu::Device,
     /// Its queue.
     pub queue: wgpu::Queue,
-    /// What it complains of outside of any call.
+    /// Its errors that were reported outside of any call.
     pub faults: Faults,
 }
 
@@ -145,7 +145,7 @@ pub fn choose(mut adapters: Vec<wgpu::Adapter>, choice: &Choice) -> Result<wgpu:
 /// The optional features of an adapter that are worth asking for. None is needed: a device with [`wgpu::Features::empty`] runs
 /// everything.
 ///
-/// * `SUBGROUP` buys speed: lanes pass particles and nodes of a tree on to each other, mostly on software adapters.
+/// * `SUBGROUP` buys speed: lanes broadcast particles and tree nodes to each other, mostly on software adapters.
 /// * `TIMESTAMP_QUERY` buys times by the device's own clock, in [`Gpu::timed`](crate::Gpu::timed), the benches and `motes doctor`.
 #[must_use]
 pub fn wanted_features(adapter: &wgpu::Adapter) -> wgpu::Features {
@@ -178,7 +178,7 @@ pub async fn open(adapter: wgpu::Adapter) -> Result<Found, Error> {
     };
     let opened = adapter.request_device(&descriptor).await;
     let (device, queue) =
-        opened.map_err(|e| Error::NoAdapter(format!("{} gives no device: {e}", describe(&adapter.get_info()))))?;
+        opened.map_err(|e| Error::NoAdapter(format!("{} opens no device: {e}", describe(&adapter.get_info()))))?;
     let faults = Faults::listen(&device);
     Ok(Found { adapter, device, queue, faults })
 }

@@ -75,7 +75,7 @@ pub fn missing(name: &str) -> Error {
 
 fn with_size(error: Error, name: &str, size: u64) -> Error {
     match error {
-        Error::OutOfMemory(_) => Error::OutOfMemory(format!("no room for the field `{name}` of {}", mebibytes(size))),
+        Error::OutOfMemory(_) => Error::OutOfMemory(format!("no memory for the field `{name}` of {}", mebibytes(size))),
         other => other,
     }
 }

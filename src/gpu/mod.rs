@@ -1,5 +1,5 @@
-//! The backend that runs plans on a device through wgpu. Nothing outside this folder names wgpu, but the door in
-//! `simulation.rs`.
+//! The backend that runs plans on a device through wgpu. Outside of this folder only `simulation.rs` names wgpu, for the
+//! caller's device.
 
 mod adapter;
 mod buffers;

@@ -24,7 +24,7 @@ pub trait Integrator: Copied + Send + Sync {
     }
     /// The order of convergence, for forces that depend on position and time alone.
     fn order(&self) -> u32;
-    /// The order when a force depends on velocity too. Kicks take the velocity at hand, so for the symplectic ones it is 1.
+    /// The order when a force depends on velocity too: 1 for symplectic integrators, whose kicks use the current velocity.
     fn order_with_velocity(&self) -> u32 {
         1
     }
@@ -32,11 +32,11 @@ pub trait Integrator: Copied + Send + Sync {
     fn is_implicit(&self) -> bool {
         false
     }
-    /// Whether it is symplectic in steps that are all alike: energy stays in bounds.
+    /// Whether it is symplectic with a fixed step: the energy error stays bounded.
     fn is_symplectic(&self) -> bool {
         false
     }
-    /// Whether it damps what it cannot follow, however long its steps are.
+    /// Whether it damps fast modes at any step size.
     fn damps_at_any_step(&self) -> bool {
         false
     }
@@ -57,7 +57,7 @@ pub trait Integrator: Copied + Send + Sync {
     fn columns(&self) -> Vec<Column> {
         Vec::new()
     }
-    /// What must be done once, before the first step.
+    /// Adds the kernels that run once, before the first step.
     fn start(&self, _step: &mut Step) {}
     /// One step.
     fn step(&self, step: &mut Step);

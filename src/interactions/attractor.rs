@@ -11,7 +11,7 @@ use crate::settings::{Key, Kind, Settings, Value};
 
 /// The keys in a scene.
 pub const KEYS: &[Key] = &[
-    Key::new("position", Kind::Vector, Value::Vector(DVec3::ZERO), "where the centre is at time 0 [length]"),
+    Key::new("position", Kind::Vector, Value::Vector(DVec3::ZERO), "the position of the centre at time 0 [length]"),
     Key::new("velocity", Kind::Vector, Value::Vector(DVec3::ZERO), "its velocity [length / time]; energy is conserved only if it is at rest"),
     Key::new("profile", Kind::Choice(PROFILES), Value::Text(Cow::Borrowed("point")), "the profile of the attraction"),
     Key::new("strength", Kind::Number, Value::Number(1.0), "point: G M [length³ / time²]; harmonic: ω² [1 / time²]; logarithmic: v₀² [length² / time²]"),

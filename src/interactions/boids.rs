@@ -17,7 +17,7 @@ pub const KEYS: &[Key] = &[
     Key::new("separation", Kind::NotNegative, Value::Number(1.5), "the weight of separation"),
     Key::new("alignment", Kind::NotNegative, Value::Number(1.0), "the weight of alignment"),
     Key::new("cohesion", Kind::NotNegative, Value::Number(1.0), "the weight of cohesion"),
-    Key::new("vision", Kind::NotNegative, Value::Number(135.0), "half of the angle of view; 180 and more is all round; a bird at rest sees all round [degrees]"),
+    Key::new("vision", Kind::NotNegative, Value::Number(135.0), "half of the angle of view; 180 or more: all directions, as for a bird at rest [degrees]"),
     Key::new("max_speed", Kind::Positive, Value::Number(1.0), "the desired speed, and the maximum speed [length / time]"),
     Key::new("min_speed", Kind::NotNegative, Value::Number(0.0), "the minimum speed; a bird at rest sets off along x [length / time]"),
     Key::new("max_force", Kind::Positive, Value::Number(1.5), "the maximum acceleration of each rule, and of all together [length / time²]"),

@@ -123,7 +123,7 @@ pub fn fits(problem: &Problem, softening: f64) -> Result<(), Error> {
         )));
     }
     Err(Error::Scene(format!(
-        "gravity with images = \"ewald\" wants a cube that is periodic on all sides; here {bounds}: give [box] three equal \
+        "gravity with images = \"ewald\" requires a cube that is periodic on all sides; here {bounds}: give [box] three equal \
          sides that are \"periodic\", or say images = \"nearest\""
     )))
 }

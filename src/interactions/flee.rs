@@ -12,7 +12,7 @@ pub const KEYS: &[Key] = &[
     Key::new("range", Kind::Positive, Value::Number(1.0), "how far a predator is seen [length]"),
     Key::new("strength", Kind::NotNegative, Value::Number(5.0), "the acceleration away from a predator at distance 0 [length / time²]"),
     Key::new("species", Kind::Species, Value::Number(0.0), "the species that flees"),
-    Key::new("predators", Kind::Species, Value::Number(1.0), "the species that it flees"),
+    Key::new("predators", Kind::Species, Value::Number(1.0), "the species from which it flees"),
     SEE_NEAR,
     SKIN,
 ];

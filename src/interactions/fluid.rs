@@ -24,7 +24,7 @@ pub const KEYS: &[Key] = &[
     Key::new("negative_pressure", Kind::Flag, Value::Flag(false), "whether pressure may be below 0: where there is no free surface"),
     Key::new("alpha", Kind::NotNegative, Value::Number(0.0), "the artificial viscosity α (Monaghan 1992)"),
     Key::new("viscosity", Kind::NotNegative, Value::Number(0.0), "the kinematic viscosity ν (Morris, Fox & Zhu 1997) [length² / time]"),
-    Key::new("xsph", Kind::NotNegative, Value::Number(0.0), "ε of XSPH: how far velocities are drawn to the mean of the neighbours in each step (Schechter & Bridson 2012)"),
+    Key::new("xsph", Kind::NotNegative, Value::Number(0.0), "ε of XSPH: the fraction by which velocities move towards the mean of the neighbours in each step (Schechter & Bridson 2012)"),
     Key::new("wall_friction", Kind::NotNegative, Value::Number(1.0), "the part of both viscosities that acts at walls; 0: free slip"),
     Key::new("walls", Kind::Choice(WALLS), Value::Text(Cow::Borrowed("mirror")), "the pressure of walls: that of the particle at the wall (Akinci et al. 2012), or that of the fluid around them (Adami, Hu & Adams 2012, as if they were not accelerated)"),
     Key::new("wall_mass", Kind::Choice(WALL_MASS), Value::Text(Cow::Borrowed("sampled")), "the mass of wall particles: from their spacing, for one layer (Akinci et al. 2012), or that of a lattice particle, for several layers").of_fluid(),
@@ -67,8 +67,8 @@ impl Fluid {
         let support = number("support");
         if !(1.5..=6.0).contains(&support) {
             return Err(Error::Setting { key: "support", why: format!(
-                "a fluid has support = {support} spacings: with less than 1.5 particles do not meet, and more than 6 are hundreds \
-                 of neighbours; say 2 to 3"
+                "a fluid has support = {support} spacings: below 1.5 particles have no neighbours, and above 6 they have \
+                 hundreds; choose 2 to 3"
             ) });
         }
         let solves = self.solves();

@@ -7,7 +7,7 @@ use crate::settings::{Key, Kind, Settings, Value};
 
 /// The keys in a scene.
 pub const KEYS: &[Key] = &[
-    Key::new("position", Kind::Vector, Value::Vector(DVec3::ZERO), "where it is at time 0 [length]"),
+    Key::new("position", Kind::Vector, Value::Vector(DVec3::ZERO), "its position at time 0 [length]"),
     Key::new("velocity", Kind::Vector, Value::Vector(DVec3::ZERO), "its velocity [length / time]"),
     Key::new("max_speed", Kind::Positive, Value::Number(1.0), "the desired speed [length / time]"),
     Key::new("max_force", Kind::Positive, Value::Number(1.0), "the maximum acceleration by steering [length / time²]"),

@@ -14,11 +14,11 @@ use crate::visit::{Particle, Group};
 /// The keys in a scene.
 pub const KEYS: &[Key] = &[
     Key::new("g", Kind::Number, Value::Number(1.0), "the gravitational constant [length³ / mass / time²]"),
-    Key::new("softening", Kind::NotNegative, Value::Number(0.0), "the Plummer softening ε; the spline ends at 2.8 ε, so for PKDGRAV's own ε (which ends at 2 ε) say 2/2.8 of it [length]"),
+    Key::new("softening", Kind::NotNegative, Value::Number(0.0), "the Plummer softening ε; the spline ends at 2.8 ε, so for PKDGRAV's own ε (whose spline ends at 2 ε) set 2/2.8 of it [length]"),
     Key::new("kernel", Kind::Choice(&["plummer", "spline"]), Value::Text(Cow::Borrowed("plummer")), "the softening kernel"),
     Key::new("over", Kind::Choice(&["pairs", "tree", "auto"]), Value::Text(Cow::Borrowed("pairs")), "which pairs are evaluated: all (direct summation), or far groups approximated by a tree; \"auto\": whichever is faster"),
-    Key::new("theta", Kind::Fraction, Value::Number(0.5), "the opening angle θ of the tree, at most 1: a group of size l is approximated from the distance l / θ on"),
-    Key::new("alpha", Kind::NotNegative, Value::Number(0.0), "above 0: the relative opening criterion (GADGET): a group is approximated where its quadrupole term is below α of the last acceleration"),
+    Key::new("theta", Kind::Fraction, Value::Number(0.5), "the opening angle θ of the tree, at most 1: a group of size l is approximated beyond the distance l / θ"),
+    Key::new("alpha", Kind::NotNegative, Value::Number(0.0), "above 0: the relative opening criterion (GADGET): a group of mass M and size l is approximated where G M l² / d⁴ is below α times the last acceleration"),
     Key::new("images", Kind::Choice(&["nearest", "ewald"]), Value::Text(Cow::Borrowed("nearest")), "in a periodic box: nearest images only, or Ewald sums over all images on a neutralizing background, in a cube (Ewald 1921)"),
     Key::new("multipoles", Kind::Choice(&["quadrupole", "monopole"]), Value::Text(Cow::Borrowed("quadrupole")), "the multipole order of far groups"),
 ];
@@ -62,7 +62,7 @@ impl Gravity {
         }
         if self.0.text("over") == "tree" && problem.bounds.has(Side::Periodic) {
             return Err(Error::Scene(format!(
-                "gravity over = \"tree\" in a periodic box ({}) cannot meet nearest images alone: their force jumps half a box \
+                "gravity over = \"tree\" in a periodic box ({}) cannot use nearest images alone: their force jumps half a box \
                  away, within a group. Say images = \"ewald\" in a cube that is periodic on all sides, or over = \"pairs\"",
                 problem.bounds
             )));

@@ -11,7 +11,7 @@ use crate::solids::Solid;
 
 /// The keys in a scene.
 pub const KEYS: &[Key] = &[
-    Key::new("shape", Kind::Choice(SHAPES), Value::Text(Cow::Borrowed("sphere")), "what it is"),
+    Key::new("shape", Kind::Choice(SHAPES), Value::Text(Cow::Borrowed("sphere")), "its shape"),
     Key::new("position", Kind::Vector, Value::Vector(DVec3::ZERO), "its centre, or a point on the plane [length]"),
     Key::new("radius", Kind::Positive, Value::Number(0.5), "sphere: its radius [length]"),
     Key::new("size", Kind::Vector, Value::Vector(DVec3::ONE), "box: its sides [length]"),

@@ -12,7 +12,7 @@ use crate::settings::{Key, Kind, Settings, Value};
 pub const KEYS: &[Key] = &[
     Key::new("center", Kind::Vector, Value::Vector(DVec3::ZERO), "a point on the axis [length]"),
     Key::new("axis", Kind::Direction, Value::Vector(DVec3::Z), "the axis of rotation, by the right-hand rule"),
-    Key::new("circulation", Kind::Number, Value::Number(1.0), "the circulation Γ far outside [length² / time]"),
+    Key::new("circulation", Kind::Number, Value::Number(1.0), "the circulation Γ at large radius [length² / time]"),
     Key::new("core", Kind::Positive, Value::Number(0.1), "the core radius, where the flow is fastest [length]"),
     Key::new("rate", Kind::NotNegative, Value::Number(1.0), "the rate at which particles adopt the velocity of the flow [1 / time]"),
     EACH,

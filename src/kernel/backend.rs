@@ -26,7 +26,7 @@ impl Machine {
     /// The host, which runs the references.
     pub const HOST: Self =
         Self { software: true, subgroup: 0, invocations: 1, bindable: 0, workgroups: 65_535, turns: Self::TURNS };
-    /// Turns below which no known driver ends a loop, with room for a turn that is not counted.
+    /// A number of iterations below which no known driver ends a loop, with a margin for one that is not counted.
     pub const TURNS: u32 = 60_000;
 }
 

@@ -1,4 +1,4 @@
-//! The box: where particles may be, and what is at its sides.
+//! The box and its boundaries.
 
 use glam::{DVec3, Vec3};
 
@@ -8,10 +8,10 @@ pub enum Side {
     /// Nothing: there is no box along this axis.
     #[default]
     Open = 0,
-    /// A particle that leaves at one side comes in at the other, and pairs interact over the nearest image (the minimum
-    /// image; Metropolis et al. 1953).
+    /// Periodic: a particle that leaves at one side enters at the other, and pairs interact by the minimum image
+    /// (Metropolis et al. 1953).
     Periodic = 1,
-    /// A mirror: a particle that would leave is reflected without loss.
+    /// Reflecting: a particle that would leave is reflected elastically.
     Reflecting = 2,
 }
 

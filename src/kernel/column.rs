@@ -10,13 +10,13 @@ use super::{Array, Name};
 pub struct Column {
     /// Its name in Rust, in WGSL, in scenes and in files.
     pub name: Name,
-    /// What one value is.
+    /// The type of a value.
     pub kind: Kind,
     /// How many values there are.
     pub shape: Shape,
     /// Its unit, such as `length / time`; empty for a plain number.
     pub unit: Cow<'static, str>,
-    /// One line that says what it is.
+    /// A description in one line.
     pub about: Cow<'static, str>,
     /// What writes it.
     pub role: Role,
@@ -24,9 +24,9 @@ pub struct Column {
     pub rate: Option<Name>,
     /// How they do.
     pub advance: Advance,
-    /// The value of a particle that is given none; `None`: it must be given.
+    /// The default value; `None`: every particle must be given one.
     pub initial: Option<[f64; 4]>,
-    /// Where it lies.
+    /// Its buffer, and its components there.
     pub place: Place,
 }
 

@@ -85,7 +85,7 @@ impl Columns {
         }
         if let Some(kept) = KEPT.iter().find(|kept| column.name.starts_with(**kept)) {
             return Err(Error::Scene(format!(
-                "a column is called `{}`, and integrators keep buffers of names with `{kept}`: choose another name",
+                "a column is called `{}`, and names that begin with `{kept}` are those of integrators: choose another name",
                 column.name
             )));
         }

@@ -4,38 +4,38 @@ use std::marker::PhantomData;
 
 use glam::{DVec3, DVec4, Vec4};
 
-/// Where particles are, and how heavy: `xyz` position \[length\], `w` mass \[mass\].
+/// Positions and masses: `xyz` position \[length\], `w` mass \[mass\].
 pub const POSITION: Field<Vec4> = Field::new("position");
-/// How particles move, and how large they are drawn: `xyz` velocity \[length / time\], `w` radius \[length\].
+/// Velocities and the radii in pictures: `xyz` velocity \[length / time\], `w` radius \[length\].
 pub const VELOCITY: Field<Vec4> = Field::new("velocity");
-/// What forces do: `xyz` acceleration \[length / time²\]; `w` the particle's share of the potential energy, per unit mass
+/// Accelerations and potential energies: `xyz` acceleration \[length / time²\]; `w` the particle's share of the potential energy, per unit mass
 /// \[length² / time²\], so that the sum of mass × w over all particles is the potential energy (each of a pair holds half).
 pub const ACCELERATION: Field<Vec4> = Field::new("acceleration");
-/// Of which kind a particle is: predator or prey, one phase or another. A number that scenes choose.
+/// The species of a particle, such as predator or prey: a number by which laws distinguish particles.
 pub const SPECIES: Field<u32> = Field::new("species");
-/// Whether a particle takes part, as [`Life::word`](crate::life::Life::word) has it: 0 pending, 1 active, 2 removed. It
-/// is there where particles may be spawned or removed.
+/// The life of a particle, as in [`Life::word`](crate::life::Life::word): 0 pending, 1 active, 2 removed. The field
+/// exists if particles may be spawned or removed.
 pub const LIFE: Field<u32> = Field::new("life");
-/// The id of a particle. It is there where rows are used again for other particles; elsewhere ids are rows.
+/// The id of a particle. The field exists if rows are reused for other particles; otherwise ids equal rows.
 pub const ID: Field<u32> = Field::new("id");
-/// Where fixed particles with a target shall be, by id: `xyz` the place \[length\], `w` the time at which they shall be there
-/// \[time\]. They go there at constant velocity, and stay; a target whose time is over is reached in the next step. At the start it is where they
-/// are. Write it with [`Simulation::write`](crate::simulation::Simulation::write) whenever a new place is known. It is there
-/// where a particle is held by [`Hold::Target`](crate::motion::Hold::Target). `target` is a word of WGSL's own.
+/// The target positions of kinematic particles, by id: `xyz` the position \[length\], `w` the time at which it is reached
+/// \[time\]. Particles move there at constant velocity, and stay; a target in the past is reached in the next step. At the start it is their initial
+/// position. Write it with [`Simulation::write`](crate::simulation::Simulation::write). The field exists
+/// if a particle has [`Hold::Target`](crate::motion::Hold::Target). (`target` is a reserved word of WGSL.)
 pub const TARGET: Field<Vec4> = Field::new("kinematic_target");
 /// Where fixed particles were at the start, in the order of [`Problem::held`](super::Problem::held).
 pub const HOME: Field<Vec4> = Field::new("home");
-/// What has gone wrong, word by word; `u32::MAX` in the first five and the last two while all is well.
+/// Failures that kernels detect, word by word; `u32::MAX` in the first five and the last two while there are none.
 ///
 /// 0 and 1: after how many steps a particle is first seen not to be finite, and the lowest id of those; 2: the lowest id
-/// of one that has more others within reach than a search can visit; 3 and 4: after how many steps speeds are seen to run
-/// away, and the lowest id of those that do. Then what that is known by, the bits of speeds as `f32`: 5: the largest of the
-/// 16 steps at hand; 6: that of the 16 before; 7: how often in a row it has more than doubled. 8: the mark of a user's law
+/// of a particle with more neighbours than a search can visit; 3 and 4: after how many steps a runaway of speeds is
+/// detected, and the lowest id of such particles. Then its criterion, with the bits of speeds as `f32`: 5: the maximum of the
+/// current 16 steps; 6: that of the previous 16; 7: how many times in a row it has more than doubled. 8: the mark of a user's law
 /// whose loops the driver has ended early; 9: that of one whose loops have no end.
 pub const ALARM: Field<u32> = Field::new("alarm");
 /// The words of the alarm.
 pub const ALARM_WORDS: usize = 10;
-/// The alarm before anything has gone wrong.
+/// The alarm without any failure.
 pub const QUIET: [u32; ALARM_WORDS] = [u32::MAX, u32::MAX, u32::MAX, u32::MAX, u32::MAX, 0, 0, 0, u32::MAX, u32::MAX];
 /// The constant of a shader that holds the mark of a user's law, by which an alarm names it.
 pub const LAW: &str = "LAW";

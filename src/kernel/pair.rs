@@ -96,7 +96,7 @@ impl Columns {
         let next = other.rate.as_ref().and_then(|next| self.get(next));
         if other.role == Role::State && next.is_some_and(|next| next.role == Role::State) {
             return Err(Error::Scene(format!(
-                "the column `{}` is advanced by `{rate}`, which a drift advances as well: of two in a row no order would be right; \
+                "the column `{}` is advanced by `{rate}`, which a drift advances as well: two drifts in a row have no consistent order; \
                  let evaluations compute the rate of `{rate}`",
                 column.name
             )));

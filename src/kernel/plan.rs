@@ -8,7 +8,7 @@ use std::sync::Arc;
 use super::{Access, Binding, Flag, Host, Indirect, Op, Pass, Shader, Walk};
 use crate::error::Error;
 
-/// The second opinion: the same operation in f64 on the host's arrays.
+/// The reference: the same operation in f64 on the host's arrays.
 pub type Reference = Arc<dyn Fn(&Host) -> Result<(), Error> + Send + Sync>;
 
 /// The name of a field.

@@ -39,7 +39,7 @@ pub struct Problem {
     pub motions: Arc<Vec<Motion>>,
     /// The particles that are to be spawned.
     pub births: Arc<Vec<Birth>>,
-    /// Where particles die.
+    /// The drains.
     pub drains: Arc<Vec<Drain>>,
     /// Whether some particles are not active all the time.
     pub has_inactive: bool,

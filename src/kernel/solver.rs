@@ -36,8 +36,8 @@ impl Solver {
         let Self { tolerance, iterations, solves } = *self;
         if !(LEAST_TOLERANCE..1.0).contains(&tolerance) {
             return Err(Error::Scene(format!(
-                "the solver's tolerance is {tolerance:e}: single precision reaches {LEAST_TOLERANCE:e}, and 1 asks for \
-                 nothing; choose one between"
+                "the solver's tolerance is {tolerance:e}: it must be at least {LEAST_TOLERANCE:e}, the limit of \
+                 single precision, and below 1"
             )));
         }
         for (name, n, most) in [("iterations", iterations, MOST_ITERATIONS), ("solves", solves, MOST_SOLVES)] {

@@ -37,7 +37,7 @@ pub fn check(
         }
         if dimensions == 2 && birth.velocity.z != 0.0 {
             return refuse(format!(
-                "particle {id} is born with a velocity out of the plane: in 2 dimensions give it no z"
+                "particle {id} is spawned with a velocity out of the plane: in 2 dimensions give it no z"
             ));
         }
     }

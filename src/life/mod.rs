@@ -13,15 +13,15 @@ pub use population::{Population, schedule};
 
 use crate::solids::Solid;
 
-/// Whether a particle takes part. One that does not is in no cell list, has no acceleration, no mass and no velocity, and is not drawn.
+/// The life of a particle. One that is not active is in no cell list, has no acceleration, no mass and no velocity, and is not drawn.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Life {
-    /// It is pending, and stands where that will be.
+    /// To be spawned, at this position.
     Pending,
-    /// It takes part.
+    /// In the simulation.
     #[default]
     Active,
-    /// It has been drained, and stays where that was.
+    /// Removed, at the position where that happened.
     Removed,
 }
 
@@ -38,8 +38,8 @@ impl Life {
     }
 }
 
-/// When and how a pending particle is spawned. At the end of the first step that reaches its time it is put where it would be
-/// had it left the place where it waited just then, at this velocity. One that does not wait is not spawned again.
+/// When and how a pending particle is spawned. At the end of the first step that reaches its time it is placed where it would be
+/// if it had left its initial position at that time, at this velocity. Only pending particles are spawned.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Birth {
     /// Its id.
@@ -50,20 +50,20 @@ pub struct Birth {
     pub velocity: DVec3,
     /// Mass \[mass\].
     pub mass: f64,
-    /// How long it goes straight on, whatever forces say, so that those before it have something behind them \[time\].
+    /// How long it moves at constant velocity without forces, so that the jet ahead of it has pressure behind it \[time\].
     pub guided: f64,
     /// The emitter that it is of, as a number that messages know it by.
     pub emitter: u32,
 }
 
-/// A place in which particles die, at the end of a step.
+/// A drain: a region in which particles are removed at the end of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Drain {
     /// Its shape. A plane is the half space that its normal points away from.
     pub solid: Solid,
-    /// Where its middle is; of a plane a point on it \[length\].
+    /// Its centre; of a plane a point on it \[length\].
     pub position: DVec3,
-    /// Whether one dies outside of the shape instead of inside.
+    /// Whether particles are removed outside of the shape instead of inside.
     pub outside: bool,
     /// The species that it removes; all, but fixed particles, where none is named.
     pub species: Option<u32>,

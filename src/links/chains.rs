@@ -3,7 +3,7 @@
 use super::Rod;
 use crate::error::Error;
 
-/// Rods of one chain: one invocation walks 24 times along it, and 65 535 trips are the most that every driver does.
+/// Rods of one chain: one invocation iterates over it 24 times, and some drivers end loops after 65 535 iterations.
 pub const MOST_RODS: u32 = 2_700;
 
 /// A particle in a chain.
@@ -48,7 +48,7 @@ impl Chains {
             if degree > 2 && !held(*id) {
                 return Err(Error::Scene(format!(
                     "particle {id} has {degree} rods: rods make open chains, in which a particle has one or two, unless it is \
-                     held; make one of them a stiff spring"
+                     fixed; make one of them a stiff spring"
                 )));
             }
             if walked[*n] || degree == 2 && !held(*id) {
@@ -66,7 +66,7 @@ impl Chains {
             if chain.len() > MOST_RODS as usize + 1 {
                 return Err(Error::Scene(format!(
                     "a chain from particle {} to particle {id} has {} rods: {MOST_RODS} are the most that one invocation \
-                     solves; hold a particle on the way, or make a rod a stiff spring",
+                     solves; fix a particle of the chain, or make a rod a stiff spring",
                     chain[0].id,
                     chain.len() - 1
                 )));
@@ -75,7 +75,7 @@ impl Chains {
         }
         if let Some(n) = walked.iter().position(|walked| !walked) {
             return Err(Error::Scene(format!(
-                "the rods through particle {} make a closed loop: rods make open chains; hold a particle of it, or make one \
+                "the rods through particle {} make a closed loop: rods make open chains; fix a particle of it, or make one \
                  of its rods a stiff spring",
                 rods[n].ends[0]
             )));

@@ -19,17 +19,17 @@ pub use network::{MOST_LINKS, Network};
 pub struct Link {
     /// The ids of the two.
     pub ends: [u32; 2],
-    /// How long it is at rest \[length\]; zero makes a spring that pulls its ends together in all directions alike.
+    /// The rest length \[length\]; zero: an isotropic spring, which pulls its ends together.
     pub rest: f64,
     /// Hooke's constant \[mass / time²\].
     pub stiffness: f64,
-    /// What resists a change of its length, and nothing else \[mass / time\].
+    /// The damping along the spring \[mass / time\].
     pub damping: f64,
-    /// Whether it is slack when it is shorter than at rest.
+    /// Whether it is a rope: slack when shorter than its rest length.
     pub rope: bool,
 }
 
-/// A distance between two particles that does not change.
+/// A rigid rod: a constant distance between two particles.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rod {
     /// The ids of the two.
@@ -38,8 +38,8 @@ pub struct Rod {
     pub length: f64,
 }
 
-/// A joint at the second of three particles, straight at rest: its energy is ½ k θ², with θ the angle by which the way
-/// turns there.
+/// A joint at the second of three particles, straight at rest: its energy is ½ k θ², with θ the deflection from a straight
+/// line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Joint {
     /// The ids of the three, in order.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::{Half, Joint, Link, Links, Rod, WORDS};
 
-/// Links that one particle may have: one invocation loops over them, and 65 535 trips are the most that every driver does.
+/// Links that one particle may have: one invocation loops over them, and some drivers end loops after 65 535 iterations.
 pub const MOST_LINKS: u32 = 60_000;
 
 /// Kinds of springs that are kept apart; see `shaders/visit/links_alike.wgsl`.

@@ -38,7 +38,7 @@ impl Links {
             let rounding = away * f64::from(f32::EPSILON);
             if rounding > FINE * length {
                 return Err(Error::Scene(format!(
-                    "rod {n} has the length {length}, and stands {away} from the origin, where single precision knows places \
+                    "rod {n} has the length {length}, and is {away} from the origin, where single precision resolves positions \
                      to {rounding:e}: take an origin that is nearer, or longer rods"
                 )));
             }
@@ -59,7 +59,7 @@ impl Links {
             let growth = (v - u).dot(r) / length;
             if growth.abs() > SLACK * (u.length() + v.length()) {
                 return Err(Error::Scene(format!(
-                    "rod {n} between particles {a} and {b} would grow by {growth:e} in a unit of time: take that away from \
+                    "rod {n} between particles {a} and {b} would grow by {growth:e} in a unit of time: remove that from \
                      their velocities"
                 )));
             }

@@ -1,4 +1,4 @@
-//! How wrong forces through a tree are, and why: what is left out by taking groups as one, and what is rounded.
+//! Errors of forces through a tree: truncation, by the approximation of groups, and rounding.
 
 use glam::DVec4;
 
@@ -19,14 +19,14 @@ pub struct Truncation {
     pub targets: usize,
     /// The device against direct summation, in f64.
     pub device: [f64; 3],
-    /// A walk of the same tree in f64 against the direct sum: what is left out.
+    /// A walk of the same tree in f64 against the direct sum: truncation.
     pub walk: [f64; 3],
-    /// The device against the walk in f64: what is rounded.
+    /// The device against the walk in f64: rounding.
     pub rounding: [f64; 3],
 }
 
-/// Looks at every law that walks a tree, at the present state of a device: evaluates it alone, and looks at `targets` of its
-/// particles, spread evenly over their ids. Accelerations are not what they were after it.
+/// Measures every law that walks a tree, at the current state of a device: evaluates it alone, and compares `targets` of its
+/// particles, spread evenly over their ids. It overwrites accelerations.
 ///
 /// # Errors
 /// What the device says.

@@ -1,4 +1,4 @@
-//! How far particles move as one, and which of them are near each other.
+//! The order parameter of a flock, its neighbours and its clusters.
 
 use std::borrow::Cow;
 
@@ -45,7 +45,7 @@ pub const MEASURE: Measure = Measure {
     },
 };
 
-/// Order and company of a state: a row of `flock.csv`.
+/// Order, neighbours and clusters of a state: a row of `flock.csv`.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Flock {
     /// Steps done.
@@ -57,9 +57,9 @@ pub struct Flock {
     pub order: f64,
     /// The mean speed \[length / time\].
     pub speed: f64,
-    /// How many others are within range of a particle, on average.
+    /// The mean number of neighbours within range.
     pub neighbors: f64,
-    /// The most that are within range of one.
+    /// The maximum number of neighbours within range.
     pub most_neighbors: u32,
     /// Sets of particles that are joined by chains of neighbours (friends of friends; Davis et al. 1985).
     pub clusters: u32,

@@ -171,7 +171,7 @@ impl Book {
     fn add(&mut self, row: Ledger) {
         self.warning = (row.outside > self.worst.outside || row.broken > self.worst.broken).then(|| {
             format!(
-                "{} particles of the fluid are out of the box and {} are broken at {}: both must stay 0",
+                "{} particles of the fluid are outside of the box and {} are not finite at {}: both must stay 0",
                 row.outside,
                 row.broken,
                 plain(row.time)
@@ -228,9 +228,9 @@ impl Series for Book {
         let (first, last, worst) = (self.first?, self.last, self.worst);
         let lost = last.mass - first.mass;
         let counts = if worst.outside + worst.broken == 0 {
-            "no particle out of the box or broken".to_owned()
+            "all particles finite and inside of the box".to_owned()
         } else {
-            format!("UP TO {} OUT OF THE BOX AND {} BROKEN", worst.outside, worst.broken)
+            format!("UP TO {} OUTSIDE OF THE BOX AND {} NOT FINITE", worst.outside, worst.broken)
         };
         // Walls weigh something too, and the energy of a run counts them.
         let which = if self.held.contains(&true) { " without walls" } else { "" };

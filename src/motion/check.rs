@@ -21,10 +21,7 @@ pub fn check(held: &[Held], motions: &[Motion], count: usize, dimensions: u32, d
     for motion in motions {
         motion.check(dimensions, dt).map_err(|why| Error::Scene(format!("the motion \"{}\" {why}", motion.name)))?;
         if !names.insert(&motion.name) {
-            return Err(Error::Scene(format!(
-                "two motions are called \"{}\": name one of them otherwise",
-                motion.name
-            )));
+            return Err(Error::Scene(format!("two motions are called \"{}\": rename one of them", motion.name)));
         }
     }
     let mut ids = BTreeSet::new();
@@ -73,7 +70,7 @@ impl Motion {
             }
         }
         if let Some(pair) = self.keys.windows(2).find(|pair| pair[1].time <= pair[0].time) {
-            return Err(format!("has a key at {} after one at {}: times must grow", pair[1].time, pair[0].time));
+            return Err(format!("has a key at {} after one at {}: times must increase", pair[1].time, pair[0].time));
         }
         if self.repeat {
             let period = last.time - first.time;

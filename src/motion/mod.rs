@@ -12,26 +12,25 @@ pub use pose::Pose;
 #[doc(hidden)]
 pub use table::{Tables, list, mask, tables};
 
-/// A particle that forces do not move. At the start of each step it gets the velocity that brings it, on a straight line,
-/// to where it shall be at the end of the step: so every integrator carries it along, and between two places it passes
-/// all that lie in between. Where it is at the start of the run is its home, forever: writing its position later sets no
-/// new one. Its own velocity at the start counts for nothing.
+/// A particle that forces do not move. At the start of each step it gets the velocity that brings it, along a straight line,
+/// to its prescribed position at the end of the step, with every integrator. Motions refer to its position at the start of the
+/// run: writing its position later does not change that. Its own initial velocity is ignored.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Held {
     /// Its id.
     pub id: u32,
-    /// What it does instead.
+    /// How it moves.
     pub by: Hold,
 }
 
-/// What a particle does that forces do not move.
+/// How a particle moves that forces do not move.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Hold {
-    /// It stays where it is, bit for bit.
+    /// Fixed: it does not move, bit for bit.
     Fixed,
-    /// It goes where the field [`TARGET`](crate::kernel::TARGET) says.
+    /// Kinematic: it moves to the position in the field [`TARGET`](crate::kernel::TARGET).
     Target,
-    /// It goes along with a motion, by the motion's number.
+    /// Kinematic: it follows a motion, by the motion's number.
     Motion(u32),
 }
 
@@ -51,13 +50,13 @@ pub fn sorted(held: &[Held]) -> Vec<Held> {
 pub struct Motion {
     /// What solids and scenes call it.
     pub name: String,
-    /// c, the centre of turning \[length\].
+    /// c, the centre of rotation \[length\].
     pub about: DVec3,
     /// At least one, in the order of their times.
     pub keys: Vec<Keyframe>,
-    /// Whether it sets off gently from each key, and arrives gently, by u² (3 − 2 u); else it goes at constant speed.
+    /// Whether it is smooth at each key, by u² (3 − 2 u); otherwise it moves at constant speed between keys.
     pub smooth: bool,
-    /// Whether it begins again at the first key when it is at the last. The two must be the same pose.
+    /// Whether it repeats from the first key after the last. The two must be the same pose.
     pub repeat: bool,
 }
 
@@ -66,8 +65,8 @@ pub struct Motion {
 pub struct Keyframe {
     /// The time \[time\].
     pub time: f64,
-    /// How far it has moved \[length\].
+    /// The displacement \[length\].
     pub shift: DVec3,
-    /// How far it has turned: a rotation vector \[radians\].
+    /// The rotation vector \[radians\].
     pub turn: DVec3,
 }

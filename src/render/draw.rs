@@ -60,7 +60,7 @@ fn granted(frame: &Frame, by_references: bool) -> Result<(), Error> {
     let size = usize::try_from(bytes).unwrap_or(usize::MAX);
     Vec::<u8>::new().try_reserve_exact(size).map_err(|_| {
         Error::Limit(format!(
-            "a picture of {}×{} takes some {} MiB of memory, which the system does not grant: draw smaller ones (`width` and `height` of \
+            "a picture of {}×{} takes some {} MiB of memory, which the system refuses: draw smaller ones (`width` and `height` of \
              [picture]), or none (no \"png\" among `formats`, `frames = 0`)",
             frame.width,
             frame.height,

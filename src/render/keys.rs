@@ -15,7 +15,7 @@ pub const KEYS: &[Key] = &[
     Key::new("width", Kind::Count, Value::Number(1280.0), "from left to right [pixels]"),
     Key::new("height", Kind::Count, Value::Number(720.0), "from top to bottom [pixels]"),
     Key::new("eye", Kind::Direction, Value::Vector(DVec3::new(0.35, -1.0, 0.7)), "from the centre towards the eye"),
-    Key::new("up", Kind::Direction, Value::Vector(DVec3::Z), "what is up in the picture"),
+    Key::new("up", Kind::Direction, Value::Vector(DVec3::Z), "the direction that is up in the picture"),
     Key::new(
         "projection",
         Kind::Choice(&["perspective", "orthographic"]),
@@ -51,7 +51,7 @@ pub const KEYS: &[Key] = &[
         "drop",
         Kind::NotNegative,
         Value::Number(0.0),
-        "of a fluid: the radius of a drop; 0: by how far apart particles are at the start, 0.75 of that, in a plane 0.95 [length]",
+        "of a fluid: the radius of a drop; 0: 0.75 of the particle spacing at the start, or 0.95 of it in a plane [length]",
     ),
     Key::new(
         "clarity",

@@ -245,8 +245,8 @@ fn read(file: &Path) -> Result<Checkpoint, Unread> {
     }
     let length = found.len();
     let mut raw = opened()?;
-    let mut archive =
-        NpzArchive::new(opened()?).map_err(|error| Unread::from(&error, format!("is no whole archive ({error})")))?;
+    let mut archive = NpzArchive::new(opened()?)
+        .map_err(|error| Unread::from(&error, format!("is not a complete archive ({error})")))?;
     let zip = archive.zip_archive();
     let (mut starts, mut sizes) = (BTreeSet::new(), 0_u64);
     let unpacked = |error: io::Error| Unread::Refused(format!("cannot be unpacked into a temporary folder: {error}"));
@@ -284,7 +284,7 @@ fn read(file: &Path) -> Result<Checkpoint, Unread> {
             return Err(damaged(&"is not an entry of a checkpoint").into());
         }
     }
-    let head = head.ok_or_else(|| "is cut, or no checkpoint: it has no entry `run/run.toml`".to_owned())?;
+    let head = head.ok_or_else(|| "is truncated, or not a checkpoint: it has no entry `run/run.toml`".to_owned())?;
     let head: Toml = head.parse().map_err(|error: toml::de::Error| format!("is damaged: {}", error.message()))?;
     let head = Head(head);
     let format = head.number("format")?;

@@ -197,7 +197,8 @@ impl Film {
             if file.is_file() {
                 return Ok(file);
             }
-            let message = "the film goes on behind this picture, and it is not there: put it back, or begin anew with --overwrite";
+            let message =
+                "the film continues after this picture, which is missing: restore it, or start over with --overwrite";
             Err(Error::Output { file, message: message.to_owned() })
         };
         (0..usize::try_from(done).unwrap_or(usize::MAX)).map(one).collect()

@@ -274,7 +274,7 @@ fn results(path: &Path, scenes: &[Option<&str>]) -> io::Result<Vec<PathBuf>> {
         let kind = entry.file_type()?;
         if text == FRAMES && kind.is_symlink() {
             return Err(io::Error::other(format!(
-                "{FRAMES} is a link, and results do not go through links: remove it"
+                "{FRAMES} is a link, and results are not written through links: remove it"
             )));
         }
         if text == FRAMES && kind.is_dir() {

@@ -78,9 +78,9 @@ fn numbered(path: &Path) -> Option<u64> {
 /// What is to be said where a simulation begins at this step.
 pub(super) fn remark(goes_on: bool, step: u64, time: f64) -> String {
     let way = if goes_on {
-        "with all that its last step kept"
+        "with the restart data of its last step"
     } else {
-        "with accelerations that are evaluated anew: its last bits may be others than those of a run that was never stopped"
+        "with accelerations that are evaluated again: its last bits may differ from those of a run that was never stopped"
     };
-    format!("goes on at step {step}, time {}, {way}", plain(time))
+    format!("continues at step {step}, time {}, {way}", plain(time))
 }

@@ -1,4 +1,4 @@
-//! Runs: a scene steps to its end, is written down at its outputs, and continues after it was stopped or killed.
+//! Runs: a scene is run to its end, its outputs are written, and it continues after it was stopped or killed.
 //!
 //! ```no_run
 //! use motes::run::{Options, Run};
@@ -87,7 +87,7 @@ const BATCH: Duration = Duration::from_millis(250);
 /// Between two measurements of the energy for a bar that is watched, at least.
 const LOOK: Duration = Duration::from_secs(1);
 
-/// How a run is written down, beside what its scene says.
+/// Options of a run beside those of its scene.
 #[derive(Debug, Clone)]
 pub struct Options {
     /// The folder for results.
@@ -104,7 +104,7 @@ pub struct Options {
     pub precision: Precision,
     /// The file of the state with which it begins, where that is not the scene's: see [`go_on`].
     pub from: Option<PathBuf>,
-    /// What ends it early.
+    /// Requests to stop it early.
     pub stop: Stop,
 }
 
@@ -252,7 +252,7 @@ impl Run {
     pub fn options(&self) -> &Options {
         &self.options
     }
-    /// Steps a simulation of the scene to the end, and writes it down.
+    /// Runs a simulation of the scene to its end, and writes its outputs.
     ///
     /// # Errors
     /// What goes wrong with the simulation, and [`Error::Output`] when a result cannot be written. The last checkpoint stays, if there

@@ -14,10 +14,10 @@ use crate::scene::{Group, Scene};
 use crate::settings::Settings;
 use crate::state::State;
 
-/// How many points a trail gets, about.
+/// The approximate number of points of a trail.
 const TRAIL: u64 = 1000;
 
-/// How states are drawn, and the last picture.
+/// The pictures of a run, and the last of them.
 #[derive(Debug)]
 pub struct Pictures {
     name: String,

@@ -4,13 +4,13 @@ use std::path::Path;
 
 use crate::measure::Energy;
 
-/// Hears how a run goes. Every method does nothing unless it is written; `()` hears nothing.
+/// Receives the progress of a run. The default of every method does nothing; `()` ignores everything.
 pub trait Progress {
-    /// What is worth to be known.
+    /// A note for the user.
     fn remark(&mut self, text: &str) {
         let _ = text;
     }
-    /// What should not be.
+    /// A warning.
     fn warning(&mut self, text: &str) {
         self.remark(text);
     }

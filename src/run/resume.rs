@@ -60,7 +60,7 @@ impl Found {
         match damaged.into_iter().next() {
             Some(Error::Input { file, message }) => Err(Error::Input {
                 file,
-                message: format!("{message}; no checkpoint in the folder is whole: begin anew with --overwrite"),
+                message: format!("{message}; no checkpoint in the folder is intact: start over with --overwrite"),
             }),
             Some(other) => Err(other),
             None if text.is_empty() => Ok(Self::Nothing),

@@ -18,7 +18,7 @@ use super::walk::{self, Table};
 pub const BOX_KEYS: &[Key] = &[
     Key::required("size", Kind::Vector, "the lengths of its sides [length]; the third may be 0: a flat box"),
     Key::new("low", Kind::Vector, Value::Vector(DVec3::ZERO), "its lowest corner [length]"),
-    Key::new("boundary", Kind::Choice(Side::NAMES), PERIODIC, "what is at its sides"),
+    Key::new("boundary", Kind::Choice(Side::NAMES), PERIODIC, "the boundary at its sides"),
 ];
 const PERIODIC: Value = Value::Text(Cow::Borrowed("periodic"));
 /// Single axes that are otherwise, and `dimensions`.

@@ -35,8 +35,7 @@ pub struct Checkpoints {
 }
 
 const UNITS: [(&str, f64); 3] = [("s", 1.0), ("min", 60.0), ("h", 3600.0)];
-const FORMS: &str =
-    "a number and a unit: \"10 min\" (s, min or h) of work, \"5000 steps\", \"0.5 time\" of the scene, or \"never\"";
+const FORMS: &str = "a number and a unit: \"10 min\" (s, min or h) of wall-clock time, \"5000 steps\", \"0.5 time\" of the scene, or \"never\"";
 /// Ten minutes.
 const DEFAULT: Every = Every::Wall(600.0);
 

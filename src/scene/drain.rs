@@ -1,4 +1,4 @@
-//! `[[drain]]`: a place in which particles die.
+//! `[[drain]]`: a region in which particles are removed.
 
 use std::borrow::Cow;
 
@@ -18,7 +18,7 @@ pub const DRAIN_KEYS: &[Key] = &[
         "shape",
         Kind::Choice(solids::SHAPES),
         Value::Text(Cow::Borrowed("sphere")),
-        "what it is; a plane is the half space behind it",
+        "its shape; a plane is the half space behind it",
     ),
     Key::new("position", Kind::Vector, Value::Vector(DVec3::ZERO), "its centre, or a point on the plane [length]"),
     Key::new("radius", Kind::Positive, Value::Number(0.5), "sphere and capsule: the radius [length]"),

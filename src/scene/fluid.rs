@@ -76,7 +76,7 @@ pub(super) fn check(table: &Table<'_>, particles: &State, earlier: bool, report:
     if earlier {
         report.push(Fault::at(table.place, "there are two fluids of all particles: remove one of them"));
     } else if !particles.is_empty() && particles.held.len() == particles.len() {
-        let text = "there is a fluid and nothing of it: all particles are held, and held particles are its walls; add a [[particles]] of \
+        let text = "there is a fluid without particles: all particles are fixed, and fixed particles are its walls; add a [[particles]] of \
                     shape = \"block\"";
         report.push(Fault::at(table.place, text));
     }

@@ -80,8 +80,8 @@ fn read_own(table: &Table<'_>, wgsl: &Entry, files: &Files, report: &mut Report)
     }
 }
 
-/// Reports settings of a force that make no sense together, or in such a box, at the key that says it, or else at its table. Whether
-/// there are none.
+/// Reports settings of a force that are invalid together, or in such a box, at the key that is at fault, or else at its table. Returns
+/// whether they are valid.
 pub(super) fn agrees(table: &Table<'_>, force: &dyn Component, bounds: &Bounds, report: &mut Report) -> bool {
     let fault = match force.check(bounds) {
         Ok(()) => return true,
@@ -113,7 +113,7 @@ fn over(table: &Table<'_>, report: &mut Report) -> Option<Over> {
     for given in ["range", "skin", "slots", "neighbors", "theta"].into_iter().filter_map(|key| table.get(key)) {
         let kept = word == "list" && ["skin", "slots"].contains(&given.key.as_str()) || faster && given.key == "skin";
         if wanted != Some(given.key.as_str()) && !kept {
-            let fault = Fault::at(&given.place, format!("a law over \"{word}\" has no use for `{}`", given.key));
+            let fault = Fault::at(&given.place, format!("a law over \"{word}\" does not use `{}`", given.key));
             report.push(fault.label("remove it, or change `over`"));
         }
     }
@@ -134,8 +134,8 @@ fn over(table: &Table<'_>, report: &mut Report) -> Option<Over> {
     let Some(given) = table.get(wanted) else {
         let about = match wanted {
             "range" => "the cut-off radius [length]",
-            "theta" => "the opening angle, at most 1: a group of size l is approximated from the distance l / theta on",
-            _ => "how many are met",
+            "theta" => "the opening angle, at most 1: a group of size l is approximated beyond the distance l / theta",
+            _ => "the number of neighbours",
         };
         report.push(table.lacks(wanted, &kind.wanted(), about));
         return None;

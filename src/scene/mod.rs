@@ -93,9 +93,9 @@ pub struct Scene {
     pub until: f64,
     /// How long steps are, where they are adaptive.
     pub adaptive_step: Option<AdaptiveStep>,
-    /// What makes a step.
+    /// The integrator.
     pub integrator: &'static integrators::Entry,
-    /// What the scene says to the integrator.
+    /// The settings of the integrator.
     pub integrator_settings: Settings,
     /// How well implicit integrators solve their equations.
     pub solver: Solver,
@@ -122,7 +122,7 @@ pub struct Scene {
     pub resolved: String,
     /// The files that were read, from the root: the scene's own, where it is one, and those that it names.
     pub files: Vec<PathBuf>,
-    /// What is not wrong, but worth a remark: that `until` is no whole number of steps, for instance.
+    /// Remarks on a valid scene, for instance that `until` is not a whole number of steps.
     pub remarks: Vec<String>,
 }
 
@@ -135,7 +135,7 @@ pub struct Group {
     pub color: Option<[u8; 3]>,
 }
 
-/// How far a scene is trusted.
+/// Permissions of a scene.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Options {
     /// Whether it may name files outside of its own folder.

@@ -17,8 +17,8 @@ use super::walk::Table;
 /// The keys of the section, beside its name and its keys.
 pub const MOTION_KEYS: &[Key] = &[
     Key::new("about", Kind::Vector, Value::Vector(DVec3::ZERO), "the centre of turning [length]"),
-    Key::new("smooth", Kind::Flag, Value::Flag(false), "whether it sets off gently from each key, and arrives gently"),
-    Key::new("repeat", Kind::Flag, Value::Flag(false), "whether it begins anew when it is at the last key"),
+    Key::new("smooth", Kind::Flag, Value::Flag(false), "whether it accelerates and slows down smoothly at each key"),
+    Key::new("repeat", Kind::Flag, Value::Flag(false), "whether it starts over at the first key after the last one"),
 ];
 pub(super) const OWN: &[&str] = &["name", "keys"];
 const KEYFRAME: &[Key] = &[
@@ -51,7 +51,7 @@ pub(super) fn read(
     let keys = if let Some(entry) = table.get("keys") {
         keys(&entry.node, &mut text, report)
     } else {
-        report.push(table.lacks("keys", LIST, "where it is at which time"));
+        report.push(table.lacks("keys", LIST, "poses by time"));
         Vec::new()
     };
     let (name, place) = name?;
@@ -98,7 +98,8 @@ fn keys(node: &Node, text: &mut String, report: &mut Report) -> Vec<Keyframe> {
         {
             let place = table.get("time").map_or(&node.place, |entry| &entry.node.place);
             report.push(
-                Fault::at(place, format!("a key at {time} comes after one at {}", last.time)).label("times must grow"),
+                Fault::at(place, format!("a key at {time} comes after one at {}", last.time))
+                    .label("times must increase"),
             );
         }
         let [shift_text, turn_text] = [shift, turn].map(resolved::vector);

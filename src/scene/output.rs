@@ -57,7 +57,7 @@ pub(super) fn interval(entry: &Entry, dt: f64, report: &mut Report) -> Option<u6
     let Data::Text(text) = &entry.node.data else { return walk::whole_from_one(entry, report) };
     let Some(Every::Time(time)) = Every::parse(text) else {
         let of_time = text.trim().split_once(' ').is_some_and(|(_, unit)| unit.trim() == "time");
-        let hint = "; the time that work takes is for [checkpoint], for it gives other outputs each time";
+        let hint = "; wall-clock time is only for [checkpoint], because the outputs would differ from run to run";
         let label = format!("it must be {FORMS}{}", if of_time { "" } else { hint });
         report.push(Fault::at(&entry.node.place, "`every` is not a valid interval of outputs").label(label));
         return None;

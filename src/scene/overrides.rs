@@ -27,13 +27,13 @@ struct Part<'a> {
 
 fn set(root: &mut Vec<Entry>, text: usize, body: &str, report: &Report) -> Result<(), Fault> {
     let Some((path, value)) = body.split_once('=') else {
-        return Err(Fault::at(&Place { text, span: 0..body.len() }, "an override reads key=value").note(EXAMPLE));
+        return Err(Fault::at(&Place { text, span: 0..body.len() }, "an override has the form key=value").note(EXAMPLE));
     };
     let path = parts(path, text)?;
     if let [only] = &path[..] {
         let homes = SECTIONS.iter().filter(|s| s.knows(only.word)).map(|s| s.path(only.word));
         let homes: Vec<_> = homes.collect();
-        let fault = Fault::at(&only.place, format!("`{}` does not say in which section", shorten(only.word)));
+        let fault = Fault::at(&only.place, format!("`{}` names no section", shorten(only.word)));
         return Err(if homes.is_empty() {
             fault.note(EXAMPLE)
         } else {

@@ -104,6 +104,6 @@ pub(super) const MEASURE: &[Own] = &[
 pub(super) const CHECKPOINT: &[Own] = &[own(
     "every",
     "\"10 min\"",
-    "the interval between checkpoints: \"10 min\" (or s, h) of work, \"5000 steps\", \"0.5 time\" of the scene, or \"never\"; a \
+    "the interval between checkpoints: \"10 min\" (or s, h) of wall-clock time, \"5000 steps\", \"0.5 time\" of the scene, or \"never\"; a \
      run that is stopped writes one in any case",
 )];

@@ -38,11 +38,11 @@ pub const EVERY: &[Key] = &[Key::new(
     "the species, a number by which forces distinguish particles; left out: the file's own column",
 )];
 const BODY: &[Key] = &[
-    Key::required("position", Kind::Vector, "where it is [length]"),
+    Key::required("position", Kind::Vector, "its position [length]"),
     Key::new("velocity", Kind::Vector, Value::Vector(DVec3::ZERO), "its velocity [length / time]"),
-    Key::new("mass", Kind::NotNegative, Value::Number(1.0), "how heavy it is [mass]"),
+    Key::new("mass", Kind::NotNegative, Value::Number(1.0), "its mass [mass]"),
     Key::new("size", Kind::NotNegative, Value::Number(0.0), "the radius that is drawn [length]"),
-    Key::new("fixed", Kind::Flag, Value::Flag(false), "whether it stays where it is"),
+    Key::new("fixed", Kind::Flag, Value::Flag(false), "whether it is fixed"),
 ];
 
 /// One entry, read.

@@ -32,7 +32,12 @@ pub(super) const KEYS: &[Key] = &[
         Value::Number(0.0),
         "the adaptive step before the first one, from which steps grow by a fifth at most; 0: none [time]",
     ),
-    Key::new("cfl", Kind::Fraction, Value::Number(0.25), "the Courant number of adaptive steps, a part of every limit"),
+    Key::new(
+        "cfl",
+        Kind::Fraction,
+        Value::Number(0.25),
+        "the Courant number of adaptive steps, a factor of every limit",
+    ),
 ];
 /// What only adaptive steps have.
 const ADAPTIVE: [&str; 3] = ["dt_min", "dt_before", "cfl"];

@@ -79,7 +79,7 @@ impl Amount {
             Some(free) if bytes > free => {
                 Err(format!("{self} need {} of memory, and {} are free", shown(bytes), shown(free)))
             }
-            _ if !granted() => Err(format!("{self} need {} of memory, which the system does not grant", shown(bytes))),
+            _ if !granted() => Err(format!("{self} need {} of memory, which the system refuses", shown(bytes))),
             _ => Ok(()),
         }
     }

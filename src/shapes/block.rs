@@ -37,7 +37,7 @@ const KEYS: &[Key] = &[
         "strain",
         Kind::Number,
         Value::Number(0.0),
-        "the rate at which it is drawn out along y and pressed together along x [1 / time]",
+        "the rate of strain: stretched along y and compressed along x [1 / time]",
     ),
     SEED,
     CENTER,

@@ -115,7 +115,7 @@ impl Reader<'_> {
             return Amount::of(count).fits().map_err(missing);
         }
         Err(Error::Limit(format!(
-            "shape `{}`: that is {count:.0} particles, and {MOST} are the most: ask for a wider spacing, or for less",
+            "shape `{}`: that is {count:.0} particles, and the maximum is {MOST}: choose a larger spacing or a smaller size",
             self.shape
         )))
     }

@@ -69,7 +69,7 @@ const KEYS: &[Key] = &[
         "jitter",
         Kind::NotNegative,
         Value::Number(0.0),
-        "largest displacement of a particle across the sheet, in spacings: what is quite flat does not fold",
+        "largest random displacement of a particle normal to the sheet, in spacings: a perfectly flat sheet does not buckle",
     ),
     SEED,
     CENTER,

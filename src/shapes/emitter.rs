@@ -121,7 +121,7 @@ pub fn build(settings: &Settings, dimensions: u32, end: f64, room: u32) -> Resul
     }
     if number > f64::from(room) {
         return Err(Error::Limit(format!(
-            "an emitter would let {number} particles leave until {last}, and there is room for {room}: give it a `count`, or \
+            "an emitter would spawn {number} particles until {last}, and the maximum is {room}: give it a `count`, or \
              stop it earlier"
         )));
     }
@@ -196,7 +196,7 @@ impl Mouth {
         let numbers = self.half.map(|half| (2.0 * half / spacing).round().max(1.0));
         if numbers[0] * numbers[1] > f64::from(room) {
             let text = format!(
-                "a row of an emitter would have {} × {} particles, and there is room for {room}: choose a larger spacing",
+                "a row of an emitter would have {} × {} particles, and the maximum is {room}: choose a larger spacing",
                 numbers[0], numbers[1]
             );
             return Err(Error::Limit(text));

@@ -44,7 +44,7 @@ const KEYS: &[Key] = &[
         Value::Number(1e-6),
         "the bending stiffness EI of a strand [mass length³ / time²]",
     ),
-    Key::new("up", Kind::Direction, Value::Vector(DVec3::Z), "the way from the middle of the head to its top"),
+    Key::new("up", Kind::Direction, Value::Vector(DVec3::Z), "the direction from the centre of the head to its top"),
     SEED,
     CENTER,
     PARTICLE_SIZE,

@@ -36,7 +36,7 @@ const KEYS: &[Key] = &[
         "cutoff",
         Kind::Positive,
         Value::Number(0.99),
-        "share of the endless model's mass that is drawn from, from the centre outwards (below 1); 0.99 ends at 199 a",
+        "fraction of the mass of the infinite model that is sampled, from the centre outwards (below 1); 0.99 ends at 199 a",
     ),
     CENTER,
     VELOCITY,

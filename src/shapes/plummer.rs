@@ -35,7 +35,7 @@ const KEYS: &[Key] = &[
         "cutoff",
         Kind::Positive,
         Value::Number(0.999),
-        "share of the endless model's mass that is drawn from, from the centre outwards (at most 1)",
+        "fraction of the mass of the infinite model that is sampled, from the centre outwards (at most 1)",
     ),
     CENTER,
     VELOCITY,

@@ -49,7 +49,7 @@ pub(super) const LAYERS: Key = Key::new(
 /// The same for all walls.
 pub(super) const RADIUS: Key = PARTICLE_SIZE;
 
-/// The most layers: supports end at 6 spacings, and no fluid sees what is farther away.
+/// The maximum number of layers: supports end at 6 spacings, and particles beyond that have no effect.
 const MOST: u64 = 64;
 
 /// The layers of a wall.
@@ -85,7 +85,7 @@ impl Skin {
     pub fn depths(&self) -> impl Iterator<Item = f64> {
         (0..self.layers).map(|k| self.depth + f64::from(k) * self.spacing)
     }
-    /// Particles at these places, all held. What they weigh, the force finds out.
+    /// Fixed particles at these positions. The force computes their masses.
     pub fn filled(&self, reader: &Reader<'_>, places: Vec<DVec3>) -> Result<State, Error> {
         let (_, mut particles) = reader.room_for(places.len() as u64)?;
         for place in places {

@@ -28,7 +28,7 @@ const KEYS: &[Key] = &[
         "virial",
         Kind::NotNegative,
         Value::Number(0.0),
-        "kinetic over potential energy, K / |W|, of the random velocities: 0 is cold, 0.5 is balanced",
+        "kinetic over potential energy, K / |W|, of the random velocities: 0 is cold, 0.5 is virial equilibrium",
     ),
     Key::new(
         "spin",

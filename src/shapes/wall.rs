@@ -188,7 +188,7 @@ fn mesh(reader: &Reader<'_>, skin: &Skin, side: f64) -> Result<Vec<DVec3>, Error
     let tries = mesh.tries(skin.spacing) * f64::from(skin.layers);
     if tries > MOST_TRIES {
         return Err(reader.error(&format!(
-            "mesh: with spacing = {} its edges and faces would be tried at {tries:.1e} places, and {MOST_TRIES:.0e} are the most: \
+            "mesh: with spacing = {} its edges and faces would be sampled at {tries:.1e} points, and the maximum is {MOST_TRIES:.0e}: \
              choose a larger spacing or a smaller scale, or look for triangles that are long and thin",
             skin.spacing
         )));

@@ -97,7 +97,10 @@ impl<B: Backend> Simulation<B> {
     /// [`Error::Scene`] where steps are all alike, or the time lies too far away.
     pub fn stop_at(&mut self, time: f64) -> Result<f64, Error> {
         if self.adaptive_step.is_none() {
-            return Err(Error::Scene("steps that are all alike end where they end: choose adaptive steps".to_owned()));
+            return Err(Error::Scene(
+                "a stop time requires adaptive steps, and this simulation has a fixed dt: choose adaptive steps"
+                    .to_owned(),
+            ));
         }
         let words = split(time, self.dt);
         if words[0] == u32::MAX || !time.is_finite() {

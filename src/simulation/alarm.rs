@@ -1,4 +1,4 @@
-//! Whether all is well.
+//! The alarm: numbers that are not finite, runaways, searches and laws that failed.
 
 use std::collections::BTreeMap;
 
@@ -26,9 +26,9 @@ fn marked(plan: &Plan) -> impl Iterator<Item = (u32, String)> {
 }
 
 impl<B: Backend> Simulation<B> {
-    /// Looks whether any number has stopped being one, or speeds run away: whether the largest has more than doubled from
-    /// 16 steps to the next 16, eight times in a row. That is what steps do that are too long for a spring; a fall, a
-    /// collapse or an encounter grows by less and less, or not for so long.
+    /// Checks whether all numbers are finite, and whether speeds run away: whether the maximum has more than doubled from
+    /// 16 steps to the next 16, eight times in a row. So it grows if steps are too long for a spring; in a fall, a
+    /// collapse or an encounter it grows more slowly, or not for that long.
     ///
     /// # Errors
     /// [`Error::NotFinite`] with the first particle and step, [`Error::Runaway`] with one that is too fast and the step,

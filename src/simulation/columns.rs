@@ -18,9 +18,9 @@ pub(super) fn of_held(held: &[Held]) -> Vec<Column> {
     let any = |of: fn(&Hold) -> bool| held.iter().any(|one| of(&one.by));
     let mut columns = Vec::new();
     if any(|by| *by == Hold::Target) {
-        let about = "where a kinematic particle shall be; where it is, unless it is given";
+        let about = "the target position of a kinematic particle; its initial position by default";
         columns.push(Column::new(TARGET.name, Kind::Vector, "length", about));
-        let about = "the time at which it shall be there";
+        let about = "the time at which it reaches the target";
         columns.push(Column::new("kinematic_time", Kind::Scalar, "time", about).within(TARGET.name, 3));
     }
     columns
@@ -132,7 +132,7 @@ impl<B: Backend> Simulation<B> {
     /// Refuses what cannot be written by hand, and numbers that are none.
     pub(super) fn may_write(&self, name: &str, values: &Array, first: usize) -> Result<(), Error> {
         if name == "world" {
-            let text = "the field `world` is the clock and the box of the simulation: a state or a setup of another time goes on there";
+            let text = "the field `world` holds the clock and the box, and cannot be written: start a simulation from a state with another time";
             return Err(Error::Scene(text.to_owned()));
         }
         if name == LIFE.name {
@@ -140,7 +140,7 @@ impl<B: Backend> Simulation<B> {
             return Err(Error::Scene(text.to_owned()));
         }
         if name == ID.name {
-            let text = "the field `id` has the ids that the simulation gave, and nothing else may";
+            let text = "the field `id` cannot be written: the simulation assigns ids";
             return Err(Error::Scene(text.to_owned()));
         }
         if self.columns().get(name).is_none() {

@@ -17,7 +17,7 @@ pub fn serves(particles: &State, forces: &[Box<dyn Component>], integrator: &dyn
     let refuse = |text: String| Err(Error::Scene(text));
     if integrator.is_implicit() {
         return refuse(
-            "where particles are spawned or removed, no implicit integrator steps: its equations hold all particles. Choose leapfrog".to_owned(),
+            "implicit integrators cannot be used where particles are spawned or removed: their equations contain all particles. Choose leapfrog".to_owned(),
         );
     }
     evaluate_active(forces)?;
@@ -58,7 +58,7 @@ pub(super) fn evaluate_active(forces: &[Box<dyn Component>]) -> Result<(), Error
                 _ if force.properties().ignores_massless => {}
                 _ => {
                     return refuse(format!(
-                        "`{name}` over \"{over}\" evaluates all pairs, and where particles are spawned or removed, some are inactive: say over = \
+                        "`{name}` over \"{over}\" evaluates all pairs, and where particles are spawned or removed, some are inactive: choose over = \
                          \"near\", which evaluates active particles alone"
                     ));
                 }

@@ -33,7 +33,7 @@ pub(super) fn once(forces: &[Box<dyn Component>], step: &Plan) -> Result<(), Err
         if evaluations > 1 {
             return Err(Error::Scene(format!(
                 "`{}` keeps history of pairs (slots), and this integrator evaluates forces {evaluations} times in a step, of which only the \
-                 last would be remembered: choose one that evaluates them once, such as leapfrog or symplectic_euler",
+                 last would be saved: choose one that evaluates them once, such as leapfrog or symplectic_euler",
                 law.name
             )));
         }
@@ -71,8 +71,8 @@ fn groups(state: &State) -> impl Iterator<Item = &[f64]> {
 fn pairs(state: &State, words: u32) -> Result<Pairs, Error> {
     let Some(width) = width(state) else {
         return Err(Error::Scene(format!(
-            "the state is at step {}, and a law keeps history of pairs (slots), of which it holds nothing: go on from an NPZ archive or \
-             from a snapshot in memory, run it in one go, or take `state.begin_anew()`, with which all pairs are new",
+            "the state is at step {}, and a law keeps history of pairs (slots), which the state does not contain: continue from an NPZ archive or \
+             a snapshot in memory, run it in one go, or use `state.begin_anew()`, which starts without history",
             state.step
         )));
     };
@@ -211,7 +211,7 @@ mod tests {
             (2.0, &[-0.0, 1.0, 1.0, 1.0], "[-0.0, 1.0]"),
             (2.0, &[0.0, 1.0, 1.0, 1.0, 0.0, 1.0, 1.0, 1.0], "[0, 1] twice"),
             (1.0, &[0.0, 1.0, 1.0], "1 numbers for each pair"),
-            (1.9, &[0.0, 1.0, 1.0], "holds nothing"),
+            (1.9, &[0.0, 1.0, 1.0], "does not contain"),
         ] {
             match pairs(&state(words, numbers), 2) {
                 Err(Error::Scene(text)) => assert!(text.contains(why), "{why}: {text}"),

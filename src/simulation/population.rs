@@ -1,4 +1,4 @@
-//! How many live.
+//! The number of pending, active and removed particles.
 
 use super::Simulation;
 use crate::error::Error;
@@ -11,7 +11,7 @@ impl<B: Backend> Simulation<B> {
         let words = if self.inactive > 0 { self.read(LIFE).await? } else { Vec::new() };
         Ok(words.into_iter().filter_map(Life::of).collect())
     }
-    /// How many are pending, active and removed; those whose rows are free count no more. Particles due at the start are spawned when the first step begins.
+    /// The numbers of pending, active and removed particles; particles whose rows are free are not counted. Particles due at the start are spawned when the first step begins.
     ///
     /// # Errors
     /// Errors of reading.

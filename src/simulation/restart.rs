@@ -225,7 +225,7 @@ impl Setup {
         let apart = (time - f64::from(done) * self.dt).abs() > AGREEMENT * self.dt;
         if self.integrator.adaptive_step().is_none() && apart {
             return refuse(format!(
-                "the state is at step {step} and time {time:e}, which is not so many steps of dt = {:e}: choose a dt of which time is a \
+                "the state is at step {step} and time {time:e}, which is not {step} steps of dt = {:e}: choose a dt of which time is a \
                  whole number of steps and set `state.step` to that, or take `state.begin_anew()`",
                 self.dt
             ));

@@ -15,20 +15,20 @@ use crate::motion::{self, Hold};
 use crate::sph::{Start, Still};
 use crate::state::{KEPT_ROWS, NONE, State, distinct};
 
-/// What a simulation is made of.
+/// The input of a simulation.
 #[derive(Clone)]
 pub struct Setup {
-    /// What moves, and where it starts.
+    /// The initial state.
     pub state: State,
-    /// What moves it, in this order.
+    /// The forces, constraints and updaters, in the order of evaluation.
     pub forces: Vec<Box<dyn Component>>,
-    /// How.
+    /// The integrator.
     pub integrator: Box<dyn Integrator>,
     /// The step size \[time\].
     pub dt: f64,
-    /// Where particles may be.
+    /// The box and its boundaries.
     pub bounds: Bounds,
-    /// How well implicit integrators solve their equations; others have none.
+    /// The tolerances of implicit integrators; others ignore them.
     pub solver: Solver,
 }
 
@@ -205,11 +205,11 @@ impl Setup {
         self.forces.iter().try_for_each(|force| force.stage(Stage::Start, &mut plan, problem))?;
         Ok(!plan.is_empty())
     }
-    /// How its fluid starts, if there is one: how dense it is before the first step, by direct summation, which takes as
+    /// The initial state of its fluid, if there is one: the density before the first step, by direct summation, which takes as
     /// long as some steps on the host.
     ///
     /// # Errors
-    /// When the setup makes no sense, something of the fluid weighs nothing, or the start would blow it apart:
+    /// When the setup is invalid, a fluid particle has mass 0, or the initial pressure would make the fluid explode:
     /// [`Error::Scene`] names the particles and the cause.
     pub fn start(&self) -> Result<Option<Start>, Error> {
         let problem = self.problem(Machine::HOST)?;
@@ -231,8 +231,8 @@ impl Setup {
         start.speed = speeds.fold(0.0, f64::max);
         let solids = |error: Error| match (error, moved.first()) {
             (Error::Scene(why), Some((id, depth))) => Error::Scene(format!(
-                "{why}; {} particles stand within solids or nearer than their thickness, particle {id} first of them, by {depth:.3e}, \
-                 and count where these put them: leave them room",
+                "{why}; {} particles start inside of obstacles or closer than their thickness, the first is particle {id}, by {depth:.3e}, \
+                 and densities are computed after their initial projection: move them out of the obstacles",
                 moved.len()
             )),
             (error, _) => error,
@@ -240,7 +240,7 @@ impl Setup {
         start.check().map_err(solids)?;
         Ok(Some(start))
     }
-    /// Which particles begin where a solid lets none be, and how far each is put out of there \[length\].
+    /// The particles that the initial projection moves out of obstacles, and by how much \[length\].
     ///
     /// # Errors
     /// When the setup makes no sense.
@@ -253,7 +253,7 @@ impl Setup {
         let count = self.forces.iter().filter(|force| force.properties().makes_fluid).count();
         if count > 1 {
             return Err(Error::Scene(format!(
-                "there are {count} forces that make a fluid of all particles, and all pressures would act as often: leave one of them"
+                "there are {count} fluids, and each would apply its pressure to all particles: keep one of them"
             )));
         }
         Ok(())
@@ -405,7 +405,7 @@ pub(super) fn limited(forces: &[Box<dyn Component>], largest: &BTreeMap<&'static
         #[expect(clippy::cast_possible_truncation, reason = "rounding to f32 is what the device does")]
         if (*value as f32) > limit.value as f32 {
             return Err(Error::Scene(format!(
-                "particle {particle} has the {} {value}, and a force here serves {} at most: {}",
+                "particle {particle} has the {} {value}, and the largest that a force allows is {}: {}",
                 limit.column, limit.value, limit.why
             )));
         }

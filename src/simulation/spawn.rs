@@ -14,8 +14,8 @@ use crate::neighbors::{LIST, LIST_ORIGIN};
 use crate::state::{NONE, State, parked};
 
 impl<B: Backend> Simulation<B> {
-    /// Adds particles, between two steps, and gives their ids, in their order. Every column of theirs that the simulation has is taken;
-    /// others begin with their initial values. Ids are never given twice, and rows of removed particles are used again.
+    /// Adds particles between two steps, and returns their ids in order. All their columns that the simulation has are copied;
+    /// other columns have their initial values. Ids are never reused, and rows of removed particles are.
     ///
     /// Within [`Simulation::capacity`] nothing is compiled. Beyond it the simulation makes room for half as many rows more: its plan is
     /// recompiled and buffers of the device are others, as [`Simulation::generation`] shows. The next step begins with the
@@ -58,7 +58,7 @@ impl<B: Backend> Simulation<B> {
         self.largest = self.setup.with_state(new.clone()).largest(&self.largest);
         Ok(ids)
     }
-    /// Takes particles away, between two steps. Their ids are not given again, and their rows are free.
+    /// Removes particles between two steps. Their ids are not reused, and their rows are free.
     ///
     /// # Errors
     /// [`Error::Scene`] when an id is unknown, named twice, or that of a particle that has been removed or is linked, fixed or kinematic;

@@ -63,7 +63,7 @@ impl Medium {
     pub fn weighs(&self, particles: impl IntoIterator<Item = (usize, f64)>) -> Result<(), Error> {
         particles.into_iter().find(|(_, mass)| *mass <= 0.0).map_or(Ok(()), |(id, _)| {
             Err(Error::Scene(format!(
-                "particle {id} is of the fluid and weighs nothing: it has no density, and pressure cannot move it; give it the mass \
+                "particle {id} of the fluid has mass 0: it has no density, and pressure cannot move it; give it the mass \
                  {}, which is density × spacing^{}, as the shapes block and drop do",
                 self.mass(),
                 self.dimensions

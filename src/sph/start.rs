@@ -85,7 +85,7 @@ impl Start {
         let medium = &fluid.medium;
         let ids: Vec<usize> = (0..still.position.len()).filter(|id| !still.walls[*id]).collect();
         if ids.is_empty() {
-            let text = "there is a fluid and nothing of it: all particles are held, and held particles are its walls; add a \
+            let text = "there is a fluid without particles: all particles are fixed, and fixed particles are its walls; add a \
                         [[particles]] of shape = \"block\"";
             return Err(Error::Scene(text.to_owned()));
         }
@@ -147,12 +147,11 @@ impl Start {
     /// [`Error::Scene`] that names the particles, and the cause.
     pub fn check(&self) -> Result<(), Error> {
         let (id, ratio) = self.densest;
-        let hidden =
-            if self.summed { "" } else { " by the sum over masses, of which density by continuity would never know" };
+        let hidden = if self.summed { "" } else { " by summation, which density by continuity does not detect" };
         if self.dense > 0 {
             return Err(Error::Scene(format!(
                 "this start would explode: {} of {} particles of the fluid are too dense; particle {id}, the densest, is at {ratio:.3} times \
-                 the density at rest{hidden}, which is a pressure of {:.3e} and bursts at {:.2} of the speed of sound ({MACH} is the most): {}",
+                 the density at rest{hidden}, which is a pressure of {:.3e} and accelerates it to {:.2} of the speed of sound (the limit is {MACH}): {}",
                 self.dense,
                 self.fluid,
                 self.pressure(),
@@ -162,16 +161,16 @@ impl Start {
         }
         if self.thrust > COURANT {
             return Err(Error::Scene(format!(
-                "this start would explode: particle {id} of the fluid, the densest, is at {ratio:.3} times the density at rest, and a pressure \
-                 that is solved for takes away in the first step all that is too dense: a particle would have to move {:.2} spacings in \
-                 it at least, whatever dt ({COURANT} is the most): {}",
+                "this start would explode: particle {id} of the fluid, the densest, is at {ratio:.3} times the density at rest, and the pressure \
+                 solve removes the excess density in the first step: a particle would have to move at least {:.2} spacings in \
+                 it, for any dt (the limit is {COURANT}): {}",
                 self.thrust, self.cause
             )));
         }
         if let Some((a, b, r)) = self.same {
             return Err(Error::Scene(format!(
-                "particles {a} and {b} of the fluid are {r:.1e} apart, and the spacing is {}: nothing drives two apart that are at one \
-                 place; do two blocks overlap?",
+                "particles {a} and {b} of the fluid are {r:.1e} apart, and the spacing is {}: pressure cannot separate particles at \
+                 the same position; do two blocks overlap?",
                 self.medium.spacing
             )));
         }
@@ -250,7 +249,7 @@ fn cause(fluid: &Continuum, still: &Still<'_>, nearby: &Nearby<'_>, mass: &[f64]
             format!("particles have the spacing {power:.6}, and the force has {d}: give both the same")
         } else {
             format!(
-                "it weighs {own:.6e}, and density × spacing^{dimensions} = {lattice:.6e} is right: give its shape the density and the \
+                "its mass is {own:.6e}, and density × spacing^{dimensions} is {lattice:.6e}: give its shape the density and the \
                  spacing of the force"
             )
         };

@@ -20,7 +20,7 @@ typed! {
     }
     /// An obstacle or a container: a sphere, a box, a plane or a capsule, with restitution and friction.
     Solid "solid" solid() {
-        /// What it is: sphere, box, plane, capsule.
+        /// Its shape: sphere, box, plane, capsule.
         shape: Cow<'static, str>,
         /// Its centre, or a point on the plane \[length\].
         position: DVec3,

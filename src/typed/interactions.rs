@@ -13,15 +13,15 @@ typed! {
     Gravity "gravity" gravity() {
         /// The gravitational constant \[length³ / mass / time²\].
         g: f64,
-        /// The Plummer softening ε; the spline ends at 2.8 ε, so for PKDGRAV's own ε (which ends at 2 ε) say 2/2.8 of it \[length\].
+        /// The Plummer softening ε; the spline ends at 2.8 ε, so for PKDGRAV's own ε (whose spline ends at 2 ε) set 2/2.8 of it \[length\].
         softening: f64,
         /// The softening kernel: plummer, spline.
         kernel: Cow<'static, str>,
         /// Which pairs are evaluated: all (direct summation), or far groups approximated by a tree; "auto": whichever is faster: pairs, tree, auto.
         over: Cow<'static, str>,
-        /// The opening angle θ of the tree, at most 1: a group of size l is approximated from the distance l / θ on.
+        /// The opening angle θ of the tree, at most 1: a group of size l is approximated beyond the distance l / θ.
         theta: f64,
-        /// Above 0: the relative opening criterion (GADGET): a group is approximated where its quadrupole term is below α of the last acceleration.
+        /// Above 0: the relative opening criterion (GADGET): a group of mass M and size l is approximated where G M l² / d⁴ is below α times the last acceleration.
         alpha: f64,
         /// In a periodic box: nearest images only, or Ewald sums over all images on a neutralizing background, in a cube (Ewald 1921): nearest, ewald.
         images: Cow<'static, str>,
@@ -67,7 +67,7 @@ typed! {
         center: DVec3,
         /// The axis of rotation, by the right-hand rule.
         axis: DVec3,
-        /// The circulation Γ far outside \[length² / time\].
+        /// The circulation Γ at large radius \[length² / time\].
         circulation: f64,
         /// The core radius, where the flow is fastest \[length\].
         core: f64,
@@ -78,7 +78,7 @@ typed! {
     }
     /// A fixed or moving centre: point mass, spring or logarithmic halo.
     Attractor "attractor" attractor() {
-        /// Where the centre is at time 0 \[length\].
+        /// The position of the centre at time 0 \[length\].
         position: DVec3,
         /// Its velocity \[length / time\]; energy is conserved only if it is at rest.
         velocity: DVec3,
@@ -103,7 +103,7 @@ typed! {
         alignment: f64,
         /// The weight of cohesion.
         cohesion: f64,
-        /// Half of the angle of view; 180 and more is all round; a bird at rest sees all round \[degrees\].
+        /// Half of the angle of view; 180 or more: all directions, as for a bird at rest \[degrees\].
         vision: f64,
         /// The desired speed, and the maximum speed \[length / time\].
         max_speed: f64,
@@ -122,7 +122,7 @@ typed! {
     }
     /// A sphere, a box or a plane that particles avoid by looking ahead (after Reynolds 1999).
     Obstacle "obstacle" obstacle() {
-        /// What it is: sphere, box, plane.
+        /// Its shape: sphere, box, plane.
         shape: Cow<'static, str>,
         /// Its centre, or a point on the plane \[length\].
         position: DVec3,
@@ -151,7 +151,7 @@ typed! {
         strength: f64,
         /// The species that flees.
         species: Option<u32>,
-        /// The species that it flees.
+        /// The species from which it flees.
         predators: Option<u32>,
         /// How neighbours in range are found: by a cell list, by a neighbour list that is reused over steps, by the faster of both, or by brute force: near, list, auto, within.
         over: Cow<'static, str>,
@@ -177,7 +177,7 @@ typed! {
     }
     /// A target to steer to and arrive at, or a roost to stay near (Reynolds 1999).
     Goal "goal" goal() {
-        /// Where it is at time 0 \[length\].
+        /// Its position at time 0 \[length\].
         position: DVec3,
         /// Its velocity \[length / time\].
         velocity: DVec3,
@@ -301,7 +301,7 @@ typed! {
         alpha: f64,
         /// The kinematic viscosity ν (Morris, Fox & Zhu 1997) \[length² / time\].
         viscosity: f64,
-        /// ε of XSPH: how far velocities are drawn to the mean of the neighbours in each step (Schechter & Bridson 2012).
+        /// ε of XSPH: the fraction by which velocities move towards the mean of the neighbours in each step (Schechter & Bridson 2012).
         xsph: f64,
         /// The part of both viscosities that acts at walls; 0: free slip.
         wall_friction: f64,

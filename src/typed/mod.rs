@@ -1,4 +1,4 @@
-//! Forces and shapes with their settings as fields: a slip of the pen does not compile.
+//! Forces and shapes with their settings as fields: a misspelt setting does not compile.
 //!
 //! ```
 //! use motes::typed::{Gravity, Plummer, default, plummer};

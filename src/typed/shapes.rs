@@ -21,7 +21,7 @@ typed! {
         scale: f64,
         /// Constant of gravity \[length³ / mass / time²\]; as in the force.
         g: f64,
-        /// Share of the endless model's mass that is drawn from, from the centre outwards (at most 1).
+        /// Fraction of the mass of the infinite model that is sampled, from the centre outwards (at most 1).
         cutoff: f64,
         /// The position of the centre \[length\].
         center: DVec3,
@@ -42,7 +42,7 @@ typed! {
         scale: f64,
         /// Constant of gravity \[length³ / mass / time²\]; as in the force.
         g: f64,
-        /// Share of the endless model's mass that is drawn from, from the centre outwards (below 1); 0.99 ends at 199 a.
+        /// Fraction of the mass of the infinite model that is sampled, from the centre outwards (below 1); 0.99 ends at 199 a.
         cutoff: f64,
         /// The position of the centre \[length\].
         center: DVec3,
@@ -61,7 +61,7 @@ typed! {
         mass: f64,
         /// Radius of the sphere \[length\].
         radius: f64,
-        /// Kinetic over potential energy, K / |W|, of the random velocities: 0 is cold, 0.5 is balanced.
+        /// Kinetic over potential energy, K / |W|, of the random velocities: 0 is cold, 0.5 is virial equilibrium.
         virial: f64,
         /// Turning as a whole, on top of the random velocities: angular velocity \[1 / time\] along its axis.
         spin: DVec3,
@@ -177,7 +177,7 @@ typed! {
         jitter: f64,
         /// The speed of vortices in it, one period along each of x and y (Taylor & Green 1937) \[length / time\].
         vortices: f64,
-        /// The rate at which it is drawn out along y and pressed together along x \[1 / time\].
+        /// The rate of strain: stretched along y and compressed along x \[1 / time\].
         strain: f64,
         /// Seed of the random numbers.
         seed: u64,
@@ -354,7 +354,7 @@ typed! {
         rest: f64,
         /// Which particles are fixed: two corners of the first row, the first row, the first column, or the whole edge: none, corners, row, column, rim.
         pins: Cow<'static, str>,
-        /// Largest displacement of a particle across the sheet, in spacings: what is quite flat does not fold.
+        /// Largest random displacement of a particle normal to the sheet, in spacings: a perfectly flat sheet does not buckle.
         jitter: f64,
         /// Seed of the random numbers.
         seed: u64,
@@ -402,7 +402,7 @@ typed! {
         mass: f64,
         /// The bending stiffness EI of a strand \[mass length³ / time²\].
         bending: f64,
-        /// The way from the middle of the head to its top.
+        /// The direction from the centre of the head to its top.
         up: DVec3,
         /// Seed of the random numbers.
         seed: u64,

@@ -53,7 +53,7 @@ impl NoseHoover {
     fn fits(&self, plan: &Plan, problem: &Problem) -> Result<(), Error> {
         let refuse = |why: &str| Err(Error::Scene(format!("nose_hoover {why}")));
         if plan.kernels.iter().any(|kernel| kernel.names(RATE.name)) {
-            return refuse("is there twice, and both would regulate the same particles: leave one of them");
+            return refuse("is there twice, and both would regulate the same particles: remove one of them");
         }
         if problem.has_inactive {
             return refuse("regulates the same particles all the time: leave out emitters and drains");

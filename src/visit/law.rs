@@ -17,7 +17,7 @@ use crate::links::{Corner, Half};
 use crate::neighbors::Grid;
 use crate::tree::Tree;
 
-/// A law: what happens between `me` and `you`, or to `me` alone.
+/// A law: an interaction of the particles `me` and `you`, or a force on `me` alone.
 #[derive(Clone)]
 pub struct Law {
     /// Its name, for `motes explain` and messages.
@@ -40,11 +40,11 @@ pub struct Law {
     pub into: Vec<Name>,
     /// The visit's reference around the law's; `None` only for a user's law.
     pub reference: Option<Reference>,
-    /// Whether what two do to each other adds up to nothing, so that momentum is kept.
+    /// Whether the forces of a pair are equal and opposite, so that momentum is conserved.
     pub reciprocal: bool,
     /// What it offers to implicit integrators.
     pub jacobian: Option<Jacobian>,
-    /// What it makes of a far group, over `tree`.
+    /// Its approximation of a far group, over `tree`.
     pub distant: Distant,
     /// Over `links`: its reference by the tables that a problem has.
     pub tied: Option<ByTables>,
@@ -52,7 +52,7 @@ pub struct Law {
     pub search: Option<Search>,
 }
 
-/// What a law makes of a far group.
+/// A law's approximation of a far group.
 #[derive(Clone, Default)]
 pub struct Distant {
     /// Its WGSL; without it a group is evaluated as one particle.
@@ -61,7 +61,7 @@ pub struct Distant {
     pub walk: Option<Reference>,
     /// The accelerations of some targets by direct summation.
     pub sample: Option<Sample>,
-    /// Whether it sees all images in a periodic box, so that nothing jumps half a box away.
+    /// Whether it includes all images in a periodic box, so that forces do not jump at half a box.
     pub images: bool,
 }
 
@@ -76,7 +76,7 @@ const ON_CALL: [(&str, Source); 6] = [
 ];
 
 impl Law {
-    /// A law of which nothing more is known than its WGSL and its reference: it gives an acceleration.
+    /// A law with only its WGSL and its reference, which computes an acceleration.
     #[must_use]
     pub fn plain(name: &str, over: Over, wgsl: Source, params: Vec<(String, Scalar)>, reference: Reference) -> Self {
         Self {
@@ -153,8 +153,8 @@ impl Law {
             ..Self::plain(name, over, wgsl, params, reference)
         }
     }
-    /// A law that makes something else of its neighbours than a sum of accelerations; `gather(me, you, r, sum)` takes
-    /// them in, in any order, and `finish(me, sum, world)` gives acceleration and potential per unit mass.
+    /// A law that computes another quantity from its neighbours than a sum of accelerations; `gather(me, you, r, sum)` adds
+    /// each neighbour, in any order, and `finish(me, sum, world)` gives acceleration and potential per unit mass.
     pub fn gathering<S: Default>(
         name: &str,
         over: Over,
@@ -440,7 +440,7 @@ impl Law {
             }
             if binding.access == Access::Write && !self.into.iter().any(|written| written == name) {
                 return Err(Error::Scene(format!(
-                    "{file} binds the column `{name}` as read_write, and `{}` does not say that it writes it: add it to `into`",
+                    "{file} binds the column `{name}` as read_write, and `into` of `{}` does not name it: add it there",
                     self.name
                 )));
             }

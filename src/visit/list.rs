@@ -34,7 +34,7 @@ pub fn shared(laws: &[Law], problem: &Problem) -> Result<Option<ListShape>, Erro
         let known = shape.unwrap_or(own);
         if shape.is_some() && known.words > 0 && slots > 0 {
             return Err(Error::Scene(format!(
-                "two laws keep history of pairs, `{}` the second of them, and a list has slots for one: leave one of them, or make one \
+                "two laws keep history of pairs, `{}` the second of them, and a list has slots for one: remove one of them, or make one \
                  law of both",
                 law.name
             )));

@@ -19,8 +19,8 @@ pub enum Over {
     Near {
         /// The range \[length\].
         range: f64,
-        /// Only particles of this species are put into the cell list. The law must leave out the others by itself: this only
-        /// says that it is no use to look at them.
+        /// Only particles of this species are put into the cell list. The law must exclude other species itself: this only
+        /// avoids visiting them.
         of: Option<u32>,
     },
     /// The same, found on a list of the neighbours within range + skin that is kept over steps.
@@ -40,9 +40,9 @@ pub enum Over {
         /// How much farther a kept list reaches \[length\]; `None`: a part of the range.
         skin: Option<f64>,
     },
-    /// Each particle with so many that are nearest to it, the lower id first where two are equally near.
+    /// Each particle with its k nearest neighbours; of two at the same distance the lower id comes first.
     Nearest {
-        /// How many.
+        /// The number k of neighbours.
         count: u32,
     },
     /// All pairs, far groups approximated as one, found through a tree.
@@ -84,7 +84,7 @@ impl Over {
             Self::Triangles => "triangles",
         }
     }
-    /// How far it looks \[length\]; `None` without an end.
+    /// The cut-off radius \[length\]; `None` if there is none.
     #[must_use]
     pub fn range(self) -> Option<f64> {
         match self {

@@ -20,9 +20,9 @@ pub struct View<'a> {
 pub struct Particle<'a> {
     /// Its index.
     pub index: usize,
-    /// Where it is \[length\].
+    /// Its position \[length\].
     pub position: DVec3,
-    /// How it moves \[length / time\]; 0 where the host has no velocities.
+    /// Its velocity \[length / time\]; 0 where the host has no velocities.
     pub velocity: DVec3,
     /// Mass \[mass\].
     pub mass: f64,
@@ -75,12 +75,12 @@ impl Particle<'_> {
     pub fn id(&self) -> u32 {
         self.whole(ID.name).unwrap_or_else(|| u32::try_from(self.index).unwrap_or(u32::MAX))
     }
-    /// Of which kind it is; 0 where the host has no species.
+    /// Its species; 0 where the host has no species.
     #[must_use]
     pub fn species(&self) -> u32 {
         self.species
     }
-    /// Whether it takes part.
+    /// Whether it is active.
     #[must_use]
     pub fn is_active(&self) -> bool {
         self.is_active

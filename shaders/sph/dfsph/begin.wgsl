@@ -1,4 +1,4 @@
-// The divergence solve begins: the velocity may compress by  s = −dt D  in the step, where D is how fast the density
+// The divergence solve begins: the velocity may compress by  s = −dt D  in the step, where D is the rate at which the density
 // grows. At the surface, where neighbours are few, there is no limit.
 @group(2) @binding(5) var<storage, read> sorted_id: array<u32>;
 @group(3) @binding(3) var<storage, read> responses: array<Response>;

@@ -86,7 +86,7 @@ fn settled(args: &SweepArgs, varied: &[Varied]) -> Result<(), Error> {
     });
     clash.map_or(Ok(()), |one| {
         Err(Error::Scene(format!(
-            "{} is varied, and --until or --steps sets how long all runs are: leave one of them",
+            "{} is varied, and --until or --steps sets how long all runs are: leave one of them out",
             one.key
         )))
     })

@@ -28,7 +28,7 @@ impl Step<'_> {
         }
         Ok(())
     }
-    /// The grids that forces search and the trees that they walk: each once, however many do.
+    /// The cell lists and trees of all forces, each once.
     pub(super) fn neighbors(&mut self, chosen: impl Fn(usize) -> bool) {
         let mut grids: Vec<(Grid, bool)> = Vec::new();
         let mut trees: Vec<Tree> = Vec::new();

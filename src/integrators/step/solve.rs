@@ -40,7 +40,7 @@ pub enum Form {
     Newton,
 }
 
-/// What a linear solve of Newton's method may leave, as a part of what the method may leave.
+/// The tolerance of a linear solve of Newton's method, relative to that of the method.
 const INNER: f64 = 0.25;
 
 /// Which of some forces enter the matrix of an implicit solve: those of which every law offers its Jacobian. Of laws of
@@ -66,8 +66,8 @@ pub fn implicit(forces: &[Box<dyn Component>]) -> Vec<bool> {
 }
 
 impl Step<'_> {
-    /// A part of the step by backward Euler, from where particles are. Positions are left where that leads, wherever that
-    /// is: [`settle`](Step::settle) brings them to where they may be.
+    /// A part of the step by backward Euler, from the current positions. It applies no constraints and no boundaries:
+    /// [`settle`](Step::settle) does.
     pub fn solve(&mut self, by: Implicit) {
         let which = implicit(self.forces);
         let (count, factor, solver) = (self.problem.capacity, by.part, self.problem.solver);
@@ -135,7 +135,7 @@ impl Step<'_> {
         self.add(update::reach(self.problem.capacity, 1.0));
         self.add(update::extrapolate(self.problem.capacity));
     }
-    /// Velocities and positions become what they may be, after a part of the step.
+    /// Applies constraints and boundaries to velocities and positions, after a part of the step.
     pub fn settle(&mut self, factor: f64) {
         self.limit();
         self.enclose();
@@ -158,8 +158,8 @@ impl Step<'_> {
         }
         self.add(begin::kernel(system, start));
     }
-    /// As many iterations, and a look at what is left. Two states take turns: one iteration, and then pairs of them, so that the
-    /// last one ends where the state is sought. Of a pair whose first half is the last that is needed, the other only hands on
+    /// At most `limit` iterations. Two buffers of the state alternate: one iteration, and then pairs of them, so that the
+    /// last one ends in the buffer that is read later. If the first half of a pair converges, the second only copies
     /// the state.
     fn iterate(&mut self, system: &System<'_>, limit: u32, part: f64) {
         let half = |step: &mut Self, turned: bool| {

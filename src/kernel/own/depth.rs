@@ -79,7 +79,7 @@ impl Depth {
         let way_out = "compilers go down into it by recursion, and end the process where it is too deep";
         if self.bracket().since > LINKS {
             return Some(format!(
-                "an expression is more than {LINKS} words and marks deep; {way_out}: give parts of it names with `let`"
+                "an expression is nested more than {LINKS} tokens deep; {way_out}: give parts of it names with `let`"
             ));
         }
         if self.branches > BRANCHES {

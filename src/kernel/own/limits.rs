@@ -56,7 +56,7 @@ pub fn check(joined: &Joined) -> Result<(), Error> {
         if size.nodes > NODES {
             let message = format!(
                 "`{name}` is {} operations long, where each function is counted as often as it is called; a driver takes minutes \
-                 to compile more than {NODES}: call less, or make loops of what repeats",
+                 to compile more than {NODES}: call fewer functions, or repeat by loops",
                 size.nodes
             );
             return Err(joined.fault(&message, span, "here"));

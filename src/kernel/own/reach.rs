@@ -124,7 +124,7 @@ fn waits(joined: &Joined, block: &Block) -> Result<(), Error> {
         };
         let message = format!(
             "a law has no {what}: its functions are called for one particle at a time, by some invocations of a workgroup and not \
-             by others, which would wait for ever"
+             by others, which would wait forever"
         );
         return Err(joined.fault(&message, *span, "remove it"));
     }

@@ -114,7 +114,7 @@ pub fn remark(settings: &Settings) -> Option<String> {
     let idle: Vec<_> = idle.map(|key| format!("`{key}`")).collect();
     (!idle.is_empty()).then(|| {
         format!(
-            "a picture with style = \"{}\" does without {}: leave it out, or choose another style",
+            "a picture with style = \"{}\" does not draw {}: leave it out, or choose another style",
             entry.name,
             idle.join(", ")
         )

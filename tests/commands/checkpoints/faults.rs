@@ -179,7 +179,7 @@ fn torn_checkpoints_are_passed_over() {
     std::fs::write(&file, &good[..good.len() / 2]).expect("written");
     let before = all(&place.at("none"));
     for (code, words) in [place.resume("none", &[]), place.run("a.toml", "none", &["--resume"])] {
-        assert!(code == 4 && words.contains("no checkpoint in the folder is whole"), "{words}");
+        assert!(code == 4 && words.contains("no checkpoint in the folder is intact"), "{words}");
     }
     assert!(all(&place.at("none")) == before);
 }

@@ -57,7 +57,7 @@ fn what_cannot_be_read_is_not_taken_for_damage() {
     let before = all(&place.at("out"));
     let mut command = motes(&["resume", &place.path("out"), "--backend", "cpu"]);
     let (code, words) = said(command.env("TMPDIR", place.at("nowhere")));
-    assert!(code == 4 && words.contains("temporary folder") && !words.contains("is whole"), "{code} {words}");
+    assert!(code == 4 && words.contains("temporary folder") && !words.contains("is intact"), "{code} {words}");
     assert!(all(&place.at("out")) == before);
     let newer = place.at("out").join("checkpoint_0000000039.npz");
     std::os::unix::fs::symlink(place.at("nowhere"), &newer).expect("a link");

@@ -27,7 +27,7 @@ fn numbers_that_are_none_and_the_clock_are_not_written() {
     // By the names of columns too, whether or not a kernel has them.
     let mut column = |name, values| said(pollster::block_on(simulation.write_column(name, &values)));
     assert!(column("life", Array::Uint(vec![2; 20])).contains("spawn and remove"));
-    assert!(column("id", Array::Uint(vec![7; 20])).contains("the ids that the simulation gave"));
+    assert!(column("id", Array::Uint(vec![7; 20])).contains("the simulation assigns ids"));
     let why = column("mass", Array::Float([vec![1.0; 19], vec![1e300]].concat()));
     assert!(why.contains("element 19") && why.contains("`mass`") && why.contains("beyond single precision"), "{why}");
     assert!(said(simulation.write(Field::<u32>::new("world"), &[1_000_000])).contains("`world`"));
@@ -52,12 +52,12 @@ fn what_weighs_nothing_is_no_fluid() {
     let shared = device();
     let new = |setup: &Setup| Simulation::new(&shared.found.device, &shared.found.queue, setup);
     let why = said(new(&block(Some(0.0))));
-    assert!(why.contains("particle 21 is of the fluid and weighs nothing"), "{why}");
+    assert!(why.contains("particle 21 of the fluid has mass 0"), "{why}");
     let mut simulation = new(&block(None)).expect("a fluid");
     let mut weightless = State::default();
     weightless.push(DVec3::splat(1.0), DVec3::ZERO, 0.0, 0.0);
     let why = said(pollster::block_on(simulation.spawn(&weightless)));
-    assert!(why.contains("particle 0 is of the fluid and weighs nothing"), "{why}");
+    assert!(why.contains("particle 0 of the fluid has mass 0"), "{why}");
     assert_eq!(simulation.count(), 64);
 }
 

@@ -187,9 +187,9 @@ fn what_is_too_deep_to_compile() {
         each(&format!("{all}fn f_{n}_(x: f32) -> f32 {{ return x; }}"), "return vec4f(f_0_(me.mass));")
     };
     for (text, words) in [
-        (chain(9000), "words and marks deep"),
-        (swizzles(150_000), "words and marks deep"),
-        (signs(100_000), "words and marks deep"),
+        (chain(9000), "tokens deep"),
+        (swizzles(150_000), "tokens deep"),
+        (signs(100_000), "tokens deep"),
         (elses(20_000), "branches `else`"),
         (constants(20_000), "functions, constants and types"),
         (functions(10_000), "functions, constants and types"),

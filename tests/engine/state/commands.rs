@@ -45,7 +45,11 @@ fn a_run_from_an_archive_writes_the_same_files() {
         assert_eq!(want.len(), 3, "{name}: {want:?}");
         let from = ["--from", want[1].to_str().expect("a name")];
         let output = run(scene, &second, &[&from, more].concat());
-        assert!(output.status.success() && said(&output).contains("with all that"), "{name}: {}", said(&output));
+        assert!(
+            output.status.success() && said(&output).contains("with the restart data"),
+            "{name}: {}",
+            said(&output)
+        );
         let got = snapshots(&second, "npz");
         assert_eq!(got.len(), 2, "{name}: it begins where the other was: {got:?}");
         for (got, want) in got.iter().zip(&want[1..]) {

@@ -130,7 +130,7 @@ fn sizes_that_lie_cost_no_memory() {
     let announced = u32::try_from(lie.len() - 8 + 4_000_000_000_usize).expect("32 bits");
     let good = f4(&[1.0, 2.0]);
     for (method, words) in [
-        (CompressionMethod::Stored, "breaks off after 0 of 1000000000 numbers"),
+        (CompressionMethod::Stored, "ends after 0 of 1000000000 numbers"),
         (CompressionMethod::Deflated, "the archive holds 4000000"),
     ] {
         let mut bytes = archive(&[("x", lie.clone()), ("y", good.clone()), ("z", good.clone())], method);

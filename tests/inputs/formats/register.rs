@@ -229,7 +229,7 @@ fn files_that_promise_too_much_are_refused_without_memory() {
     refused_as(
         "a.ply",
         format!("ply\nformat ascii 1.0\nelement vertex {many}\nend_header\n"),
-        "says nothing of what they have",
+        "and no properties of them",
     );
     refused_as(
         "a.vtp",

@@ -216,13 +216,13 @@ fn a_law_with_another_reach_than_it_needs() {
         &scene("nearest", ""),
         &[],
         &missing(
-            "`neighbors`\n  --> a.toml:6:1\n   |\n 6 | [[force]]\n   | ^^^^^^^^^ add `neighbors`, a whole number, one or above: how many are met",
+            "`neighbors`\n  --> a.toml:6:1\n   |\n 6 | [[force]]\n   | ^^^^^^^^^ add `neighbors`, a whole number, one or above: the number of neighbours",
         ),
     );
     assert_report(
         &scene("each", "range = 2\n"),
         &[],
-        "error: a law over \"each\" has no use for `range`\n  --> a.toml:8:1\n   |\n 8 | range = 2\n   | ^^^^^ remove it, or change `over`\n\na.toml: 1 error",
+        "error: a law over \"each\" does not use `range`\n  --> a.toml:8:1\n   |\n 8 | range = 2\n   | ^^^^^ remove it, or change `over`\n\na.toml: 1 error",
     );
     assert_report(
         &scene("within", "range = 0\n"),

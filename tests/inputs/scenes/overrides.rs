@@ -74,7 +74,7 @@ steps = 10
 bodies = [{ position = [0, 0, 0] }]
 ",
         &["simulation.dt"],
-        "error: an override reads key=value
+        "error: an override has the form key=value
   --> the command line
    |
    | --set simulation.dt
@@ -95,7 +95,7 @@ steps = 10
 bodies = [{ position = [0, 0, 0] }]
 ",
         &["dt=0.01"],
-        "error: `dt` does not say in which section
+        "error: `dt` names no section
   --> the command line
    |
    | --set dt=0.01

@@ -99,7 +99,7 @@ fn intervals_of_checkpoints() {
   --> a.toml:7:9
    |
  7 | every = \"0 steps\"
-   |         ^^^^^^^^^ it must be a number and a unit: \"10 min\" (s, min or h) of work, \"5000 steps\", \"0.5 time\" of the scene, or \"never\"
+   |         ^^^^^^^^^ it must be a number and a unit: \"10 min\" (s, min or h) of wall-clock time, \"5000 steps\", \"0.5 time\" of the scene, or \"never\"
 
 a.toml: 1 error",
     );
@@ -122,7 +122,7 @@ fn intervals_of_outputs() {
         ("\"0.5 time\"", "0.2", "0.5 is 2.5 steps of dt = 0.2: choose a multiple of dt"),
         ("\"0.1 time\"", "0.25", "0.1 is 0.4 steps"),
         ("\"1e300 time\"", "1e-9", "choose a multiple of dt"),
-        ("\"10 min\"", "0.01", "the time that work takes is for [checkpoint]"),
+        ("\"10 min\"", "0.01", "wall-clock time is only for [checkpoint]"),
         ("\"-1 time\"", "0.01", "a whole number of steps, or time of the scene"),
         ("\"NaN time\"", "0.01", "a whole number of steps, or time of the scene"),
         ("\"0 time\"", "0.01", "a whole number of steps, or time of the scene"),

@@ -85,7 +85,7 @@ fn a_law_over_a_tree_without_an_angle() {
   --> a.toml:6:1
    |
  6 | [[force]]
-   | ^^^^^^^^^ add `theta`, a number above zero, 1 at most: the opening angle, at most 1: a group of size l is approximated from the distance l / theta on
+   | ^^^^^^^^^ add `theta`, a number above zero, 1 at most: the opening angle, at most 1: a group of size l is approximated beyond the distance l / theta
 
 a.toml: 1 error",
         );
@@ -97,7 +97,7 @@ fn an_angle_without_a_tree() {
     assert_report(
         &own("pairs", "theta = 0.5\n"),
         &[],
-        "error: a law over \"pairs\" has no use for `theta`
+        "error: a law over \"pairs\" does not use `theta`
   --> a.toml:8:1
    |
  8 | theta = 0.5
@@ -108,7 +108,7 @@ a.toml: 1 error",
     assert_report(
         &own("auto", "theta = 0.5\nrange = 2\n"),
         &[],
-        "error: a law over \"auto\" has no use for `range`
+        "error: a law over \"auto\" does not use `range`
   --> a.toml:9:1
    |
  9 | range = 2

@@ -89,7 +89,7 @@ fn a_run_ends_in_time_and_keeps_its_books() {
         words.contains("adaptive steps: ") && words.contains("limited by signal") && words.contains("fluid: mass"),
         "{words}"
     );
-    assert!(words.contains("fluid.csv") && words.contains("no particle out of the box or broken"), "{words}");
+    assert!(words.contains("fluid.csv") && words.contains("all particles finite and inside of the box"), "{words}");
     let column = |rows: &[Vec<String>], name: &str| {
         let place = rows[0].iter().position(|cell| cell == name).unwrap_or_else(|| panic!("no column {name}"));
         rows[1..].iter().map(|row| row[place].clone()).collect::<Vec<_>>()

@@ -154,7 +154,7 @@ fn without_births_nothing_is_added() {
 fn pending_particles_are_no_part_of_a_start() {
     let mut setup = pool(drains());
     // Its solid stands in the middle of the fluid, and would press it together.
-    assert!(setup.start().is_err_and(|why| why.to_string().contains("stand within solids")));
+    assert!(setup.start().is_err_and(|why| why.to_string().contains("start inside of obstacles")));
     setup.forces.retain(|force| force.properties().pictured.is_none());
     let start = setup.start().expect("no explosion").expect("a fluid");
     assert_eq!(start.fluid as usize, 60);

@@ -24,7 +24,7 @@ fn faults_of_scenes_name_their_place() {
         ("[[emitter]]\nspacing = 0.1\n", "lacks `speed`", "a.toml:6:1"),
         ("[[emitter]]\nspeed = 1\nspacing = 0.1\nspeeed = 1\n", "did you mean `speed`?", "a.toml:9:1"),
         ("[[emitter]]\nspeed = 1\nspacing = 0.1\nstart = 7\n", "no particle would be spawned", "a.toml:6:1"),
-        ("[[emitter]]\nspeed = 1\nspacing = 0.01\n", "there is room for 4999", "a.toml:6:1"),
+        ("[[emitter]]\nspeed = 1\nspacing = 0.01\n", "the maximum is 4999", "a.toml:6:1"),
         ("[[emitter]]\nspeed = 1\nrate = 5\nspread = 91\n", "between 0 and 90", "a.toml:6:1"),
         ("[[emitter]]\nspeed = 1\nrate = 5\nfirst = 1\n", "are more than there are", "a.toml:9:9"),
         (
@@ -45,7 +45,7 @@ fn faults_of_scenes_name_their_place() {
         assert!(said.contains(why) && said.contains(place), "{text}\n{said}");
     }
     let implicit = BODY.replace("steps = 100", "steps = 100\nintegrator = \"backward_euler\"") + "[[drain]]\n";
-    assert!(said(&implicit).contains("no implicit integrator"), "{}", said(&implicit));
+    assert!(said(&implicit).contains("implicit integrators cannot be used"), "{}", said(&implicit));
     let tied = format!("{BODY}[[particles]]\nshape = \"chain\"\ncount = 4\n[[drain]]\n[[force]]\nkind = \"spring\"\n");
     assert!(said(&tied).contains("links cannot lose an end"), "{}", said(&tied));
     for good in ["[[emitter]]\nspeed = 1\nrate = 5\n", "[[drain]]\n[[force]]\nkind = \"gravity\"\n"] {

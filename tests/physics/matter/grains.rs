@@ -243,7 +243,10 @@ fn radii_beyond_the_range_are_refused() {
     let all = grains(&two, &[], 0.01);
     match Simulation::on(Cpu::new(2).expect("two"), &all).map(|_| ()) {
         Err(Error::Scene(why)) => {
-            assert!(why.contains("particle 1 has the radius 1.5") && why.contains("serves 1 at most"), "{why}");
+            assert!(
+                why.contains("particle 1 has the radius 1.5") && why.contains("the largest that a force allows is 1"),
+                "{why}"
+            );
         }
         other => panic!("{other:?}"),
     }

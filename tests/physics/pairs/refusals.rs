@@ -33,7 +33,7 @@ fn columns_that_cannot_be_advanced_are_refused() {
     let packed = vec![of("v", Kind::Vector), scalar("a").within("v", 3).with_rate("b"), scalar("b").summed()];
     refused(packed, &["`a` lies in component 3 of `v`, and its rate `b` in component 0 of `b`"]);
     refused(vec![scalar("a").summed().within("velocity", 3)], &["`a` is a sum", "one buffer with `velocity`"]);
-    refused(vec![scalar("start_a")], &["`start_a`, and integrators keep buffers of names with `start_`"]);
+    refused(vec![scalar("start_a")], &["`start_a`, and names that begin with `start_` are those of integrators"]);
     // Bodies.
     let mut bodies = rotation::columns();
     bodies[1].rate = None;

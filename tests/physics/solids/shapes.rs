@@ -73,6 +73,6 @@ fn what_makes_no_sense_is_refused() {
     };
     refused("sphere", &[("restitution", number(1.1))], "restitution 1.1: the maximum is 1");
     refused("plane", &[("motion", word("nowhere"))], "has the motion \"nowhere\"");
-    refused("box", &[("size", vector(1.0, -1.0, 1.0))], "narrower than nothing");
-    refused("sphere", &[("inside", Value::Flag(true)), ("thickness", number(0.6))], "narrower than nothing");
+    refused("box", &[("size", vector(1.0, -1.0, 1.0))], "has no interior");
+    refused("sphere", &[("inside", Value::Flag(true)), ("thickness", number(0.6))], "has no interior");
 }

@@ -1,4 +1,4 @@
-//! What `motes check` and `run` say of scenes whose parts do not go together.
+//! Remarks and errors of `motes check` and `run` on inconsistent scenes.
 
 use std::path::Path;
 use std::process::Command;
@@ -99,7 +99,7 @@ fn faults_of_a_fluid_stand_where_they_are_mended() {
     let two = format!("{DAM}[[force]]\nkind = \"fluid\"\nspacing = 0.1\nsound_speed = 9\n");
     says(&two, &[], 3, &["there are two fluids of all particles", "dam.toml:26:1"]);
     let walls = DAM.replace("shape = \"block\"", "shape = \"tank\"");
-    says(&walls, &[], 3, &["there is a fluid and nothing of it", "dam.toml:21:1"]);
+    says(&walls, &[], 3, &["there is a fluid without particles", "dam.toml:21:1"]);
     let (_, said) = motes("check", DAM, &["force.1.spacing=0"]);
     assert_eq!(said.matches("`spacing` must be a number above zero").count(), 1, "{said}");
 }
@@ -124,7 +124,7 @@ fn a_solid_leaves_its_thickness_free() {
         "{DAM}{}",
         solid.replace("[0.25, -0.05, 0]", "[0.25, 0.4, 0]").replace("[0.5, 0.1, 1]", "[0.3, 0.3, 1]\ninside = true")
     );
-    says(&text, &[], 3, &["this start would explode", "stand within solids or nearer than their thickness"]);
+    says(&text, &[], 3, &["this start would explode", "start inside of obstacles or closer than their thickness"]);
 }
 
 #[test]
@@ -134,19 +134,14 @@ fn density_that_is_hidden_by_continuity_is_remarked_on() {
         DAM,
         &[continuity],
         0,
-        &["every density is that of rest, for it comes by continuity; sums over masses are 1.0"],
+        &["every density is the rest density, as density_by = \"continuity\" sets it; by summation it is at most 1.0"],
     );
     let two = DAM.replacen(
         "[[particles]]",
         "[[particles]]\nshape = \"block\"\nsize = [0.5, 0.8, 0]\ncenter = [0.3, 0.45, 0]\n[[particles]]",
         1,
     );
-    says(
-        &two,
-        &[continuity],
-        3,
-        &["by the sum over masses, of which density by continuity would never know", "two blocks overlap"],
-    );
+    says(&two, &[continuity], 3, &["by summation, which density by continuity does not detect", "two blocks overlap"]);
 }
 
 #[test]
@@ -174,7 +169,7 @@ fn contradicting_parts_are_remarked_on() {
     let (_, said) = motes("check", DAM, &["force.1.walls=extrapolate", "force.1.weight=[0,-9.81,0]"]);
     assert!(!said.contains("forces pull"), "{said}");
     let (_, said) = motes("run", DAM, &["particles.0.density=900"]);
-    assert!(said.contains("is their spacing another, or their density?"), "run says what check does: {said}");
+    assert!(said.contains("do their spacing and density agree with the force?"), "run says what check does: {said}");
 }
 
 #[test]

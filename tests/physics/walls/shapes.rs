@@ -58,7 +58,7 @@ fn a_tank_is_a_hull_without_doubles() {
     assert!(flat.position().iter().all(|x| x.z == 0.0));
     // A slip of the pen is refused before it fills the memory.
     let many = made("tank", &[("size", vector(9.0, 9.0, 9.0)), ("spacing", number(1e-5))]);
-    assert!(many.expect_err("many").to_string().contains("100000000 are the most"));
+    assert!(many.expect_err("many").to_string().contains("the maximum is 100000000"));
 }
 
 #[test]

@@ -40,9 +40,9 @@ fn what_would_explode_is_named() {
             false,
             "",
             block("size = [0.6, 0.6, 0.6]\ndensity = 2000"),
-            "it weighs 2.000000e0, and density × spacing^3 = 1.000000e0 is right",
+            "its mass is 2.000000e0, and density × spacing^3 is 1.000000e0",
         ),
-        (true, "", block("size = [0.6, 0.6, 0]\ndensity = 1300"), "density × spacing^2 = 1.000000e1 is right"),
+        (true, "", block("size = [0.6, 0.6, 0]\ndensity = 1300"), "density × spacing^2 is 1.000000e1"),
         (
             false,
             "",
@@ -85,19 +85,16 @@ fn two_at_one_place_are_refused_however_wide_the_kernel() {
 fn what_is_no_fluid_is_refused() {
     let empty = block("size = [0.6, 0.6, 0.6]") + "[[particles]]\nbodies = [{ position = [2, 0, 0], mass = 0 }]\n";
     let error = refused(&scene(false, "", &empty));
-    assert!(
-        error.contains("particle 216 is of the fluid and weighs nothing") && error.contains("give it the mass 1"),
-        "{error}"
-    );
+    assert!(error.contains("particle 216 of the fluid has mass 0") && error.contains("give it the mass 1"), "{error}");
     let fluid = "[[force]]\nkind = \"fluid\"\nspacing = 0.1\nsound_speed = 20\n";
     let head = "[simulation]\ndt = 1e-4\nsteps = 1\n[[particles]]\n";
     let tank = format!("{head}shape = \"tank\"\nsize = [1, 1, 1]\n{fluid}");
     let walls = load(&tank).err().expect("walls alone").to_string();
-    assert!(walls.contains("nothing of it") && walls.contains("shape = \"block\""), "{walls}");
+    assert!(walls.contains("a fluid without particles") && walls.contains("shape = \"block\""), "{walls}");
     let mut two = scene(false, "", &block("size = [0.6, 0.6, 0.6]"));
     two.forces.extend(scene(false, "", &block("size = [0.6, 0.6, 0.6]")).forces);
     let error = two.check().expect_err("two fluids").to_string();
-    assert!(error.contains("2 forces that make a fluid of all particles"), "{error}");
+    assert!(error.contains("there are 2 fluids"), "{error}");
     let none = setup("[simulation]\ndt = 1\nsteps = 1\n[[particles]]\nbodies = [{ position = [0, 0, 0], mass = 0 }]\n");
     assert_eq!(none.start().expect("no fluid"), None);
 }
