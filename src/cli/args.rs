@@ -41,9 +41,9 @@ pub enum Command {
     /// Resume a run that was stopped or killed, from the newest checkpoint in its folder
     Resume(ResumeArgs),
     /// Check a scene, and predict memory and time, without running it
-    Check(SceneArgs),
-    /// Print what one step of a scene does, kernel by kernel
-    Explain(SceneArgs),
+    Check(CheckArgs),
+    /// Print what one step of a scene does, kernel by kernel; with --law, the language of a law of your own
+    Explain(ExplainArgs),
     /// Compare the device with the f64 references, kernel by kernel and over some steps
     Compare(CompareArgs),
     /// Run a scene for all combinations of some values, and tabulate and plot the results
@@ -96,6 +96,9 @@ pub struct SceneArgs {
     /// Set a value of the scene, such as simulation.dt=0.01 or force.0.g=2; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub overrides: Vec<String>,
+    /// Multiply the number of particles of every shape and emitter by this factor; fluids get another spacing
+    #[arg(long, value_name = "FACTOR", value_parser = positive)]
+    pub scale: Option<f64>,
     /// Let the scene name files outside of its own folder
     #[arg(long)]
     pub allow_outside: bool,
@@ -104,6 +107,39 @@ pub struct SceneArgs {
     pub auto_substeps: bool,
     #[command(flatten)]
     pub device: DeviceArgs,
+}
+
+#[derive(Debug, ClapArgs)]
+pub struct CheckArgs {
+    #[command(flatten)]
+    pub scene: SceneArgs,
+    /// Print the result as JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Debug, ClapArgs)]
+pub struct ExplainArgs {
+    /// A scene file, or the name of a scene that `motes scenes` lists
+    #[arg(required_unless_present = "law")]
+    pub scene: Option<String>,
+    /// Print what a law in WGSL may define, use and bind, and its limits
+    #[arg(long)]
+    pub law: bool,
+    /// Set a value of the scene, such as simulation.dt=0.01 or force.0.g=2; may be repeated
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub overrides: Vec<String>,
+    /// Multiply the number of particles of every shape and emitter by this factor; fluids get another spacing
+    #[arg(long, value_name = "FACTOR", value_parser = positive)]
+    pub scale: Option<f64>,
+    /// Let the scene name files outside of its own folder
+    #[arg(long)]
+    pub allow_outside: bool,
+    #[command(flatten)]
+    pub device: DeviceArgs,
+    /// Print the result as JSON
+    #[arg(long)]
+    pub json: bool,
 }
 
 #[derive(Debug, ClapArgs)]
@@ -222,6 +258,9 @@ pub struct ScenesArgs {
     /// Print every key of scenes, of forces and of shapes, with its unit and default
     #[arg(long)]
     pub keys: bool,
+    /// Print the result as JSON
+    #[arg(long)]
+    pub json: bool,
 }
 
 /// Precision of the numbers.
@@ -247,12 +286,18 @@ pub struct ConvertArgs {
     /// Replace an existing file
     #[arg(long)]
     pub overwrite: bool,
+    /// Print the result as JSON
+    #[arg(long)]
+    pub json: bool,
 }
 
 #[derive(Debug, ClapArgs)]
 pub struct InfoArgs {
     /// A file of particles
     pub file: PathBuf,
+    /// Print the result as JSON
+    #[arg(long)]
+    pub json: bool,
 }
 
 #[derive(Debug, ClapArgs)]
@@ -269,6 +314,9 @@ pub struct StabilityArgs {
     /// The file of the picture
     #[arg(short, long, value_name = "FILE", default_value = "stability.svg")]
     pub out: PathBuf,
+    /// Print the result as JSON
+    #[arg(long)]
+    pub json: bool,
     #[command(flatten)]
     pub device: DeviceArgs,
 }

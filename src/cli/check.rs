@@ -6,8 +6,9 @@ use std::time::{Duration, Instant};
 use motes::kernel::{ACCELERATION, Backend};
 use motes::render::{Picture, Scenery, Trail};
 use motes::{Bounds, Cpu, Gpu, Setup, Simulation};
+use serde_json::{Value, json};
 
-use super::args::SceneArgs;
+use super::args::CheckArgs;
 use super::course;
 use super::engine::Engine;
 use super::failure::Failure;
@@ -16,41 +17,80 @@ use super::words::duration;
 use motes::diagnose::advice;
 
 /// Checks a scene: its faults, its memory, and the time that a run would take.
-pub async fn check(args: &SceneArgs) -> Result<(), Failure> {
-    let Loaded { scene, setup, start, lines, .. } = load::load(args, &[]).await?;
+pub async fn check(args: &CheckArgs) -> Result<(), Failure> {
+    let report = examined(args).await?;
+    if args.json {
+        out!("{:#}", report.json());
+    } else {
+        report.print();
+    }
+    Ok(())
+}
+
+/// What is known of a scene before it runs.
+struct Report {
+    scene: String,
+    particles: u32,
+    course: String,
+    device: String,
+    bounds: Option<Bounds>,
+    fluid: Vec<String>,
+    forecast: Vec<String>,
+    /// Bytes of each field on the device.
+    fields: BTreeMap<String, u64>,
+    dispatches: u64,
+    step: String,
+    per_step: Duration,
+    steps: u64,
+    notes: Vec<String>,
+}
+
+impl Report {
+    fn whole(&self) -> Duration {
+        self.per_step.mul_f64(self.steps as f64)
+    }
+    fn json(&self) -> Value {
+        json!({ "scene": self.scene, "particles": self.particles, "steps": self.steps, "device": self.device,
+            "box": self.bounds.map(|bounds| bounds.to_string()), "fluid": self.fluid, "forecast": self.forecast,
+            "memory": self.fields, "memory_total": self.fields.values().sum::<u64>(), "dispatches": self.dispatches,
+            "step": self.step, "seconds_per_step": self.per_step.as_secs_f64(), "seconds": self.whole().as_secs_f64(),
+            "notes": self.notes })
+    }
+    fn print(&self) {
+        out!("{}: {} particles, {}", self.scene, self.particles, self.course);
+        out!("on {}", self.device);
+        self.bounds.iter().for_each(|bounds| out!("box: {bounds}"));
+        if !self.fluid.is_empty() {
+            out!("\nfluid\n{}", self.fluid.join("\n"));
+        }
+        self.forecast.iter().for_each(|line| out!("{line}"));
+        out!("\nmemory on the device");
+        let wide = self.fields.keys().map(|name| name.chars().count()).max().unwrap_or(0).max(20);
+        for (name, bytes) in &self.fields {
+            out!("  {name:wide$} {:>12}", size(*bytes));
+        }
+        out!("  {:wide$} {:>12}", "in all", size(self.fields.values().sum()));
+        out!("\na step: {} dispatches\n  {}", self.dispatches, self.step);
+        let [each, whole] = [self.per_step, self.whole()].map(duration);
+        out!("\ntime: {each} per step, about {whole} in all, without writing files");
+        self.notes.iter().for_each(|note| out!("note: {note}"));
+        out!("\nno faults");
+    }
+}
+
+async fn examined(args: &CheckArgs) -> Result<Report, Failure> {
+    let Loaded { scene, setup, start, lines, .. } = load::load(&args.scene, &[]).await?;
     let count = setup.check()?;
     Picture::with(&scene.picture, &setup.state, &[], Trail::new(0), &Scenery::of(&setup.state))?;
-    let engine = Engine::choose(&args.device).await?;
-    out!("{}: {count} particles, {} by {}", scene.name, course::words(&scene), scene.integrator.name);
-    out!("on {}", engine.describe());
-    if scene.bounds != Bounds::default() {
-        out!("box: {}", scene.bounds);
-    }
-
-    if !lines.is_empty() {
-        out!("\nfluid\n{}", lines.join("\n"));
-    }
-
+    let engine = Engine::choose(&args.scene.device).await?;
     let plans = setup.plans(engine.machine(count)?)?;
-    let end = scene.steps as f64 * scene.dt;
-    for line in motes::diagnose::forecast(&setup, end) {
-        out!("{line}");
-    }
-    out!("\nmemory on the device");
     let mut fields = BTreeMap::new();
     for plan in plans.all() {
         for (name, bytes) in plan.fields(count) {
-            let entry = fields.entry(name).or_insert(0);
+            let entry = fields.entry(name.to_string()).or_insert(0);
             *entry = bytes.max(*entry);
         }
     }
-    let wide = fields.keys().map(|name| name.chars().count()).max().unwrap_or(0).max(20);
-    for (name, bytes) in &fields {
-        out!("  {name:wide$} {:>12}", size(*bytes));
-    }
-    out!("  {:wide$} {:>12}", "in all", size(fields.values().sum()));
-    out!("\na step: {} dispatches\n  {}", plans.step.dispatches(), plans.step);
-
     let (per_step, most) = match &engine {
         Engine::Gpu(found) => {
             let gpu = Gpu::new(&found.device, &found.queue, count)?;
@@ -58,26 +98,28 @@ pub async fn check(args: &SceneArgs) -> Result<(), Failure> {
         }
         Engine::Cpu(_) => measure(Simulation::on(Cpu::new(count)?, &setup)?, &setup, scene.steps).await?,
     };
-    let total = per_step.mul_f64(scene.steps as f64);
-    out!("\ntime: {} per step, about {} in all, without writing files", duration(per_step), duration(total));
+    let end = scene.steps as f64 * scene.dt;
     let hurry = start
         .and_then(|start| motes::diagnose::hurry(&start.medium, scene.adaptive_step.map_or(setup.dt, |_| 0.0), most));
-    for remark in engine
-        .remarks(&setup)?
-        .into_iter()
-        .chain(
-            scene
-                .remarks
-                .clone()
-                .into_iter()
-                .chain(advice(&setup, Some(scene.steps as f64 * scene.dt))?.iter().map(ToString::to_string)),
-        )
-        .chain(hurry)
-    {
-        out!("note: {remark}");
-    }
-    out!("\nno faults");
-    Ok(())
+    let mut notes = engine.remarks(&setup)?;
+    notes.extend(scene.remarks.iter().cloned());
+    notes.extend(advice(&setup, Some(end))?.iter().map(ToString::to_string));
+    notes.extend(hurry);
+    Ok(Report {
+        particles: count,
+        course: format!("{} by {}", course::words(&scene), scene.integrator.name),
+        device: engine.describe(),
+        bounds: Some(scene.bounds).filter(|bounds| *bounds != Bounds::default()),
+        fluid: lines,
+        forecast: motes::diagnose::forecast(&setup, end),
+        fields,
+        dispatches: plans.step.dispatches(),
+        step: plans.step.to_string(),
+        per_step,
+        steps: scene.steps,
+        notes,
+        scene: scene.name,
+    })
 }
 
 /// Runs some steps, for about a second at most, and gives the time of one; and the particle of the largest acceleration in the first.

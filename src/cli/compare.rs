@@ -82,6 +82,7 @@ pub fn load(args: &CompareArgs, more: &[String]) -> Result<Scene, Failure> {
         scene: args.scene.clone(),
         steps: None,
         until: None,
+        scale: None,
         overrides: [args.overrides.as_slice(), more].concat(),
         allow_outside: args.allow_outside,
         auto_substeps: false,

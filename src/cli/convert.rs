@@ -2,6 +2,7 @@
 
 use motes::Error;
 use motes::formats::{self, Precision};
+use serde_json::json;
 
 use super::args::{ConvertArgs, Width};
 use super::failure::Failure;
@@ -21,6 +22,14 @@ pub fn convert(args: &ConvertArgs) -> Result<(), Failure> {
     };
     let done = formats::convert(&args.from, &args.to, precision)?;
     let digits = if done.precision == Precision::Single { "single" } else { "double" };
+    if args.json {
+        out!(
+            "{:#}",
+            json!({ "particles": done.count, "from": args.from, "from_format": done.from.name, "to": args.to,
+                "to_format": done.to.name, "precision": digits, "lost": done.lost })
+        );
+        return Ok(());
+    }
     out!(
         "{} particles from {} ({}) to {} ({}, {digits} precision)",
         done.count,

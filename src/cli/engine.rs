@@ -8,6 +8,7 @@ use motes::{Cpu, Error, Gpu, Setup};
 
 use super::args::{BackendChoice, DeviceArgs, SceneArgs};
 use super::failure::Failure;
+use super::scale;
 
 /// What runs the kernels.
 pub enum Engine {
@@ -91,5 +92,9 @@ pub fn load_with(args: &SceneArgs, more: &[String]) -> Result<Scene, Failure> {
     overrides.extend(args.steps.map(|n| format!("simulation.steps={n}")));
     overrides.extend(args.until.map(|t| format!("simulation.until={t:?}")));
     let options = Options { allow_outside: args.allow_outside, ..Options::default() };
-    Ok(Scene::load(&Source::find(&args.scene)?, &overrides, &options)?)
+    let source = Source::find(&args.scene)?;
+    let scene = Scene::load(&source, &overrides, &options)?;
+    let Some(factor) = args.scale else { return Ok(scene) };
+    overrides.extend(scale::overrides(&scene, factor));
+    Ok(Scene::load(&source, &overrides, &options)?)
 }

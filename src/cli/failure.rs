@@ -2,8 +2,32 @@
 
 use std::process::ExitCode;
 
+use std::sync::OnceLock;
+
 use motes::Error;
-use motes::scene::Diagnostics;
+use motes::scene::{Diagnostic, Diagnostics};
+use serde_json::{Value, json};
+
+/// Whether failures go to standard output as JSON, too.
+pub static JSON: OnceLock<bool> = OnceLock::new();
+
+/// A failure as an event, where JSON is asked for.
+pub fn event(code: u8, text: &str, faults: Option<&Diagnostics>) {
+    if JSON.get() != Some(&true) {
+        return;
+    }
+    let mut event = json!({ "event": "error", "code": code, "text": text });
+    if let Some(faults) = faults {
+        event["faults"] = faults.list.iter().map(fault).collect();
+    }
+    out!("{event}");
+}
+
+fn fault(one: &Diagnostic) -> Value {
+    let place = one.excerpt.as_ref().and_then(|excerpt| excerpt.position);
+    json!({ "message": one.message, "file": one.file, "line": place.map(|(line, _)| line), "column": place.map(|(_, column)| column),
+        "label": one.excerpt.as_ref().map(|excerpt| &excerpt.label), "notes": one.notes })
+}
 
 /// Why a command did not end well.
 pub enum Failure {
@@ -38,6 +62,10 @@ impl Failure {
             Self::Disagreement => 9,
             Self::Stopped => 75,
         };
+        match &self {
+            Self::Scene(faults) => event(code, &self.words(), Some(faults)),
+            _ => event(code, &self.words(), None),
+        }
         match &self {
             Self::Scene(_) => note!("{}", self.words()),
             Self::Error(_) | Self::Explained(..) => note!("error: {}", self.words()),

@@ -7,6 +7,7 @@ use motes::formats::{self, Contents};
 use motes::kernel::{Array, Column, Shape};
 use motes::measure::Energy;
 use motes::{Error, State};
+use serde_json::{Value, json};
 
 use super::args::InfoArgs;
 use super::failure::Failure;
@@ -19,6 +20,10 @@ pub fn info(args: &InfoArgs) -> Result<(), Failure> {
     let state = formats::read(path, &columns)?;
     let format = formats::of(path)?.map_or("", |format| format.about);
     let bytes = std::fs::metadata(path).map_or(0, |data| data.len());
+    if args.json {
+        out!("{:#}", as_json(args, &state, &contents, format)?);
+        return Ok(());
+    }
     out!("{}: {bytes} bytes, {format}", path.display());
     out!("particles  {}", state.len());
     out!("time       {:?}, step {}", state.time, state.step);
@@ -61,6 +66,30 @@ pub fn info(args: &InfoArgs) -> Result<(), Failure> {
         out!("left out   {}", unread.join(", "));
     }
     Ok(())
+}
+
+fn as_json(args: &InfoArgs, state: &State, contents: &Contents, format: &str) -> Result<Value, Error> {
+    let there = |name: &str| is_there(name, contents);
+    let corner = |x: DVec3| json!(x.to_array());
+    let columns: Vec<Value> = state
+        .columns()
+        .filter(|(column, _)| there(&column.name))
+        .map(|(column, values)| json!({ "name": column.name, "kind": column.kind.name(), "unit": column.unit, "length": values.len() }))
+        .collect();
+    let energy = if there("mass") && there("velocity") && state.get("potential").is_some() {
+        let energy = Energy::of(state)?;
+        json!({ "kinetic": energy.kinetic, "potential": energy.potential, "total": energy.total() })
+    } else {
+        Value::Null
+    };
+    let population = state.population();
+    let unread: Vec<&str> =
+        contents.headings.iter().map(|heading| heading.title.as_str()).filter(|title| !is_held(title, state)).collect();
+    Ok(json!({ "file": args.file, "format": format, "particles": state.len(), "time": state.time, "step": state.step,
+        "box": contents.bounds.map(|bounds| json!({ "low": corner(bounds.low), "high": corner(bounds.high), "text": bounds.to_string() })),
+        "extent": extent(state.position()).map(|(low, high)| json!({ "low": corner(low), "high": corner(high) })),
+        "active": population.active, "pending": population.pending, "removed": population.removed, "columns": columns,
+        "energy": energy, "left_out": unread.into_iter().chain(contents.left_out.iter().map(String::as_str)).collect::<Vec<_>>() }))
 }
 
 /// How many things of a kind are listed.

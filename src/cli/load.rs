@@ -63,6 +63,7 @@ pub async fn load(args: &SceneArgs, more: &[String]) -> Result<Loaded, Failure> 
             let divided = SceneArgs {
                 scene: args.scene.clone(),
                 steps: None,
+                scale: args.scale,
                 until: None,
                 overrides: [old, new].concat(),
                 allow_outside: args.allow_outside,

@@ -33,6 +33,7 @@ mod info;
 mod load;
 mod progress;
 mod run;
+mod scale;
 mod scenes;
 mod solves;
 mod stability;
@@ -51,13 +52,17 @@ use failure::Failure;
 
 /// Parses the arguments, does what they say, and turns what went wrong into words and an exit code.
 pub fn main() -> ExitCode {
+    let words = std::env::args_os().skip(1).take_while(|word| word != "--");
+    let _ = failure::JSON.set(words.into_iter().any(|word| word == "--json"));
     let args = match Args::try_parse() {
         Ok(args) => args,
         Err(error) => {
             // clap exits with 2 for wrong arguments and with 0 for --help.
             let printed = error.print();
             if error.use_stderr() {
-                return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
+                let code = u8::try_from(error.exit_code()).unwrap_or(2);
+                failure::event(code, error.to_string().trim_end(), None);
+                return ExitCode::from(code);
             }
             stdout::printed(&printed);
             return ended(Ok(()));

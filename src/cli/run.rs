@@ -156,15 +156,6 @@ async fn start(
         }
         Err(error) => Err(explain(&run, error, &setup, verdict.as_ref())),
     };
-    match &result {
-        Err(Failure::Error(error)) => {
-            progress.event("error", json!({ "code": error.exit_code(), "text": error.to_string() }));
-        }
-        Err(Failure::Explained(error, more)) => {
-            progress.event("error", json!({ "code": error.exit_code(), "text": error.to_string(), "more": more }));
-        }
-        _ => {}
-    }
     if let (Err(Failure::Error(Error::Timeout { .. })), Engine::Gpu(_)) = (&result, &engine) {
         // Dropping a device that hangs would hang.
         let code = result.err().map(Failure::report);

@@ -1,7 +1,8 @@
 //! `motes scenes`
 
-use motes::scene::{SCENES, SECTIONS, Source};
-use motes::settings::{Key, Kind, Value};
+use motes::scene::{SCENES, SECTIONS, Section, Source};
+use motes::settings::{Key, Kind, Value as Setting};
+use serde_json::{Value, json};
 
 use super::args::ScenesArgs;
 use super::failure::Failure;
@@ -9,9 +10,15 @@ use super::failure::Failure;
 /// Lists the scenes, or prints one.
 pub fn scenes(args: &ScenesArgs) -> Result<(), Failure> {
     if args.keys {
-        return keys(args.name.as_deref());
+        return keys(args.name.as_deref(), args.json);
     }
     let Some(name) = &args.name else {
+        if args.json {
+            let all: Vec<_> =
+                SCENES.iter().map(|scene| json!({ "name": scene.name, "about": scene.about() })).collect();
+            out!("{:#}", json!({ "scenes": all }));
+            return Ok(());
+        }
         let wide = SCENES.iter().map(|scene| scene.name.len()).max().unwrap_or(0);
         for scene in SCENES {
             let about = scene.about();
@@ -23,6 +30,9 @@ pub fn scenes(args: &ScenesArgs) -> Result<(), Failure> {
         return Ok(());
     };
     match Source::find(name)? {
+        Source::Builtin(scene) if args.json => {
+            out!("{:#}", json!({ "name": scene.name, "about": scene.about(), "text": scene.text }));
+        }
         Source::Builtin(scene) => out!("{}", scene.text.trim_end()),
         Source::File(path) => {
             return Err(motes::Error::Scene(format!("{} is a file, not a built-in scene", path.display())).into());
@@ -33,7 +43,7 @@ pub fn scenes(args: &ScenesArgs) -> Result<(), Failure> {
 }
 
 /// Every key that a scene may give, or those of one thing.
-fn keys(wanted: Option<&str>) -> Result<(), Failure> {
+fn keys(wanted: Option<&str>, as_json: bool) -> Result<(), Failure> {
     let forces = motes::forces::entries().map(|e| ("[[force]] kind", e.name, e.about, e.keys));
     let shapes = motes::shapes::SHAPES.iter().map(|e| ("[[particles]] shape", e.name, e.about, e.keys));
     let measures = motes::measure::MEASURES.iter().map(|e| ("[[measure]] kind", e.name, e.about, e.keys));
@@ -46,6 +56,22 @@ fn keys(wanted: Option<&str>) -> Result<(), Failure> {
             wanted.unwrap_or_default()
         );
         return Err(motes::Error::Scene(text).into());
+    }
+    if as_json {
+        let entries = all.iter().map(|(place, name, about, keys)| {
+            json!({ "place": place, "name": name, "about": about, "keys": keys_json(keys) })
+        });
+        let of_section = |section: &Section| {
+            let own = section
+                .own
+                .iter()
+                .map(|own| json!({ "name": own.name, "default_words": own.default, "about": own.about }));
+            let keys: Vec<Value> = own.chain(keys_json(section.keys)).collect();
+            json!({ "place": section.header(), "name": section.name, "about": section.about, "keys": keys })
+        };
+        let all: Vec<Value> = entries.chain(sections().map(of_section)).collect();
+        out!("{:#}", json!({ "entries": all }));
+        return Ok(());
     }
     for (place, name, about, keys) in all {
         out!("{place} = \"{name}\": {about}");
@@ -63,6 +89,22 @@ fn keys(wanted: Option<&str>) -> Result<(), Failure> {
     Ok(())
 }
 
+fn keys_json(keys: &[Key]) -> Vec<Value> {
+    let default = |value: &Setting| match value {
+        Setting::Number(x) => json!(x),
+        Setting::Vector(v) => json!(v.to_array()),
+        Setting::Text(text) => json!(text),
+        Setting::Flag(on) => json!(on),
+        Setting::Pairs(_) => json!([]),
+    };
+    let one = |key: &Key| {
+        let of_pairs = if let Kind::Pairs(keys) = key.kind { keys_json(keys) } else { Vec::new() };
+        json!({ "name": key.name, "required": key.default.is_none(), "default": key.default.as_ref().map(default),
+            "accepts": key.kind.wanted(), "about": key.about, "keys": of_pairs })
+    };
+    keys.iter().map(one).collect()
+}
+
 fn list(keys: &[Key]) {
     for key in keys {
         let default = key.default.as_ref().map_or_else(|| "must be given".to_owned(), shown);
@@ -73,13 +115,13 @@ fn list(keys: &[Key]) {
     }
 }
 
-fn shown(value: &Value) -> String {
+fn shown(value: &Setting) -> String {
     match value {
-        Value::Number(x) => x.to_string(),
-        Value::Vector(v) => format!("[{}, {}, {}]", v.x, v.y, v.z),
-        Value::Text(t) => format!("\"{t}\""),
-        Value::Flag(f) => f.to_string(),
-        Value::Pairs(rows) => format!("{} pairs", rows.len()),
+        Setting::Number(x) => x.to_string(),
+        Setting::Vector(v) => format!("[{}, {}, {}]", v.x, v.y, v.z),
+        Setting::Text(t) => format!("\"{t}\""),
+        Setting::Flag(f) => f.to_string(),
+        Setting::Pairs(rows) => format!("{} pairs", rows.len()),
     }
 }
 

@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::build::{CENTER, PARTICLE_SIZE, Reader, SEED, VELOCITY};
 use super::random::Random;
 use super::skin::{DENSITY, SPACING, cells, steps};
-use super::{Amount, Shape, one_part};
+use super::{Amount, Resolution, Shape, one_part};
 use crate::error::Error;
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::state::State;
@@ -20,6 +20,7 @@ pub const BLOCK: Shape = Shape {
     build,
     amount,
     parts: one_part,
+    resolution: Resolution::Spacing,
 };
 
 const KEYS: &[Key] = &[

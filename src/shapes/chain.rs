@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use glam::DVec3;
 
 use super::build::{MASS, PARTICLE_SIZE, Reader, VELOCITY, hold};
-use super::{Amount, Shape, one_part};
+use super::{Amount, Resolution, Shape, one_part};
 use crate::error::Error;
 use crate::links::{Joint, Link, Rod};
 use crate::settings::{Key, Kind, Settings, Value};
@@ -19,6 +19,7 @@ pub const CHAIN: Shape = Shape {
     build,
     amount,
     parts: one_part,
+    resolution: Resolution::Count { key: "count", least: 2 },
 };
 
 const KEYS: &[Key] = &[

@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::build::{CENTER, MASS, PARTICLE_SIZE, Reader, SEED, VELOCITY, hold};
 use super::random::Random;
-use super::{Amount, Shape, one_part};
+use super::{Amount, Resolution, Shape, one_part};
 use crate::error::Error;
 use crate::links::{Link, Links};
 use crate::settings::{Key, Kind, Settings, Value};
@@ -20,6 +20,7 @@ pub const CLOTH: Shape = Shape {
     build,
     amount,
     parts: one_part,
+    resolution: Resolution::Grid { keys: &["columns", "rows"], least: 2 },
 };
 
 const KEYS: &[Key] = &[

@@ -8,7 +8,7 @@ use glam::DVec3;
 
 use super::build::{CENTER, COUNT, PARTICLE_SIZE, Reader, SEED, TOTAL_MASS, VELOCITY};
 use super::random::Random;
-use super::{Amount, Shape, one_part};
+use super::{Amount, Resolution, Shape, one_part};
 use crate::error::Error;
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::state::State;
@@ -21,6 +21,7 @@ pub const CLUSTERS: Shape = Shape {
     amount: Amount::counted,
     parts: one_part,
     build,
+    resolution: Resolution::Count { key: "count", least: 1 },
 };
 
 const KEYS: &[Key] = &[

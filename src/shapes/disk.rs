@@ -10,7 +10,7 @@ use super::build::{CENTER, COUNT, G, PARTICLE_SIZE, Reader, SEED, VELOCITY};
 use super::halo::Round;
 use super::random::Random;
 use super::rotation::{Galaxy, Rotation, Sphere};
-use super::{Amount, Shape};
+use super::{Amount, Resolution, Shape};
 use crate::error::Error;
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::state::State;
@@ -23,6 +23,7 @@ pub const DISK: Shape = Shape {
     build,
     amount: Amount::counted,
     parts,
+    resolution: Resolution::Count { key: "count", least: 1 },
 };
 
 const NONE: Value = Value::Text(Cow::Borrowed(""));

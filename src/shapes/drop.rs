@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::build::{CENTER, PARTICLE_SIZE, Reader, VELOCITY};
 use super::skin::{DENSITY, SPACING, cells, steps};
-use super::{Amount, Shape, one_part};
+use super::{Amount, Resolution, Shape, one_part};
 use crate::error::Error;
 use crate::settings::{Key, Kind, Settings};
 use crate::state::State;
@@ -17,6 +17,7 @@ pub const DROP: Shape = Shape {
     build,
     amount,
     parts: one_part,
+    resolution: Resolution::Spacing,
 };
 
 const KEYS: &[Key] = &[

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::build::{CENTER, PARTICLE_SIZE, Reader, SEED, hold};
 use super::random::Random;
-use super::{Amount, Shape, one_part};
+use super::{Amount, Resolution, Shape, one_part};
 use crate::error::Error;
 use crate::links::{Joint, Rod};
 use crate::settings::{Key, Kind, Settings, Value};
@@ -18,6 +18,7 @@ pub const HAIR: Shape = Shape {
     build,
     amount,
     parts: one_part,
+    resolution: Resolution::Count { key: "strands", least: 1 },
 };
 
 const KEYS: &[Key] = &[

@@ -6,7 +6,7 @@
 
 use super::build::{CENTER, COUNT, G, PARTICLE_SIZE, Reader, SEED, TOTAL_MASS, VELOCITY};
 use super::random::Random;
-use super::{Amount, Shape, one_part};
+use super::{Amount, Resolution, Shape, one_part};
 use crate::error::Error;
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::state::State;
@@ -19,6 +19,7 @@ pub const HERNQUIST: Shape = Shape {
     amount: Amount::counted,
     parts: one_part,
     build,
+    resolution: Resolution::Count { key: "count", least: 1 },
 };
 
 const KEYS: &[Key] = &[

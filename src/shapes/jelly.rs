@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::build::{CENTER, MASS, PARTICLE_SIZE, Reader, VELOCITY};
-use super::{Amount, Shape, one_part};
+use super::{Amount, Resolution, Shape, one_part};
 use crate::error::Error;
 use crate::links::{Link, Links};
 use crate::settings::{Key, Kind, Settings, Value};
@@ -18,6 +18,7 @@ pub const JELLY: Shape = Shape {
     build,
     amount,
     parts: one_part,
+    resolution: Resolution::Cells { key: "size", least: 2, periodic: false },
 };
 
 const KEYS: &[Key] = &[

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::build::{CENTER, PARTICLE_SIZE, Reader, SEED, VELOCITY};
 use super::random::Random;
 use super::zeldovich::displacements;
-use super::{Amount, Shape, one_part};
+use super::{Amount, Resolution, Shape, one_part};
 use crate::error::Error;
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::state::State;
@@ -18,6 +18,7 @@ pub const LATTICE: Shape = Shape {
     build,
     amount,
     parts: one_part,
+    resolution: Resolution::Cells { key: "size", least: 1, periodic: true },
 };
 
 const KEYS: &[Key] = &[

@@ -49,6 +49,38 @@ pub struct Shape {
     /// What follows on its first part, where it has several, in the order of ids: the key of the colour of each, and how
     /// many particles are of it. For settings that `build` takes.
     pub parts: fn(&Settings) -> Vec<(&'static str, u32)>,
+    /// The keys by which its number of particles goes.
+    pub resolution: Resolution,
+}
+
+/// The keys by which the number of particles of a shape goes, and the least that it may be.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Resolution {
+    /// A count of particles, or of strands of them.
+    Count {
+        /// Its key.
+        key: &'static str,
+        /// The least.
+        least: u32,
+    },
+    /// Counts along axes, `spacing` apart.
+    Grid {
+        /// A key for each axis.
+        keys: &'static [&'static str],
+        /// The least along each.
+        least: u32,
+    },
+    /// The same in one key.
+    Cells {
+        /// The key.
+        key: &'static str,
+        /// The least along each axis.
+        least: u32,
+        /// Whether it is as long as its number of spacings, so that it fills a periodic box; else it is one spacing shorter.
+        periodic: bool,
+    },
+    /// `spacing` alone, which a fluid has for all of its shapes.
+    Spacing,
 }
 
 /// The parts of a shape that is all of one kind.

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 
 use super::build::{CENTER, COUNT, G, PARTICLE_SIZE, Reader, SEED, TOTAL_MASS, VELOCITY};
 use super::random::Random;
-use super::{Amount, Shape, one_part};
+use super::{Amount, Resolution, Shape, one_part};
 use crate::error::Error;
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::state::State;
@@ -18,6 +18,7 @@ pub const PLUMMER: Shape = Shape {
     build,
     amount: Amount::counted,
     parts: one_part,
+    resolution: Resolution::Count { key: "count", least: 1 },
 };
 
 const KEYS: &[Key] = &[

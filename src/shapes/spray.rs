@@ -4,7 +4,7 @@ use glam::{DMat3, DVec3};
 
 use super::build::{CENTER, COUNT, PARTICLE_SIZE, Reader, SEED, VELOCITY};
 use super::random::Random;
-use super::{Amount, Shape, one_part};
+use super::{Amount, Resolution, Shape, one_part};
 use crate::error::Error;
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::state::State;
@@ -17,6 +17,7 @@ pub const SPRAY: Shape = Shape {
     build,
     amount: Amount::counted,
     parts: one_part,
+    resolution: Resolution::Count { key: "count", least: 1 },
 };
 
 const KEYS: &[Key] = &[

@@ -13,7 +13,7 @@ use glam::DVec3;
 
 use super::build::{CENTER, Reader};
 use super::skin::{DENSITY, KERNEL, LAYERS, RADIUS, SPACING, SUPPORT, Skin, WALL_MASS, cells, steps};
-use super::{Amount, Shape, one_part};
+use super::{Amount, Resolution, Shape, one_part};
 use crate::error::Error;
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::state::State;
@@ -26,6 +26,7 @@ pub const TANK: Shape = Shape {
     build,
     amount: |_| Amount::default(),
     parts: one_part,
+    resolution: Resolution::Spacing,
 };
 
 const KEYS: &[Key] = &[

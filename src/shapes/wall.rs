@@ -8,7 +8,7 @@ use glam::DVec3;
 use super::build::{CENTER, Reader};
 use super::mesh::Mesh;
 use super::skin::{DENSITY, KERNEL, LAYERS, RADIUS, SPACING, SUPPORT, Skin, WALL_MASS, cells, steps};
-use super::{Amount, Shape, one_part};
+use super::{Amount, Resolution, Shape, one_part};
 use crate::error::Error;
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::state::State;
@@ -21,6 +21,7 @@ pub const WALL: Shape = Shape {
     build,
     amount: |_| Amount::default(),
     parts: one_part,
+    resolution: Resolution::Spacing,
 };
 
 /// So many places of a mesh are tried at most: a minute's work.

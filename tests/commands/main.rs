@@ -13,6 +13,7 @@ mod convert;
 mod cpu_backend;
 mod far;
 mod film;
+mod json;
 mod process;
 mod purity;
 mod stiff;

@@ -9,6 +9,8 @@ use motes::kernel::Backend;
 use motes::stability::{Oscillator, largest_step, oscillator, spectral_radius};
 use motes::{Cpu, Error, Gpu, POSITION, Simulation, VELOCITY};
 
+use serde_json::{Value, json};
+
 use super::args::StabilityArgs;
 use super::engine::Engine;
 use super::failure::Failure;
@@ -42,6 +44,25 @@ pub async fn stability(args: &StabilityArgs) -> Result<(), Failure> {
         };
         courses.push(course);
     }
+    picture::draw(&args.out, &courses, args)?;
+    if args.json {
+        let rows: Vec<Value> = courses
+            .iter()
+            .map(|course| {
+                let [energy, size] = course.growth;
+                let [swings, decays] = course.limits;
+                json!({ "integrator": course.name, "energy_growth": energy, "energy_theory": theory::energy(course.name, args.omega_step),
+                    "omega_limit": swings, "decay_growth": size, "decay_theory": theory::decay(course.name, args.decay_step),
+                    "decay_limit": decays })
+            })
+            .collect();
+        out!(
+            "{:#}",
+            json!({ "device": engine.describe(), "omega_step": args.omega_step, "decay_step": args.decay_step, "steps": args.steps,
+                "picture": args.out, "rows": rows })
+        );
+        return Ok(());
+    }
     out!("on {}", engine.describe());
     out!(
         "x″ = −ω² x at hω = {}: growth of the energy per step; u′ = −a u at ha = {}: of |u|\n",
@@ -65,7 +86,6 @@ pub async fn stability(args: &StabilityArgs) -> Result<(), Failure> {
         let [swings, decays] = course.limits.map(limit);
         out!("{:<24}{energy:>12}{:>12}{swings:>12}  {size:>12}{:>12}{decays:>12}", course.name, theory[0], theory[1]);
     }
-    picture::draw(&args.out, &courses, args)?;
     out!("\n{} shows {} steps", args.out.display(), args.steps);
     Ok(())
 }

@@ -67,7 +67,7 @@ fn a_run_from_a_table_takes_the_step_from_its_name() {
     assert!(output.status.success(), "{}", said(&output));
     let want = snapshots(&first, "csv");
     let output = run("plummer", &second, &["--from", want[1].to_str().expect("a name")]);
-    assert!(output.status.success() && said(&output).contains("step 7") && said(&output).contains("anew"));
+    assert!(output.status.success() && said(&output).contains("step 7") && said(&output).contains("evaluated again"));
     let got = snapshots(&second, "csv");
     assert!(
         std::fs::read(&got[1]).expect("a file") == std::fs::read(&want[2]).expect("a file"),
