@@ -87,7 +87,7 @@ async fn examined(args: &CheckArgs) -> Result<Report, Failure> {
     let mut fields = BTreeMap::new();
     for plan in plans.all() {
         for (name, bytes) in plan.fields(count) {
-            let entry = fields.entry(name.to_string()).or_insert(0);
+            let entry = fields.entry(name).or_insert(0);
             *entry = bytes.max(*entry);
         }
     }
