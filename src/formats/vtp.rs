@@ -356,7 +356,11 @@ fn array(
         }
         return Ok(());
     }
-    for (k, title) in sheet::titles_of(name, components).into_iter().enumerate() {
+    let titles = sheet::titles_of(name, components);
+    if titles.len() != components {
+        return Err(format!("byte {}: `{name}` has {components} components, and {} are read", tag.from, titles.len()));
+    }
+    for (k, title) in titles.into_iter().enumerate() {
         sheet.enter(&title, kind.is_whole(), wanted, || {
             let place = match &data {
                 Numbers::There { first, kind, .. } => Place::Byte {

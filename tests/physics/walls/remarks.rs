@@ -68,7 +68,7 @@ fn check_and_run_refuse_what_would_explode() {
     for arguments in runs {
         let (code, _, err) = motes(&[&arguments[..], &bad].concat());
         assert_eq!(code, 3, "{err}");
-        assert!(err.contains("this start would explode") && err.contains("it weighs 8.000000e1"), "{err}");
+        assert!(err.contains("this start would explode") && err.contains("its mass is 8.000000e1"), "{err}");
         let (code, _, err) = motes(&[&arguments[..], &bad, &SOLVED].concat());
         assert_eq!(code, 3, "{err}");
         assert!(err.contains("this start would explode") && err.contains("would have to move at least"), "{err}");
