@@ -57,7 +57,7 @@ fn stretch(a: Around, low: u32, high: u32, z: u32, y: u32, part: u32) -> Stretch
 }
 
 // Looks go no further than once round.
-fn wrap(c: i32, n: i32) -> i32 { return (c + n) % n; }
+fn wrap(c: i32, n: i32) -> i32 { return c - n * turn(c, n); }
 fn turn(c: i32, n: i32) -> i32 { return i32(c >= n) - i32(c < 0); }
 
 // Whether a row reaches over the seam.
