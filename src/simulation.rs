@@ -34,7 +34,7 @@ use crate::cpu::threads;
 use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::integrators::SOLVE_REPORT;
-use crate::kernel::{AdaptiveStep, Array, Backend, Element, Field, HOME, ListShape, POSITION, Problem, VELOCITY};
+use crate::kernel::{AdaptiveStep, Array, Backend, Element, Field, HOME, ListShape, POSITION, Plan, Problem, VELOCITY};
 use crate::sph::DFSPH_REPORT;
 use crate::state::State;
 use columns::Store;
@@ -328,6 +328,12 @@ impl<B: Backend> Simulation<B> {
     pub fn plan(&self) -> &str {
         &self.plan
     }
+    /// The plan of one step, and for how many rows it was written.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn step_plan(&self) -> (&Plan, u32) {
+        (&self.plans.step, self.rows.capacity())
+    }
     /// Steps done.
     #[must_use]
     pub fn steps(&self) -> u64 {
@@ -390,6 +396,33 @@ impl Simulation<Gpu> {
         self.backend.encode(&self.step, steps, encoder);
         self.steps += u64::from(steps);
         Ok(())
+    }
+    /// One step in one submission; the kernel of each of its dispatches, by its place in [`Simulation::step_plan`], and its seconds by the
+    /// device's own clock. Without such a clock there are none, and no step.
+    ///
+    /// # Errors
+    /// When the device is lost, or does not answer in time.
+    #[doc(hidden)]
+    pub async fn timed_step(&mut self) -> Result<Option<Vec<(Option<usize>, f64)>>, Error> {
+        self.room(1)?;
+        self.unrepeatable();
+        self.begin()?;
+        let times = self.backend.timed_dispatches(&self.step).await?;
+        self.steps += u64::from(times.is_some());
+        Ok(times)
+    }
+    /// One step in one pass, and its seconds by the device's own clock.
+    ///
+    /// # Errors
+    /// When the device is lost, or does not answer in time.
+    #[doc(hidden)]
+    pub async fn timed_whole(&mut self) -> Result<Option<f64>, Error> {
+        self.room(1)?;
+        self.unrepeatable();
+        self.begin()?;
+        let time = self.backend.timed(&self.step, 1).await?;
+        self.steps += u64::from(time.is_some());
+        Ok(time)
     }
     /// A field's buffer, usable as a vertex buffer: draw without a copy. It stays the same until the simulation makes room for
     /// more rows or neighbours, as [`Simulation::generation`] shows.

@@ -65,6 +65,9 @@ struct Args {
     /// Leave out sizes of which a step is expected to take longer than this [s]
     #[arg(long, value_name = "S", default_value_t = 10.0)]
     longest: f64,
+    /// Leave out plain Rust, during which a GPU would lower its clocks
+    #[arg(long)]
+    no_baseline: bool,
     /// Draw how the time of a step grows into this SVG: with the bodies for `tree`, with the agents otherwise
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
@@ -168,6 +171,7 @@ fn in_turns(
     simulation: &mut Simulation<Gpu>,
     mut baseline: Option<&mut dyn FnMut(u32)>,
 ) -> Result<(Vec<f64>, Vec<f64>), Failure> {
+    baseline = baseline.filter(|_| !args.no_baseline);
     let mut step = |turns| time(turns, || simulation.step(turns).and_then(|()| simulation.backend().wait()));
     let mut turns = [1, 1];
     let (mut device, mut plain) = (Vec::new(), Vec::new());

@@ -331,6 +331,8 @@ fn positive(text: &str) -> Result<f64, String> {
 /// What is measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Topic {
+    /// All of them but `kernels`
+    All,
     /// All pairs: `plummer`
     Gravity,
     /// Gravity through a tree: `plummer`
@@ -339,8 +341,14 @@ pub enum Topic {
     Neighbors,
     /// Cloth: `flag`
     Springs,
-    /// Water: `dam_break`
+    /// Water: `dam_break`, weakly compressible and by DFSPH
     Fluids,
+    /// Conjugate gradients: an iteration of `cloth` by linear_backward_euler
+    Solve,
+    /// Independent particles under drag and weight
+    Stream,
+    /// Each kernel of one step of a scene, by the device's own clock
+    Kernels,
 }
 
 #[derive(Debug, ClapArgs)]
@@ -348,12 +356,27 @@ pub struct BenchArgs {
     /// The subject to measure [default: all of them]
     #[arg(value_enum)]
     pub topic: Option<Topic>,
+    /// For `kernels`: a scene file, or the name of a scene that `motes scenes` lists
+    #[arg(required_if_eq("topic", "kernels"))]
+    pub scene: Option<String>,
+    /// For `kernels`: set a value of the scene, such as particles.0.count=1000; may be given again
+    #[arg(long = "set", value_name = "KEY=VALUE", requires = "scene")]
+    pub overrides: Vec<String>,
+    /// The largest number of particles, about: sizes grow by four up to it [default: the smallest size only]
+    #[arg(long, value_name = "N")]
+    pub to: Option<u32>,
+    /// Leave out sizes of a topic that are expected to end later than this after its start [s]
+    #[arg(long, value_name = "S")]
+    pub seconds: Option<f64>,
     /// Repetitions of each measurement; the median is reported
     #[arg(long, value_name = "N", default_value_t = 7)]
     pub repeat: usize,
     /// An adapter, by a part of its name or by its number in `motes doctor`
     #[arg(long, value_name = "NAME")]
     pub adapter: Option<String>,
+    /// Write the results to this file as JSON, anew after each measurement
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
     /// Print the result as JSON
     #[arg(long)]
     pub json: bool,

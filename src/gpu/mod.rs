@@ -140,6 +140,16 @@ impl Gpu {
     pub async fn timed(&mut self, program: &Program, times: u32) -> Result<Option<f64>, Error> {
         timing::timed(&self.device, &mut self.queue, program, times).await
     }
+    /// Runs a program once, and gives the kernel of each dispatch, by its place in the plan, and its seconds by the device's own
+    /// clock, if it has one for us. What is a loop's own has no kernel.
+    ///
+    /// # Errors
+    /// When the device is lost or does not answer in time.
+    pub async fn timed_dispatches(&mut self, program: &Program) -> Result<Option<Vec<(Option<usize>, f64)>>, Error> {
+        let seconds = timing::each(&self.device, &mut self.queue, program).await?;
+        let owners = program.dispatches.iter().map(|dispatch| program.owner(dispatch));
+        Ok(seconds.map(|seconds| owners.zip(seconds).collect()))
+    }
     /// Reads what every kernel knows: the clock, and the rest as it was set.
     ///
     /// # Errors

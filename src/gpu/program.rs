@@ -13,6 +13,8 @@ pub struct Program {
     ready: Vec<Ready>,
     arguments: Vec<wgpu::Buffer>,
     pub(super) dispatches: Vec<Dispatch>,
+    /// The kernel of each that is ready, by its place in the plan; none for what is a loop's own.
+    owners: Vec<Option<usize>>,
 }
 
 /// A pass made ready.
@@ -49,7 +51,7 @@ impl Program {
         buffers: &Buffers,
         plan: &Plan,
     ) -> Result<Self, Error> {
-        let program = Self { ready: Vec::new(), arguments: Vec::new(), dispatches: Vec::new() };
+        let program = Self { ready: Vec::new(), arguments: Vec::new(), dispatches: Vec::new(), owners: Vec::new() };
         let mut builder = Builder { queue, pipelines, buffers, program, kernels: Vec::new() };
         for kernel in &plan.kernels {
             let ready: Result<Vec<_>, _> = kernel.passes.iter().map(|pass| builder.ready(pass, &[])).collect();
@@ -59,7 +61,13 @@ impl Program {
             let node = builder.node(op)?;
             builder.encode(&node, None)?;
         }
+        let owner = |place: usize| builder.kernels.iter().position(|ready| ready.contains(&place));
+        builder.program.owners = (0..builder.program.ready.len()).map(owner).collect();
         Ok(builder.program)
+    }
+    /// The kernel of a dispatch, by its place in the plan; none for what is a loop's own.
+    pub(super) fn owner(&self, dispatch: &Dispatch) -> Option<usize> {
+        self.owners.get(dispatch.ready).copied().flatten()
     }
     /// Encodes all of it, a number of times.
     pub(super) fn encode(&self, times: u32, pass: &mut wgpu::ComputePass) {

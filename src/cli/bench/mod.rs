@@ -1,66 +1,160 @@
 //! `motes bench`: the speed of steps of built-in scenes. `benches/baselines` compares steps with plain Rust.
 
+mod case;
+mod kernels;
+mod results;
+mod spirv;
+
 use std::time::{Duration, Instant};
 
-use motes::scene::{Options, Scene, Source};
-use motes::{Error, Gpu, Simulation, gpu};
-use serde_json::json;
+use motes::gpu::{self, Found};
+use motes::{Error, Gpu, Simulation};
+use serde_json::{Value, json};
 
 use super::args::{BenchArgs, Topic};
 use super::engine;
 use super::failure::Failure;
 use super::words::{duration, large};
+use case::Case;
+use results::Results;
 
 /// One measurement takes about this long, unless a step is longer \[s\].
 const SPAN: f64 = 0.3;
+/// Iterations of a solve: the time of one is the difference of steps with many and with few.
+const ITERATIONS: [u32; 2] = [4, 24];
 
-impl Topic {
-    const ALL: [Self; 5] = [Self::Gravity, Self::Tree, Self::Neighbors, Self::Springs, Self::Fluids];
-
-    /// Its name, its scene, and what is changed in that.
-    fn scene(self) -> (&'static str, &'static str, &'static [&'static str]) {
-        match self {
-            Self::Gravity => ("gravity", "plummer", &["particles.0.count=16384", "force.0.over=pairs"]),
-            Self::Tree => ("tree", "plummer", &["force.0.over=tree"]),
-            Self::Neighbors => ("neighbors", "flock", &[]),
-            Self::Springs => ("springs", "flag", &[]),
-            Self::Fluids => ("fluids", "dam_break", &[]),
-        }
-    }
-}
+/// Those that are measured if none is chosen.
+const ALL: [Topic; 7] =
+    [Topic::Gravity, Topic::Tree, Topic::Neighbors, Topic::Springs, Topic::Fluids, Topic::Solve, Topic::Stream];
 
 /// Measures what was asked for.
 pub async fn bench(args: &BenchArgs) -> Result<(), Failure> {
     let found = engine::open(gpu::adapters(&gpu::instance()).await, args.adapter.as_deref()).await?;
+    let mut results = Results::new(args, &found);
     if !args.json {
         out!("{}\n", found.describe());
-        out!("{:>10}  {:>12}  {:>9}  {:>12}  {:>16}", "", "scene", "particles", "step", "particles × steps");
     }
-    let mut rows = Vec::new();
-    for topic in Topic::ALL.into_iter().filter(|topic| args.topic.is_none_or(|wanted| wanted == *topic)) {
-        let (name, word, changes) = topic.scene();
-        let changes: Vec<String> = changes.iter().map(|change| (*change).to_owned()).collect();
-        let mut scene = Scene::load(&Source::find(word)?, &changes, &Options::default())?;
-        let setup = scene.setup();
-        let mut simulation = Simulation::new(&found.device, &found.queue, &setup)?;
-        let times = times(&mut simulation, args.repeat.max(1))?;
-        let mut sorted = times.clone();
-        sorted.sort_by(f64::total_cmp);
-        let (step, count) = (sorted[sorted.len() / 2], setup.state.len());
-        let rate = count as f64 / step;
+    if args.topic == Some(Topic::Kernels) {
+        results.add(kernels::kernels(args, &found).await?)?;
+    } else if let Some(scene) = &args.scene {
+        let text = format!("`{scene}` is for `motes bench kernels {scene}`; the other topics have scenes of their own");
+        return Err(Error::Scene(text).into());
+    } else {
         if !args.json {
-            let time = duration(Duration::from_secs_f64(step));
-            out!("{name:>10}  {word:>12}  {count:>9}  {time:>12}  {:>14}/s", large(rate));
+            out!("{:>14}  {:>16}  {:>9}  {:>12}  {:>16}", "", "scene", "particles", "step", "particles × steps");
         }
-        rows.push(json!({ "topic": name, "scene": word, "changes": changes, "particles": count,
-            "seconds_per_step": times, "particle_steps_per_second": rate }));
+        for topic in ALL.into_iter().filter(|topic| args.topic.is_none_or(|its| its == *topic || its == Topic::All)) {
+            measure(args, &found, topic, &mut results).await?;
+        }
     }
     if args.json {
-        let version = env!("CARGO_PKG_VERSION");
-        let value = json!({ "device": found.describe(), "version": version, "repeat": args.repeat, "topics": rows });
-        out!("{value:#}");
+        out!("{}", results.text());
     }
     Ok(())
+}
+
+/// All sizes of a topic.
+async fn measure(args: &BenchArgs, found: &Found, topic: Topic, results: &mut Results) -> Result<(), Failure> {
+    let (begun, mut last) = (Instant::now(), 0.0);
+    for case in case::cases(topic, args.to) {
+        let (start, name) = (Instant::now(), case.topic);
+        if let Some(seconds) =
+            args.seconds.filter(|most| last > 0.0 && begun.elapsed().as_secs_f64() + 4.0 * last > *most)
+        {
+            if !args.json {
+                out!(
+                    "{name:>14}  {:>16}  {:>9}  left out: it would end later than --seconds {seconds}",
+                    case.scene,
+                    case.count
+                );
+            }
+            results
+                .add(json!({ "topic": name, "scene": case.scene, "particles": case.count, "left_out": "--seconds" }))?;
+            continue;
+        }
+        match row(args, found, &case).await {
+            // What does not fit ends the sizes, not the bench.
+            Err(Failure::Error(error @ (Error::Limit(_) | Error::OutOfMemory(_)))) if args.to.is_some() => {
+                if !args.json {
+                    out!("{name:>14}  {:>16}  {:>9}  left out: {error}", case.scene, case.count);
+                }
+                results.add(json!({ "topic": name, "scene": case.scene, "particles": case.count, "left_out": error.to_string() }))?;
+            }
+            row => results.add(row?)?,
+        }
+        last = start.elapsed().as_secs_f64();
+    }
+    Ok(())
+}
+
+/// One measurement.
+async fn row(args: &BenchArgs, found: &Found, case: &Case) -> Result<Value, Failure> {
+    let repeat = args.repeat.max(1);
+    let (name, word) = (case.topic, case.scene);
+    if name == "solve" {
+        return solve(args, found, case).await;
+    }
+    let setup = case.setup(&[])?;
+    let count = setup.state.len();
+    let mut simulation = Simulation::new(&found.device, &found.queue, &setup)?;
+    drop(setup);
+    let times = times(&mut simulation, repeat)?;
+    // Times of a run that came to nothing are none.
+    simulation.check().await?;
+    let step = median(&times);
+    let rate = count as f64 / step;
+    if !args.json {
+        let time = duration(Duration::from_secs_f64(step));
+        out!("{name:>14}  {word:>16}  {count:>9}  {time:>12}  {:>14}/s", large(rate));
+    }
+    Ok(json!({ "topic": name, "scene": word, "changes": case.changes, "particles": count,
+        "seconds_per_step": times, "particle_steps_per_second": rate }))
+}
+
+/// An iteration of conjugate gradients, of steps of which none converges.
+async fn solve(args: &BenchArgs, found: &Found, case: &Case) -> Result<Value, Failure> {
+    let mut simulations = Vec::new();
+    let mut count = 0;
+    for iterations in ITERATIONS {
+        let setup = case.setup(&[format!("solver.iterations={iterations}")])?;
+        count = setup.state.len();
+        simulations.push(Simulation::new(&found.device, &found.queue, &setup)?);
+    }
+    let mut times = Vec::new();
+    for turn in 0..=args.repeat.max(1) {
+        let mut seconds = Vec::new();
+        for (simulation, iterations) in simulations.iter_mut().zip(ITERATIONS) {
+            let start = Instant::now();
+            simulation.step(1)?;
+            simulation.backend().wait()?;
+            seconds.push(start.elapsed().as_secs_f64());
+            let taken = simulation.solves().await?.map_or(0, |solves| solves.iterations);
+            if taken < iterations {
+                let text = format!(
+                    "a solve of {} took {taken} iterations, not {iterations}: its time says nothing",
+                    case.scene
+                );
+                return Err(Error::Scene(text).into());
+            }
+        }
+        if turn > 0 {
+            times.push((seconds[1] - seconds[0]) / f64::from(ITERATIONS[1] - ITERATIONS[0]));
+        }
+    }
+    let iteration = median(&times);
+    if !args.json {
+        let time = duration(Duration::from_secs_f64(iteration.max(0.0)));
+        out!("{:>14}  {:>16}  {count:>9}  {time:>12}  an iteration", case.topic, case.scene);
+    }
+    Ok(json!({ "topic": case.topic, "scene": case.scene, "changes": case.changes, "particles": count,
+        "seconds_per_iteration": times }))
+}
+
+/// The middle of some numbers.
+fn median(all: &[f64]) -> f64 {
+    let mut sorted = all.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    sorted.get(sorted.len() / 2).copied().unwrap_or(f64::NAN)
 }
 
 /// Seconds of a step, so many times; the first steps, in which a device compiles, do not count.
