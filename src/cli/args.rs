@@ -121,7 +121,7 @@ pub struct CheckArgs {
 #[derive(Debug, ClapArgs)]
 pub struct ExplainArgs {
     /// A scene file, or the name of a scene that `motes scenes` lists
-    #[arg(required_unless_present = "law")]
+    #[arg(required_unless_present = "law", conflicts_with = "law")]
     pub scene: Option<String>,
     /// Print what a law in WGSL may define, use and bind, and its limits
     #[arg(long)]

@@ -95,6 +95,9 @@ pub fn load_with(args: &SceneArgs, more: &[String]) -> Result<Scene, Failure> {
     let source = Source::find(&args.scene)?;
     let scene = Scene::load(&source, &overrides, &options)?;
     let Some(factor) = args.scale else { return Ok(scene) };
-    overrides.extend(scale::overrides(&scene, factor));
-    Ok(Scene::load(&source, &overrides, &options)?)
+    let scaled = scale::overrides(&scene, factor)?;
+    overrides.extend_from_slice(&scaled);
+    let mut scene = Scene::load(&source, &overrides, &options)?;
+    scene.remarks.push(format!("--scale {factor} sets {}", scaled.join(", ")));
+    Ok(scene)
 }

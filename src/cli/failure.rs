@@ -8,19 +8,20 @@ use motes::Error;
 use motes::scene::{Diagnostic, Diagnostics};
 use serde_json::{Value, json};
 
+use super::progress::SCHEMA;
+
 /// Whether failures go to standard output as JSON, too.
 pub static JSON: OnceLock<bool> = OnceLock::new();
 
 /// A failure as an event, where JSON is asked for.
-pub fn event(code: u8, text: &str, faults: Option<&Diagnostics>) {
-    if JSON.get() != Some(&true) {
-        return;
+pub fn event(code: u8, mut fields: Value) {
+    if let (Some(true), Some(map)) = (JSON.get(), fields.as_object_mut()) {
+        map.extend(
+            [("event", json!("error")), ("schema", json!(SCHEMA)), ("code", json!(code))]
+                .map(|(key, value)| (key.to_owned(), value)),
+        );
+        out!("{fields}");
     }
-    let mut event = json!({ "event": "error", "code": code, "text": text });
-    if let Some(faults) = faults {
-        event["faults"] = faults.list.iter().map(fault).collect();
-    }
-    out!("{event}");
 }
 
 fn fault(one: &Diagnostic) -> Value {
@@ -63,8 +64,16 @@ impl Failure {
             Self::Stopped => 75,
         };
         match &self {
-            Self::Scene(faults) => event(code, &self.words(), Some(faults)),
-            _ => event(code, &self.words(), None),
+            Self::Scene(faults) => {
+                event(
+                    code,
+                    json!({ "text": self.words(), "faults": faults.list.iter().map(fault).collect::<Vec<_>>() }),
+                );
+            }
+            Self::Error(error) => event(code, json!({ "text": error.to_string() })),
+            Self::Explained(error, more) => event(code, json!({ "text": error.to_string(), "more": more })),
+            // The document that was printed says it.
+            Self::Disagreement | Self::Stopped => {}
         }
         match &self {
             Self::Scene(_) => note!("{}", self.words()),

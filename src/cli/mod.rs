@@ -61,7 +61,7 @@ pub fn main() -> ExitCode {
             let printed = error.print();
             if error.use_stderr() {
                 let code = u8::try_from(error.exit_code()).unwrap_or(2);
-                failure::event(code, error.to_string().trim_end(), None);
+                failure::event(code, serde_json::json!({ "text": error.to_string().trim_end() }));
                 return ExitCode::from(code);
             }
             stdout::printed(&printed);

@@ -12,7 +12,7 @@ use super::args::ShowArgs;
 use super::words::duration;
 
 /// The version of the JSON events.
-const SCHEMA: u32 = 1;
+pub const SCHEMA: u32 = 1;
 /// Between two lines of a log, at least.
 const PAUSE: Duration = Duration::from_secs(2);
 

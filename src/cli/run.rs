@@ -15,7 +15,7 @@ use super::args::{DeviceArgs, ResumeArgs, RunArgs, ShowArgs};
 use super::engine::Engine;
 use super::failure::Failure;
 use super::load::{self, Loaded};
-use super::progress::Progress;
+use super::progress::{Progress, SCHEMA};
 use super::{aftermath, conclude, course, solves, stop};
 use motes::diagnose::{advice, conserved};
 
@@ -99,7 +99,9 @@ pub async fn resume(args: &ResumeArgs) -> Result<(), Failure> {
 }
 
 fn complete(folder: &Path, step: u64, show: &ShowArgs) {
-    if !show.quiet && !show.json {
+    if show.json {
+        out!("{}", json!({ "event": "complete", "schema": SCHEMA, "step": step, "output": folder }));
+    } else if !show.quiet {
         out!("the run in {} is complete, with step {step}: there is nothing to resume", folder.display());
     }
 }

@@ -1,20 +1,25 @@
 //! `--scale`: the same scene with more or fewer particles. Fluids and lattices fill the same space by a wider or narrower spacing, and
 //! keep their mass.
 
+use motes::Error;
 use motes::scene::Scene;
 use motes::settings::Key;
 use motes::shapes::{Resolution, SHAPES};
 use toml::{Table, Value};
 
 /// The values that multiply the number of particles of a scene by a factor, as `--set` takes them.
-pub fn overrides(scene: &Scene, factor: f64) -> Vec<String> {
+///
+/// # Errors
+/// [`Error::Scene`] where the scene has no other resolution: it names particles by their ids, its particles are ions or bodies of their own.
+pub fn overrides(scene: &Scene, factor: f64) -> Result<Vec<String>, Error> {
     // It was written with every value, and is read again without faults.
     let root: Table = scene.resolved.parse().unwrap_or_default();
+    refuse(&root)?;
     let narrower = factor.powf(if scene.bounds.dimensions == 2 { 1.0 / 2.0 } else { 1.0 / 3.0 });
+    let narrower = fitting(&root, narrower);
     let mut all = Vec::new();
     for section in ["particles", "emitter", "force"] {
-        let tables = root.get(section).and_then(Value::as_array).into_iter().flatten().filter_map(Value::as_table);
-        for (number, table) in tables.enumerate() {
+        for (number, table) in tables(&root, section).enumerate() {
             let word = |key: &str| table.get(key).and_then(Value::as_str);
             let values = match section {
                 "particles" => word("shape")
@@ -30,7 +35,68 @@ pub fn overrides(scene: &Scene, factor: f64) -> Vec<String> {
             all.extend(values.unwrap_or_default().into_iter().map(set));
         }
     }
-    all
+    if all.is_empty() {
+        return Err(Error::Scene(format!(
+            "--scale: `{}` has no shape whose number of particles may be another: leave it out",
+            scene.name
+        )));
+    }
+    Ok(all)
+}
+
+/// Refuses scenes that another number of particles would make something else of.
+fn refuse(root: &Table) -> Result<(), Error> {
+    let refused = |what: &str| {
+        Err(Error::Scene(format!(
+            "--scale: {what}, which holds for the number of particles of the scene alone: leave it out"
+        )))
+    };
+    if root.contains_key("links") {
+        return refused("the scene links particles by their ids ([[links]])");
+    }
+    for table in tables(root, "particles") {
+        if table.get("fixed").and_then(Value::as_array).is_some_and(|list| !list.is_empty()) {
+            return refused("the scene names fixed particles by their ids (`fixed`)");
+        }
+    }
+    if tables(root, "force").any(|table| table.contains_key("pairs")) {
+        return refused("the scene has coefficients of pairs of species (`pairs`), as molecules have");
+    }
+    Ok(())
+}
+
+fn tables<'a>(root: &'a Table, section: &str) -> impl Iterator<Item = &'a Table> {
+    root.get(section).and_then(Value::as_array).into_iter().flatten().filter_map(Value::as_table)
+}
+
+/// A factor of the spacing of a fluid near to `narrower` by which its blocks and tanks, which are whole numbers of spacings, stay so.
+fn fitting(root: &Table, narrower: f64) -> f64 {
+    let mut common = 0_u64;
+    for table in tables(root, "particles") {
+        let shape =
+            table.get("shape").and_then(Value::as_str).and_then(|name| SHAPES.iter().find(|shape| shape.name == name));
+        let spacing =
+            at(table, "spacing").filter(|_| shape.is_some_and(|shape| shape.resolution == Resolution::Spacing));
+        let sides = table.get("size").and_then(Value::as_array).into_iter().flatten().filter_map(number);
+        let Some(spacing) = spacing else { continue };
+        for cells in sides.map(|side| side / spacing) {
+            if (cells - cells.round()).abs() > 1e-6 * cells.max(1.0) {
+                return narrower;
+            }
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a number of spacings")]
+            let cells = cells.round() as u64;
+            common = divisor(common, cells);
+        }
+    }
+    if common == 0 {
+        return narrower;
+    }
+    (common as f64 * narrower).round().max(1.0) / common as f64
+}
+
+/// The greatest common divisor (Euclid).
+fn divisor(a: u64, b: u64) -> u64 {
+    if b == 0 { a } else { divisor(b, a % b) }
 }
 
 type Values = Vec<(&'static str, String)>;
@@ -63,6 +129,7 @@ fn shaped(resolution: Resolution, table: &Table, [factor, narrower]: [f64; 2]) -
         Resolution::Count { key, least } => {
             return at(table, key).map(|count| (key, whole(count * factor, least))).into_iter().collect();
         }
+        Resolution::Own => return Values::new(),
         Resolution::Spacing => return spaced(table, narrower),
         Resolution::Grid { keys, least } => (keys.iter().filter_map(|key| at(table, key)).collect(), least, 1.0),
         Resolution::Cells { key, least, periodic } => {

@@ -16,7 +16,7 @@ pub const MEASURE: Measure = Measure {
     about: "density and mean velocity at a point, or at points along a line, by Wendland's C2 kernel: a row for each point",
     keys: &[
         Key::required("start", Kind::Vector, "the first point [length]"),
-        Key::new("end", Kind::Vector, Value::Vector(DVec3::ZERO), "the last point, where there are several [length]"),
+        Key::new("span", Kind::Vector, Value::Vector(DVec3::ZERO), "from the first point to the last, where there are several [length]"),
         Key::new("count", Kind::Count, Value::Number(1.0), "how many points there are, evenly spaced"),
         Key::required("range", Kind::Positive, "the support radius of the kernel, beyond which particles do not count [length]"),
     ],
@@ -36,9 +36,20 @@ pub const MEASURE: Measure = Measure {
         if count > MOST {
             return Err(Error::Setting { key: "count", why: format!("`probe` has count = {count}: set {MOST} at most") });
         }
-        let [start, end] = [settings.vector("start"), settings.vector("end")];
+        let [start, span] = [settings.vector("start"), settings.vector("span")];
+        let refuse = |key: &'static str, why: String| Err(Error::Setting { key, why });
+        if (count > 1) != (span != DVec3::ZERO) {
+            return refuse("count", format!("`probe` has count = {count} and span = {span}: several points need a span, and a span needs several points"));
+        }
+        if bounds.dimensions == 2 && (start.z != 0.0 || span.z != 0.0) {
+            return refuse("start", format!("`probe` is at z = {} in two dimensions, where all particles are at 0: set z to 0", start.z));
+        }
+        let half = 0.5 * bounds.period().to_array().into_iter().filter(|period| *period > 0.0).fold(f64::INFINITY, f64::min);
+        if range > half {
+            return refuse("range", format!("`probe` has range = {range}, more than half a period of the box, beyond which images repeat: set it to {half} at most"));
+        }
         let part = |k: u64| if count > 1 { k as f64 / (count - 1) as f64 } else { 0.0 };
-        let points = (0..count).map(|k| start.lerp(end, part(k))).collect();
+        let points = (0..count).map(|k| start + part(k) * span).collect();
         Ok(Box::new(Probe { points, range, bounds }))
     },
 };

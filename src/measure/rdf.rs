@@ -49,6 +49,12 @@ pub const MEASURE: Measure = Measure {
         if bins > MOST {
             return Err(Error::Setting { key: "bins", why: format!("`rdf` has bins = {bins}: set {MOST} at most") });
         }
+        for key in ["species", "others"] {
+            let Some(species) = settings.species(key) else { continue };
+            if !setup.state.species().contains(&species) {
+                return Err(Error::Setting { key, why: format!("`rdf` has {key} = {species}, and no particle is of it: choose another, or \"all\"") });
+            }
+        }
         Ok(Box::new(Distances { bounds, range, bins, pair: [settings.species("species"), settings.species("others")] }))
     },
 };
@@ -67,8 +73,8 @@ struct Distances {
 }
 
 impl Distances {
-    /// How many ordered pairs there are in each interval, and how many particles at the centre and around it.
-    fn count(&self, state: &State) -> Result<(Vec<u64>, [usize; 2]), Error> {
+    /// The ordered pairs in each interval, all that there are at any distance, and the particles at their centres.
+    fn count(&self, state: &State) -> Result<(Vec<u64>, u64, u64), Error> {
         let active: Vec<usize> = (0..state.len()).filter(|i| state.is_active(*i)).collect();
         let places: Vec<DVec3> = active.iter().map(|i| state.position()[*i]).collect();
         let kind = |place: usize| state.species().get(active[place]).copied().unwrap_or(0);
@@ -90,24 +96,27 @@ impl Distances {
         let zeros = || vec![0_u64; self.bins];
         let chosen = (0..places.len()).into_par_iter().filter(|i| is(*i, centre));
         let bins = chosen.fold(zeros, add).reduce(zeros, both);
-        Ok((bins, self.pair.map(|of| (0..places.len()).filter(|i| is(*i, of)).count())))
+        let number = |of: &dyn Fn(usize) -> bool| (0..places.len()).filter(|i| of(*i)).count() as u64;
+        let [centres, others] = self.pair.map(|of| number(&|i| is(i, of)));
+        // A particle is not around itself.
+        let pairs = centres * others - number(&|i| is(i, centre) && is(i, around));
+        Ok((bins, pairs, centres))
     }
 }
 
 impl Series for Distances {
     fn take(&mut self, moment: &Moment<'_>) -> Result<Vec<Row>, Error> {
-        let (bins, [centres, around]) = self.count(moment.state)?;
+        let (bins, pairs, centres) = self.count(moment.state)?;
         let (flat, period) = (self.bounds.dimensions == 2, self.bounds.period());
         let volume = if flat { period.x * period.y } else { period.x * period.y * period.z };
         let ball = |r: f64| if flat { PI * r * r } else { 4.0 / 3.0 * PI * r * r * r };
-        // A particle is not around itself.
-        let others = if self.pair[0] == self.pair[1] { around.saturating_sub(1) } else { around };
+        let others = pairs as f64 / centres.max(1) as f64;
         let (width, mut within) = (self.range / self.bins as f64, 0.0);
         let rows = bins.iter().enumerate().map(|(k, count)| {
             let (low, high) = (k as f64 * width, (k + 1) as f64 * width);
             let mean = *count as f64 / centres.max(1) as f64;
             within += mean;
-            let expected = others as f64 / volume * (ball(high) - ball(low));
+            let expected = others / volume * (ball(high) - ball(low));
             let g = if expected > 0.0 { mean / expected } else { 0.0 };
             [0.5 * (low + high), g, within].map(Into::into).to_vec()
         });

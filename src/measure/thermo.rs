@@ -10,7 +10,7 @@ use crate::settings::{Key, Kind, Value};
 /// `thermo.csv`.
 pub const MEASURE: Measure = Measure {
     name: "thermo",
-    about: "temperature, and energies per particle, of all particles that are not fixed",
+    about: "temperature, and energies per particle, of all particles that are not fixed; rods, which take degrees of freedom, are not counted",
     keys: &[
         Key::new("boltzmann", Kind::Positive, Value::Number(1.0), "Boltzmann's constant k [mass length² / time² / temperature]"),
         Key::new(

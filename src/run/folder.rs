@@ -2,12 +2,12 @@
 
 use std::collections::BTreeSet;
 use std::fs::{self, File, OpenOptions, TryLockError};
-use std::io;
+use std::io::{self, BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 
 use crate::error::Error;
 use crate::formats::FORMATS;
-use crate::measure::MEASURES;
+use crate::measure::{MEASURES, Measure};
 
 /// The file that is locked while a run writes.
 const LOCK: &str = ".motes-lock";
@@ -205,7 +205,7 @@ impl Folder {
         if is_result(name, &[Some(&self.name)]) {
             return Ok(path);
         }
-        refused(&path, "formats/folder.rs does not list this name among those of results, which is a bug in motes")?;
+        refused(&path, "run/folder.rs does not list this name among those of results, which is a bug in motes")?;
         Ok(path)
     }
 }
@@ -287,7 +287,7 @@ fn results(path: &Path, scenes: &[Option<&str>]) -> io::Result<Vec<PathBuf>> {
                 }
             }
         }
-        if is_result(text, scenes) && !kind.is_dir() {
+        if !kind.is_dir() && is_result(text, scenes) && !is_foreign(&entry.path()) {
             found.push(PathBuf::from(name));
         }
     }
@@ -327,8 +327,9 @@ fn is_result(name: &str, scenes: &[Option<&str>]) -> bool {
         })
     };
     let last = || states().any(|ending| stem(ending) == Some(LAST_GOOD));
-    let own =
-        || NAMES.contains(&name) || is_table(name) || last() || scenes.iter().flatten().any(|scene| of_scene(scene));
+    let own = || {
+        NAMES.contains(&name) || table(name).is_some() || last() || scenes.iter().flatten().any(|scene| of_scene(scene))
+    };
     let kinds = NUMBERED.iter().copied().chain(states().map(|ending| (STATE, ending)));
     kinds.into_iter().any(numbered) || of_set() || !framed && own()
 }
@@ -360,12 +361,22 @@ fn refused(path: &Path, why: &str) -> Result<(), Error> {
     Err(Error::Output { file: path.to_owned(), message: why.to_owned() })
 }
 
-/// Whether it is the table of a measure: `flock.csv`, or `flock_2.csv` where a scene has two.
-fn is_table(name: &str) -> bool {
-    let of = |stem: &str, measure: &str| {
-        stem.strip_prefix(measure).is_some_and(|number| {
-            number.is_empty() || number.strip_prefix('_').is_some_and(|n| n.parse().is_ok_and(|n: u32| n > 1))
-        })
-    };
-    name.strip_suffix(".csv").is_some_and(|stem| MEASURES.iter().any(|measure| of(stem, measure.name)))
+/// The measure of a table of this name, `flock.csv`, or `flock_2.csv` where a scene has two; and whether it is a second or a further one.
+fn table(name: &str) -> Option<(&'static Measure, bool)> {
+    let stem = name.strip_suffix(".csv")?;
+    let number = |number: &str| number.parse().is_ok_and(|n: u32| n > 1 && n.to_string() == number);
+    MEASURES.iter().find_map(|measure| {
+        let end = stem.strip_prefix(measure.name)?;
+        let further = end.strip_prefix('_').is_some_and(number);
+        (end.is_empty() || further).then_some((measure, further))
+    })
+}
+
+/// Whether a file has the name of such a further table, and not its first line: no run has written it.
+fn is_foreign(file: &Path) -> bool {
+    let name = file.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+    let Some((measure, true)) = table(name) else { return false };
+    let (header, mut line) = (measure.header(), String::new());
+    let read = |file: File| BufReader::new(file.take(header.len() as u64 + 1)).read_line(&mut line);
+    File::open(file).and_then(read).is_err() || line.trim_end() != header
 }

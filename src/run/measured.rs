@@ -24,6 +24,8 @@ pub struct Measured {
     /// Whether it is taken after each step.
     pub(super) each_step: bool,
     table: Option<Table>,
+    /// The step of its last row.
+    last: Option<u64>,
 }
 
 impl Measured {
@@ -45,7 +47,7 @@ impl Measured {
                     format!("{}_{number}.csv", measure.name)
                 };
                 let (series, every) = ((measure.begin)(setup, &one.settings)?, one.every);
-                all.push(Self { measure, series, file, every, each_step: false, table: None });
+                all.push(Self { measure, series, file, every, each_step: false, table: None, last: None });
             }
         }
         Ok(all)
@@ -76,6 +78,10 @@ impl Measured {
     }
     /// Measures a state.
     pub(super) fn take(&mut self, moment: &Moment<'_>) -> Result<(), Error> {
+        // A run that is stopped measures its last state, which may have been measured already.
+        if self.last.replace(moment.state.step) == Some(moment.state.step) {
+            return Ok(());
+        }
         for row in self.series.take(moment)? {
             let mut text = format!("{:?}", moment.state.time);
             // Writing to a String cannot fail.

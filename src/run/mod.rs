@@ -73,7 +73,6 @@ pub use crate::measure::Moment;
 use crate::error::Error;
 use crate::formats::{self, Precision};
 use crate::kernel::{Backend, Bounds, Columns, POSITION, Side};
-use crate::measure::Energy;
 use crate::render::{Picture, Scenery, Trail};
 use crate::scene::Scene;
 use crate::simulation::{Setup, Simulation};
@@ -359,14 +358,8 @@ impl Run {
             } else if self.looks.is_due(course.done()) || progress.watched() && looked.elapsed() > LOOK.max(look * 20) {
                 // The energy between two outputs, and for a bar that is watched for a twentieth of the time at most.
                 let start = Instant::now();
-                let snapshot = simulation.snapshot().await?;
-                let row = Energy::of(&snapshot)?;
-                let first = self.first();
-                progress.energy(&row, &first);
-                if self.looks.is_due(course.done()) {
-                    self.looks.take(&row, &first);
-                }
-                self.last = Some(Arc::new(snapshot));
+                let snapshot = Arc::new(simulation.snapshot().await?);
+                self.look(snapshot, course, progress)?;
                 (looked, look) = (Instant::now(), start.elapsed());
             }
             self.shoot(simulation, course, folder, progress).await?;

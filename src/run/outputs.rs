@@ -14,6 +14,7 @@ use crate::kernel::Backend;
 use crate::measure::{Book, Energies, Energy, Moment, Series};
 use crate::simulation::Simulation;
 use crate::sph::DENSITY;
+use crate::state::State;
 
 impl Run {
     /// Hands the present state to all writers.
@@ -68,7 +69,23 @@ impl Run {
     ) -> Result<(), Error> {
         let (state, density) = (Arc::new(simulation.snapshot().await?), self.density(simulation).await?);
         let moment = Moment { state: &state, density: &density, clock: course.clock(), links: None };
-        self.measure(&moment, |one| one.is_due(course.done(), false) || one.each_step, progress)
+        self.measure(&moment, |one| one.is_due(course.done(), false) || one.each_step, progress)?;
+        self.look(state, course, progress)
+    }
+    /// Takes in the energy of a state between two outputs.
+    pub(super) fn look(
+        &mut self,
+        state: Arc<State>,
+        course: &Course,
+        progress: &mut dyn Progress,
+    ) -> Result<(), Error> {
+        let (row, first) = (Energy::of(&state)?, self.first());
+        progress.energy(&row, &first);
+        if self.looks.is_due(course.done()) {
+            self.looks.take(&row, &first);
+        }
+        self.last = Some(state);
+        Ok(())
     }
     fn measure(
         &mut self,

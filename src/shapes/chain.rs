@@ -19,7 +19,7 @@ pub const CHAIN: Shape = Shape {
     build,
     amount,
     parts: one_part,
-    resolution: Resolution::Count { key: "count", least: 2 },
+    resolution: Resolution::Own,
 };
 
 const KEYS: &[Key] = &[

@@ -81,6 +81,8 @@ pub enum Resolution {
     },
     /// `spacing` alone, which a fluid has for all of its shapes.
     Spacing,
+    /// None: another number of particles is another thing.
+    Own,
 }
 
 /// The parts of a shape that is all of one kind.

@@ -66,12 +66,13 @@ pub struct Distant {
 }
 
 /// Files that a law has by calling a function of theirs, and not having one of that name itself.
-const ON_CALL: [(&str, Source); 6] = [
+const ON_CALL: [(&str, Source); 7] = [
     ("is_of", crate::shader!("law/species.wgsl")),
     ("unit", crate::shader!("law/steering.wgsl")),
     ("truncated", crate::shader!("law/steering.wgsl")),
     ("signed_distance", crate::shader!("solids/distance.wgsl")),
     ("pcg4d", crate::shader!("law/random.wgsl")),
+    ("fraction", crate::shader!("law/random.wgsl")),
     ("pair_index", crate::shader!("law/pair_index.wgsl")),
 ];
 

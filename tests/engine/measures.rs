@@ -160,7 +160,12 @@ fn species_are_apart() {
         [count(0.0, Some(0.0)), count(0.0, Some(1.0)), count(1.0, Some(0.0)), count(0.0, None)],
         [0.0, 6.0, 6.0, 6.0]
     );
-    assert_eq!(count(5.0, None), 0.0);
+    // All are around those of one species; a crystal has no more around one than there are.
+    let sets = [("range", Value::Number(2.0)), ("bins", Value::Number(1.0)), ("species", Value::Number(1.0))];
+    let all = rows("rdf", &state, periodic(DVec3::splat(4.0)), &sets).expect("rows");
+    let [g, within] = [1, 2].map(|cell| numbers(&all, cell)[0]);
+    let ball = 4.0 / 3.0 * std::f64::consts::PI * 8.0;
+    assert!((g - within / (63.0 * ball / 64.0)).abs() < 1e-12, "{g}");
 }
 
 #[test]
@@ -195,7 +200,7 @@ fn a_probe_has_density_and_velocity() {
     }
     let sets = [
         ("start", Value::Vector(DVec3::new(0.45, 0.25, 0.45))),
-        ("end", Value::Vector(DVec3::new(0.45, 0.65, 0.45))),
+        ("span", Value::Vector(DVec3::new(0.0, 0.4, 0.0))),
         ("count", Value::Number(5.0)),
         ("range", Value::Number(0.25)),
     ];
@@ -222,6 +227,7 @@ fn what_cannot_be_measured_is_refused() {
         rows(name, &state, bounds, sets).expect_err("refused").to_string()
     };
     let range = |range: f64| ("range", Value::Number(range));
+    let start = ("start", Value::Vector(DVec3::ZERO));
     let cube = periodic(DVec3::splat(2.0));
     for (text, why) in [
         (refused("rdf", Bounds::default(), &[range(0.5)]), "is not periodic along all axes"),
@@ -232,6 +238,20 @@ fn what_cannot_be_measured_is_refused() {
             "set 100000 at most",
         ),
         (refused("fluid", cube, &[]), "this one has none"),
+        (
+            refused("probe", cube, &[range(0.5), start.clone(), ("count", Value::Number(3.0))]),
+            "several points need a span",
+        ),
+        (
+            refused("probe", cube, &[range(0.5), start.clone(), ("span", Value::Vector(DVec3::X))]),
+            "a span needs several points",
+        ),
+        (refused("probe", cube, &[range(1.5), start.clone()]), "set it to 1 at most"),
+        (
+            refused("probe", Bounds { dimensions: 2, ..cube }, &[range(0.5), ("start", Value::Vector(DVec3::Z))]),
+            "set z to 0",
+        ),
+        (refused("rdf", cube, &[range(0.5), ("others", Value::Number(7.0))]), "no particle is of it"),
     ] {
         assert!(text.contains(why), "{text}");
     }

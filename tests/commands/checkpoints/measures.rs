@@ -32,15 +32,24 @@ fn tables_have_their_rows_and_go_on_where_a_run_was_stopped() {
     assert_eq!(steps("thermo.csv"), [0, 3, 6, 9, 12, 15, 18, 21, 24]);
     assert_eq!(steps("probe.csv"), [0, 8, 16, 24]);
     assert_eq!(steps("rdf.csv"), [0, 8, 16, 24].map(|step| [step; 4]).concat());
+    // Energies are looked at between outputs, whether something else is measured there or not: at 20 steps, here.
+    assert!(words.contains("in 5 measurements"), "{words}");
     assert_eq!(steps("rdf_2.csv"), [0, 5, 10, 15, 20].map(|step| [step; 2]).concat());
     assert!(files["thermo.csv"].starts_with(b"step,time,count,temperature,kinetic,potential,total\n0,0.0,60,"));
     // A second run over the first knows its tables as results.
     let (code, words) = place.run("box.toml", "out", &["-q"]);
     assert!(code != 0 && words.contains("--overwrite"), "{words}");
+    // Files of such names that no run has written are no results.
+    for name in ["rdf_3.csv", "rdf_02.csv", "thermo_2024.csv"] {
+        std::fs::write(place.at("out").join(name), "mine\n").expect("written");
+    }
     assert_eq!(place.run("box.toml", "out", &["-q", "--overwrite"]).0, 0);
+    for name in ["rdf_3.csv", "rdf_02.csv", "thermo_2024.csv"] {
+        assert_eq!(std::fs::read_to_string(place.at("out").join(name)).expect("it is there"), "mine\n");
+    }
 
     let on = |setup: &Setup| Simulation::on(Cpu::new(setup.check()?)?, setup);
-    let ways = [Way::Killed(8), Way::Stopped(11), Way::Killed(24)];
+    let ways = [Way::Killed(8), Way::Stopped(12), Way::Stopped(17), Way::Killed(24)];
     compare(&place.path("box.toml"), &[], (&on, Precision::Double), &ways).unwrap_or_else(|why| panic!("{why}"));
 }
 
