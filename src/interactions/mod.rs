@@ -2,6 +2,7 @@
 //! line in the register below.
 
 mod ewald;
+mod pair_potential;
 
 use crate::component::keys::{EACH, SEE_NEAR, SEED, SKIN, is_nearer, over, params, seed};
 use crate::component::kind::{SPECIES, species};
@@ -27,6 +28,11 @@ components! {
     soft_turn: SoftTurn, "a box with soft walls that turn particles back";
     vicsek: Vicsek, "each particle takes the mean heading of its neighbours, with noise, in the plane (Vicsek et al. 1995)";
     born_mayer: BornMayer, "ions: repulsion and dispersion by pair of species, and damped Coulomb forces of their charges (Born & Mayer 1932)";
+    lennard_jones: LennardJones, "Lennard-Jones atoms, by pair of species, with four ways to end at the cut-off radius (Lennard-Jones 1931)";
+    wca: Wca, "atoms that only repel each other: Lennard-Jones up to its minimum (Weeks, Chandler & Andersen 1971)";
+    morse: Morse, "Morse's energy of a bond, between all pairs in range, by pair of species (Morse 1929)";
+    yukawa: Yukawa, "screened charges, by pair of species (Debye & Hückel 1923, Yukawa 1935)";
+    soft: Soft, "soft spheres that may overlap, by pair of species (Groot & Warren 1997)";
     contact: Contact, "granular contacts of spheres: normal springs and dashpots, friction with history, torques (Cundall & Strack 1979)";
     spring: Spring, "springs and ropes, damped along their axis (Hooke 1678)";
     joint: Joint, "joints that resist bending: elastic rods, hair (Euler 1744)";

@@ -6,6 +6,7 @@ mod build;
 pub mod chain;
 pub mod cloth;
 pub mod clusters;
+pub mod crystal;
 pub mod disk;
 pub mod drop;
 pub mod emitter;
@@ -98,6 +99,7 @@ pub const SHAPES: &[Shape] = &[
     disk::DISK,
     clusters::CLUSTERS,
     lattice::LATTICE,
+    crystal::CRYSTAL,
     block::BLOCK,
     drop::DROP,
     tank::TANK,

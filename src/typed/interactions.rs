@@ -252,6 +252,95 @@ typed! {
         /// Over = "list" or "auto": the skin of the neighbour list beyond the range; 0: a fifth of the range \[length\].
         skin: f64,
     }
+    /// Lennard-Jones atoms, by pair of species, with four ways to end at the cut-off radius (Lennard-Jones 1931).
+    LennardJones "lennard_jones" lennard_jones(range: f64) {
+        /// ε, the depth of the well \[energy\].
+        epsilon: f64,
+        /// σ, the distance at which the energy is 0 \[length\].
+        sigma: f64,
+        /// The cut-off radius \[length\].
+        range: f64,
+        /// How U ends at the range R: not at all, less U(R), less U(R) and its slope there, or smoothed by a polynomial from `onset` on (Brooks et al. 1983): cut, shift, force_shift, xplor.
+        truncation: Cow<'static, str>,
+        /// Truncation = "xplor": the distance at which smoothing begins, as a part of the range.
+        onset: f64,
+        /// Factors for pairs of species, as in \[{ species = \[0, 1\], epsilon = 0.5 }\], by which the values above are multiplied; none: all species are alike.
+        pairs: Vec<Pair>,
+        /// The coefficients of two species of which `pairs` has each, and not both together: ε = √(ε₁ ε₂) with σ = (σ₁ + σ₂) / 2 or √(σ₁ σ₂); none: all pairs are given: lorentz_berthelot, geometric, none.
+        mixing: Cow<'static, str>,
+        /// How neighbours in range are found: by a cell list, by a neighbour list that is reused over steps, by the faster of both, or by brute force: near, list, auto, within.
+        over: Cow<'static, str>,
+        /// Over = "list" or "auto": the skin of the neighbour list beyond the range; 0: a fifth of the range \[length\].
+        skin: f64,
+    }
+    /// Atoms that only repel each other: Lennard-Jones up to its minimum (Weeks, Chandler & Andersen 1971).
+    Wca "wca" wca() {
+        /// ε, the energy at r = σ \[energy\].
+        epsilon: f64,
+        /// σ: atoms repel each other up to 2^(1/6) σ \[length\].
+        sigma: f64,
+        /// Factors for pairs of species, as in \[{ species = \[0, 1\], epsilon = 0.5 }\], by which the values above are multiplied; none: all species are alike.
+        pairs: Vec<Pair>,
+        /// The coefficients of two species of which `pairs` has each, and not both together: ε = √(ε₁ ε₂) with σ = (σ₁ + σ₂) / 2 or √(σ₁ σ₂); none: all pairs are given: lorentz_berthelot, geometric, none.
+        mixing: Cow<'static, str>,
+        /// How neighbours in range are found: by a cell list, by a neighbour list that is reused over steps, by the faster of both, or by brute force: near, list, auto, within.
+        over: Cow<'static, str>,
+        /// Over = "list" or "auto": the skin of the neighbour list beyond the range; 0: a fifth of the range \[length\].
+        skin: f64,
+    }
+    /// Morse's energy of a bond, between all pairs in range, by pair of species (Morse 1929).
+    Morse "morse" morse(range: f64) {
+        /// D, the depth of the well \[energy\].
+        depth: f64,
+        /// α of exp(−α (r − r₀)) \[1 / length\].
+        steepness: f64,
+        /// R₀, where the energy is least \[length\].
+        distance: f64,
+        /// The cut-off radius \[length\].
+        range: f64,
+        /// How U ends at the range R: not at all, less U(R), less U(R) and its slope there, or smoothed by a polynomial from `onset` on (Brooks et al. 1983): cut, shift, force_shift, xplor.
+        truncation: Cow<'static, str>,
+        /// Truncation = "xplor": the distance at which smoothing begins, as a part of the range.
+        onset: f64,
+        /// Factors for pairs of species, as in \[{ species = \[0, 1\], epsilon = 0.5 }\], by which the values above are multiplied; none: all species are alike.
+        pairs: Vec<Pair>,
+        /// How neighbours in range are found: by a cell list, by a neighbour list that is reused over steps, by the faster of both, or by brute force: near, list, auto, within.
+        over: Cow<'static, str>,
+        /// Over = "list" or "auto": the skin of the neighbour list beyond the range; 0: a fifth of the range \[length\].
+        skin: f64,
+    }
+    /// Screened charges, by pair of species (Debye & Hückel 1923, Yukawa 1935).
+    Yukawa "yukawa" yukawa(range: f64) {
+        /// A of A exp(−κ r) / r; below 0 particles attract each other \[energy length\].
+        strength: f64,
+        /// κ, one over the screening length \[1 / length\].
+        screening: f64,
+        /// The cut-off radius \[length\].
+        range: f64,
+        /// How U ends at the range R: not at all, less U(R), less U(R) and its slope there, or smoothed by a polynomial from `onset` on (Brooks et al. 1983): cut, shift, force_shift, xplor.
+        truncation: Cow<'static, str>,
+        /// Truncation = "xplor": the distance at which smoothing begins, as a part of the range.
+        onset: f64,
+        /// Factors for pairs of species, as in \[{ species = \[0, 1\], epsilon = 0.5 }\], by which the values above are multiplied; none: all species are alike.
+        pairs: Vec<Pair>,
+        /// How neighbours in range are found: by a cell list, by a neighbour list that is reused over steps, by the faster of both, or by brute force: near, list, auto, within.
+        over: Cow<'static, str>,
+        /// Over = "list" or "auto": the skin of the neighbour list beyond the range; 0: a fifth of the range \[length\].
+        skin: f64,
+    }
+    /// Soft spheres that may overlap, by pair of species (Groot & Warren 1997).
+    Soft "soft" soft(range: f64) {
+        /// A, the force at r = 0 \[energy / length\].
+        strength: f64,
+        /// The cut-off radius \[length\].
+        range: f64,
+        /// Factors for pairs of species, as in \[{ species = \[0, 1\], epsilon = 0.5 }\], by which the values above are multiplied; none: all species are alike.
+        pairs: Vec<Pair>,
+        /// How neighbours in range are found: by a cell list, by a neighbour list that is reused over steps, by the faster of both, or by brute force: near, list, auto, within.
+        over: Cow<'static, str>,
+        /// Over = "list" or "auto": the skin of the neighbour list beyond the range; 0: a fifth of the range \[length\].
+        skin: f64,
+    }
     /// Granular contacts of spheres: normal springs and dashpots, friction with history, torques (Cundall & Strack 1979).
     Contact "contact" contact(range: f64) {
         /// The largest sum of two radii; larger ones are refused \[length\].

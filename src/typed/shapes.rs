@@ -165,6 +165,27 @@ typed! {
         /// The radius at which particles are drawn \[length\]; 0: chosen by the picture.
         particle_size: f64,
     }
+    /// A crystal of a number density: cubic, body-centred, face-centred or diamond, with velocities at a temperature.
+    Crystal "crystal" crystal(cells: DVec3, density: f64) {
+        /// Unit cells along x, y and z: three whole numbers, 1 or above.
+        cells: DVec3,
+        /// Particles per volume; with n particles in a cell its edge is (n / density)^(1/3) \[1 / length³\].
+        density: f64,
+        /// The cubic cell: face-centred (4 particles), body-centred (2), simple (1) or diamond (8): fcc, bcc, sc, diamond.
+        structure: Cow<'static, str>,
+        /// Mass of each particle \[mass\].
+        mass: f64,
+        /// K T: velocities are Maxwellian, without total momentum, and have exactly 2 K / (3 N − 3) = k T \[energy\].
+        temperature: f64,
+        /// Seed of the random numbers.
+        seed: u64,
+        /// The position of the centre \[length\].
+        center: DVec3,
+        /// The velocity of the whole \[length / time\].
+        velocity: DVec3,
+        /// The radius at which particles are drawn \[length\]; 0: chosen by the picture.
+        particle_size: f64,
+    }
     /// A block of fluid: a cubic lattice that fills a box, or a rectangle.
     Block "block" block(size: DVec3, spacing: f64) {
         /// Its sides; 0 along z for a rectangle \[length\].

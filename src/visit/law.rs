@@ -74,6 +74,7 @@ const ON_CALL: [(&str, Source); 7] = [
     ("pcg4d", crate::shader!("law/random.wgsl")),
     ("fraction", crate::shader!("law/random.wgsl")),
     ("pair_index", crate::shader!("law/pair_index.wgsl")),
+    ("ended", crate::shader!("law/truncation.wgsl")),
 ];
 
 impl Law {

@@ -35,11 +35,14 @@ fn few() -> u32 {
     u32::try_from(FEW).expect("few")
 }
 
-/// Ions a little off the places of a lattice, one of them without mass.
-fn ions(device: &Device, stages: &mut Vec<Stage>) {
-    let entry = motes::forces::entry("born_mayer").expect("it");
-    let within = |settings: &Settings| settings.text("over") == "within";
-    for settings in choices::variants(entry.keys).into_iter().filter(within) {
+/// Atoms a little off the places of a lattice, one of them without mass.
+fn atoms(name: &'static str, device: &Device, stages: &mut Vec<Stage>) {
+    let entry = motes::forces::entry(name).expect("it");
+    let within = |settings: &Settings| settings.text("over") == "within" && settings.text("mixing") != "none";
+    for mut settings in choices::variants(entry.keys).into_iter().filter(within) {
+        if entry.keys.iter().any(|key| key.name == "onset") {
+            settings = settings.with("onset", number(0.75));
+        }
         let law = (entry.build)(&settings).laws().remove(0);
         let mut simulation = resting(device, Machine::HOST, Bounds::default());
         let mut random = Random::new(17);
@@ -49,10 +52,13 @@ fn ions(device: &Device, stages: &mut Vec<Stage>) {
         };
         let places: Vec<DVec3> = (0..FEW).map(place).collect();
         let mass = |i: usize| if i == 13 { 0.0 } else { 0.7 + 0.2 * (i % 3) as f64 };
-        let now: Vec<Vec4> = places.iter().enumerate().map(|(i, x)| x.extend(mass(i)).as_vec4()).collect();
+        let mut now: Vec<Vec4> = places.iter().enumerate().map(|(i, x)| x.extend(mass(i)).as_vec4()).collect();
+        if name == "soft" {
+            now[9] = now[8];
+        }
         simulation.write(POSITION, &now).expect("places");
         let problem = Problem::new(few(), Machine::HOST).of_species(&support::species(FEW));
-        stages.push(stage("ions", simulation, law.kernel(&problem).expect("a kernel")));
+        stages.push(stage(name, simulation, law.kernel(&problem).expect("a kernel")));
     }
 }
 
@@ -149,7 +155,7 @@ fn thermostat_at(device: &Device, kernel: &Kernel, total: [f32; 4]) -> Stage {
 }
 
 pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
-    ions(device, stages);
+    choices::ATOMS.into_iter().for_each(|name| atoms(name, device, stages));
     // A list of neighbours has more layers than few workgroups allow.
     grains(&pollster::block_on(support::limited(shared, |_| {})), stages);
     thermostats(device, stages);

@@ -15,6 +15,7 @@ mod flock;
 mod fluids;
 mod implicit;
 mod matter;
+mod molecular;
 mod orders;
 mod oscillator;
 mod pairs;

@@ -11,13 +11,16 @@ use motes::settings::{Key, Kind, Pair, Settings, Value};
 /// `tests/physics/fluids` and `tests/mutants/fluids.rs`.
 const OWN: [&str; 1] = ["fluid"];
 
-/// Forces that want other states than a cloud of points: ions apart, spheres that touch. `tests/physics/matter` and
-/// `tests/mutants/matter.rs` have these.
-const STATED: [&str; 3] = ["born_mayer", "contact", "nose_hoover"];
+/// Forces that want other states than a cloud of points: atoms apart, spheres that touch. `tests/physics/matter`,
+/// `tests/physics/molecular` and `tests/mutants/matter.rs` have these.
+const STATED: [&str; 2] = ["contact", "nose_hoover"];
+
+/// Laws of atoms that have no centre at one place.
+pub const ATOMS: [&str; 6] = ["born_mayer", "lennard_jones", "wca", "morse", "yukawa", "soft"];
 
 /// The entries of the register of forces, without those that have tests of their own.
 pub fn entries() -> impl Iterator<Item = &'static Entry> {
-    lawful().filter(|entry| !STATED.contains(&entry.name))
+    lawful().filter(|entry| !STATED.contains(&entry.name) && !ATOMS.contains(&entry.name))
 }
 
 /// The same, and those that want other states than a cloud: what every force must obey.

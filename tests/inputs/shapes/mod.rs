@@ -20,12 +20,12 @@ use motes::shapes::{SHAPES, shape};
 fn settings(name: &str, values: &[(&'static str, f64)]) -> Settings {
     let keys = shape(name).expect("a shape").keys;
     let known = |name: &str| keys.iter().find(|key| key.name == name);
-    let vectors = [("size", Value::Vector(DVec3::new(3.0, 4.0, 5.0)))];
+    let vectors = ["size", "cells"].map(|key| (key, Value::Vector(DVec3::new(3.0, 4.0, 5.0))));
     let numbers = [("columns", 6.0), ("rows", 5.0), ("strands", 4.0)];
-    // What has no spacing by itself.
-    let spaced = known("spacing").is_some_and(|key| key.default.is_none());
-    let spacing = spaced.then_some(("spacing", 0.5));
-    let numbers = numbers.into_iter().chain(spacing).chain(values.iter().copied());
+    // What has no spacing or density by itself.
+    let lacks = |(name, _): &(&str, f64)| known(name).is_some_and(|key| key.default.is_none());
+    let given = [("spacing", 0.5), ("density", 0.8)].into_iter().filter(lacks);
+    let numbers = numbers.into_iter().chain(given).chain(values.iter().copied());
     let all = vectors.into_iter().chain(numbers.map(|(key, x)| (key, Value::Number(x))));
     let fits = all.filter(|(key, _)| known(key).is_some());
     fits.fold(Settings::defaults(keys), |all, (key, value)| all.with(key, value))
@@ -79,6 +79,7 @@ fn the_bits_never_change() {
         ("disk", 0x6c6c_7862_37bc_89f1),
         ("clusters", 0x8f8b_9f69_a873_c01d),
         ("lattice", 0x138f_3cc1_8be2_c72b),
+        ("crystal", 0x5f54_3f93_4702_0947),
         ("block", 0x189e_3f26_e44a_3f45),
         ("drop", 0x52f4_acbd_0571_4f25),
         ("tank", 0x3fcc_e639_3c8f_6850),
@@ -91,12 +92,14 @@ fn the_bits_never_change() {
         ("hair", 0x584b_147e_22f6_7f9b),
     ];
     assert_eq!(stored.map(|(name, _)| name).as_slice(), SHAPES.iter().map(|s| s.name).collect::<Vec<_>>());
-    let values = [("count", 100.0), ("seed", 7.0), ("virial", 0.3), ("jitter", 0.2), ("speed", 0.5)];
+    let values =
+        [("count", 100.0), ("seed", 7.0), ("virial", 0.3), ("jitter", 0.2), ("speed", 0.5), ("temperature", 0.7)];
     let made = stored.map(|(name, _)| (name, hash(&make(name, &values))));
     assert_eq!(made, stored, "a platform or a generator has changed");
     let random = |name: &str| shape(name).is_some_and(|shape| shape.keys.iter().any(|key| key.name == "seed"));
     for (name, _) in stored.into_iter().filter(|(name, _)| random(name)) {
-        let other = [("count", 100.0), ("seed", 8.0), ("virial", 0.3), ("jitter", 0.2), ("speed", 0.5)];
+        let other =
+            [("count", 100.0), ("seed", 8.0), ("virial", 0.3), ("jitter", 0.2), ("speed", 0.5), ("temperature", 0.7)];
         assert_ne!(make(name, &values), make(name, &other), "{name} does not look at its seed");
     }
 }
@@ -105,7 +108,7 @@ fn the_bits_never_change() {
 fn every_key_matters() {
     for shape in SHAPES {
         let numbers = [("count", 40.0), ("virial", 0.2), ("jitter", 0.1), ("speed", 0.1)];
-        let more = [("bulge_mass", 0.3), ("displacement", 0.2), ("growth", 0.4)];
+        let more = [("temperature", 0.7), ("bulge_mass", 0.3), ("displacement", 0.2), ("growth", 0.4)];
         let base = settings(shape.name, &[&numbers[..], &more].concat());
         // A wall has several surfaces, and keys of each.
         let mesh = |text: &str| Value::Text(text.to_owned().into());
@@ -192,6 +195,9 @@ fn bad_settings_are_errors() {
         ("disk", "disk_scale", Value::Number(0.0), "disk_scale is 0"),
         ("lattice", "size", Value::Vector(DVec3::new(2.0, 2.5, 2.0)), "three whole numbers"),
         ("lattice", "size", Value::Vector(DVec3::splat(1e6)), "particles need ids beyond the 4294967295"),
+        ("crystal", "cells", Value::Vector(DVec3::new(2.0, 0.0, 2.0)), "three whole numbers"),
+        ("crystal", "cells", Value::Vector(DVec3::splat(1e4)), "particles need ids beyond the 4294967295"),
+        ("crystal", "density", Value::Number(0.0), "density is 0; it must be above 0"),
         ("box", "size", Value::Vector(DVec3::NEG_X), "a side must be 0 or above"),
     ] {
         let bad = settings(name, &[("count", 50.0)]).with(key, value);

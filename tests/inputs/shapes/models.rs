@@ -3,9 +3,10 @@
 use glam::DVec3;
 use motes::State;
 use motes::settings::Value;
+use motes::shapes::shape;
 use rayon::prelude::*;
 
-use crate::shapes::{made, make, settings};
+use crate::shapes::{made, make, settings, totals};
 
 /// Acceleration and potential of every particle, G = 1, Plummer softening, direct sum.
 pub fn gravity(p: &State, softening: f64) -> Vec<(DVec3, f64)> {
@@ -135,4 +136,48 @@ fn a_box_is_filled_evenly() {
         share("the middle", &along, 0.0, 0.5);
         near("speed²", mean(p.velocity().iter().map(|v| v[axis] * v[axis])), 4.0, 0.0);
     }
+}
+
+/// Neighbours of an atom in the middle of each structure: how many, and how far, in edges.
+#[test]
+fn crystals_have_their_density_neighbours_and_temperature() {
+    for (structure, each, neighbours, distance) in [
+        ("sc", 1, 6, 1.0),
+        ("bcc", 2, 8, 0.75_f64.sqrt()),
+        ("fcc", 4, 12, 0.5_f64.sqrt()),
+        ("diamond", 8, 4, 0.1875_f64.sqrt()),
+    ] {
+        let numbers = [("density", 0.8), ("mass", 2.5), ("temperature", 0.7), ("seed", 3.0)];
+        let velocity = DVec3::new(1.0, -2.0, 0.5);
+        let settings = settings("crystal", &numbers)
+            .with("structure", Value::Text(structure.into()))
+            .with("center", Value::Vector(DVec3::X))
+            .with("velocity", Value::Vector(velocity));
+        let p = made("crystal", &settings);
+        let count = p.len() as f64;
+        assert_eq!(p.len(), each * 60, "{structure}");
+        let edge = (each as f64 / 0.8).cbrt();
+        let (mass, x, v) = totals(&p);
+        assert!((mass / (2.5 * count) - 1.0).abs() < 1e-13);
+        assert!((x - DVec3::X).length() < 1e-13 && (v - velocity).length() < 1e-13, "{structure}: {x} {v}");
+        // In a box of its cells every atom is like any other: the first one, by nearest images.
+        let sides = DVec3::new(3.0, 4.0, 5.0) * edge;
+        let half = 0.5 * sides;
+        assert!(p.position().iter().all(|x| (*x - DVec3::X).abs().cmple(half).all()), "{structure}");
+        let way = |x: &DVec3| {
+            let r = *x - p.position()[0];
+            (r - sides * (r / sides).round()).length() / edge
+        };
+        let near = p.position()[1..].iter().map(way).filter(|r| *r < 1.001 * distance);
+        let near: Vec<f64> = near.collect();
+        assert_eq!(near.len(), neighbours, "{structure}");
+        assert!(near.iter().all(|r| (r / distance - 1.0).abs() < 1e-12), "{structure}: {near:?}");
+        let heat: f64 = p.velocity().iter().map(|v| 2.5 * (*v - velocity).length_squared()).sum();
+        assert!((heat / (3.0 * count - 3.0) / 0.7 - 1.0).abs() < 1e-13, "{structure}: {heat}");
+    }
+    let mut massless = settings("crystal", &[("temperature", 1.0), ("mass", 0.0)]);
+    let build = shape("crystal").expect("it").build;
+    assert!(build(&massless).expect_err("no mass").to_string().contains("particles without mass have no temperature"));
+    massless = massless.with("temperature", Value::Number(0.0));
+    assert_eq!(build(&massless).expect("it is cold").velocity()[3], DVec3::ZERO);
 }

@@ -18,7 +18,7 @@ use motes::lockstep::compare;
 use motes::{Bounds, Cpu, Setup, Simulation, Solver, State};
 
 /// Particles on a lattice that is a little disordered, so that no two are close, of three species, with masses about 1.
-fn spread(count: usize, spacing: f64) -> State {
+pub fn spread(count: usize, spacing: f64) -> State {
     let mut random = crate::support::Random::new(17);
     let mut state = State::default();
     let side = side(count);
@@ -34,7 +34,7 @@ fn spread(count: usize, spacing: f64) -> State {
 }
 
 /// How many along a side of a cube hold so many.
-fn side(count: usize) -> usize {
+pub fn side(count: usize) -> usize {
     (1..=count).find(|side| side.pow(3) >= count).expect("a side")
 }
 
@@ -53,7 +53,7 @@ fn on_cpu(setup: &Setup) -> Simulation<Cpu> {
 
 /// Every kernel of the steps of a setup on the device agrees with its reference, some steps long; what the kernels of these names
 /// write changes. `slack` is how many times what is allowed elsewhere may be wrong.
-fn agrees(setup: &Setup, steps: u32, slack: f64, busy: &[&str]) {
+pub fn agrees(setup: &Setup, steps: u32, slack: f64, busy: &[&str]) {
     let shared = crate::support::device();
     let count = setup.state.len();
     let gpu = crate::support::machines::gpu(&shared, count);
