@@ -23,6 +23,8 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("nose_hoover.wgsl", "override REMOVED: f32 = 0.0;", "0.0", "1.0", ALWAYS_SET),
     same("nose_hoover.wgsl", "override TEMPERATURE: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
     same("nose_hoover.wgsl", "override TIME: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
+    same("wca.wgsl", "if dot(r, r) < pair.range * pair.range", "<", "<=", EDGE),
+    same("truncation.wgsl", "if r <= onset", "<=", "<", EDGE),
     same("contact.wgsl", "let touches = overlap > 0.0", ">", ">=", EDGE),
     same("contact.wgsl", "if size > limit", ">", ">=", "at the limit it is the limit either way"),
 ];
