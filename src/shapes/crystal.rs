@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::build::{CENTER, PARTICLE_SIZE, Reader, SEED, VELOCITY};
 use super::random::Random;
-use super::{Amount, Shape, one_part};
+use super::{Amount, Resolution, Shape, one_part};
 use crate::error::Error;
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::state::State;
@@ -17,6 +17,7 @@ pub const CRYSTAL: Shape = Shape {
     build,
     amount,
     parts: one_part,
+    resolution: Resolution::Own,
 };
 
 const KEYS: &[Key] = &[

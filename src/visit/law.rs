@@ -66,7 +66,7 @@ pub struct Distant {
 }
 
 /// Files that a law has by calling a function of theirs, and not having one of that name itself.
-const ON_CALL: [(&str, Source); 7] = [
+const ON_CALL: [(&str, Source); 8] = [
     ("is_of", crate::shader!("law/species.wgsl")),
     ("unit", crate::shader!("law/steering.wgsl")),
     ("truncated", crate::shader!("law/steering.wgsl")),
