@@ -109,8 +109,9 @@ fn work(
 ) {
     let mut stages = stages::all(shared);
     if turn == 0 {
+        // Stages run on lavapipe, whose subgroups have eight lanes.
         let kernels =
-            stages.iter().flat_map(|stage| stage.plan.kernels.iter().map(|kernel| (stage.name.clone(), kernel, true)));
+            stages.iter().flat_map(|stage| stage.plan.kernels.iter().map(|kernel| (stage.name.clone(), kernel, 8)));
         tint::write("mutants", &tint::shaders(kernels));
     }
     stages.retain(|stage| all.iter().any(|file| stage.uses(file)));

@@ -9,19 +9,20 @@ use serde_json::{Map, Value, json};
 /// The folder that they are written to, if any.
 const FOLDER: &str = "MOTES_SHADERS";
 
-/// Every way in which kernels make shaders pipelines, once. `subgroups` says whether their machine has subgroups.
-pub fn shaders<'a>(kernels: impl Iterator<Item = (String, &'a Kernel, bool)>) -> Vec<Value> {
+/// Every way in which kernels make shaders pipelines, once. `lanes` is the size of their machine's
+/// subgroups, or 0.
+pub fn shaders<'a>(kernels: impl Iterator<Item = (String, &'a Kernel, u32)>) -> Vec<Value> {
     let mut seen = HashSet::new();
     let mut shaders = Vec::new();
-    for (of, kernel, subgroups) in kernels {
+    for (of, kernel, lanes) in kernels {
         for pass in &kernel.passes {
             let constants: Map<_, _> =
                 pass.constants.iter().map(|(name, value)| ((*name).to_owned(), json!(value))).collect();
             let files: Vec<_> = pass.shader.sources().iter().map(|source| source.file.as_ref()).collect();
-            if seen.insert((pass.shader.text().to_owned(), format!("{constants:?}"), subgroups)) {
+            if seen.insert((pass.shader.text().to_owned(), format!("{constants:?}"), lanes)) {
                 shaders
                     .push(json!({ "of": format!("{of}: {}", kernel.name), "files": files, "code": pass.shader.text(),
-                    "constants": constants, "entry": pass.shader.reflection().entry, "subgroups": subgroups }));
+                    "constants": constants, "entry": pass.shader.reflection().entry, "lanes": lanes }));
             }
         }
     }

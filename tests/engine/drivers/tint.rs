@@ -67,13 +67,13 @@ fn pictures() -> Vec<Kernel> {
 
 #[test]
 fn every_shader_can_be_written_for_another_compiler() {
-    let mut all: Vec<(String, Kernel, bool)> =
-        pictures().into_iter().map(|kernel| ("a picture".to_owned(), kernel, false)).collect();
+    let mut all: Vec<(String, Kernel, u32)> =
+        pictures().into_iter().map(|kernel| ("a picture".to_owned(), kernel, 0)).collect();
     for (_, machine) in machines() {
         let others = others(machine).into_iter().map(|kernel| ("others".to_owned(), kernel));
-        all.extend(every(machine).into_iter().chain(others).map(|(of, kernel)| (of, kernel, machine.subgroup > 0)));
+        all.extend(every(machine).into_iter().chain(others).map(|(of, kernel)| (of, kernel, machine.subgroup)));
     }
-    let shaders = shaders(all.iter().map(|(of, kernel, subgroups)| (of.clone(), kernel, *subgroups)));
+    let shaders = shaders(all.iter().map(|(of, kernel, lanes)| (of.clone(), kernel, *lanes)));
     let texts: HashSet<_> = shaders.iter().filter_map(|shader| shader["code"].as_str()).collect();
     assert!(texts.len() > 200 && shaders.len() > texts.len(), "{} of {} are not all", texts.len(), shaders.len());
     write("engine", &shaders);
