@@ -43,6 +43,14 @@ struct Report {
     per_step: Duration,
     steps: u64,
     notes: Vec<String>,
+    pictures: Pictures,
+}
+
+/// Pictures and frames of a run.
+struct Pictures {
+    count: u64,
+    /// How long one takes by the references, and its size; a device draws in next to no time.
+    each: Option<(Duration, String)>,
 }
 
 impl Report {
@@ -54,7 +62,8 @@ impl Report {
             "box": self.bounds.map(|bounds| bounds.to_string()), "fluid": self.fluid, "forecast": self.forecast,
             "memory": self.fields, "memory_total": self.fields.values().sum::<u64>(), "dispatches": self.dispatches,
             "step": self.step, "seconds_per_step": self.per_step.as_secs_f64(), "seconds": self.whole().as_secs_f64(),
-            "notes": self.notes })
+            "pictures": self.pictures.count,
+            "seconds_per_picture": self.pictures.each.as_ref().map(|(each, _)| each.as_secs_f64()), "notes": self.notes })
     }
     fn print(&self) {
         out!("{}: {} particles, {}", self.scene, self.particles, self.course);
@@ -72,7 +81,13 @@ impl Report {
         out!("  {:wide$} {:>12}", "in all", size(self.fields.values().sum()));
         out!("\na step: {} dispatches\n  {}", self.dispatches, self.step);
         let [each, whole] = [self.per_step, self.whole()].map(duration);
-        out!("\ntime: {each} per step, about {whole} in all, without writing files");
+        let count = self.pictures.count;
+        let without = if count > 0 { "files and pictures" } else { "files" };
+        out!("\ntime: {each} per step, about {whole} in all, without {without}");
+        if let Some((each, size)) = &self.pictures.each {
+            let [each, whole] = [*each, each.mul_f64(count as f64)].map(duration);
+            out!("pictures: {count} of {size}, {each} each, about {whole} in all");
+        }
         self.notes.iter().for_each(|note| out!("note: {note}"));
         out!("\nno faults");
     }
@@ -81,7 +96,7 @@ impl Report {
 async fn examined(args: &CheckArgs) -> Result<Report, Failure> {
     let Loaded { scene, setup, start, lines, .. } = load::load(&args.scene, &[]).await?;
     let count = setup.check()?;
-    Picture::with(&scene.picture, &setup.state, &[], Trail::new(0), &Scenery::of(&setup.state))?;
+    let picture = Picture::with(&scene.picture, &setup.state, &[], Trail::new(0), &Scenery::of(&setup.state))?;
     let engine = Engine::choose(&args.scene.device).await?;
     let plans = setup.plans(engine.machine(count)?)?;
     let mut fields = BTreeMap::new();
@@ -98,6 +113,14 @@ async fn examined(args: &CheckArgs) -> Result<Report, Failure> {
         }
         Engine::Cpu(_) => measure(Simulation::on(Cpu::new(count)?, &setup)?, &setup, scene.steps).await?,
     };
+    let drawn = if scene.output.pictures { scene.steps / scene.output.every + 1 } else { 0 };
+    let mut pictures = Pictures { count: drawn + scene.output.frames, each: None };
+    if let (Engine::Cpu(_), 1..) = (&engine, pictures.count) {
+        let mut simulation = Simulation::on(Cpu::new(count)?, &setup)?;
+        let begun = Instant::now();
+        let image = simulation.draw(&picture).await?;
+        pictures.each = Some((begun.elapsed(), format!("{}×{}", image.width, image.height)));
+    }
     let end = scene.steps as f64 * scene.dt;
     let hurry = start
         .and_then(|start| motes::diagnose::hurry(&start.medium, scene.adaptive_step.map_or(setup.dt, |_| 0.0), most));
@@ -118,6 +141,7 @@ async fn examined(args: &CheckArgs) -> Result<Report, Failure> {
         per_step,
         steps: scene.steps,
         notes,
+        pictures,
         scene: scene.name,
     })
 }

@@ -185,7 +185,7 @@ impl Gpu {
     /// When there is no such field, or it is shorter.
     pub fn write_bytes(&mut self, name: &str, from: u64, bytes: &[u8]) -> Result<(), Error> {
         let buffer = self.buffers.get(name).ok_or_else(|| buffers::missing(name))?;
-        if from + bytes.len() as u64 > buffer.size() {
+        if from.checked_add(bytes.len() as u64).is_none_or(|end| end > buffer.size()) {
             let text = format!("the field `{name}` holds {} bytes, not {}", buffer.size(), bytes.len());
             return Err(Error::Device(text));
         }

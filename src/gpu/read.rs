@@ -56,7 +56,7 @@ pub fn request(
     from: u64,
     len: u64,
 ) -> Result<Request, Error> {
-    if from + len > buffer.size() {
+    if from.checked_add(len).is_none_or(|end| end > buffer.size()) {
         return Err(Error::Device(format!("{len} bytes from {from} on are asked of a field of {}", buffer.size())));
     }
     let (sender, receiver) = oneshot_channel();

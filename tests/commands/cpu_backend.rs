@@ -54,3 +54,26 @@ fn pictures_do_not_change_what_springs_do() {
         assert!(with == without, "{scene}: pictures changed the run");
     }
 }
+
+/// Pictures by the references may take longer than all steps: `check` says how long.
+#[test]
+fn the_time_of_pictures_is_forecast() {
+    let said = |backend: &str, sets: &[&str]| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_motes"));
+        command.args(["check", "kepler", "--backend", backend, "--steps", "100", "--set", "picture.width=64"]);
+        command.args(["--set", "picture.height=48", "--set", "output.every=10"]);
+        sets.iter().for_each(|set| {
+            command.args(["--set", set]);
+        });
+        let output = command.output().expect("the program starts");
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        String::from_utf8_lossy(&output.stdout).into_owned()
+    };
+    let drawn = ["output.formats=[\"png\"]", "output.frames=7"];
+    let both = said("cpu", &drawn);
+    assert!(both.contains("without files and pictures\npictures: 18 of 64×48, "), "{both}");
+    let none = said("cpu", &["output.formats=[\"csv\"]", "output.frames=0"]);
+    assert!(none.contains("without files\n") && !none.contains("pictures:"), "{none}");
+    let device = said("gpu", &drawn);
+    assert!(device.contains("without files and pictures\n") && !device.contains("pictures:"), "{device}");
+}

@@ -354,3 +354,39 @@ fn a_driver_that_compiles_for_ever() {
     }
     patient(Duration::from_mins(1)).expect("it was only slow");
 }
+
+/// Where the driver still compiles when the wait is over, the process ends with the reason, and does not wait for the driver.
+#[test]
+fn a_process_ends_while_a_driver_compiles() {
+    const ITSELF: &str = "MOTES_TEST_COMPILES";
+    if std::env::var_os(ITSELF).is_none() {
+        let name = "own_laws::refusals::a_process_ends_while_a_driver_compiles";
+        let begun = Instant::now();
+        let mut command = std::process::Command::new(std::env::current_exe().expect("this program"));
+        let output = command.args([name, "--exact", "--nocapture"]).env(ITSELF, "1").output().expect("it starts");
+        let said = [output.stdout, output.stderr].concat();
+        let said = String::from_utf8_lossy(&said);
+        assert_eq!(output.status.code(), Some(7), "{said}");
+        assert!(said.contains("the driver compiles l.wgsl") && said.contains("compiled faster"), "{said}");
+        // lavapipe takes minutes for the law.
+        assert!(begun.elapsed() < Duration::from_mins(1), "{:?}", begun.elapsed());
+        return;
+    }
+    let shared = support::device();
+    let step = |k: u32| format!("x = sin(x + {k}.5 * me.mass);\n");
+    let steps: String = (0..9000).map(step).collect();
+    let law = Custom::new("l", "l.wgsl", &each("", &format!("var x = 0.0; {steps} return vec4f(x);")), Over::Each);
+    let setup = Setup {
+        state: support::cloud(40, 5),
+        forces: vec![Box::new(law)],
+        integrator: integrator("leapfrog"),
+        dt: 1e-3,
+        bounds: Bounds::default(),
+        solver: Solver::default(),
+    };
+    let mut gpu = Gpu::new(&shared.found.device, &shared.found.queue, 40).expect("a GPU");
+    gpu.limit_submissions(Duration::from_millis(80), Duration::from_millis(1));
+    let error = Simulation::on(gpu, &setup).map(|_| ()).expect_err("a millisecond is not enough");
+    println!("{error}");
+    std::process::exit(error.exit_code());
+}
