@@ -122,7 +122,9 @@ pub(super) fn titles_of(name: &str, components: usize) -> Vec<String> {
         _ => return (0..components).map(|k| format!("{name}_{k}")).collect(),
     };
     let column = Column::new(name.to_owned(), kind, "", "");
-    titles::titles(&column).into_iter().map(|title| title.text).collect()
+    let titles: Vec<_> = titles::titles(&column).into_iter().map(|title| title.text).collect();
+    // Positions and velocities have three.
+    if titles.len() == components { titles } else { (0..components).map(|k| format!("{name}_{k}")).collect() }
 }
 
 impl Sheet {

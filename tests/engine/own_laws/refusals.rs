@@ -388,5 +388,5 @@ fn a_process_ends_while_a_driver_compiles() {
     gpu.limit_submissions(Duration::from_millis(80), Duration::from_millis(1));
     let error = Simulation::on(gpu, &setup).map(|_| ()).expect_err("a millisecond is not enough");
     println!("{error}");
-    std::process::exit(error.exit_code());
+    std::process::exit(error.exit_code().into());
 }

@@ -3,6 +3,7 @@
 mod columns;
 mod commands;
 mod ids;
+mod poison;
 mod restarts;
 
 use glam::Vec4;

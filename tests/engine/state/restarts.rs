@@ -105,7 +105,7 @@ const MORE: &[(&str, &[&str])] = &[
     ("plummer", &["particles.0.count=100", "force.0.over=tree", "force.0.alpha=0.01"]),
 ];
 
-fn every_scene<B: Backend>(on: &dyn Fn(&Setup) -> Result<Simulation<B>, Error>, precision: Precision) {
+pub(super) fn every_scene<B: Backend>(on: &dyn Fn(&Setup) -> Result<Simulation<B>, Error>, precision: Precision) {
     let scenes = SCENES.iter().map(|scene| (scene.name, crate::small::smaller(scene.name)));
     let mut failures = Vec::new();
     for (name, sets) in scenes.chain(MORE.iter().copied()) {

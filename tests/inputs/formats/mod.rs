@@ -5,6 +5,7 @@
 mod blank_tables;
 mod csv_text;
 mod hdf5_files;
+mod layouts;
 mod links_text;
 mod npz_archives;
 mod obj_files;

@@ -58,3 +58,14 @@ fn vtp_of_other_programs_is_read() {
     refused_as("e.vtp", "<VTKFile type=\"PolyData\" ", "byte 0: a tag does not end");
     refused_as("f.vtp", "<VTKFile type=\"ImageData\"></VTKFile>", "is no VTK file of polygons");
 }
+
+/// Positions of one number each would be read beyond their end.
+#[test]
+fn positions_have_three_numbers() {
+    let one = "<DataArray type=\"Float64\" NumberOfComponents=\"1\" format=\"binary\">EAAAAAAAAAAAAPA/AAAAAAAAAEA=</DataArray>";
+    let file = format!(
+        "<VTKFile type=\"PolyData\" byte_order=\"LittleEndian\"><PolyData><Piece NumberOfPoints=\"2\"><Points>{one}</Points>\
+         </Piece></PolyData></VTKFile>"
+    );
+    refused_as("a.vtp", file, "there is no `x`: positions must be there");
+}
