@@ -344,7 +344,7 @@ impl Gathered {
         }
         let has = |title: &str, found: &[(String, bool, Vec<f64>)]| found.iter().any(|(known, ..)| known == title);
         if !has("x", &found) {
-            return Err(format!("{name}: Coordinates holds no numbers"));
+            return Err(format!("{name}: Coordinates does not hold three numbers for each particle"));
         }
         // Without any, masses are those of other formats.
         if !has("mass", &found) && mass != 0.0 {

@@ -11,8 +11,9 @@ use pollster::block_on;
 use super::restarts::every_scene;
 use crate::support;
 
-/// What begins with zeros: alarms, the clock, that no list of neighbours is there, and the pressure from which a solver starts.
-const ZEROS: &[&str] = &["alarm", "world", "list_state", "warm_start"];
+/// What begins with zeros: alarms, the clock, that no list of neighbours is there, the pressure from which a solver starts, and the
+/// pressure of walls, which no kernel writes and states hold.
+const ZEROS: &[&str] = &["alarm", "world", "list_state", "warm_start", "stiffness"];
 
 /// Words that fill memory, in turns: those of NaN, and 1.5.
 const WORDS: [u32; 2] = [0x7fc1_2345, 0x3fc0_0000];

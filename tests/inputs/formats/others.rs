@@ -1,6 +1,7 @@
 //! PLY and VTP of other programs.
 
 use glam::DVec3;
+use hdf5_pure::FileBuilder;
 use motes::formats;
 
 use super::register::refused_as;
@@ -62,6 +63,13 @@ fn vtp_of_other_programs_is_read() {
 /// Positions of one number each would be read beyond their end.
 #[test]
 fn positions_have_three_numbers() {
+    let mut file = FileBuilder::new();
+    let header = file.create_group("Header").finish();
+    file.add_group(header);
+    let mut group = file.create_group("PartType1");
+    group.create_dataset("Coordinates").with_f64_data(&[1.0, 2.0]).with_shape(&[2]);
+    file.add_group(group.finish());
+    refused_as("a.hdf5", file.finish().expect("a file"), "Coordinates does not hold three numbers for each particle");
     let one = "<DataArray type=\"Float64\" NumberOfComponents=\"1\" format=\"binary\">EAAAAAAAAAAAAPA/AAAAAAAAAEA=</DataArray>";
     let file = format!(
         "<VTKFile type=\"PolyData\" byte_order=\"LittleEndian\"><PolyData><Piece NumberOfPoints=\"2\"><Points>{one}</Points>\
