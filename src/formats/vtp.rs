@@ -356,11 +356,10 @@ fn array(
         }
         return Ok(());
     }
-    let titles = sheet::titles_of(name, components);
-    if titles.len() != components {
-        return Err(format!("byte {}: `{name}` has {components} components, and {} are read", tag.from, titles.len()));
+    if section == Section::Points && components != 3 {
+        return Err(format!("byte {}: `{name}` has {components} components, and 3 are read", tag.from));
     }
-    for (k, title) in titles.into_iter().enumerate() {
+    for (k, title) in sheet::titles_of(name, components).into_iter().enumerate() {
         sheet.enter(&title, kind.is_whole(), wanted, || {
             let place = match &data {
                 Numbers::There { first, kind, .. } => Place::Byte {

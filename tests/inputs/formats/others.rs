@@ -75,5 +75,5 @@ fn positions_have_three_numbers() {
         "<VTKFile type=\"PolyData\" byte_order=\"LittleEndian\"><PolyData><Piece NumberOfPoints=\"2\"><Points>{one}</Points>\
          </Piece></PolyData></VTKFile>"
     );
-    refused_as("a.vtp", file, "there is no `x`: positions must be there");
+    refused_as("a.vtp", file, "`position` has 1 components, and 3 are read");
 }
