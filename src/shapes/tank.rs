@@ -24,7 +24,7 @@ pub const TANK: Shape = Shape {
     about: "a box, or a rectangle, of walls around a fluid, as fixed particles, without gaps at the edges (Akinci et al. 2012)",
     keys: KEYS,
     build,
-    amount: |_| Amount::default(),
+    amount,
     parts: one_part,
     resolution: Resolution::Spacing,
 };
@@ -46,6 +46,22 @@ const KEYS: &[Key] = &[
     CENTER,
     RADIUS,
 ];
+
+/// All layers of the sides that are there, less the space inside; none where the settings are no tank, which `build` says.
+fn amount(settings: &Settings) -> Amount {
+    let reader = Reader { shape: "tank", settings };
+    let counted = || {
+        let size = reader.vector("size")?;
+        let skin = Skin::of(&reader, size.z == 0.0)?;
+        let numbers = cells(&reader, size, skin.spacing)?;
+        let open: Vec<&str> = settings.text("open").split_whitespace().collect();
+        let closed = |side: &&&str| !open.contains(*side) && !(size.z == 0.0 && side.ends_with('z'));
+        let sides = [["-x", "+x"], ["-y", "+y"], ["-z", "+z"]].map(|names| names.iter().filter(closed).count() as f64);
+        let whole = numbers + DVec3::from(sides) * f64::from(skin.layers);
+        Ok::<_, Error>(whole.element_product() - numbers.element_product())
+    };
+    Amount::of(counted().unwrap_or(0.0))
+}
 
 /// The walls of a room that is as many spacings long as fit best, so that a block of the same size fills it. They stand on the
 /// fluid's own lattice, but for the distance from the face: there the first layer of the fluid is at rest.

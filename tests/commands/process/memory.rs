@@ -95,7 +95,9 @@ fn amounts_are_those_of_the_shapes() {
         ("hair", vec![("strands", number(3)), ("points", number(6))]),
         ("hair", vec![("strands", number(3)), ("bending", number(0))]),
         ("lattice", vec![("size", size.clone())]),
-        ("block", vec![("size", size), ("spacing", Value::Number(0.9))]),
+        ("block", vec![("size", size.clone()), ("spacing", Value::Number(0.9))]),
+        ("tank", vec![("size", size.clone()), ("spacing", Value::Number(0.5)), ("open", text("+y -x"))]),
+        ("tank", vec![("size", glam::DVec3::new(4.0, 2.0, 0.0).into()), ("spacing", Value::Number(0.5))]),
         ("plummer", vec![("count", number(11))]),
         ("disk", vec![("count", number(60))]),
     ] {
